@@ -128,7 +128,7 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.out {
         write_file(folder, "filmed.csv", &filmed::csv(&rows))?;
         if let Some((_, table)) = models.last() {
-            write_file(folder, "filmed.svg", &filmed::paths(table, &film))?;
+            write_file(folder, "filmed.svg", &filmed::paths(table, &film)?)?;
         }
     }
     let mut out = printing::stdout();
@@ -210,8 +210,8 @@ fn measure(table: Table, steepest: Steepest, size: &Size, seed: u64) -> Study {
 fn write_files(folder: &Path, studies: &[Study]) -> Result<(), Failure> {
     let files = [
         ("accuracy.csv", study::csv(studies)),
-        ("error-vs-time.svg", study::error_against_time(studies)),
-        ("error-vs-condition.svg", study::error_against_condition(studies)),
+        ("error-vs-time.svg", study::error_against_time(studies)?),
+        ("error-vs-condition.svg", study::error_against_condition(studies)?),
     ];
     files.into_iter().try_for_each(|(name, text)| write_file(folder, name, &text))
 }

@@ -85,7 +85,7 @@ fn write(args: &Args, drawn: &Drawn) -> std::io::Result<()> {
     // Random play earns a reward; it has no Q and no loss.
     let random = (drawn.figure.measure == Measure::MeanReward).then_some(drawn.random);
     write_atomic(&args.out.join(format!("{name}.csv")), csv(drawn).as_bytes())?;
-    write_atomic(&args.out.join(format!("{name}.svg")), picture(&drawn.figure, &curves, random).as_bytes())?;
+    write_atomic(&args.out.join(format!("{name}.svg")), picture(&drawn.figure, &curves, random)?.as_bytes())?;
     let mut out = printing::stdout();
     for line in summary(drawn) {
         // A reader that has gone away must not end the training.

@@ -32,6 +32,8 @@ pub struct Agent {
     pub start: Start,
     /// The learner whose [`Learner::save`] filled the file and returned the note.
     pub restore: Restore,
+    /// Settings that say how a run takes up others' weights: a run that starts from its weights does not inherit them.
+    pub of_one_start: &'static [&'static str],
 }
 
 /// Why an agent cannot start.

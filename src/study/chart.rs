@@ -1,17 +1,42 @@
-//! Charts with two logarithmic axes as SVG: dark on a white card, so that they can be read on any page.
+//! Charts of the study as SVG, drawn by plotters: panels side by side on the same axes, with a legend below, dark on a white card so
+//! that they can be read on any page.
 
-use std::{fmt::Write, ops::RangeInclusive};
+use std::{f64::consts::TAU, io, ops::Range};
 
-/// Fonts of every picture.
-pub const FONTS: &str = "system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif";
-/// Room beside a panel for its labels: left, right, top, bottom.
-const MARGINS: [f64; 4] = [66.0, 18.0, 34.0, 52.0];
-/// Height of a row of the legend.
-const LEGEND_ROW: f64 = 22.0;
+use plotters::{
+    coord::Shift,
+    prelude::*,
+    style::text_anchor::{HPos, Pos, VPos},
+};
+
+/// Where a chart is drawn.
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// What drawing comes to.
+pub type Drawn<T = ()> = Result<T, DrawingAreaErrorKind<io::Error>>;
+
 /// Colour of text.
-pub const INK: &str = "#24292f";
-/// Colour of the lines behind the curves.
-pub const GRID: &str = "#e3e6ea";
+pub const INK: RGBColor = RGBColor(0x24, 0x29, 0x2f);
+/// Colour of frames, and of what is there to compare with.
+pub const GREY: RGBColor = RGBColor(0x8c, 0x95, 0x9f);
+/// The first colour of a curve.
+pub const CRIMSON: RGBColor = RGBColor(0xd1, 0x24, 0x2f);
+/// The second.
+pub const AZURE: RGBColor = RGBColor(0x09, 0x69, 0xda);
+/// The third.
+pub const FOREST: RGBColor = RGBColor(0x1a, 0x7f, 0x37);
+/// The fourth.
+pub const VIOLET: RGBColor = RGBColor(0x82, 0x50, 0xdf);
+/// The colour of what others reached.
+pub const RUST: RGBColor = RGBColor(0xbc, 0x4c, 0x00);
+
+const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);
+const FONT: &str = "system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif";
+/// Pixels of ordinary text.
+const TEXT: i32 = 30;
+/// Series in a row of the legend, and a row's height in pixels.
+const PER_ROW: usize = 3;
+const ROW: u32 = 46;
 
 /// How a point is marked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,8 +51,10 @@ pub enum Mark {
     Triangle,
     /// A large star: what it is all about.
     Star,
-    /// Many small dots.
+    /// Many small dots, not joined.
     Dots,
+    /// A line without marks.
+    Line,
     /// A dashed line without marks.
     Dashes,
 }
@@ -35,10 +62,10 @@ pub enum Mark {
 /// Points that belong together.
 #[derive(Clone, Debug)]
 pub struct Series {
-    /// What the legend says.
+    /// What the legend says; nothing if it does not mention it.
     pub name: String,
-    /// Its colour, as SVG writes it.
-    pub color: &'static str,
+    /// Its colour.
+    pub color: RGBColor,
     /// Its marks; all but dots are joined by a line.
     pub mark: Mark,
     /// Its points.
@@ -67,235 +94,221 @@ pub struct Panel {
     pub series: Vec<Series>,
 }
 
+/// An axis.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// What stands beside it.
+    pub label: String,
+    /// What it shows: exponents of ten if it is logarithmic. What lies beyond is put at its end.
+    pub range: Range<f64>,
+    /// Whether powers of ten are equally far apart.
+    pub is_logarithmic: bool,
+}
+
+impl Axis {
+    /// A logarithmic axis of whole decades around all of `values` that are positive and finite, from 10^`least` to 10^`most` at most.
+    pub fn decades(label: &str, values: impl Iterator<Item = f64>, least: i32, most: i32) -> Self {
+        let (mut low, mut high) = (most, least);
+        for value in values.filter(|value| *value > 0.0 && value.is_finite()) {
+            low = low.min(value.log10().floor() as i32);
+            high = high.max(value.log10().ceil() as i32);
+        }
+        let low = low.clamp(least, most - 1);
+        let range = f64::from(low)..f64::from(high.clamp(low + 1, most));
+        Self { label: label.to_owned(), range, is_logarithmic: true }
+    }
+
+    /// Whether a value lies on it.
+    pub fn shows(&self, value: f64) -> bool {
+        (self.range.start..=self.range.end).contains(&self.unbounded(value))
+    }
+
+    /// Where a value is drawn.
+    fn place(&self, value: f64) -> f64 {
+        self.unbounded(value).clamp(self.range.start, self.range.end)
+    }
+
+    fn unbounded(&self, value: f64) -> f64 {
+        if self.is_logarithmic { value.max(f64::MIN_POSITIVE).log10() } else { value }
+    }
+
+    /// How many values are named at most: names of more would touch.
+    fn labels(&self) -> usize {
+        let most = 9;
+        if self.is_logarithmic { most.min((self.range.end - self.range.start) as usize + 1) } else { most }
+    }
+
+    fn name(&self, place: f64) -> String {
+        if self.is_logarithmic {
+            let digit = |c: char| {
+                c.to_digit(10).map_or('⁻', |digit| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize])
+            };
+            format!("10{}", format!("{place:.0}").chars().map(digit).collect::<String>())
+        } else {
+            // Without the noise of the last digits.
+            format!("{}", (place * 1e9).round() / 1e9)
+        }
+    }
+}
+
 /// Panels side by side on the same axes.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// What the picture shows, for those who cannot see it.
-    pub title: String,
-    /// Below the x axis.
-    pub x_label: String,
-    /// Beside the y axis.
-    pub y_label: String,
-    /// Decades on the x axis, as exponents of ten.
-    pub x: RangeInclusive<i32>,
-    /// Decades on the y axis.
-    pub y: RangeInclusive<i32>,
+    /// The x axis.
+    pub x: Axis,
+    /// The y axis.
+    pub y: Axis,
     /// The panels.
     pub panels: Vec<Panel>,
 }
 
-/// Exponents of ten around all of `values` that are positive and finite, at most from `least` to `most`.
-pub fn decades(values: impl Iterator<Item = f64>, least: i32, most: i32) -> RangeInclusive<i32> {
-    let (mut low, mut high) = (most, least);
-    for value in values.filter(|value| *value > 0.0 && value.is_finite()) {
-        low = low.min(value.log10().floor() as i32);
-        high = high.max(value.log10().ceil() as i32);
-    }
-    let low = low.clamp(least, most - 1);
-    low..=high.clamp(low + 1, most)
-}
-
 impl Chart {
-    /// The picture, with panels of the given size.
-    pub fn svg(&self, width: f64, height: f64) -> String {
-        let [left, right, top, bottom] = MARGINS;
+    /// The picture, with panels of the given size in pixels, their names and labels within.
+    ///
+    /// # Errors
+    /// If it cannot be drawn.
+    pub fn svg(&self, [width, height]: [u32; 2]) -> io::Result<String> {
         let legend = self.legend();
-        let per_row = 3;
-        let rows = legend.len().div_ceil(per_row) as f64;
-        let full_width = self.panels.len() as f64 * (left + width + right);
-        let full_height = top + height + bottom + rows * LEGEND_ROW + 12.0;
-        let mut svg = format!(
-            r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {full_width} {full_height}" width="{full_width}" height="{full_height}" role="img" font-family="{FONTS}" font-size="13" fill="{INK}">
-<title>{}</title>
-<rect width="{full_width}" height="{full_height}" rx="10" fill="#ffffff"/>
-"##,
-            escaped(&self.title)
-        );
-        for (index, panel) in self.panels.iter().enumerate() {
-            let x = index as f64 * (left + width + right) + left;
-            let frame = Frame { chart: self, x, y: top, width, height };
-            frame.draw(&mut svg, panel);
-        }
-        let column = full_width / per_row as f64;
-        for (index, series) in legend.iter().enumerate() {
-            let x = (index % per_row) as f64 * column + 34.0;
-            let y = top + height + bottom + (index / per_row) as f64 * LEGEND_ROW + 8.0;
-            let (from, to) = (x - 12.0, x + 12.0);
-            if series.mark == Mark::Dashes {
-                let _ =
-                    writeln!(svg, r#"<path d="M{from} {y}H{to}" stroke="{}" stroke-dasharray="5 3"/>"#, series.color);
-            } else {
-                let _ = writeln!(svg, r#"<path d="{}" fill="{}"/>"#, shape(series.mark, x, y), series.color);
+        let rows = legend.len().div_ceil(PER_ROW) as u32;
+        let size = [width * self.panels.len() as u32, height + rows * ROW + ROW / 2];
+        svg(size, |area| {
+            let (above, below) = area.split_vertically(height);
+            for (area, panel) in above.split_evenly((1, self.panels.len())).iter().zip(&self.panels) {
+                self.panel(area, panel)?;
             }
-            let _ = writeln!(svg, r#"<text x="{}" y="{}">{}</text>"#, x + 20.0, y + 4.5, escaped(&series.name));
-        }
-        svg.push_str("</svg>\n");
-        svg
+            let column = (size[0] - ROW) / PER_ROW as u32;
+            for (index, series) in legend.into_iter().enumerate() {
+                let (x, y) = (
+                    (ROW + (index % PER_ROW) as u32 * column) as i32,
+                    (ROW * (index / PER_ROW) as u32 + ROW / 2) as i32,
+                );
+                series.in_legend(&below, (x, y))?;
+            }
+            Ok(())
+        })
     }
 
     /// One series of every name.
     fn legend(&self) -> Vec<&Series> {
         let mut legend: Vec<&Series> = Vec::new();
         for series in self.panels.iter().flat_map(|panel| &panel.series) {
-            if legend.iter().all(|known| known.name != series.name) {
+            if !series.name.is_empty() && legend.iter().all(|known| known.name != series.name) {
                 legend.push(series);
             }
         }
         legend
     }
-}
 
-/// A panel's place in the picture.
-struct Frame<'a> {
-    chart: &'a Chart,
-    x: f64,
-    y: f64,
-    width: f64,
-    height: f64,
-}
-
-impl Frame<'_> {
-    fn at_x(&self, value: f64) -> f64 {
-        self.x + self.width * share(value, &self.chart.x)
-    }
-
-    fn at_y(&self, value: f64) -> f64 {
-        self.y + self.height * (1.0 - share(value, &self.chart.y))
-    }
-
-    fn draw(&self, svg: &mut String, panel: &Panel) {
-        let Self { x, y, width, height, .. } = *self;
-        let (middle, bottom) = (x + 0.5 * width, y + height);
-        let _ = writeln!(
-            svg,
-            r#"<text x="{middle}" y="{}" text-anchor="middle" font-weight="600">{}</text>"#,
-            y - 12.0,
-            escaped(&panel.title)
-        );
-        self.grid(svg);
-        let _ = writeln!(
-            svg,
-            r#"<text x="{middle}" y="{}" text-anchor="middle">{}</text>"#,
-            bottom + 40.0,
-            escaped(&self.chart.x_label)
-        );
-        let (label_x, label_y) = (x - 48.0, y + 0.5 * height);
-        let _ = writeln!(
-            svg,
-            r#"<text x="{label_x}" y="{label_y}" text-anchor="middle" transform="rotate(-90 {label_x} {label_y})">{}</text>"#,
-            escaped(&self.chart.y_label)
-        );
+    fn panel(&self, area: &Area<'_>, panel: &Panel) -> Drawn {
+        let mut chart = ChartBuilder::on(area)
+            .margin(TEXT / 2)
+            .margin_right(TEXT)
+            .caption(&panel.title, text(INK).font.style(FontStyle::Bold))
+            .x_label_area_size(3 * TEXT)
+            .y_label_area_size(4 * TEXT)
+            .build_cartesian_2d(self.x.range.clone(), self.y.range.clone())?;
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(GRID.stroke_width(2))
+            .axis_style(GREY.stroke_width(2))
+            .label_style(text(INK))
+            .x_desc(&self.x.label)
+            .y_desc(&self.y.label)
+            .x_labels(self.x.labels())
+            .y_labels(self.y.labels())
+            .x_label_formatter(&|place| self.x.name(*place))
+            .y_label_formatter(&|place| self.y.name(*place))
+            .draw()?;
         for series in &panel.series {
-            self.series(svg, series);
-        }
-        let _ = writeln!(
-            svg,
-            r##"<rect x="{x}" y="{y}" width="{width}" height="{height}" fill="none" stroke="#8c959f"/>"##
-        );
-    }
-
-    fn grid(&self, svg: &mut String) {
-        let mut lines = String::new();
-        let bottom = self.y + self.height;
-        for (axis, range) in [&self.chart.x, &self.chart.y].into_iter().enumerate() {
-            let count = range.end() - range.start();
-            // At most nine labels, or they would touch.
-            let every = (count + 8) / 9;
-            for exponent in range.clone() {
-                let value = 10_f64.powi(exponent);
-                let labelled = exponent.rem_euclid(every.max(1)) == 0;
-                let (x, y, anchor) = if axis == 0 {
-                    let x = self.at_x(value);
-                    let _ = write!(lines, "M{x:.1} {}V{bottom}", self.y);
-                    (x, bottom + 19.0, "middle")
-                } else {
-                    let y = self.at_y(value);
-                    let _ = write!(lines, "M{} {y:.1}h{}", self.x, self.width);
-                    (self.x - 8.0, y + 4.5, "end")
-                };
-                if labelled {
-                    let _ = writeln!(
-                        svg,
-                        r#"<text x="{x:.1}" y="{y:.1}" text-anchor="{anchor}">10<tspan dy="-5" font-size="9">{exponent}</tspan></text>"#
-                    );
+            let place = |x, y| (self.x.place(x), self.y.place(y));
+            let points = || series.points.iter().map(|spot| place(spot.x, spot.y));
+            let line = series.color.stroke_width(3);
+            match series.mark {
+                Mark::Dots => {
+                    chart.draw_series(points().map(|at| Circle::new(at, 4, series.color.mix(0.5).filled())))?;
+                }
+                Mark::Dashes => {
+                    chart.draw_series(DashedLineSeries::new(points(), 12, 8, line))?;
+                }
+                _ => {
+                    chart.draw_series(LineSeries::new(points(), line))?;
                 }
             }
+            let uppers = series.points.iter().filter_map(|spot| Some((spot, spot.upper?)));
+            chart.draw_series(
+                uppers.map(|(spot, upper)| PathElement::new([place(spot.x, spot.y), place(spot.x, upper)], line)),
+            )?;
+            let Some(corners) = series.mark.corners() else { continue };
+            chart.draw_series(series.points.iter().map(|spot| {
+                EmptyElement::at(place(spot.x, spot.y))
+                    + Polygon::new(corners.clone(), series.color)
+                    + Text::new(
+                        spot.label.clone(),
+                        (0, TEXT / 2),
+                        text(series.color).pos(Pos::new(HPos::Center, VPos::Top)),
+                    )
+            }))?;
         }
-        let _ = writeln!(svg, r#"<path d="{lines}" stroke="{GRID}" fill="none"/>"#);
+        Ok(())
     }
+}
 
-    fn series(&self, svg: &mut String, series: &Series) {
-        let Series { color, mark, points, .. } = series;
-        let places: Vec<(f64, f64)> = points.iter().map(|spot| (self.at_x(spot.x), self.at_y(spot.y))).collect();
-        if *mark == Mark::Dots {
-            let dots: String = places.iter().fold(String::new(), |mut path, (x, y)| {
-                let _ = write!(path, "M{x:.1} {y:.1}h0");
-                path
-            });
-            let style = r#"stroke-width="3.4" stroke-linecap="round" stroke-opacity="0.55" fill="none""#;
-            let _ = writeln!(svg, r#"<path d="{dots}" stroke="{color}" {style}/>"#);
-            return;
-        }
-        let line: String = places.iter().enumerate().fold(String::new(), |mut path, (index, (x, y))| {
-            let _ = write!(path, "{}{x:.1} {y:.1}", if index == 0 { 'M' } else { 'L' });
-            path
-        });
-        let dashes = if *mark == Mark::Dashes { r#" stroke-dasharray="5 3""# } else { "" };
-        let _ = writeln!(svg, r#"<path d="{line}" stroke="{color}" stroke-width="1.6" fill="none"{dashes}/>"#);
-        if *mark == Mark::Dashes {
-            return;
-        }
-        for ((x, y), Spot { upper, label, .. }) in places.iter().zip(points) {
-            if let Some(upper) = upper {
-                let top = self.at_y(*upper);
-                let _ = writeln!(svg, r#"<path d="M{x:.1} {y:.1}V{top:.1}m-3 0h6" stroke="{color}" fill="none"/>"#);
+impl Series {
+    /// Its mark and its name, at a place in pixels.
+    fn in_legend(&self, area: &Area<'_>, (x, y): (i32, i32)) -> Drawn {
+        let reach = TEXT;
+        let line = self.color.stroke_width(3);
+        match (self.mark, self.mark.corners()) {
+            (Mark::Dots, _) => area.draw(&Circle::new((x, y), 6, self.color.filled()))?,
+            (Mark::Dashes, _) => {
+                for from in [x - reach, x - reach / 4, x + reach / 2] {
+                    area.draw(&PathElement::new([(from, y), (from + reach / 2, y)], line))?;
+                }
             }
-            let _ = writeln!(svg, r##"<path d="{}" fill="{color}" stroke="#ffffff"/>"##, shape(*mark, *x, *y));
-            if !label.is_empty() {
-                let below = y + 19.0;
-                let _ = writeln!(
-                    svg,
-                    r#"<text x="{x:.1}" y="{below:.1}" text-anchor="middle" font-size="10" fill="{color}">{}</text>"#,
-                    escaped(label)
-                );
-            }
+            (_, None) => area.draw(&PathElement::new([(x - reach, y), (x + reach, y)], line))?,
+            (_, Some(corners)) => area.draw(&(EmptyElement::at((x, y)) + Polygon::new(corners, self.color)))?,
         }
+        let left = text(INK).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw(&Text::new(self.name.clone(), (x + reach + TEXT / 3, y), left))
     }
 }
 
-/// Where a value lies on a logarithmic axis, 0 to 1; what lies beyond is put at its end.
-fn share(value: f64, range: &RangeInclusive<i32>) -> f64 {
-    let (low, high) = (f64::from(*range.start()), f64::from(*range.end()));
-    ((value.max(f64::MIN_POSITIVE).log10() - low) / (high - low)).clamp(0.0, 1.0)
-}
-
-fn shape(mark: Mark, x: f64, y: f64) -> String {
-    let corners = |corners: &[(f64, f64)]| {
-        let mut path = String::new();
-        for (index, (dx, dy)) in corners.iter().enumerate() {
-            let _ = write!(path, "{}{:.1} {:.1}", if index == 0 { 'M' } else { 'L' }, x + dx, y + dy);
-        }
-        path + "z"
-    };
-    match mark {
-        Mark::Circle | Mark::Dots => format!("M{:.1} {y:.1}a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0z", x - 4.5),
-        Mark::Square | Mark::Dashes => corners(&[(-4.2, -4.2), (4.2, -4.2), (4.2, 4.2), (-4.2, 4.2)]),
-        Mark::Diamond => corners(&[(0.0, -6.0), (6.0, 0.0), (0.0, 6.0), (-6.0, 0.0)]),
-        Mark::Triangle => corners(&[(0.0, -5.8), (5.4, 4.2), (-5.4, 4.2)]),
-        Mark::Star => {
-            let tip = |index: i32| {
-                let radius = if index % 2 == 0 { 10.0 } else { 4.2 };
-                let angle = std::f64::consts::PI * (f64::from(index) / 5.0 - 0.5);
-                (radius * angle.cos(), radius * angle.sin())
-            };
-            corners(&(0..10).map(tip).collect::<Vec<_>>())
-        }
+impl Mark {
+    /// The corners of its shape about the point, in pixels; none where points are not marked one by one.
+    fn corners(self) -> Option<Vec<(i32, i32)>> {
+        let (corners, radii, turned) = match self {
+            Self::Circle => (24, [9.0, 9.0], 0.0),
+            Self::Square => (4, [12.0, 12.0], 0.5),
+            Self::Diamond => (4, [12.0, 12.0], 0.0),
+            Self::Triangle => (3, [13.0, 13.0], 0.0),
+            Self::Star => (10, [20.0, 8.4], 0.0),
+            Self::Dots | Self::Line | Self::Dashes => return None,
+        };
+        let corner = |index: usize| {
+            let (sin, cos) = (TAU * (index as f64 + turned) / corners as f64).sin_cos();
+            let radius = radii[index % 2];
+            ((radius * sin).round() as i32, (-radius * cos).round() as i32)
+        };
+        Some((0..corners).map(corner).collect())
     }
 }
 
-/// `text` as it stands in SVG.
-pub fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+/// A picture of so many pixels on a white card.
+///
+/// # Errors
+/// If it cannot be drawn.
+pub fn svg([width, height]: [u32; 2], draw: impl FnOnce(&Area<'_>) -> Drawn) -> io::Result<String> {
+    let mut svg = String::new();
+    let area = SVGBackend::with_string(&mut svg, (width, height)).into_drawing_area();
+    area.fill(&WHITE).and_then(|()| draw(&area)).and_then(|()| area.present()).map_err(io::Error::other)?;
+    drop(area);
+    Ok(svg)
+}
+
+/// Ordinary text.
+pub fn text(color: RGBColor) -> TextStyle<'static> {
+    (FONT, TEXT).into_font().color(&color)
 }
 
 #[cfg(test)]
@@ -304,25 +317,36 @@ mod tests {
 
     #[test]
     fn axes_span_whole_decades_around_the_values() {
-        assert_eq!(decades([3e-5, 2.0].into_iter(), -20, 6), -5..=1);
-        assert_eq!(decades([0.0, f64::INFINITY].into_iter(), -20, 6), 5..=6);
-        assert_eq!(decades([1e-30].into_iter(), -20, 6), -20..=-19);
+        let decades = |values: &[f64]| Axis::decades("", values.iter().copied(), -20, 6).range;
+        assert_eq!(decades(&[3e-5, 2.0]), -5.0..1.0);
+        assert_eq!(decades(&[0.0, f64::INFINITY]), 5.0..6.0);
+        assert_eq!(decades(&[1e-30]), -20.0..-19.0);
     }
 
     #[test]
-    fn a_name_that_svg_would_misread_is_escaped_and_every_series_is_in_the_legend_once() {
-        let series = |mark| Series {
-            name: "a < b".to_owned(),
-            color: "#000000",
-            mark,
-            points: vec![Spot { x: 1.0, y: 1.0, upper: Some(5.0), label: "1 < 2".to_owned() }],
+    fn values_are_named_as_people_write_them() {
+        let powers = Axis::decades("", [1e-12, 1.0].into_iter(), -20, 6);
+        assert_eq!([powers.name(-12.0), powers.name(0.0)], ["10⁻¹²", "10⁰"]);
+        let plain = Axis { is_logarithmic: false, ..powers };
+        assert_eq!([plain.name(0.1 + 0.2), plain.name(250.0)], ["0.3", "250"]);
+    }
+
+    #[test]
+    fn every_series_is_in_the_legend_once_and_points_stay_in_the_frame() {
+        let panel = |title: &str| Panel {
+            title: title.to_owned(),
+            series: vec![Series {
+                name: "a < b".to_owned(),
+                color: CRIMSON,
+                mark: Mark::Star,
+                points: vec![Spot { x: 1.0, y: 1e300, upper: Some(f64::INFINITY), label: "1 < 2".to_owned() }],
+            }],
         };
-        let panel = |title: &str| Panel { title: title.to_owned(), series: vec![series(Mark::Star)] };
-        let labels = || "label".to_owned();
-        let panels = vec![panel("one"), panel("two")];
-        let chart = Chart { title: labels(), x_label: labels(), y_label: labels(), x: -1..=1, y: -1..=1, panels };
-        let svg = chart.svg(200.0, 200.0);
-        assert_eq!(svg.matches("a &lt; b").count(), 1);
-        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        let axis = Axis::decades("axis", [0.1, 10.0].into_iter(), -1, 1);
+        let chart = Chart { x: axis.clone(), y: axis, panels: vec![panel("one"), panel("two")] };
+        let svg = chart.svg([300, 300]).unwrap();
+        assert_eq!([svg.matches("a &lt; b").count(), svg.matches("1 &lt; 2").count()], [1, 2]);
+        let numbers = svg.split(['"', ' ', ',']).filter_map(|number| number.parse::<f64>().ok());
+        assert!(numbers.into_iter().all(|number| number.abs() <= 700.0), "{svg}");
     }
 }

@@ -1,36 +1,41 @@
 //! The study's two pictures: what exactness costs, and what limits it.
 
-use std::ops::RangeInclusive;
+use std::io;
+
+use plotters::style::RGBColor;
 
 use super::{
-    chart::{Chart, Mark, Panel, Series, Spot, decades},
+    chart::{AZURE, Axis, CRIMSON, Chart, FOREST, GREY, INK, Mark, Panel, RUST, Series, Spot, VIOLET},
     precision::{Row, Study},
     reference_engine::Real,
 };
 
-/// Size of a panel.
-const SIZE: (f64, f64) = (400.0, 360.0);
+/// Width and height of a panel in pixels.
+const SIZE: [u32; 2] = [900, 820];
 
 /// Errors below this are drawn there, m: the last digit of a coordinate.
 const LEAST: f64 = 1e-17;
 
 /// Most dots of a series; more would only hide each other.
-const MOST_DOTS: usize = 500;
+const MOST_DOTS: usize = 300;
 
 /// How each family is drawn, in the legend's order.
-const LOOKS: [(&str, &str, Mark); 7] = [
-    ("engine", "#d1242f", Mark::Star),
-    ("plain, roots between extrema", "#0969da", Mark::Square),
-    ("plain, Ferrari's formula", "#bf3989", Mark::Triangle),
-    ("plain, Algorithm 1010", "#1a7f37", Mark::Diamond),
-    ("plain, f32", "#57606a", Mark::Square),
-    ("steps", "#bc4c00", Mark::Circle),
-    ("steps, events located", "#8250df", Mark::Circle),
+const LOOKS: [(&str, RGBColor, Mark); 7] = [
+    ("engine", CRIMSON, Mark::Star),
+    ("plain, roots between extrema", AZURE, Mark::Square),
+    ("plain, Ferrari's formula", RGBColor(0xbf, 0x39, 0x89), Mark::Triangle),
+    ("plain, Algorithm 1010", FOREST, Mark::Diamond),
+    ("plain, f32", RGBColor(0x57, 0x60, 0x6a), Mark::Square),
+    ("steps", RUST, Mark::Circle),
+    ("steps, events located", VIOLET, Mark::Circle),
 ];
 
 /// Error at rest against run time: the median of each method, a thin line up to 99 in a hundred shots, and for methods of
 /// fixed steps a curve over the time step.
-pub fn error_against_time(studies: &[Study]) -> String {
+///
+/// # Errors
+/// If it cannot be drawn.
+pub fn error_against_time(studies: &[Study]) -> io::Result<String> {
     let panels = studies.iter().map(|study| {
         let series = LOOKS.iter().filter_map(|&(family, color, mark)| {
             let rows = study.rows.iter().filter(|row| row.method == family);
@@ -41,19 +46,10 @@ pub fn error_against_time(studies: &[Study]) -> String {
     });
     let panels: Vec<Panel> = panels.collect();
     let points = || panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
-    let (x, y) = (
-        decades(points().map(|spot| spot.x), -2, 9),
-        decades(points().flat_map(|spot| [spot.y, spot.upper.unwrap_or(spot.y)]), -17, 1),
-    );
-    Chart {
-        title: "Error at rest against run time, by method and time step".to_owned(),
-        x_label: "run time of a shot, µs".to_owned(),
-        y_label: "error at rest, m: median and p99".to_owned(),
-        x,
-        y,
-        panels,
-    }
-    .svg(SIZE.0, SIZE.1)
+    let errors = points().flat_map(|spot| [spot.y, spot.upper.unwrap_or(spot.y)]);
+    let x = Axis::decades("run time of a shot, µs", points().map(|spot| spot.x), -2, 9);
+    let y = Axis::decades("error at rest, m: median and p99", errors, -17, 1);
+    Chart { x, y, panels }.svg(SIZE)
 }
 
 /// The table of a study, and how far the cue is raised on it.
@@ -67,49 +63,29 @@ fn point_of(row: &Row) -> Option<Spot> {
     Some(Spot { x: row.cost_us, y: rest.median.max(LEAST), upper: Some(rest.p99.max(LEAST)), label })
 }
 
-/// Error at rest against the shot's own amplification, shot by shot.
-pub fn error_against_condition(studies: &[Study]) -> String {
+/// Error at rest against the shot's own amplification, shot by shot, and beside it one unit and 64 of them: a unit is
+/// (1 + condition) 2^-53 m.
+///
+/// # Errors
+/// If it cannot be drawn.
+pub fn error_against_condition(studies: &[Study]) -> io::Result<String> {
     let shown = [("plain, f32", None), ("steps", Some(1e-3)), ("steps, events located", Some(1e-3)), ("engine", None)];
     let panels = studies.iter().map(|study| {
-        let mut series: Vec<Series> = shown.iter().filter_map(|&(family, dt)| dots(study, family, dt)).collect();
-        for (name, color, factor) in [("1 unit", "#24292f", 1.0), ("64 units", "#8c959f", 64.0)] {
-            let conditions = (-20..120).map(|tenth| 10_f64.powf(f64::from(tenth) / 10.0));
-            let line = |x: f64| Spot { x, y: factor * (1.0 + x) * f64::ROUNDING, ..Spot::default() };
-            let points = conditions.map(line).collect();
-            series.push(Series { name: name.to_owned(), color, mark: Mark::Dashes, points });
-        }
+        let series = shown.iter().filter_map(|&(family, dt)| dots(study, family, dt)).collect();
         Panel { title: title(study), series }
     });
-    let panels: Vec<Panel> = panels.collect();
-    let dots = || {
-        let series = panels.iter().flat_map(|panel| &panel.series);
-        series.filter(|series| series.mark == Mark::Dots).flat_map(|series| &series.points)
-    };
-    let (x, y) = (decades(dots().map(|spot| spot.x), -1, 9), decades(dots().map(|spot| spot.y), -17, 1));
-    let clipped = |panel: &Panel| {
-        let within = |value: f64, range: &RangeInclusive<i32>| {
-            value >= 10_f64.powi(*range.start()) && value <= 10_f64.powi(*range.end())
-        };
-        let inside = |spot: &&Spot| within(spot.x, &x) && within(spot.y, &y);
-        let series = panel.series.iter().map(|series| {
-            let points = if series.mark == Mark::Dashes {
-                series.points.iter().filter(inside).cloned().collect()
-            } else {
-                series.points.clone()
-            };
-            Series { points, ..series.clone() }
-        });
-        Panel { title: panel.title.clone(), series: series.collect() }
-    };
-    Chart {
-        title: "Error at rest against the shot's condition; a unit is (1 + condition) 2^-53 m".to_owned(),
-        x_label: "condition of the shot, m".to_owned(),
-        y_label: "error at rest, m".to_owned(),
-        panels: panels.iter().map(clipped).collect(),
-        x,
-        y,
+    let mut panels: Vec<Panel> = panels.collect();
+    let dots = || panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
+    let x = Axis::decades("condition of the shot, m", dots().map(|spot| spot.x), -1, 9);
+    let y = Axis::decades("error at rest, m", dots().map(|spot| spot.y), -17, 1);
+    for (name, color, factor) in [("1 unit", INK, 1.0), ("64 units", GREY, 64.0)] {
+        let conditions = (-20..120).map(|tenth| 10_f64.powf(f64::from(tenth) / 10.0));
+        let line = conditions.map(|x| Spot { x, y: factor * (1.0 + x) * f64::ROUNDING, ..Spot::default() });
+        let points: Vec<Spot> = line.filter(|spot| x.shows(spot.x) && y.shows(spot.y)).collect();
+        let series = Series { name: name.to_owned(), color, mark: Mark::Dashes, points };
+        panels.iter_mut().for_each(|panel| panel.series.push(series.clone()));
     }
-    .svg(SIZE.0, SIZE.1)
+    Chart { x, y, panels }.svg(SIZE)
 }
 
 fn dots(study: &Study, family: &str, dt: Option<f64>) -> Option<Series> {

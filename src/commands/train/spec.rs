@@ -8,7 +8,7 @@ use super::{Args, failure};
 use crate::{
     commands::{Failure, input::table_named, lookup::run_named},
     learning::{
-        learner::TrainingPlan,
+        learner::{Agent, TrainingPlan},
         run::{
             Config, Schedule, Start,
             origin::Weights,
@@ -43,9 +43,8 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     // Another agent's settings mean nothing here; that its weights do not either is said when they are given.
     let mut known =
         weights.as_ref().filter(|weights| weights.start.agent == agent).map(|weights| weights.settings.clone());
-    // That an actor began anew was about that start, not about those that follow.
-    if let Some(Value::Object(settings)) = &mut known {
-        settings.remove("new_actor");
+    if let (Some(Value::Object(settings)), Ok(agent)) = (&mut known, Agent::named(&agent)) {
+        settings.retain(|name, _| !agent.of_one_start.contains(&name.as_str()));
     }
     let settings = settings(args.config.as_deref(), &args.set, known)?;
     let layouts = args.evaluation_layouts as usize;

@@ -49,6 +49,7 @@ pub const AGENT: Agent = Agent {
         Ok(Box::new(Trainer::new(Task { reward, seed, shots, hyperparameters }, table)?))
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
+    of_one_start: &["new_actor"],
 };
 
 impl Learner for Trainer {

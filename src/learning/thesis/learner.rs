@@ -33,7 +33,7 @@ pub const DQN: learner::Agent = line::<Dqn>();
 pub const DDPG: learner::Agent = line::<PlainDdpg>();
 
 const fn line<A: Agent + 'static>() -> learner::Agent {
-    learner::Agent { name: A::NAME, title: A::TITLE, start: start::<A>, restore: restore::<A> }
+    learner::Agent { name: A::NAME, title: A::TITLE, start: start::<A>, restore: restore::<A>, of_one_start: &[] }
 }
 
 fn start<A: Agent + 'static>(

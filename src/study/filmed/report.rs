@@ -1,15 +1,11 @@
-//! What models of the table reach on the film, as text, CSV and pictures.
+//! What models of the table reach on the film, as text and CSV.
 
 use std::fmt::Write;
-
-use glam::DVec2;
 
 use super::{
     constants::Fitted,
     film::FilmedShot,
     judged::{Judged, judge},
-    lone::Follower,
-    whole,
 };
 use crate::table::{RailModel, Table};
 
@@ -114,69 +110,5 @@ pub fn fit_text(fitted: &Fitted, used: &str) -> String {
         let with = if with.is_empty() { String::new() } else { format!("   correlated with {}", with.join(", ")) };
         let _ = writeln!(out, "  {:<15} {:>9.5} ± {:.5}{with}", constant.name, constant.value, constant.deviation);
     }
-    out
-}
-
-/// A picture of filmed and simulated courses: the cue ball of some shots, up to five seconds after the stroke.
-pub fn paths(table: &Table, film: &[FilmedShot]) -> String {
-    const COLUMNS: usize = 3;
-    const SCALE: f64 = 130.0;
-    let shown: Vec<&FilmedShot> = film.iter().filter(|shot| shot.is_long_enough()).step_by(8).take(12).collect();
-    let (width, height) = (SCALE * table.length + 24.0, SCALE * table.width + 44.0);
-    let rows = shown.len().div_ceil(COLUMNS);
-    let (all_width, all_height) = (width * COLUMNS as f64 + 12.0, height * rows as f64 + 40.0);
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{all_width:.0}\" height=\"{all_height:.0}\" font-family=\"sans-serif\" \
-         font-size=\"12\"><rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/><text x=\"16\" y=\"22\" font-size=\"14\">Cue ball up to 5 s: \
-         filmed (dots) and simulated on \"{}\" (line), fitted to the first 2 s</text>",
-        table.name
-    );
-    for (index, shot) in shown.into_iter().enumerate() {
-        let left = 12.0 + width * (index % COLUMNS) as f64;
-        let top = 36.0 + height * (index / COLUMNS) as f64;
-        let at = |place: DVec2| {
-            (left + SCALE * (place.x + 0.5 * table.length), top + 16.0 + SCALE * (0.5 * table.width - place.y))
-        };
-        let _ = write!(
-            out,
-            "<rect x=\"{left:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#e8f0f7\" stroke=\"#57606a\"/>",
-            top + 16.0,
-            SCALE * table.length,
-            SCALE * table.width
-        );
-        let Some(played) = whole::play(table, shot) else { continue };
-        let _ = write!(
-            out,
-            "<text x=\"{left:.1}\" y=\"{:.1}\">shot {}: {:.0} cm off at 5 s</text>",
-            top + 11.0,
-            shot.number,
-            100.0 * played.errors[2]
-        );
-        let times: Vec<f64> = (0..500).map(|step| 0.01 * f64::from(step)).collect();
-        let layout = shot.layout(table);
-        let simulated = Follower::new(&times, 0).of(table, &layout, &played.motion.impulse(table.radius));
-        let points: Vec<String> = simulated
-            .places
-            .iter()
-            .map(|place| {
-                let (x, y) = at(*place);
-                format!("{x:.1},{y:.1}")
-            })
-            .collect();
-        let _ = write!(out, "<polyline points=\"{}\" fill=\"none\" stroke=\"#0969da\"/>", points.join(" "));
-        for sample in shot.balls[0].iter().filter(|sample| sample.time < played.start + 5.0) {
-            let (x, y) = at(sample.place);
-            let _ = write!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"1.3\" fill=\"#d1242f\"/>");
-        }
-        for place in &layout.balls[1..] {
-            let (x, y) = at(*place);
-            let _ = write!(
-                out,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{:.1}\" fill=\"none\" stroke=\"#57606a\"/>",
-                SCALE * table.radius
-            );
-        }
-    }
-    out.push_str("</svg>\n");
     out
 }

@@ -1,8 +1,13 @@
 //! The thesis' figures of learning curves, and what has to be trained for each.
 
+use plotters::style::RGBColor;
 use serde_json::{Value, json};
 
-use crate::{game::Reward, learning::thesis::carom::Episode};
+use crate::{
+    game::Reward,
+    learning::thesis::carom::Episode,
+    study::chart::{AZURE, CRIMSON, FOREST, VIOLET},
+};
 
 /// What a figure shows over the shots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -173,41 +178,41 @@ pub struct Reading {
     /// Its name in the legend and in the table.
     pub name: &'static str,
     /// Colour of its curve.
-    pub color: &'static str,
+    pub color: RGBColor,
     /// When an episode is over.
     pub episode: Episode,
     /// What else is other than in the thesis.
     pub change: Change,
 }
 
-const fn reading(name: &'static str, color: &'static str, episode: Episode) -> Reading {
+const fn reading(name: &'static str, color: RGBColor, episode: Episode) -> Reading {
     Reading { name, color, episode, change: Change::None }
 }
 
-const fn changed(name: &'static str, color: &'static str, change: Change) -> Reading {
+const fn changed(name: &'static str, color: RGBColor, change: Change) -> Reading {
     Reading { name, color, episode: Episode::OneShot, change }
 }
 
 /// Noise on DDPG's actions: 0.03, as the thesis' source leaves it with one shot an episode, 0.1, and 0.1 falling.
 const NOISES: [Reading; 3] = [
-    changed("0.03", "#d1242f", Change::None),
-    changed("0.1", "#0969da", Change::StrongNoise),
-    changed("0.1 falling to 0.005", "#1a7f37", Change::FallingNoise),
+    changed("0.03", CRIMSON, Change::None),
+    changed("0.1", AZURE, Change::StrongNoise),
+    changed("0.1 falling to 0.005", FOREST, Change::FallingNoise),
 ];
 
 /// The thesis' future work: neither, each alone, and both.
 const FUTURE_WORK: [Reading; 4] = [
-    changed("neither", "#d1242f", Change::None),
-    changed("hindsight", "#0969da", Change::Lessons { hindsight: 1.0, demonstrations: 0.0 }),
-    changed("demonstrations", "#1a7f37", Change::Lessons { hindsight: 0.0, demonstrations: 1.0 }),
-    changed("both", "#8250df", Change::Lessons { hindsight: 0.5, demonstrations: 0.5 }),
+    changed("neither", CRIMSON, Change::None),
+    changed("hindsight", AZURE, Change::Lessons { hindsight: 1.0, demonstrations: 0.0 }),
+    changed("demonstrations", FOREST, Change::Lessons { hindsight: 0.0, demonstrations: 1.0 }),
+    changed("both", VIOLET, Change::Lessons { hindsight: 0.5, demonstrations: 0.5 }),
 ];
 
 /// One shot each; a game of twenty shots; a game until a miss, of at most twenty shots.
 pub const READINGS: [Reading; 3] = [
-    reading("one shot", "#d1242f", Episode::OneShot),
-    reading("20 shots", "#0969da", Episode::Shots(20)),
-    reading("until a miss", "#1a7f37", Episode::UntilMiss(20)),
+    reading("one shot", CRIMSON, Episode::OneShot),
+    reading("20 shots", AZURE, Episode::Shots(20)),
+    reading("until a miss", FOREST, Episode::UntilMiss(20)),
 ];
 
 impl Reading {
