@@ -178,11 +178,8 @@ impl Chart {
             }
             let column = (size[0] - ROW) / PER_ROW as u32;
             for (index, series) in legend.into_iter().enumerate() {
-                let (x, y) = (
-                    (ROW + (index % PER_ROW) as u32 * column) as i32,
-                    (ROW * (index / PER_ROW) as u32 + ROW / 2) as i32,
-                );
-                series.in_legend(&below, (x, y))?;
+                let (x, y) = (ROW + (index % PER_ROW) as u32 * column, ROW * (index / PER_ROW) as u32 + ROW / 2);
+                series.in_legend(&below, (x.cast_signed(), y.cast_signed()))?;
             }
             Ok(())
         })

@@ -83,7 +83,9 @@ pub fn error_against_condition(studies: &[Study]) -> io::Result<String> {
         let line = conditions.map(|x| Spot { x, y: factor * (1.0 + x) * f64::ROUNDING, ..Spot::default() });
         let points: Vec<Spot> = line.filter(|spot| x.shows(spot.x) && y.shows(spot.y)).collect();
         let series = Series { name: name.to_owned(), color, mark: Mark::Dashes, points };
-        panels.iter_mut().for_each(|panel| panel.series.push(series.clone()));
+        for panel in &mut panels {
+            panel.series.push(series.clone());
+        }
     }
     Chart { x, y, panels }.svg(SIZE)
 }
