@@ -1,6 +1,6 @@
 #!/bin/sh
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about sixteen hours of a shared core. The bundled files for match began from networks that a
+# with the same version. All of it takes about seventeen hours of a shared core. The bundled files for match began from networks that a
 # version before this one had trained; their first rounds were played without the cue's room, and those up to match-r3-third,
 # match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth.
 set -eu
@@ -66,7 +66,7 @@ context context-three-cushion-first --from "$folder/match-three-cushion-fifth" -
 context context-three-cushion-second --from "$folder/context-three-cushion-first" --seed 81 --steps 17000000 $rate
 context context-r3-first --from "$folder/match-r3-fifth" --seed 82 --steps 8000000 $rate
 # Stopped by hand after 4,570,176 shots.
-context context-one-cushion --from "$folder/match-one-cushion-fourth" --seed 83 --steps 5500000 $rate
+context context-one-cushion-first --from "$folder/match-one-cushion-fourth" --seed 83 --steps 5500000 $rate
 # Heads with speeds of their own; then expert iteration, in which a search shows what players who err make most often; then without a
 # search, so that the critic learns to choose: at three cushions it alone, for there the actor went back to harder strokes.
 heads="$rate --set heads=9 --set actor_batch=64"
@@ -87,3 +87,5 @@ context context-three-cushion --from "$folder/context-three-cushion-fourth" --se
 speeds="head_speeds=[[0.5, 2.0], [1.4, 3.6], [2.8, 6.0]]"
 context context-r3-third --from "$folder/context-r3-second" --seed 112 --steps 3400000 $heads $expert --set "$speeds"
 context context-r3 --from "$folder/context-r3-third" --seed 132 --steps 3900000 $heads $choice $both --set "$speeds"
+context context-one-cushion-second --from "$folder/context-one-cushion-first" --seed 202 --steps 6000000 $heads $expert --set "$speeds"
+context context-one-cushion --from "$folder/context-one-cushion-second" --seed 232 --steps 3900000 $heads $choice $both --set "$speeds"
