@@ -27,6 +27,10 @@ const MOST_WORK: u32 = 25_000;
 /// ten events, and one in a chatter some hundred.
 const MOST_EVENTS: u32 = 50_000;
 
+/// Work after which tolerances grow, and after each as much again: see [`super::tolerance::Tolerance::coarser`]. Of 10⁶ random shots
+/// on "thesis" some ten take so much.
+const COARSER_EVERY: u32 = 10_000;
+
 /// Bounces that take as long as a step of one resting contact, and as a step whose forces have not been found.
 const STEP_WORK: u32 = 6;
 const UNSOLVED_WORK: u32 = 2_000;
@@ -305,15 +309,24 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     }
 
     /// Takes note of a bounce of a chatter on the cloth.
-    pub(super) const fn chatter_bounce(&mut self) {
-        self.work += self.bounce_work;
+    pub(super) fn chatter_bounce(&mut self) {
+        self.add_work(self.bounce_work);
+    }
+
+    /// Takes note of work; after much of it tolerances grow.
+    fn add_work(&mut self, work: u32) {
+        let before = self.work / COARSER_EVERY;
+        self.work += work;
+        if self.work / COARSER_EVERY > before {
+            self.constants.tolerance = self.constants.tolerance.coarser();
+        }
     }
 
     /// Takes note of a step of resting contacts, by what the last one was like.
     pub(super) fn contact_step(&mut self, last: Option<&Resting>) -> ControlFlow<()> {
         let contacts = last.map_or(1, |last| last.contacts.as_slice().len() as u32);
         let is_solved = last.is_none_or(Resting::is_solved);
-        self.work += if is_solved { STEP_WORK * contacts } else { UNSOLVED_WORK };
+        self.add_work(if is_solved { STEP_WORK * contacts } else { UNSOLVED_WORK });
         self.observer.contact_step()
     }
 

@@ -108,4 +108,22 @@ impl Tolerance {
             negligible_coupled: 2e-10 * speed,
         }
     }
+
+    /// What ends a chatter on a shot that has taken more work than almost any: five times the slips, bounces and errors.
+    ///
+    /// Where the end of one chatter leaves just more than counts as nothing, the next begins at once and leaves as much. A shot
+    /// caught so comes free by a small error that is known, where the guard of the engine would take all its speed. Places, forces
+    /// and the error of a step stay as they are.
+    pub fn coarser(&self) -> Self {
+        const MORE: f64 = 5.0;
+        Self {
+            slip: MORE * self.slip,
+            ending_slip: MORE * self.ending_slip,
+            slowest_bounce: MORE * self.slowest_bounce,
+            slowest_coupled_bounce: MORE * self.slowest_coupled_bounce,
+            negligible: MORE * self.negligible,
+            negligible_coupled: MORE * self.negligible_coupled,
+            ..*self
+        }
+    }
 }

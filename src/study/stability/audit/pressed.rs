@@ -191,8 +191,17 @@ struct Scene<'a> {
 
 impl Scene<'_> {
     /// The speeds along some directions and their size, unless they vanish on the whole stretch.
+    ///
+    /// A slip in one direction that has the same sign at both ends has it in between: where it fades, a cubic that fits both ends
+    /// may dip below zero, which would turn the friction round.
     fn slip(&self, directions: &[Column]) -> Option<(Vec<f64>, f64)> {
-        let now = along(directions, &self.speeds);
+        let mut now = along(directions, &self.speeds);
+        if let ([direction], [speed]) = (directions, now.as_mut_slice()) {
+            let [start, end] = [0, 1].map(|end: usize| dot(direction, &self.ends[end]));
+            if start * end > 0.0 && start * *speed <= 0.0 {
+                *speed = 0.5 * (start + end);
+            }
+        }
         let speed = size(&now);
         (speed > 0.0 && slips(&self.ends, directions)).then_some((now, speed))
     }
