@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     game::Rule,
-    physics::{CueInputs, squirt},
+    physics::{CueInputs, has_room, squirt, with_room},
     player::errors::{Errors, normal},
     table::{Layout, Table},
 };
@@ -162,6 +162,16 @@ pub fn towards(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) ->
 /// How far the cue may be raised for what comes of a stroke: a jump or a massé stays one, and nothing else becomes one.
 pub fn steepest(cue: &CueInputs) -> f64 {
     if cue.theta > MAX_ELEVATION { STEEPEST } else { MAX_ELEVATION }
+}
+
+/// The stroke as a player can play it from where the balls lie: the cue is raised where a rail or a ball is in its way. `None` where that
+/// takes more than usual strokes have, 30°, or no elevation does; a cue that is raised more for a jump or a massé may be raised further.
+#[inline]
+pub fn playable(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<CueInputs> {
+    if has_room(table, layout, cue) {
+        return Some(*cue);
+    }
+    with_room(table, layout, cue).ok().filter(|raised| raised.theta <= steepest(cue))
 }
 
 /// A direction in which a ball that runs straight meets `target`, each thickness alike.

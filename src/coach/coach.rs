@@ -188,7 +188,23 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     };
     let told_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
     let best_rate = probability(0).map_or(0.0, |rate| rate.rate);
+    // Where the next point counts, too, the order is that of the search.
+    let by_chance = |one: &Alternative, other: &Alternative| {
+        let [one, other] = [one, other].map(|shot| shot.make_probability.map_or(0.0, |rate| rate.rate));
+        if request.plan { std::cmp::Ordering::Equal } else { other.total_cmp(&one) }
+    };
     let is_worth = |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= WORTH_LISTING * best_rate);
+    let mut alternatives: Vec<_> = (1..pool.len())
+        .map(|index| Alternative {
+            cue: pool[index].shot.cue,
+            source: pool[index].shot.source,
+            kind: pool[index].kind,
+            make_probability: probability(index),
+            next_probability: told_next(pool[index].next),
+        })
+        .filter(is_worth)
+        .collect();
+    alternatives.sort_by(by_chance);
     Recommendation {
         cue: best.shot.cue,
         solved: true,
@@ -197,16 +213,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         make_probability: probability(0),
         risk: risk(&best.shot.cue, task, request, seed),
         next_probability: told_next(best.next),
-        alternatives: (1..pool.len())
-            .map(|index| Alternative {
-                cue: pool[index].shot.cue,
-                source: pool[index].shot.source,
-                kind: pool[index].kind,
-                make_probability: probability(index),
-                next_probability: told_next(pool[index].next),
-            })
-            .filter(is_worth)
-            .collect(),
+        alternatives,
         ..first_point(found)
     }
 }

@@ -10,7 +10,7 @@ use crate::{
     table::{BALL_NAMES, BALLS},
 };
 
-/// Strokes from this speed on are called hard, m/s. A ball struck so in its middle runs 7.3 to 8.4 m along a
+/// Strokes from this speed on are of the harder kind, m/s. A ball struck so in its middle runs 7.3 to 8.4 m along a
 /// `match` table, between two and a half and three lengths.
 const HARD: f64 = 2.5;
 
@@ -73,12 +73,13 @@ impl Kind {
     }
 }
 
+/// In other words than players', whose names of patterns and paces say more than a kind does.
 impl fmt::Display for Way {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.pad(match self {
             Self::Direct => "direct",
-            Self::OffCushion => "off a cushion",
-            Self::AroundTheTable => "around the table",
+            Self::OffCushion => "off one or two cushions",
+            Self::AroundTheTable => "off three cushions or more",
         })
     }
 }
@@ -86,8 +87,8 @@ impl fmt::Display for Way {
 impl fmt::Display for Pace {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.pad(match self {
-            Self::Soft => "soft",
-            Self::Hard => "hard",
+            Self::Soft => "below 2.5 m/s",
+            Self::Hard => "2.5 m/s and more",
         })
     }
 }

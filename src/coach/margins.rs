@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{
     Doubt, Input,
+    candidates::playable,
     draws::{QuasiRandomDraws, World, Worlds},
 };
 use crate::{
@@ -101,7 +102,7 @@ impl<'a> Sensitivity<'a> {
 
     fn around(&self, input: Input, cue: &CueInputs, least: usize) -> Margin {
         let side = |sign: f64| {
-            let shifted = |by: f64| input.shifted(self.table, cue, sign * by);
+            let shifted = |by: f64| self.raised(&input.shifted(self.table, cue, sign * by), &[input]);
             nearest_miss(
                 input,
                 |by| self.makes(&shifted(by), least),
@@ -109,6 +110,13 @@ impl<'a> Sensitivity<'a> {
             )
         };
         Margin { input, unit: input.unit(), less: side(-1.0), more: side(1.0) }
+    }
+
+    /// A stroke whose cue has come too low for the rail or the balls is played with the cue raised, as a player would, unless it is
+    /// the elevation itself that is off.
+    fn raised(&self, cue: &CueInputs, off: &[Input]) -> CueInputs {
+        let raised = if off.contains(&Input::Elevation) { None } else { playable(self.table, self.layout, cue) };
+        raised.unwrap_or(*cue)
     }
 
     /// In how many worlds a stroke is to make the point for it to count as made beside `cue`; `None` where `cue` makes none.
@@ -154,7 +162,8 @@ impl<'a> Sensitivity<'a> {
         let least = self.least(cue).unwrap_or(self.worlds.len().div_ceil(2).max(1));
         let outcomes = parallel::map(platform::threads(), &rows, |&y| {
             let row = up.shifted(self.table, middle, y);
-            columns.iter().map(|&x| self.usual(&across.shifted(self.table, &row, x), least)).collect()
+            let cell = |x: f64| self.raised(&across.shifted(self.table, &row, x), &[across, up]);
+            columns.iter().map(|&x| self.usual(&cell(x), least)).collect()
         });
         Map { across, up, columns, rows, outcomes }
     }
@@ -275,6 +284,25 @@ mod tests {
             assert!(margins[3].less.is_some() && margins[3].more.is_some() && ends >= 4, "{doubt}: {margins:?}");
             assert!(Sensitivity::new(Rule::ThreeCushion, &table, &layout, doubt).margins(&cue).is_none());
         }
+    }
+
+    #[test]
+    fn a_tip_that_comes_too_low_for_the_rail_raises_the_cue() {
+        let (table, _, _) = shot();
+        let (reach, radius) = (table.reach(), table.radius);
+        let layout = Layout::new([DVec2::new(-reach.x + 0.02, 0.0), DVec2::new(0.0, 0.0), DVec2::new(0.3, 0.1)]);
+        let straight = CueInputs { a: 0.0, b: 0.3, theta: 0.0, phi: 0.0, speed: 2.5 };
+        let lowest = playable(&table, &layout, &straight).unwrap();
+        let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, Doubt::NONE);
+        let cue = (-400..400)
+            .map(|step| CueInputs { phi: 2e-4 * f64::from(step), ..lowest })
+            .find(|cue| sensitivity.least(cue).is_some())
+            .unwrap();
+        let lower = Input::Height.shifted(&table, &cue, -1.0);
+        assert!(!has_room(&table, &layout, &lower) && lower.b < cue.b - 0.5e-3 / radius);
+        let [_, height, elevation, ..] = sensitivity.margins(&cue).unwrap();
+        assert!(height.less.is_none_or(|less| less > 0.5), "{height:?}");
+        assert!(elevation.less.is_none(), "the cue cannot come lower: {elevation:?}");
     }
 
     #[test]

@@ -4,14 +4,14 @@ use std::{ops::ControlFlow, time::Instant};
 
 use super::{
     Skill,
-    candidates::{MAX_ELEVATION, steepest},
+    candidates::{MAX_ELEVATION, playable},
     clock::Clock,
     draws::{Draw, World, Worlds},
     elevated::{is_jump_or_masse, makes_jump_or_masse},
 };
 use crate::{
     game::{Point, Referee, Rule, Tally},
-    physics::{CueInputs, has_room, strike, with_room},
+    physics::{CueInputs, strike},
     player::{aimed, errors::Errors},
     simulation::{All, Event, EventKind, Observer, watch_with},
     table::{Layout, Table},
@@ -57,15 +57,9 @@ pub const CONTACT_STEPS: u32 = 100;
 pub const ENDLESS: u32 = u32::MAX;
 
 impl Task<'_> {
-    /// The stroke as a player can play it here: the cue is raised where a rail or a ball is in its way. `None` where that takes
-    /// more than usual strokes have, 30°, or no elevation does; a cue that is raised more for a jump or a massé may be raised
-    /// further.
-    #[inline]
+    /// The stroke as a player can play it here: see [`playable`].
     pub fn playable(&self, cue: &CueInputs) -> Option<CueInputs> {
-        if has_room(self.table, self.layout, cue) {
-            return Some(*cue);
-        }
-        with_room(self.table, self.layout, cue).ok().filter(|raised| raised.theta <= steepest(cue))
+        playable(self.table, self.layout, cue)
     }
 
     /// Whether strokes are looked for with the cue raised for a jump or a massé: on a table that keeps its balls on the cloth

@@ -43,7 +43,7 @@ pub struct Kiss {
     pub place: DVec2,
 }
 
-/// How the next best shot differs.
+/// How the second-best shot differs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
     /// What it is called.
@@ -232,13 +232,13 @@ impl Why {
         let mut parts = Vec::new();
         let second = self.second.as_ref();
         let other = second.and_then(|second| second.make_probability);
-        parts.extend(
-            self.make_probability
-                .zip(other)
-                .map(|(rate, other)| format!("made {} of the time, the next shot {}", percent(rate), percent(other))),
-        );
+        parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
+            format!("made {} of the time, the second-best shot {}", percent(rate), percent(other))
+        }));
         parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
-            Some(other) => format!("its aim may be {} off in all, there {}", degrees(width), degrees(other)),
+            Some(other) => {
+                format!("its aim may be {} off in all, that of the second-best {}", degrees(width), degrees(other))
+            }
             None => format!("its aim may be {} off in all", degrees(width)),
         }));
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], place }| {
@@ -263,7 +263,7 @@ impl Why {
         words::capital(&format!("{}.", parts.join("; ")))
     }
 
-    /// The same in few words beside the chance that it is made, for who plays with `cue_ball`: how the next shot differs first.
+    /// The same in few words beside the chance that it is made, for who plays with `cue_ball`: how the second-best shot differs first.
     pub fn brief(&self, cue_ball: CueBall) -> String {
         let names = cue_ball.names();
         let second = self.second.as_ref().map_or_else(
@@ -309,7 +309,7 @@ fn degrees(width: f64) -> String {
 
 impl Difference {
     fn words(&self, names: [&'static str; 3]) -> String {
-        format!("the next: {}", self.parts(names))
+        format!("the second-best: {}", self.parts(names))
     }
 
     fn parts(&self, names: [&'static str; 3]) -> String {
@@ -355,6 +355,9 @@ mod tests {
         let brief = why.brief(CueBall::White);
         assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
         let said = why.words(CueBall::White, Units::default());
-        assert!(said.ends_with('.') && said.contains(if why.second.is_some() { "the next" } else { "." }), "{said}");
+        assert!(
+            said.ends_with('.') && said.contains(if why.second.is_some() { "the second-best" } else { "." }),
+            "{said}"
+        );
     }
 }

@@ -27,7 +27,7 @@ pub fn table_named(name: &str) -> Result<Table, Failure> {
         Err(TableError::Unknown(_)) if Path::new(name).exists() => {
             let text = storage::read_text(name.as_ref(), storage::SMALL)
                 .map_err(|error| Failure::failed(format_args!("{name}: {error}")))?;
-            Table::from_toml(&text).map_err(Failure::wrong_input)
+            Table::from_toml(&text).map_err(|error| Failure::wrong_input(format_args!("{name}: {error}")))
         }
         table => table.map_err(Failure::wrong_input),
     }

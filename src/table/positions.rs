@@ -22,6 +22,18 @@ pub enum PositionsError {
     /// Some have a colour and some have none.
     #[error("some positions have a colour and some have none; write one before each, or before none")]
     Mixed,
+    /// A ball was put outside the table in diamonds.
+    #[error("{name} is outside the table; accepted are {least:.2}d to {along:.2}d, and {least:.2}d to {up:.2}d")]
+    Outside {
+        /// The ball's name.
+        name: &'static str,
+        /// The least of both coordinates, diamonds.
+        least: f64,
+        /// The largest along the table, diamonds.
+        along: f64,
+        /// The largest across it, diamonds.
+        up: f64,
+    },
     /// The balls cannot lie so.
     #[error(transparent)]
     Layout(#[from] LayoutError),
@@ -61,7 +73,15 @@ impl Layout {
         for (ball, place) in places {
             layout.balls[ball] = place;
         }
-        layout.validate(table)?;
+        let is_in_diamonds = text.split_whitespace().any(|word| word.contains(',') && word.ends_with('d'));
+        layout.validate(table).map_err(|error| match error {
+            LayoutError::Outside { ball, max_x, max_y, .. } if is_in_diamonds => {
+                let [least, along] = [-1.0, 1.0].map(|sign| (0.5 * table.length + sign * max_x) / table.diamond());
+                let up = (0.5 * table.width + max_y) / table.diamond();
+                PositionsError::Outside { name: names[ball], least, along, up }
+            }
+            error => error.into(),
+        })?;
         Ok(layout)
     }
 }
@@ -105,7 +125,8 @@ mod tests {
             ("2d;1d", "\"2d\""),
             ("red", "where is red?"),
             ("red 2d,1d 3d,3d", "some have none"),
-            ("9d,1d", "outside the table"),
+            ("9d,1d", "red is outside the table; accepted are 0.09d to 7.91d, and 0.09d to 3.91d"),
+            ("1.5,0.1", "|x| <= 1.389"),
             ("nan,1d", "finite"),
         ] {
             let error = typed(text).unwrap_err();

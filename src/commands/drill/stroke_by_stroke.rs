@@ -334,7 +334,7 @@ impl<'a> StrokeByStroke<'a> {
 fn mark_words(Mark { tried, made, expected, spread, nearest }: &Mark, of: usize) -> String {
     let unfinished = if *tried < of { format!(" ({tried} of {of} played)") } else { String::new() };
     format!(
-        "score {made} of {tried}{unfinished}; a beginner makes {:.1} ± {:.1}, a club player {:.1} ± {:.1}, an expert {:.1} ± {:.1} \
+        "score {made} of {tried}{unfinished}; a beginner makes {:.1} ± {:.1}, a club player {:.1} ± {:.1}, a world-class player {:.1} ± {:.1} \
          (average and standard deviation): nearest is {nearest}",
         expected.beginner, spread.beginner, expected.club, spread.club, expected.world_class, spread.world_class
     )

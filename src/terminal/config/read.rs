@@ -16,6 +16,9 @@ use crate::terminal::{
 /// The name of the part with the keys.
 pub const KEYS: &str = "keys";
 
+/// The name of the setting that may name a file, which may be wrong itself.
+const TABLE: &str = "table";
+
 /// Something wrong in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Complaint {
@@ -70,6 +73,11 @@ pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
             if (entry.set)(&mut settings, value.get_ref()).is_none() {
                 let (given, default) = (shown(text, value), (entry.get)(&Settings::default()));
                 complain(format!("{name} = {given}; accepted is {}. It is taken as {default}", entry.accepted));
+            } else if name == TABLE
+                && let Err(sentence) = settings.table()
+            {
+                settings.table = Settings::default().table;
+                complain(format!("{sentence}. The table is taken as \"{}\"", settings.table));
             }
         } else {
             let known: Vec<&str> = ENTRIES.iter().map(|entry| entry.key).chain([KEYS]).collect();
@@ -128,7 +136,7 @@ fn shown(text: &str, value: &Spanned<DeValue>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{coach::Skill, game::Rule, terminal::Palette};
+    use crate::{coach::Skill, game::Rule, table::Table, terminal::Palette};
 
     #[test]
     fn the_documentation_is_itself_a_file_and_changes_nothing() {
@@ -162,6 +170,18 @@ mod tests {
         }
         let euro = "\n\u{20ac}\n";
         assert_eq!([1, 2, 3, 4, 5, 99].map(|place| line_at(euro, place)), [2, 2, 2, 2, 3, 3]);
+    }
+
+    #[test]
+    fn a_table_whose_file_is_wrong_is_named_and_the_usual_one_is_played_on() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.toml");
+        let text = toml::to_string(&Table::default()).unwrap().replacen("mu_s = ", "mu_s = -", 1);
+        std::fs::write(&path, text).unwrap();
+        let (settings, complaints) = read(&format!("plan = false\ntable = '{}'\n", path.display()));
+        assert_eq!((settings.table.as_str(), settings.plan, complaints.len()), ("match", false, 1));
+        let said = complaints[0].to_string();
+        assert!(said.starts_with("line 2") && said.contains("mine.toml") && said.contains("mu_s = -"), "{said}");
     }
 
     #[test]

@@ -77,7 +77,7 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     let mut rows = Vec::new();
     rows.extend(words.before.first().map(|cushion| {
         // The side of the ball has no row then; the sentence has it.
-        format!("{} {} first", rail_word(cushion.rail), bare(cushion.diamond, to_tenths))
+        format!("off {} {}", rail_word(cushion.rail), bare(cushion.diamond, to_tenths))
     }));
     match words.first {
         None => rows.push("no ball".to_owned()),

@@ -32,12 +32,19 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let room = usize::from(area.width);
     let question = question(coach, ui);
     let name =
-        name(coach, room.saturating_sub(question.width() + transport(coach, Form::Short, 0, ui).width() + 2), room, ui);
+        name(coach, room.saturating_sub(question.width() + transport(coach, Form::Now, 0, ui).width() + 2), room, ui);
     let left = room.saturating_sub(question.width() + name.width() + 1);
     // The bar says more than words do.
-    let wanted = [(Form::Words, WORDY), (Form::Sign, BAR.0), (Form::Words, 0), (Form::Sign, 0)];
+    let wanted = [
+        (Form::Words, WORDY),
+        (Form::Sign, BAR.0),
+        (Form::Words, 0),
+        (Form::Sign, 0),
+        (Form::Short, 0),
+        (Form::Time, 0),
+    ];
     let fits = |(form, bar): &(Form, usize)| transport(coach, *form, *bar, ui).width() < left;
-    let (form, bar) = wanted.into_iter().find(fits).unwrap_or((Form::Short, 0));
+    let (form, bar) = wanted.into_iter().find(fits).unwrap_or((Form::Now, 0));
     let bar = if bar > 0 { left.saturating_sub(transport(coach, form, 0, ui).width() + 5).min(BAR.1) } else { 0 };
     let x = ui.buffer.set_line(area.x, area.y, &name, area.width).0;
     let x = ui.buffer.set_line(x, area.y, &question, area.right().saturating_sub(x)).0;
@@ -110,8 +117,12 @@ enum Form {
     Words,
     /// The same as a sign.
     Sign,
-    /// The same in as few columns as can be.
+    /// The same close together.
     Short,
+    /// The same without the speed.
+    Time,
+    /// Only what has played so far.
+    Now,
 }
 
 fn transport(coach: &CoachPage, form: Form, bar: usize, ui: &Ui) -> Line<'static> {
@@ -122,7 +133,10 @@ fn transport(coach: &CoachPage, form: Form, bar: usize, ui: &Ui) -> Line<'static
     }
     let Some(shot) = coach.shot() else {
         let words = if is_thinking { "thinking" } else { "placing balls" };
-        return Line::from(Span::styled(if form == Form::Short { "" } else { words }, ui.theme.faint()));
+        return Line::from(Span::styled(
+            if matches!(form, Form::Short | Form::Time | Form::Now) { "" } else { words },
+            ui.theme.faint(),
+        ));
     };
     let (words, sign) = match coach.mode {
         _ if is_thinking => ("thinking", ui.caps.pick("…", "?")),
@@ -139,6 +153,8 @@ fn transport(coach: &CoachPage, form: Form, bar: usize, ui: &Ui) -> Line<'static
         Form::Words => (format!("{words:<10}  "), format!(" / {end} s"), format!("  {times}{}", playback.speed())),
         Form::Sign => (format!("{sign} "), format!(" / {end} s"), format!(" {times}{}", playback.speed())),
         Form::Short => (format!("{sign} "), format!("/{end}"), format!(" {times}{}", playback.speed())),
+        Form::Time => (format!("{sign} "), format!("/{end}"), String::new()),
+        Form::Now => (format!("{sign} "), String::new(), String::new()),
     };
     let mut line = Line::from(Span::styled(state, ui.theme.text()));
     if bar > 0 {

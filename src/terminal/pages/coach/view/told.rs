@@ -30,11 +30,13 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
     let fits = |title: &Vec<Span>| title.iter().map(Span::width).sum::<usize>() < width;
     let title = titles.into_iter().find(fits);
     let aim = title.is_none().then(|| part(words.aim(units), ui.theme.text()));
-    let tries = [words.course(cue_ball, units), words.short_course(cue_ball, units)].map(|course| {
+    // The line of aim, which the card has, too, goes before the end of the course.
+    let short = words.short_course(cue_ball, units);
+    let tries = [(words.course(cue_ball, units), &aim), (short.clone(), &aim), (short, &None)].map(|(course, aim)| {
         let sentence = part(words.sentence(cue_ball, units), ui.theme.text().add_modifier(ui.theme.strong));
         [Some(sentence), Some(part(course, ui.theme.accent())), aim.clone()].into_iter().flatten().collect()
     });
-    let mut lines = lay_out(&tries, width, rows);
+    let mut lines = lay_out(&tries, width, rows, ui.caps.pick(" …", " ..."));
     let why = coach.shown().and_then(|advised: &AdviceState| why_words(advised, ui));
     let why = why.filter(|_| lines.len() < rows);
     let says_why = why.is_some();
@@ -91,9 +93,9 @@ fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
     ]
 }
 
-/// The first of the tries that `rows` hold, each part from a new row or else one behind the other; the last, cut at its end, where
-/// none has room.
-fn lay_out(tries: &[Vec<(String, Style)>], width: usize, rows: usize) -> Vec<Line<'static>> {
+/// The first of the tries that `rows` hold, each part from a new row or else one behind the other; the last, with its end replaced by
+/// `more`, where none has room.
+fn lay_out(tries: &[Vec<(String, Style)>], width: usize, rows: usize, more: &'static str) -> Vec<Line<'static>> {
     for parts in tries {
         let apart: Vec<Line> = parts
             .iter()
@@ -105,6 +107,12 @@ fn lay_out(tries: &[Vec<(String, Style)>], width: usize, rows: usize) -> Vec<Lin
     }
     let mut lines = tries.last().map_or_else(Vec::new, |parts| flow(parts, width));
     lines.truncate(rows);
+    if let Some(last) = lines.last_mut() {
+        while last.width() + columns(more) > width && !last.spans.is_empty() {
+            last.spans.pop();
+        }
+        last.push_span(more);
+    }
     lines
 }
 
@@ -139,7 +147,7 @@ mod tests {
 
     fn laid_out(tries: &[&[&str]], width: usize, rows: usize) -> Vec<String> {
         let tries: Vec<_> = tries.iter().map(|parts| texts(parts)).collect();
-        lay_out(&tries, width, rows).iter().map(ToString::to_string).collect()
+        lay_out(&tries, width, rows, " …").iter().map(ToString::to_string).collect()
     }
 
     #[test]
@@ -148,6 +156,6 @@ mod tests {
         assert_eq!(laid_out(&tries, 9, 4), ["one two", "three", "four", "five six"]);
         assert_eq!(laid_out(&tries, 10, 3), ["one two", "three four", "five six"]);
         assert_eq!(laid_out(&tries, 10, 2), ["one two", "three four"]);
-        assert_eq!(laid_out(&tries, 10, 1), ["one two"], "what has no room at all is cut");
+        assert_eq!(laid_out(&tries, 10, 1), ["one two …"], "what has no room at all is cut");
     }
 }

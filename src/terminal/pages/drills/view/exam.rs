@@ -28,8 +28,8 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, level: u8, header: Rect, area: Rec
         format!(
             "Strokes are played with the errors of the player who is named above: {player}. p in the library chooses another."
         ),
-        "In the end you see what you made of every exercise, and what a beginner, a club player and an expert make on \
-         average in the same exam."
+        "In the end you see what you made of every exercise, and what a beginner, a club player and a world-class player \
+         make on average in the same exam."
             .to_owned(),
         "Esc leaves the exam; c on the coach's page goes on with it, at the next start of the program too.".to_owned(),
     ];

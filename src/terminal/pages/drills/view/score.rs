@@ -27,7 +27,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) {
     let top = draw_marks(&session, text, ui);
     let text = Rect { y: top, height: text.bottom() - top, ..text };
     let mut paragraphs: Vec<(String, Style)> =
-        lines(&session).into_iter().map(|words| (words, ui.theme.text())).collect();
+        lines(&session, &turn.exercise.name).into_iter().map(|words| (words, ui.theme.text())).collect();
     let ever = drills.book.score_of(&turn.exercise.name);
     if let Some(ever) = ever.filter(|ever| ever.tried > session.attempts.len() && session.goal != Goal::Exam) {
         // What is still being watched is not counted here either.
@@ -75,17 +75,20 @@ fn draw_marks(session: &Session, area: Rect, ui: &mut Ui) -> u16 {
     area.y + 1
 }
 
-fn lines(session: &Session) -> Vec<String> {
+/// What counts, while this exercise is on the table.
+fn lines(session: &Session, exercise: &str) -> Vec<String> {
     let record = session.record();
     let Record { tried, made, helped, .. } = record;
     let mut lines = Vec::new();
     if session.goal == Goal::Exam {
-        let number = (tried + 1).min(session.exercises.len());
+        // The result of an exercise is looked at before the next one is on the table.
+        let place = session.exercises.iter().position(|each| each.name == exercise);
+        let number = place.map_or(tried, |place| place + 1);
         lines.push(format!("exercise {number} of {}: {made} of {tried} made", session.exercises.len()));
         if let Some(mark) = exam::mark(session) {
-            let [beginner, club, expert] = [mark.expected.beginner, mark.expected.club, mark.expected.world_class]
+            let [beginner, club, best] = [mark.expected.beginner, mark.expected.club, mark.expected.world_class]
                 .map(|points| format!("{points:.1}"));
-            lines.push(format!("so far a beginner makes {beginner}, club {club}, an expert {expert}"));
+            lines.push(format!("so far a beginner makes {beginner}, club {club}, world class {best}"));
         }
         return lines;
     }
