@@ -11,6 +11,7 @@ pub mod ddpg;
 pub mod evaluation;
 pub mod learner;
 pub mod nn;
+pub mod replay;
 pub mod run;
 pub mod settings;
 pub mod thesis;

@@ -88,7 +88,7 @@ impl Learner for Trainer {
     }
 
     fn replay_fill(&self) -> Option<f64> {
-        Some(self.replay.len() as f64 / self.task.hyperparameters.replay.max(1) as f64)
+        Some(self.replay.fill())
     }
 
     fn iterate(&mut self) -> candle_core::Result<Iteration> {

@@ -1,7 +1,7 @@
 //! The agent that coaches: deep deterministic policy gradient with several actor heads, and its way of seeing the table.
 //!
 //! The way of a shot: a [`observation`] of the layout, its [`features`], the actor's [`action`], the cue inputs, the
-//! [reward](crate::game::Reward), the [`replay`] buffer. The way of a gradient: the [`agent`] and its [`networks`]. The
+//! [reward](crate::game::Reward), the [replay buffer](super::replay). The way of a gradient: the [`agent`] and its [`networks`]. The
 //! [`trainer`] iterates over both, rollout and update. What comes out is a [`policy`].
 
 pub mod action;

@@ -13,7 +13,7 @@ use super::{
     agent::Ddpg,
     networks::Networks,
     observation::Observation,
-    replay::{ReplayBuffer, Transition},
+    replay::Transition,
     trainer::{Task, Trainer},
     venues::{Conditions, Venues},
 };
@@ -21,6 +21,7 @@ use crate::{
     learning::{
         learner::note_of,
         nn::weights::{Reader, WeightsError, Writer},
+        replay::ReplayBuffer,
     },
     table::Table,
 };
@@ -115,8 +116,8 @@ fn view_numbers(observation: &Observation) -> [f64; OBSERVATION_NUMBERS] {
     [cue.x, cue.y, first.x, first.y, second.x, second.y, mirror.x, mirror.y]
 }
 
-fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer, context: bool) {
-    let held = shots.transitions();
+fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer<Transition>, context: bool) {
+    let held = shots.held();
     let observations: Vec<f64> = held.iter().flat_map(|held| view_numbers(&held.observation)).collect();
     let actions: Vec<f32> = held.iter().flat_map(|held| held.action).collect();
     let successes: Vec<f32> = held.iter().map(|held| held.success).collect();

@@ -13,10 +13,15 @@ use super::{
     hyperparameters::Hyperparameters,
     observation_batch::ObservationBatch,
     policy::{Policy, file::Origin},
-    replay::{ReplayBuffer, Transition},
+    replay::Transition,
     venues::Venues,
 };
-use crate::{game::Reward, learning::learner::Iteration, printing::VERSION, table::Table};
+use crate::{
+    game::Reward,
+    learning::{learner::Iteration, replay::ReplayBuffer},
+    printing::VERSION,
+    table::Table,
+};
 
 /// What is to be learnt, and how long.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,9 +43,9 @@ pub struct Trainer {
     pub(super) table: Arc<Table>,
     pub(super) venues: Venues,
     pub(super) agent: Ddpg,
-    pub(super) replay: ReplayBuffer,
+    pub(super) replay: ReplayBuffer<Transition>,
     /// The best strokes that searches have found.
-    pub(super) searched: ReplayBuffer,
+    pub(super) searched: ReplayBuffer<Transition>,
     pub(super) rng: Xoshiro256PlusPlus,
     pub(super) shots: u64,
     pub(super) updates: u64,

@@ -16,7 +16,7 @@ use super::{
     exploration::OrnsteinUhlenbeck,
     lessons::{Lessons, LessonsState, Sought},
     q_learning::check_episode,
-    replay::{MEMORY, ReplayBuffer, StoredTransition},
+    replay::{self, MEMORY, StoredTransition},
     symmetry::{WAYS, seen},
 };
 use crate::learning::settings::{
@@ -25,6 +25,7 @@ use crate::learning::settings::{
 use crate::learning::{
     learner::note_of,
     nn::weights::{Reader, WeightsError, Writer},
+    replay::ReplayBuffer,
 };
 
 /// Settings of [`PlainDdpg`]: Table 4; what the thesis leaves open is as in keras-rl's example.
@@ -206,7 +207,7 @@ const WIDEST: f64 = 0.5;
 pub struct PlainDdpg {
     settings: PlainDdpgSettings,
     networks: ActorCritic,
-    replay: ReplayBuffer,
+    replay: ReplayBuffer<StoredTransition>,
     lessons: Lessons,
     noise: Action,
     shots: u64,
@@ -308,7 +309,7 @@ impl Agent for PlainDdpg {
         writer.add("networks", &[values.len()], &values);
         let Self { shots, noise, .. } = *self;
         let lessons = self.settings.are_about_points().then(|| self.lessons.save(writer));
-        let (updates, next) = (self.networks.updates(), self.replay.save(MEMORY, writer));
+        let (updates, next) = (self.networks.updates(), replay::save(&self.replay, MEMORY, writer));
         note_of(&PlainDdpgState { shots, updates, next, noise, lessons })
     }
 
@@ -317,7 +318,7 @@ impl Agent for PlainDdpg {
             serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
         let (_, values) = reader.array("networks")?;
         let networks = ActorCritic::from_values(&settings.layers(), settings.rates(), &values, updates)?;
-        let replay = ReplayBuffer::restore(settings.memory, reader, MEMORY, next)?;
+        let replay = replay::restore(settings.memory, reader, MEMORY, next)?;
         let memory = settings.memory;
         let lessons =
             lessons.map_or_else(|| Ok(Lessons::new(memory)), |state| Lessons::restore(memory, reader, state))?;

@@ -9,12 +9,12 @@ use serde_json::Value;
 
 use super::{
     agent::{Agent, Choice, Settings, Transition, UpdateStats},
-    batch::number,
+    batch::{Batch, number},
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Observation, STATES, discrete_action},
     exploration::Epsilon,
     q_learning::{check_episode, check_epsilon},
-    replay::{MEMORY, ReplayBuffer, StoredTransition},
+    replay::{self, MEMORY, StoredTransition},
 };
 use crate::learning::settings::{SettingError, check_batch, check_count, check_layers, check_positive, check_share};
 use crate::learning::{
@@ -24,6 +24,7 @@ use crate::learning::{
         mlp::Mlp,
         weights::{Reader, WeightsError, Writer},
     },
+    replay::ReplayBuffer,
 };
 
 /// Settings of [`Dqn`]: Tables 2 and 3; the thesis says nothing on epsilon.
@@ -94,7 +95,7 @@ pub struct Dqn {
     online: Mlp,
     target: Mlp,
     optimiser: Adam,
-    replay: ReplayBuffer,
+    replay: ReplayBuffer<StoredTransition>,
     shots: u64,
     updates: u32,
 }
@@ -119,7 +120,7 @@ impl DqnSettings {
 impl Dqn {
     /// Learns from a batch that is drawn from the memory.
     fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
-        let batch = self.replay.batch(self.settings.batch, self.settings.discount, rng)?;
+        let batch = Batch::new(&self.replay.sample(self.settings.batch, rng), self.settings.discount)?;
         let wanted = batch.targets(|states| self.target.forward_frozen(states)?.max_keepdim(1))?;
         let values = self.online.forward(&batch.states)?;
         let loss = mse(&values.gather(&batch.indices, 1)?, &wanted)?;
@@ -194,7 +195,11 @@ impl Agent for Dqn {
         writer.add_network("online", &self.online)?;
         writer.add_network("target", &self.target)?;
         writer.add_optimiser("", &self.optimiser)?;
-        note_of(&DqnState { shots: self.shots, updates: self.updates, next: self.replay.save(MEMORY, writer) })
+        note_of(&DqnState {
+            shots: self.shots,
+            updates: self.updates,
+            next: replay::save(&self.replay, MEMORY, writer),
+        })
     }
 
     fn restore(settings: DqnSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
@@ -203,7 +208,7 @@ impl Agent for Dqn {
         Ok(Self {
             target: network(&settings, reader, "target")?,
             optimiser: reader.optimiser("", &online, settings.adam(), updates)?,
-            replay: ReplayBuffer::restore(settings.memory, reader, MEMORY, next)?,
+            replay: replay::restore(settings.memory, reader, MEMORY, next)?,
             online,
             settings,
             shots,

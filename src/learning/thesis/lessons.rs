@@ -7,9 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     environment::{Action, Environment, Observation, State},
-    replay::{ReplayBuffer, StoredTransition},
+    replay::{self, StoredTransition},
 };
-use crate::learning::nn::weights::{Reader, WeightsError, Writer};
+use crate::learning::{
+    nn::weights::{Reader, WeightsError, Writer},
+    replay::ReplayBuffer,
+};
 
 /// What is sought, and how much.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,8 +28,8 @@ pub struct Sought {
 /// Both memories.
 #[derive(Debug)]
 pub struct Lessons {
-    hindsight: ReplayBuffer,
-    demonstrations: ReplayBuffer,
+    hindsight: ReplayBuffer<StoredTransition>,
+    demonstrations: ReplayBuffer<StoredTransition>,
     layouts: u64,
 }
 
@@ -82,7 +85,8 @@ impl Lessons {
 
     /// Adds both memories to a file and returns everything else.
     pub fn save(&self, writer: &mut Writer) -> LessonsState {
-        let next = [self.hindsight.save(NAMES[0], writer), self.demonstrations.save(NAMES[1], writer)];
+        let next =
+            [replay::save(&self.hindsight, NAMES[0], writer), replay::save(&self.demonstrations, NAMES[1], writer)];
         LessonsState { next, layouts: self.layouts }
     }
 
@@ -91,7 +95,7 @@ impl Lessons {
     /// # Errors
     /// Where the file has none.
     pub fn restore(capacity: usize, reader: &Reader<'_>, state: LessonsState) -> Result<Self, WeightsError> {
-        let memory = |kind: usize| ReplayBuffer::restore(capacity, reader, NAMES[kind], state.next[kind]);
+        let memory = |kind: usize| replay::restore(capacity, reader, NAMES[kind], state.next[kind]);
         Ok(Self { hindsight: memory(0)?, demonstrations: memory(1)?, layouts: state.layouts })
     }
 }

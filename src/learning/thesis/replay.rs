@@ -1,14 +1,13 @@
-//! The library of experiences (thesis 4.3.1): transitions that were played, the oldest making room for the newest.
-
-use candle_core::Error;
-use rand::{Rng, RngExt};
+//! The library of experiences (thesis 4.3.1): what is remembered of a shot, and a replay buffer of these in a file.
 
 use super::{
     agent::Transition,
-    batch::Batch,
     environment::{ACTIONS, Action, STATES, State},
 };
-use crate::learning::nn::weights::{Reader, WeightsError, Writer};
+use crate::learning::{
+    nn::weights::{Reader, WeightsError, Writer},
+    replay::ReplayBuffer,
+};
 
 /// One shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,75 +55,31 @@ impl StoredTransition {
     }
 }
 
-/// A ring of the last transitions.
-#[derive(Clone, Debug)]
-pub struct ReplayBuffer {
-    held: Vec<StoredTransition>,
-    capacity: usize,
-    /// Where the next one goes once the ring is full.
-    next: usize,
+/// Adds what a library holds to a file under `name`; returns where the next one goes.
+pub fn save(buffer: &ReplayBuffer<StoredTransition>, name: &str, writer: &mut Writer) -> usize {
+    let numbers: Vec<f32> = buffer.held().iter().flat_map(StoredTransition::numbers).collect();
+    writer.add(name, &[buffer.len(), NUMBERS], &numbers);
+    buffer.next()
 }
 
-impl ReplayBuffer {
-    /// An empty ring for `capacity` transitions, at least one.
-    pub fn new(capacity: usize) -> Self {
-        Self { held: Vec::new(), capacity: capacity.max(1), next: 0 }
+/// A library with the content that [`save`] wrote.
+///
+/// # Errors
+/// Where the file has none.
+pub fn restore(
+    capacity: usize,
+    reader: &Reader<'_>,
+    name: &str,
+    next: usize,
+) -> Result<ReplayBuffer<StoredTransition>, WeightsError> {
+    let capacity = capacity.max(1);
+    let (shape, numbers) = reader.array(name)?;
+    if shape.len() != 2 || shape[1] != NUMBERS || shape[0] > capacity {
+        let expected = format!("at most {capacity} rows of {NUMBERS} values");
+        return Err(WeightsError::Array { name: name.to_owned(), expected });
     }
-
-    /// Share of the ring that is filled.
-    pub fn fill(&self) -> f64 {
-        self.held.len() as f64 / self.capacity as f64
-    }
-
-    /// Adds a transition.
-    pub fn push(&mut self, transition: StoredTransition) {
-        if self.held.len() < self.capacity {
-            self.held.push(transition);
-        } else {
-            self.held[self.next] = transition;
-            self.next = (self.next + 1) % self.capacity;
-        }
-    }
-
-    /// A transition drawn uniformly; none from an empty ring.
-    fn draw(&self, rng: &mut (impl Rng + ?Sized)) -> Option<&StoredTransition> {
-        if self.held.is_empty() { None } else { Some(&self.held[rng.random_range(0..self.held.len())]) }
-    }
-
-    /// So many transitions, each drawn uniformly; none from an empty ring.
-    pub fn sample(&self, rows: usize, rng: &mut (impl Rng + ?Sized)) -> Vec<StoredTransition> {
-        (0..rows).filter_map(|_| self.draw(rng).copied()).collect()
-    }
-
-    /// A batch of so many transitions, each drawn uniformly from a ring that holds some.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
-    pub fn batch(&self, rows: usize, discount: f64, rng: &mut (impl Rng + ?Sized)) -> Result<Batch, Error> {
-        Batch::new(&self.sample(rows, rng), discount)
-    }
-
-    /// Adds what is held to a file under `name`; returns where the next one goes.
-    pub fn save(&self, name: &str, writer: &mut Writer) -> usize {
-        let numbers: Vec<f32> = self.held.iter().flat_map(StoredTransition::numbers).collect();
-        writer.add(name, &[self.held.len(), NUMBERS], &numbers);
-        self.next
-    }
-
-    /// A ring with the content that [`ReplayBuffer::save`] wrote.
-    ///
-    /// # Errors
-    /// Where the file has none.
-    pub fn restore(capacity: usize, reader: &Reader<'_>, name: &str, next: usize) -> Result<Self, WeightsError> {
-        let capacity = capacity.max(1);
-        let (shape, numbers) = reader.array(name)?;
-        if shape.len() != 2 || shape[1] != NUMBERS || shape[0] > capacity {
-            let expected = format!("at most {capacity} rows of {NUMBERS} values");
-            return Err(WeightsError::Array { name: name.to_owned(), expected });
-        }
-        let held = numbers.as_chunks::<NUMBERS>().0.iter().map(StoredTransition::from_numbers).collect();
-        Ok(Self { held, capacity, next: next % capacity })
-    }
+    let held = numbers.as_chunks::<NUMBERS>().0.iter().map(StoredTransition::from_numbers).collect();
+    Ok(ReplayBuffer::restore(capacity, held, next))
 }
 
 #[cfg(test)]
@@ -146,23 +101,21 @@ mod tests {
     }
 
     #[test]
-    fn the_oldest_make_room_and_a_file_gives_back_the_same_ring() {
+    fn a_file_gives_back_the_same_ring() {
         let mut replay = ReplayBuffer::new(3);
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-        assert!(replay.draw(&mut rng).is_none());
         (0..5).for_each(|number| replay.push(transition(number)));
         let mut writer = Writer::default();
-        let next = replay.save(MEMORY, &mut writer);
+        let next = save(&replay, MEMORY, &mut writer);
         let bytes = writer.finish(&"").unwrap();
-        let mut again = ReplayBuffer::restore(3, &Reader::new(&bytes).unwrap(), MEMORY, next).unwrap();
+        let mut again = restore(3, &Reader::new(&bytes).unwrap(), MEMORY, next).unwrap();
         for ring in [&mut replay, &mut again] {
             ring.push(transition(5));
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
-            let mut drawn: Vec<_> = (0..60).map(|_| *ring.draw(&mut rng).unwrap()).collect();
+            let mut drawn = ring.sample(60, &mut rng);
             drawn.sort_by(|a, b| a.reward.total_cmp(&b.reward));
             drawn.dedup();
             assert_eq!(drawn, [transition(3), transition(4), transition(5)]);
         }
-        assert!(ReplayBuffer::restore(2, &Reader::new(&bytes).unwrap(), MEMORY, 0).is_err());
+        assert!(restore(2, &Reader::new(&bytes).unwrap(), MEMORY, 0).is_err());
     }
 }
