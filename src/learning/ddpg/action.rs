@@ -24,25 +24,12 @@ pub enum ActionSpace {
     Full,
 }
 
-/// A name of an action space that is not known.
-#[derive(Debug, thiserror::Error, PartialEq)]
-#[error("there is no action space \"{0}\"; use phi-v or full")]
-pub struct UnknownActionSpace(String);
-
 impl ActionSpace {
     /// How many numbers of an [`Action`] it uses; the others stay nought.
     pub const fn actions(self) -> usize {
         match self {
             Self::PhiV => 2,
             Self::Full => ACTIONS,
-        }
-    }
-
-    /// Name on the command line and in files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::PhiV => "phi-v",
-            Self::Full => "full",
         }
     }
 
@@ -55,21 +42,6 @@ impl ActionSpace {
                  limit, theta 0 to 20 degrees"
             }
         }
-    }
-}
-
-impl std::fmt::Display for ActionSpace {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.pad(self.name())
-    }
-}
-
-impl std::str::FromStr for ActionSpace {
-    type Err = UnknownActionSpace;
-
-    fn from_str(text: &str) -> Result<Self, UnknownActionSpace> {
-        let mut all = [Self::PhiV, Self::Full].into_iter();
-        all.find(|space| space.name() == text).ok_or_else(|| UnknownActionSpace(text.to_owned()))
     }
 }
 

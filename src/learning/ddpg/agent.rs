@@ -101,21 +101,6 @@ impl Ddpg {
         Self { online: self.online.with(operations), target: self.target.with(operations), ..self }
     }
 
-    /// What the agent was made with.
-    pub const fn hyperparameters(&self) -> &Hyperparameters {
-        &self.hyper
-    }
-
-    /// The networks that learn.
-    pub const fn online(&self) -> &Networks {
-        &self.online
-    }
-
-    /// Their running averages: what plays once training is over.
-    pub const fn target(&self) -> &Networks {
-        &self.target
-    }
-
     /// Learns from a batch of shots that were played, and the actor besides from the best strokes that searches have found.
     /// `lr_factor` scales both learning rates.
     ///
@@ -296,7 +281,7 @@ mod tests {
             for which in 0..3 {
                 // Where a rectified unit happens to be at its kink, the slope is the mean of two.
                 let close = errors.iter().filter(|errors| errors[which] < 0.005).count();
-                assert!(close >= 3 && errors.iter().all(|errors| errors[which] < 0.05), "{space}: {errors:?}");
+                assert!(close >= 3 && errors.iter().all(|errors| errors[which] < 0.05), "{space:?}: {errors:?}");
             }
         }
     }

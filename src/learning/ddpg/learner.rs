@@ -163,7 +163,7 @@ mod tests {
         let checkpoint = writer.finish(&note).unwrap();
         let policy = Learner::policy(&teacher, 0.5, "2026-11-20").unwrap().unwrap();
         let weights = |trainer: &Trainer| {
-            let Networks { actor, critic, .. } = trainer.agent.target();
+            let Networks { actor, critic, .. } = &trainer.agent.target;
             [actor, critic].map(|network| network.parameters().to_vec1::<f32>().unwrap())
         };
         // A policy has half the digits of a weight, a checkpoint has all.
@@ -212,8 +212,8 @@ mod tests {
         fresh.load_weights(&Reader::new(&file).unwrap()).unwrap();
         let parameters = |network: &Mlp| network.parameters().to_vec1::<f32>().unwrap();
         let begun = Trainer::new(task, table.clone()).unwrap();
-        assert_eq!(parameters(&fresh.agent.target().actor), parameters(&begun.agent.target().actor));
-        assert_eq!(parameters(&fresh.agent.target().critic), parameters(&pupil.agent.target().critic));
+        assert_eq!(parameters(&fresh.agent.target.actor), parameters(&begun.agent.target.actor));
+        assert_eq!(parameters(&fresh.agent.target.critic), parameters(&pupil.agent.target.critic));
         // Once it has learnt, it makes a difference who plays.
         for _ in 0..30 {
             pupil.iterate().unwrap();

@@ -74,7 +74,7 @@ impl Trainer {
                 (layout, Conditions { errors: Venues::errors(&mut self.rng), ..conditions })
             })
             .collect();
-        let (observed, actions, _) = self.judged(self.agent.target(), &scenes)?;
+        let (observed, actions, _) = self.judged(&self.agent.target, &scenes)?;
         let heads = actions.len() / observed.observations().len();
         let proposals: Vec<_> =
             actions.iter().enumerate().map(|(row, action)| (observed.observations()[row / heads], *action)).collect();
@@ -108,7 +108,7 @@ impl Trainer {
         if scenes.is_empty() {
             return Ok(0.0);
         }
-        let (observed, actions, logits) = self.judged(self.agent.target(), scenes)?;
+        let (observed, actions, logits) = self.judged(&self.agent.target, scenes)?;
         let heads = actions.len() / observed.observations().len();
         let mut total = 0.0;
         for (index, scene) in scenes.iter().enumerate() {
@@ -127,7 +127,7 @@ impl Trainer {
         if scenes.is_empty() {
             return Ok(0.0);
         }
-        let (observed, actions, logits) = self.judged(self.agent.online(), scenes)?;
+        let (observed, actions, logits) = self.judged(&self.agent.online, scenes)?;
         let heads = actions.len() / observed.observations().len();
         let mut total = 0.0;
         for (index, scene) in scenes.iter().enumerate() {
@@ -147,7 +147,7 @@ impl Trainer {
             self.venues.seen(Observation::new(layout, self.rng.random_range(0..OBSERVATIONS)), *conditions)
         });
         let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &seen.collect::<Vec<_>>())?;
-        let actions = self.agent.online().actions(&observed)?;
+        let actions = self.agent.online.actions(&observed)?;
         let heads = actions.len() / scenes.len();
         let mut total = 0.0;
         for (index, scene) in scenes.iter().enumerate() {

@@ -108,7 +108,7 @@ impl Trainer {
             held_out_reward,
             hyperparameters: self.task.hyperparameters.clone(),
         };
-        Ok(Policy::new(self.agent.target().duplicate()?, origin))
+        Ok(Policy::new(self.agent.target.duplicate()?, origin))
     }
 
     pub(super) const fn space(&self) -> ActionSpace {
@@ -185,7 +185,7 @@ pub(in crate::learning) mod tests {
                 trainer.iterate().unwrap();
             }
             assert_eq!((trainer.shots(), trainer.updates()), (160, 10));
-            trainer.agent.target().actor.parameters().to_vec1::<f32>().unwrap()
+            trainer.agent.target.actor.parameters().to_vec1::<f32>().unwrap()
         };
         assert_eq!(weights(5), weights(5));
         assert_ne!(weights(5), weights(6));

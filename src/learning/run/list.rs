@@ -123,12 +123,6 @@ pub struct Listing {
     pub unreadable: Vec<String>,
 }
 
-impl From<Vec<Summary>> for Listing {
-    fn from(runs: Vec<Summary>) -> Self {
-        Self { runs, unreadable: Vec::new() }
-    }
-}
-
 /// The runs in a folder, looked at again and again: metrics are read only where they have changed.
 #[derive(Debug)]
 pub struct RunsFolder {

@@ -145,11 +145,6 @@ impl Run {
         self.learner.as_ref()
     }
 
-    /// What its configuration says.
-    pub const fn config(&self) -> &Config {
-        &self.config
-    }
-
     /// Where the policy is written, if the agent has one that the coach can use.
     pub fn policy_path(&self) -> PathBuf {
         self.folder.join(POLICY)

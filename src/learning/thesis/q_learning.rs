@@ -105,11 +105,6 @@ impl QLearning {
         });
         &mut tried[place].1
     }
-
-    /// States that have been met.
-    pub fn states(&self) -> usize {
-        self.table.len()
-    }
 }
 
 fn choice(index: u32) -> Choice {

@@ -31,7 +31,7 @@ use tempfile::TempDir;
 use super::{
     keys::key,
     practice::exercise,
-    runs::{NAME, OTHER, RUNS, known, standing, summaries},
+    runs::{NAME, OTHER, RUNS, known, listing, standing},
 };
 
 pub const TRUE_COLOUR: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
@@ -156,7 +156,7 @@ impl Player {
 
     /// At the list of three runs.
     pub fn listing(caps: Capabilities) -> Self {
-        Self::at_runs(caps).report(Report::Runs(Ok(summaries().into())))
+        Self::at_runs(caps).report(Report::Runs(Ok(listing())))
     }
 
     /// At a run that has played 1.2 of 5 million shots.

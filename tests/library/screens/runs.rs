@@ -7,7 +7,7 @@ use carom::{
         Config,
         examples::{Example, Examples},
         follow::{Condition, Update},
-        list::{Stage, Summary},
+        list::{Listing, Stage, Summary},
         metrics::Record,
         status::{Phase, RunStatus},
     },
@@ -40,12 +40,13 @@ pub fn summary(name: &str, shots: u64, best: Option<f64>, state: Stage) -> Summa
     }
 }
 
-pub fn summaries() -> Vec<Summary> {
-    vec![
+pub fn listing() -> Listing {
+    let runs = vec![
         summary(OTHER, 5_000_000, Some(0.931), Stage::Finished),
         summary(NAME, 1_200_000, Some(0.874), Stage::Running),
         summary("20261118-three-cushions/seed-1", 40_000, None, Stage::Interrupted),
-    ]
+    ];
+    Listing { runs, ..Listing::default() }
 }
 
 pub fn config(reward: &str) -> Config {

@@ -5,7 +5,7 @@ use std::{path::Path, sync::Arc, time::Duration};
 use super::{
     keys::key,
     player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check, check_at},
-    runs::{NAME, OTHER, RUNS, config, known, record, standing, summaries, summary},
+    runs::{NAME, OTHER, RUNS, config, known, listing, record, standing, summary},
 };
 use carom::{
     game::Rule,
@@ -50,9 +50,9 @@ fn the_list_of_runs() {
 #[test]
 fn the_newest_run_comes_first_and_the_mark_stays_at_its_run() {
     let player = Player::listing(TRUE_COLOUR).press("Down");
-    let mut more = summaries();
-    more.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Stage::Running));
-    let player = player.report(Report::Runs(Ok(more.into()))).press("Enter");
+    let mut more = listing();
+    more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Stage::Running));
+    let player = player.report(Report::Runs(Ok(more))).press("Enter");
     assert_eq!(player.app.wanted().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
 }
 
@@ -240,7 +240,8 @@ fn a_run_is_started_once_however_long_the_key_is_held() {
     let player = died().press("r r r");
     assert_eq!(player.effects.len(), 1);
     player.says("the run is being started");
-    let player = player.press("Esc").report(Report::Runs(Ok(vec![summary(NAME, 9, None, Stage::Interrupted)].into())));
+    let listed = Listing { runs: vec![summary(NAME, 9, None, Stage::Interrupted)], ..Listing::default() };
+    let player = player.press("Esc").report(Report::Runs(Ok(listed)));
     assert_eq!(player.press("r r").effects.len(), 1, "nor from the list");
     let again = died().press("r").condition(Condition::Is(Phase::Training), None).condition(Condition::Died, None);
     assert_eq!(again.press("r").effects.len(), 2, "it has come and gone");
@@ -435,7 +436,7 @@ proptest! {
         for (index, news) in steps {
             player.event(&key(KEYS.split(' ').nth(index).unwrap()));
             player = match news {
-                0 => player.report(Report::Runs(Ok(summaries().into()))),
+                0 => player.report(Report::Runs(Ok(listing()))),
                 1 => player.report(Report::Runs(Ok(Listing::default()))),
                 2 => player.update(Slot::Main, NAME, known()),
                 3 => player.update(Slot::Compared, OTHER, known()),

@@ -11,7 +11,7 @@ use crate::{
         ddpg::{context::knows, hyperparameters::Hyperparameters, networks::Networks},
         nn::weights::{Reader, WeightsError, Writer},
     },
-    storage::{self, write_atomic},
+    storage,
     table::Table,
 };
 
@@ -165,16 +165,7 @@ impl Policy {
         Ok(Self { networks, origin })
     }
 
-    /// Writes the policy to a file, whole or not at all.
-    ///
-    /// # Errors
-    /// Whatever the file system reports.
-    pub fn save(&self, path: &Path) -> std::io::Result<()> {
-        write_atomic(path, &self.to_bytes().map_err(std::io::Error::other)?)
-    }
-
-    /// The bytes of the file that [`Policy::save`] writes, with half the digits of the weights: success does not depend on the
-    /// others.
+    /// The bytes of a policy file, with half the digits of the weights: success does not depend on the others.
     pub(in crate::learning) fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let mut writer = Writer::default();
         for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
@@ -234,7 +225,7 @@ mod tests {
         let (policy, table) = (bundled(), Table::default());
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("policy.safetensors");
-        policy.save(&path).unwrap();
+        std::fs::write(&path, policy.to_bytes().unwrap()).unwrap();
         let layout = Layout::opening(&table);
         assert_eq!(
             Policy::load(&path).unwrap().proposals(&table, &layout, &Skill::PERFECT),

@@ -53,7 +53,6 @@ pub struct History {
     thinned: Thinned,
     recent: VecDeque<Line>,
     last: Option<Record>,
-    lines: u64,
     best: Option<f64>,
     odd: [Odd; Quantity::COUNT],
 }
@@ -88,18 +87,12 @@ impl History {
             self.thinned.push(&oldest);
         }
         self.recent.push_back(Line { shots: record.shots, values });
-        self.lines += 1;
         self.last = Some(record.clone());
     }
 
     /// The last line.
     pub fn last(&self) -> Option<&Record> {
         self.last.as_ref()
-    }
-
-    /// Lines added.
-    pub fn lines(&self) -> u64 {
-        self.lines
     }
 
     /// The largest held-out reward so far.

@@ -4,12 +4,12 @@ use carom::terminal::{Effect, KeyContext, Report, TrainingContext};
 
 use crate::screens::{
     player::{Player, TRUE_COLOUR},
-    runs::summaries,
+    runs::listing,
 };
 
 /// At the form's number of shots.
 fn at_the_shots() -> Player {
-    Player::at_runs(TRUE_COLOUR).report(Report::Runs(Ok(summaries().into()))).press("n Down Down Down")
+    Player::at_runs(TRUE_COLOUR).report(Report::Runs(Ok(listing()))).press("n Down Down Down")
 }
 
 /// The option of the run that was started.
