@@ -140,21 +140,7 @@ mod tests {
     #[test]
     fn a_file_is_a_version_and_an_event_a_line() {
         let folder = tempfile::tempdir().unwrap();
-        let record = Record {
-            shots: 300,
-            seconds: 1.5,
-            shots_per_second: 100.0,
-            updates: 3,
-            learning_rate: 1e-3,
-            critic_loss: f64::NAN,
-            actor_loss: None,
-            q_value: 0.5,
-            practice_reward: 0.25,
-            exploration: None,
-            memory: None,
-            held_out_reward: None,
-            held_out_reach: None,
-        };
+        let record = Record { shots: 300, critic_loss: f64::NAN, practice_reward: 0.25, ..Record::default() };
         let mut file = EventFile::create(folder.path(), std::slice::from_ref(&record)).unwrap();
         file.push(&record).unwrap();
         let bytes = std::fs::read(folder.path().join(FILE)).unwrap();

@@ -8,21 +8,7 @@ use super::*;
 
 /// A line with `shots`, a reward and a held-out reward.
 fn record(shots: u64, reward: f64, held_out: Option<f64>) -> Record {
-    Record {
-        shots,
-        seconds: shots as f64 / 100.0,
-        shots_per_second: 100.0,
-        updates: shots * 2,
-        learning_rate: 1e-3,
-        critic_loss: 0.5,
-        actor_loss: None,
-        q_value: 0.5,
-        practice_reward: reward,
-        exploration: None,
-        memory: None,
-        held_out_reward: held_out,
-        held_out_reach: None,
-    }
+    Record { shots, practice_reward: reward, held_out_reward: held_out, ..Record::default() }
 }
 
 /// Lines as a run may write them: uneven steps, wild values, a held-out reward every now and then.

@@ -267,18 +267,11 @@ fn record(n: u64, random: &mut Xoshiro256PlusPlus) -> Record {
     let mut noise = |size: f64| size * (random.random::<f64>() + random.random::<f64>() - 1.0);
     Record {
         shots: 400 * (n + 1),
-        seconds: n as f64 / 10.0,
-        shots_per_second: 4000.0,
-        updates: 100 * n,
-        learning_rate: 1e-3,
         critic_loss: 0.05 + 0.6 * (1.0 - learnt) + noise(0.03),
-        actor_loss: None,
         q_value: 0.4 * learnt + noise(0.02),
         practice_reward: 0.35 * learnt + noise(0.08),
-        exploration: None,
-        memory: None,
         held_out_reward: (n % 50 == 49).then(|| 0.7 * learnt + noise(0.05)),
-        held_out_reach: None,
+        ..Record::default()
     }
 }
 
