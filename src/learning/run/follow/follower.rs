@@ -10,7 +10,7 @@ use super::{
     Condition, Update,
     condition::{Signs, condition},
     stamp::Stamp,
-    tail::{Look, Tail, Taken},
+    tail::{Tail, Taken},
 };
 use crate::{
     learning::run::{
@@ -86,20 +86,20 @@ impl Follower {
             self.look_seldom(&mut update);
         }
         self.look_at_standing(&mut update);
-        let look = self.look_at_metrics(&mut update, see);
+        let is_there = self.look_at_metrics(&mut update, see);
         self.signs.silent = self.heard.elapsed();
         let now = condition(&self.signs);
         if now != self.condition {
             self.condition = now;
             update.condition = Some(now);
         }
-        self.troubles[2] = self.trouble_of_metrics(look);
+        self.troubles[2] = self.trouble_of_metrics(is_there);
         let notices: Vec<String> = self.troubles.iter().flatten().cloned().collect();
         if notices != self.told {
             self.told.clone_from(&notices);
             update.notices = Some(notices);
         }
-        (!update.is_empty()).then_some(update)
+        (update != Update::default()).then_some(update)
     }
 
     /// What changes once a minute or never.
@@ -162,12 +162,13 @@ impl Follower {
         }
     }
 
-    fn look_at_metrics(&mut self, update: &mut Update, see: &mut dyn FnMut(&Record)) -> io::Result<Look> {
+    /// Reads what is new; `false` where there is no file.
+    fn look_at_metrics(&mut self, update: &mut Update, see: &mut dyn FnMut(&Record)) -> io::Result<bool> {
         // Millions of lines become a history at once; only those that come later are handed on one by one.
         let mut lines = self.lines;
         let mut history = (lines == 0).then(Box::<History>::default);
         let (mut records, mut last, mut is_afresh) = (Vec::new(), None, false);
-        let look = self.tail.look(|taken| match taken {
+        let is_there = self.tail.look(|taken| match taken {
             Taken::Afresh => {
                 history = Some(Box::default());
                 records.clear();
@@ -184,24 +185,23 @@ impl Follower {
                 }
             }
         });
-        let read = last.is_some() || matches!(look, Ok(Look::Afresh));
-        update.history = history.filter(|_| read);
+        update.history = history.filter(|_| last.is_some() || is_afresh && is_there.is_ok());
         self.lines = lines;
         self.signs.shots = if is_afresh { last } else { last.or(self.signs.shots) };
         update.records = records;
-        look
+        is_there
     }
 
-    fn trouble_of_metrics(&self, look: io::Result<Look>) -> Option<String> {
+    fn trouble_of_metrics(&self, is_there: io::Result<bool>) -> Option<String> {
         let read = self.signs.shots.unwrap_or(0);
         // A line may be on its way, and another one due.
         let is_behind = self.log_every > 0 && self.said > read.saturating_add(self.log_every.saturating_mul(3));
-        match look {
+        match is_there {
             Err(error) => Some(format!("{METRICS} cannot be read: {error}; what was read before is still shown")),
-            Ok(Look::Missing) if self.lines > 0 => {
+            Ok(false) if self.lines > 0 => {
                 Some(format!("{METRICS} has been removed; what was read before is still shown"))
             }
-            Ok(Look::Missing) if is_behind => {
+            Ok(false) if is_behind => {
                 Some(format!("{METRICS} is missing: there is nothing to show of the {} shots played", self.said))
             }
             Ok(_) => match self.tail.unreadable() {

@@ -25,7 +25,7 @@ use super::{
 };
 
 /// What is known of a run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Followed {
     /// Its folder.
     pub folder: PathBuf,
@@ -44,7 +44,7 @@ pub struct Followed {
 }
 
 /// What has changed since the last look. Whatever is `None` is as it was.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Update {
     /// Its configuration.
     pub config: Option<Box<Config>>,
@@ -62,31 +62,10 @@ pub struct Update {
     pub notices: Option<Vec<String>>,
 }
 
-impl Update {
-    /// Whether nothing has changed.
-    pub const fn is_empty(&self) -> bool {
-        self.config.is_none()
-            && self.history.is_none()
-            && self.records.is_empty()
-            && self.standing.is_none()
-            && self.condition.is_none()
-            && self.examples.is_none()
-            && self.notices.is_none()
-    }
-}
-
 impl Followed {
     /// A run of which nothing is known yet.
     pub fn new(folder: &Path) -> Self {
-        Self {
-            folder: folder.to_owned(),
-            config: None,
-            history: History::default(),
-            standing: None,
-            condition: Condition::Unknown,
-            examples: None,
-            notices: Vec::new(),
-        }
+        Self { folder: folder.to_owned(), ..Self::default() }
     }
 
     /// Shots played, as far as is known.

@@ -16,19 +16,6 @@ const CHUNK: usize = 1 << 20;
 /// grown again would be taken for the same otherwise.
 const MARK: usize = 256;
 
-/// What a look at the file has brought.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Look {
-    /// Nothing new.
-    Same,
-    /// New lines.
-    More,
-    /// The file is another one than before: it was read from its beginning.
-    Afresh,
-    /// There is no file.
-    Missing,
-}
-
 /// Reads a file that grows.
 #[derive(Debug)]
 pub struct Tail {
@@ -59,38 +46,32 @@ impl Tail {
         self.stamp.is_some_and(|stamp| self.offset < stamp.length())
     }
 
-    /// Reads what is new and hands it to `take`.
+    /// Reads what is new and hands it to `take`; `false` where there is no file.
     ///
     /// # Errors
     /// Whatever the file system reports.
-    pub fn look(&mut self, mut take: impl FnMut(Taken)) -> io::Result<Look> {
+    pub fn look(&mut self, mut take: impl FnMut(Taken)) -> io::Result<bool> {
         let stamp = Stamp::of(&self.path);
         if stamp == self.stamp {
-            return Ok(if stamp.is_some() { Look::Same } else { Look::Missing });
+            return Ok(stamp.is_some());
         }
         let mut file = match storage::open(&self.path) {
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 self.stamp = None;
-                return Ok(Look::Missing);
+                return Ok(false);
             }
             file => file?,
         };
         // Taken from the file that is read: another may stand in its place by now.
         let stamp = Stamp::from(&file.metadata()?);
-        let afresh = !self.is_the_same(&mut file, stamp.length())?;
-        if afresh {
+        if !self.is_the_same(&mut file, stamp.length())? {
             *self = Self::new(&self.path);
             take(Taken::Afresh);
         }
-        let before = self.offset;
         self.read(&mut file, &mut take)?;
         // Not before: what could not be read is tried again.
         self.stamp = Some(stamp);
-        Ok(match () {
-            () if afresh => Look::Afresh,
-            () if self.offset > before => Look::More,
-            () => Look::Same,
-        })
+        Ok(true)
     }
 
     /// Whether the file still begins with what has been read of it.
@@ -156,13 +137,14 @@ mod tests {
         )
     }
 
-    fn look(tail: &mut Tail) -> (Look, Vec<u64>) {
-        let mut shots = Vec::new();
-        let look = tail.look(|taken| match taken {
-            Taken::Afresh => shots.clear(),
+    /// Whether the file was read afresh, and its new lines; `None` where there is no file.
+    fn look(tail: &mut Tail) -> Option<(bool, Vec<u64>)> {
+        let (mut afresh, mut shots) = (false, Vec::new());
+        let is_there = tail.look(|taken| match taken {
+            Taken::Afresh => afresh = true,
             Taken::Line(record) => shots.push(record.shots),
         });
-        (look.unwrap(), shots)
+        is_there.unwrap().then_some((afresh, shots))
     }
 
     #[test]
@@ -170,15 +152,15 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("metrics.jsonl");
         let mut tail = Tail::new(&path);
-        assert_eq!(look(&mut tail), (Look::Missing, vec![]));
+        assert_eq!(look(&mut tail), None);
         let (first, second) = (line(1), line(2));
         let (half, rest) = second.split_at(30);
         fs::write(&path, first.clone() + half).unwrap();
-        assert_eq!(look(&mut tail), (Look::More, vec![1]));
+        assert_eq!(look(&mut tail), Some((false, vec![1])));
         assert!(tail.is_torn());
-        assert_eq!(look(&mut tail), (Look::Same, vec![]));
+        assert_eq!(look(&mut tail), Some((false, vec![])));
         fs::write(&path, first + half + rest + "no line of ours\n\n" + &line(3)).unwrap();
-        assert_eq!(look(&mut tail), (Look::More, vec![2, 3]));
+        assert_eq!(look(&mut tail), Some((false, vec![2, 3])));
         assert_eq!((tail.is_torn(), tail.unreadable()), (false, 1));
     }
 
@@ -188,20 +170,20 @@ mod tests {
         let path = folder.path().join("metrics.jsonl");
         let mut tail = Tail::new(&path);
         fs::write(&path, line(1) + &line(2) + &line(3)).unwrap();
-        assert_eq!(look(&mut tail), (Look::More, vec![1, 2, 3]));
+        assert_eq!(look(&mut tail), Some((false, vec![1, 2, 3])));
         fs::write(&path, line(1)).unwrap();
-        assert_eq!(look(&mut tail), (Look::Afresh, vec![1]));
+        assert_eq!(look(&mut tail), Some((true, vec![1])));
         // Cut off and grown again between two looks: longer than before, and yet another file.
         fs::write(&path, line(7) + &line(8)).unwrap();
-        assert_eq!(look(&mut tail), (Look::Afresh, vec![7, 8]));
+        assert_eq!(look(&mut tail), Some((true, vec![7, 8])));
         fs::remove_file(&path).unwrap();
-        assert_eq!(look(&mut tail), (Look::Missing, vec![]));
+        assert_eq!(look(&mut tail), None);
         fs::write(&path, line(7) + &line(8) + &line(9)).unwrap();
-        assert_eq!(look(&mut tail), (Look::More, vec![9]));
+        assert_eq!(look(&mut tail), Some((false, vec![9])));
         fs::remove_file(&path).unwrap();
         look(&mut tail);
         fs::write(&path, line(1)).unwrap();
-        assert_eq!(look(&mut tail), (Look::Afresh, vec![1]));
+        assert_eq!(look(&mut tail), Some((true, vec![1])));
     }
 
     #[test]
@@ -216,7 +198,7 @@ mod tests {
         assert!(!tail.is_torn());
         std::fs::remove_dir(&path).unwrap();
         fs::write(&path, line(1)).unwrap();
-        assert_eq!(look(&mut tail), (Look::More, vec![1]));
+        assert_eq!(look(&mut tail), Some((false, vec![1])));
     }
 
     #[test]
@@ -227,9 +209,9 @@ mod tests {
         assert!(many.len() > CHUNK + CHUNK / 2);
         fs::write(&path, many).unwrap();
         let mut tail = Tail::new(&path);
-        assert_eq!(look(&mut tail).1, (1..=10_000).collect::<Vec<_>>());
+        assert_eq!(look(&mut tail).unwrap().1, (1..=10_000).collect::<Vec<_>>());
         fs::write(&path, vec![b'x'; 9 * CHUNK]).unwrap();
-        assert_eq!(look(&mut tail), (Look::Afresh, vec![]));
+        assert_eq!(look(&mut tail), Some((true, vec![])));
         assert_eq!(tail.unreadable(), 2);
     }
 }

@@ -47,7 +47,7 @@ pub struct Odd {
 }
 
 /// A run's lines, at most a megabyte and a quarter of them.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     /// The lines before the recent ones: a line is in one of both, never in both.
     thinned: Thinned,
@@ -58,7 +58,7 @@ pub struct History {
 }
 
 /// A line's values in the order of [`Quantity::ALL`]; `None` is what it does not report.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Line {
     shots: u64,
     values: [Option<f64>; Quantity::COUNT],

@@ -4,7 +4,7 @@ use super::{Line, Odd, Point, Span};
 use crate::learning::run::quantity::Quantity;
 
 /// What stays of the values of one quantity.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
     min: f64,
     /// A running mean, because a sum of large values may overflow.
@@ -74,7 +74,7 @@ impl Summary {
 }
 
 /// Successive lines as one.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
     shots: (u64, u64),
     summaries: [Summary; Quantity::COUNT],

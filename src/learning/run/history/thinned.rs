@@ -6,7 +6,7 @@ use super::{Line, stretch::Stretch};
 pub const CAPACITY: usize = 2048;
 
 /// Stretches of equally many lines, except for the last one, which is still filling.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Thinned {
     stretches: Vec<Stretch>,
     /// Lines in a full stretch.
