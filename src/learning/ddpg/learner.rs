@@ -31,9 +31,8 @@ pub const AGENT: Agent = Agent {
         let refuse = |reason: &dyn std::fmt::Display| StartError::Settings(reason.to_string());
         let hyperparameters: Hyperparameters = serde_json::from_value(settings).map_err(|error| refuse(&error))?;
         hyperparameters.validate().map_err(|error| refuse(&error))?;
-        let TrainingPlan { reward, seed, shots } = plan;
         let of_points = hyperparameters.hindsight > 0.0 || hyperparameters.demonstrations > 0.0;
-        if of_points && reward.rule().is_none() {
+        if of_points && plan.reward.rule().is_none() {
             let reason =
                 "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
             return Err(refuse(&reason));
@@ -46,7 +45,7 @@ pub const AGENT: Agent = Agent {
         if hyperparameters.searched > 0 && !hyperparameters.context {
             return Err(refuse(&"searches are for players who err: use searched with context = true"));
         }
-        Ok(Box::new(Trainer::new(Task { reward, seed, shots, hyperparameters }, table)?))
+        Ok(Box::new(Trainer::new(Task { plan, hyperparameters }, table)?))
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
     of_one_start: &["new_actor"],
@@ -58,12 +57,11 @@ impl Learner for Trainer {
     }
 
     fn plan(&self) -> TrainingPlan {
-        let Task { reward, seed, shots, .. } = self.task;
-        TrainingPlan { reward, seed, shots }
+        self.task.plan
     }
 
     fn table(&self) -> &Table {
-        self.table()
+        &self.table
     }
 
     fn settings(&self) -> Value {
@@ -72,11 +70,11 @@ impl Learner for Trainer {
     }
 
     fn shots(&self) -> u64 {
-        self.shots()
+        self.shots
     }
 
     fn updates(&self) -> u64 {
-        self.updates()
+        self.updates
     }
 
     fn learning_rate(&self) -> f64 {
@@ -96,12 +94,12 @@ impl Learner for Trainer {
     }
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
-        Ok(score(&self.policy(0.0, "")?, self.table(), self.task.reward, layouts))
+        Ok(score(&self.policy(0.0, "")?, &self.table, self.task.plan.reward, layouts))
     }
 
     fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
         let policy = self.policy(0.0, "")?;
-        Ok(layouts.iter().map(|layout| policy.propose(self.table(), layout, &Skill::PERFECT)).collect())
+        Ok(layouts.iter().map(|layout| policy.propose(&self.table, layout, &Skill::PERFECT)).collect())
     }
 
     fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError> {
@@ -168,7 +166,9 @@ mod tests {
         };
         // A policy has half the digits of a weight, a checkpoint has all.
         for (file, digits) in [(checkpoint.as_slice(), 0.0), (&policy, 5e-4)] {
-            let mut pupil = Trainer::new(Task { seed: 6, ..small_task() }, Table::default()).unwrap();
+            let mut task = small_task();
+            task.plan.seed = 6;
+            let mut pupil = Trainer::new(task.clone(), Table::default()).unwrap();
             assert_ne!(weights(&pupil), weights(&teacher));
             pupil.load_weights(&Reader::new(file).unwrap()).unwrap();
             let [own, given] = [&pupil, &teacher].map(|trainer| weights(trainer).concat());
@@ -177,7 +177,6 @@ mod tests {
             );
             assert_eq!(pupil.shots(), 0);
 
-            let mut task = small_task();
             task.hyperparameters.critic_layers = vec![8];
             let refused = Trainer::new(task, Table::default()).unwrap().load_weights(&Reader::new(file).unwrap());
             let refused = refused.unwrap_err().to_string();
@@ -228,7 +227,8 @@ mod tests {
     /// A trainer that has the networks of `policy`.
     fn old_trainer(policy: &Policy) -> Trainer {
         let hyperparameters = policy.origin().hyperparameters.clone();
-        let task = Task { reward: policy.origin().reward, seed: 1, shots: 1000, hyperparameters };
+        let plan = TrainingPlan { reward: policy.origin().reward, seed: 1, shots: 1000 };
+        let task = Task { plan, hyperparameters };
         let mut trainer = Trainer::new(task, Table::default()).unwrap();
         trainer.agent = Ddpg::starting_from(policy.networks.duplicate().unwrap(), trainer.agent.hyper.clone()).unwrap();
         trainer

@@ -53,7 +53,7 @@ impl Trainer {
 
     /// Remembers an expert's shot on each layout for which there is one.
     fn add_demonstrations(&mut self, scenes: &[Scene]) {
-        let (reward, space) = (self.task.reward, self.space());
+        let (reward, space) = (self.task.plan.reward, self.space());
         for (layout, _) in scenes {
             if let Some(shot) = demonstrate(&self.table, reward, space, layout, CONTACT_STEPS, &mut self.rng) {
                 self.replay.push(shot);
@@ -79,7 +79,7 @@ impl Trainer {
         let proposals: Vec<_> =
             actions.iter().enumerate().map(|(row, action)| (observed.observations()[row / heads], *action)).collect();
         for ((layout, conditions), proposals) in scenes.iter().zip(proposals.chunks(OBSERVATIONS * heads)) {
-            let (reward, space, conditions) = (self.task.reward, self.space(), *conditions);
+            let (reward, space, conditions) = (self.task.plan.reward, self.space(), *conditions);
             let expert = Expert { venues: &self.venues, reward, space, layout, conditions };
             let strokes = expert.search(proposals, &mut self.rng);
             if let Some(best) = strokes.first() {
@@ -165,7 +165,7 @@ impl Trainer {
 
     /// Plays and remembers one shot; returns its reward.
     fn rollout(&mut self, (layout, conditions): &Scene, observation: Observation, action: Action) -> f64 {
-        let (reward, conditions) = (self.task.reward, *conditions);
+        let (reward, conditions) = (self.task.plan.reward, *conditions);
         let attempts = if conditions.errors == 0.0 { 1 } else { self.task.hyperparameters.attempts };
         let attempt = |_| self.venues.attempt(reward, layout, (&observation, action), conditions, &mut self.rng);
         let earned = (0..attempts).map(attempt).sum::<f64>() / attempts as f64;

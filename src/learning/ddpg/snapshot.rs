@@ -107,7 +107,7 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     let searched = ReplayBuffer::restore(hyper.replay, searched, note.searched_next);
     let TrainerState { task, table, rng, shots, updates, .. } = note;
     let table = Arc::new(table);
-    let venues = Venues::new(&table, inputs, task.seed);
+    let venues = Venues::new(&table, inputs, task.plan.seed);
     Ok(Trainer { task, table, venues, agent, replay, searched, rng, shots, updates })
 }
 
@@ -196,6 +196,8 @@ mod tests {
         let note = write(&Trainer::new(small_task(), Table::default()).unwrap(), &mut writer).unwrap();
         let empty = Writer::default().finish(&note).unwrap();
         let whole = writer.finish(&note).unwrap();
+        let task: Vec<_> = note["task"].as_object().unwrap().keys().collect();
+        assert_eq!(task, ["hyperparameters", "reward", "seed", "shots"], "as they have been in all checkpoints");
         assert!(read(&Reader::new(&empty).unwrap(), note.clone()).unwrap_err().to_string().contains("online.actor"));
         let reader = Reader::new(&whole).unwrap();
         let mut other = note;

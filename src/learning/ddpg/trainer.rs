@@ -17,8 +17,10 @@ use super::{
     venues::Venues,
 };
 use crate::{
-    game::Reward,
-    learning::{learner::Iteration, replay::ReplayBuffer},
+    learning::{
+        learner::{Iteration, TrainingPlan},
+        replay::ReplayBuffer,
+    },
     printing::VERSION,
     table::Table,
 };
@@ -26,12 +28,9 @@ use crate::{
 /// What is to be learnt, and how long.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Task {
-    /// What earns a reward.
-    pub reward: Reward,
-    /// Seed of everything random. The same task gives the same weights on the same machine.
-    pub seed: u64,
-    /// Shots to play, over which the learning rates fall.
-    pub shots: u64,
+    /// What earns a reward, the seed and the number of shots. The same task gives the same weights on the same machine.
+    #[serde(flatten)]
+    pub plan: TrainingPlan,
     /// The agent's settings.
     pub hyperparameters: Hyperparameters,
 }
@@ -57,37 +56,12 @@ impl Trainer {
     /// # Errors
     /// Whatever candle reports.
     pub fn new(task: Task, table: Table) -> Result<Self> {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(task.seed);
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(task.plan.seed);
         let agent = Ddpg::new(task.hyperparameters.clone(), &mut rng)?;
         let [replay, searched] = [(); 2].map(|()| ReplayBuffer::new(task.hyperparameters.replay));
         let table = Arc::new(table);
-        let venues = Venues::new(&table, task.hyperparameters.inputs(), task.seed);
+        let venues = Venues::new(&table, task.hyperparameters.inputs(), task.plan.seed);
         Ok(Self { task, table, venues, agent, replay, searched, rng, shots: 0, updates: 0 })
-    }
-
-    /// Shots played so far.
-    pub const fn shots(&self) -> u64 {
-        self.shots
-    }
-
-    /// Whether all shots of the task have been played.
-    pub const fn is_finished(&self) -> bool {
-        self.shots >= self.task.shots
-    }
-
-    /// Updates made so far.
-    pub const fn updates(&self) -> u64 {
-        self.updates
-    }
-
-    /// What is being learnt.
-    pub const fn task(&self) -> &Task {
-        &self.task
-    }
-
-    /// The table.
-    pub fn table(&self) -> &Table {
-        &self.table
     }
 
     /// A policy that plays with the averaged networks as they are now. `held_out_reward` is what they have been
@@ -98,10 +72,10 @@ impl Trainer {
     pub fn policy(&self, held_out_reward: f64, date: &str) -> Result<Policy> {
         let origin = Origin {
             table: self.table.name.clone(),
-            reward: self.task.reward,
+            reward: self.task.plan.reward,
             actions: self.task.hyperparameters.actions.meaning().to_owned(),
             features: self.task.hyperparameters.inputs().version().to_owned(),
-            seed: self.task.seed,
+            seed: self.task.plan.seed,
             shots: self.shots,
             date: date.to_owned(),
             version: VERSION.to_owned(),
@@ -150,7 +124,7 @@ impl Trainer {
 
     /// Part of the first learning rates that is left: half a cosine from 1 at the first shot to 0 at the last.
     pub fn lr_schedule(&self) -> f64 {
-        let done = (self.shots as f64 / self.task.shots as f64).min(1.0);
+        let done = (self.shots as f64 / self.task.plan.shots as f64).min(1.0);
         0.5 * (1.0 + (std::f64::consts::PI * done).cos())
     }
 }
@@ -158,9 +132,13 @@ impl Trainer {
 #[cfg(test)]
 pub(in crate::learning) mod tests {
     use super::*;
-    use crate::learning::{
-        ddpg::policy::score,
-        evaluation::{HELD_OUT_SEED, held_out_layouts},
+    use crate::{
+        game::Reward,
+        learning::{
+            ddpg::policy::score,
+            evaluation::{HELD_OUT_SEED, held_out_layouts},
+            learner::Learner,
+        },
     };
 
     /// A task that is learnt in an instant, or not at all.
@@ -174,13 +152,15 @@ pub(in crate::learning) mod tests {
             replay: 100,
             ..Hyperparameters::default()
         };
-        Task { reward: Reward::R1, seed: 5, shots: 160, hyperparameters }
+        Task { plan: TrainingPlan { reward: Reward::R1, seed: 5, shots: 160 }, hyperparameters }
     }
 
     #[test]
     fn the_same_task_gives_the_same_weights_and_another_seed_gives_others() {
         let weights = |seed| {
-            let mut trainer = Trainer::new(Task { seed, ..small_task() }, Table::default()).unwrap();
+            let mut task = small_task();
+            task.plan.seed = seed;
+            let mut trainer = Trainer::new(task, Table::default()).unwrap();
             while !trainer.is_finished() {
                 trainer.iterate().unwrap();
             }
@@ -204,7 +184,8 @@ pub(in crate::learning) mod tests {
 
     #[test]
     fn a_turn_that_leaves_nothing_to_remember_is_no_failure() {
-        let mut task = Task { reward: Reward::ThreeCushion, ..small_task() };
+        let mut task = small_task();
+        task.plan.reward = Reward::ThreeCushion;
         task.hyperparameters.demonstrations = 1.0;
         task.hyperparameters.shots_per_update = 1;
         let mut trainer = Trainer::new(task, Table::preset("thesis").unwrap()).unwrap();
@@ -237,7 +218,7 @@ pub(in crate::learning) mod tests {
             target_rate: 0.01,
             ..Hyperparameters::default()
         };
-        let task = Task { reward: Reward::R3, seed: 1, shots: 64 * 1_000, hyperparameters };
+        let task = Task { plan: TrainingPlan { reward: Reward::R3, seed: 1, shots: 64 * 1_000 }, hyperparameters };
         let table = Table::preset("textbook").unwrap();
         let mut trainer = Trainer::new(task, table.clone()).unwrap();
         let layouts = held_out_layouts(&table, 400, HELD_OUT_SEED);
