@@ -141,15 +141,6 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError>;
 }
 
-/// What one shot brought.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Played {
-    /// Its reward.
-    pub reward: f64,
-    /// What was learnt after it.
-    pub stats: Option<UpdateStats>,
-}
-
 /// Where an agent and its environment are in their episodes.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Progress {
@@ -158,7 +149,8 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Plays a shot and learns (Algorithms 2 to 4), beginning an episode where none is going on.
+    /// Plays a shot and learns (Algorithms 2 to 4), beginning an episode where none is going on. Returns the shot's reward and
+    /// what was learnt after it.
     ///
     /// # Errors
     /// Where the networks no longer give finite numbers.
@@ -167,7 +159,7 @@ impl Progress {
         agent: &mut A,
         environment: &mut impl Environment,
         rng: &mut Xoshiro256PlusPlus,
-    ) -> Result<Played, Error> {
+    ) -> Result<(f64, Option<UpdateStats>), Error> {
         if !self.running {
             environment.begin(rng);
         }
@@ -177,7 +169,6 @@ impl Progress {
         let outcome = environment.act(choice.action);
         let (reward, goes_on, after) = (outcome.reward, !outcome.over, environment.observe());
         self.running = goes_on;
-        let stats = agent.learn(&Transition { before, choice, reward, goes_on, after }, rng)?;
-        Ok(Played { reward, stats })
+        Ok((reward, agent.learn(&Transition { before, choice, reward, goes_on, after }, rng)?))
     }
 }

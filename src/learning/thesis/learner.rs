@@ -22,7 +22,7 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Shots of a iteration. As many as the agents play before their first update, so that updates come in whole hundreds.
+/// Shots of an iteration. As many as the agents play before their first update, so that updates come in whole hundreds.
 const SHOTS_PER_TURN: u64 = 100;
 
 /// The lines in the list of agents.
@@ -48,7 +48,10 @@ fn start<A: Agent + 'static>(
         let refused = "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
         return Err(StartError::Settings(refused.to_owned()));
     }
-    Ok(Box::new(TrainingLoop::<A>::new(plan, table, settings)?))
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
+    let game = Carom::new(table, plan.reward, settings.episode());
+    let agent = A::new(settings, &mut rng)?;
+    Ok(Box::new(TrainingLoop { plan, agent, game, progress: Progress::default(), rng, shots: 0 }))
 }
 
 fn restore<A: Agent + 'static>(reader: &Reader<'_>, note: Value) -> Result<Box<dyn Learner>, WeightsError> {
@@ -61,7 +64,7 @@ fn restore<A: Agent + 'static>(reader: &Reader<'_>, note: Value) -> Result<Box<d
 
 /// An agent and its game.
 #[derive(Debug)]
-pub struct TrainingLoop<A> {
+struct TrainingLoop<A> {
     plan: TrainingPlan,
     agent: A,
     game: Carom,
@@ -80,52 +83,6 @@ struct TrainingLoopState<S> {
     progress: Progress,
     rng: Xoshiro256PlusPlus,
     shots: u64,
-}
-
-impl<A: Agent> TrainingLoop<A> {
-    /// An untrained agent.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
-    pub fn new(plan: TrainingPlan, table: Table, settings: A::Settings) -> candle_core::Result<Self> {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
-        let game = Carom::new(table, plan.reward, settings.episode());
-        Ok(Self { agent: A::new(settings, &mut rng)?, plan, game, progress: Progress::default(), rng, shots: 0 })
-    }
-
-    /// Plays so many shots and learns after each.
-    ///
-    /// # Errors
-    /// Where the networks no longer give finite numbers.
-    pub fn play(&mut self, shots: u64) -> candle_core::Result<Iteration> {
-        let (mut iteration, mut updates) = (Iteration::default(), 0_u32);
-        for _ in 0..shots {
-            let played = self.progress.shoot(&mut self.agent, &mut self.game, &mut self.rng)?;
-            iteration.mean_reward += played.reward / shots as f64;
-            if let Some(stats) = played.stats {
-                iteration.critic_loss += stats.loss;
-                iteration.q_value += stats.value;
-                updates += 1;
-            }
-        }
-        self.shots += shots;
-        iteration.critic_loss /= f64::from(updates.max(1));
-        iteration.q_value /= f64::from(updates.max(1));
-        Ok(iteration)
-    }
-
-    /// Mean reward of the agent's best shots on `layouts`, and the share of those that earn at least one.
-    fn examine(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
-        let (mut total, mut reached) = (0.0, 0_usize);
-        for layout in layouts {
-            let choice = self.agent.best(&self.game.observation(layout))?;
-            let reward = self.game.reward_of(layout, choice.action);
-            total += reward;
-            reached += usize::from(reward >= 1.0);
-        }
-        let count = layouts.len().max(1) as f64;
-        Ok(Score { mean_reward: total / count, best_of_k: reached as f64 / count })
-    }
 }
 
 impl<A: Agent> Learner for TrainingLoop<A> {
@@ -167,12 +124,33 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn iterate(&mut self) -> candle_core::Result<Iteration> {
-        let left = self.plan.shots.saturating_sub(self.shots);
-        self.play(left.clamp(1, SHOTS_PER_TURN))
+        let shots = self.plan.shots.saturating_sub(self.shots).clamp(1, SHOTS_PER_TURN);
+        let (mut iteration, mut updates) = (Iteration::default(), 0_u32);
+        for _ in 0..shots {
+            let (reward, learnt) = self.progress.shoot(&mut self.agent, &mut self.game, &mut self.rng)?;
+            iteration.mean_reward += reward / shots as f64;
+            if let Some(stats) = learnt {
+                iteration.critic_loss += stats.loss;
+                iteration.q_value += stats.value;
+                updates += 1;
+            }
+        }
+        self.shots += shots;
+        iteration.critic_loss /= f64::from(updates.max(1));
+        iteration.q_value /= f64::from(updates.max(1));
+        Ok(iteration)
     }
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
-        self.examine(layouts)
+        let (mut total, mut reached) = (0.0, 0_usize);
+        for layout in layouts {
+            let choice = self.agent.best(&self.game.observation(layout))?;
+            let reward = self.game.reward_of(layout, choice.action);
+            total += reward;
+            reached += usize::from(reward >= 1.0);
+        }
+        let count = layouts.len().max(1) as f64;
+        Ok(Score { mean_reward: total / count, best_of_k: reached as f64 / count })
     }
 
     fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
