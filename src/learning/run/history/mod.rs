@@ -5,7 +5,7 @@ mod thinned;
 
 use std::collections::VecDeque;
 
-use self::{stretch::Summary, thinned::Thinned};
+use self::{stretch::Stretch, thinned::Thinned};
 use super::{metrics::Record, quantity::Quantity};
 
 /// Lines that are kept as they are.
@@ -46,22 +46,15 @@ pub struct Odd {
     pub below: u64,
 }
 
-/// A run's lines, at most a megabyte and a quarter of them.
+/// A run's lines, at most 1.4 megabytes of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     /// The lines before the recent ones: a line is in one of both, never in both.
     thinned: Thinned,
-    recent: VecDeque<Line>,
+    /// Stretches of one line.
+    recent: VecDeque<Stretch>,
     last: Option<Record>,
     best: Option<f64>,
-    odd: [Odd; Quantity::COUNT],
-}
-
-/// A line's values in the order of [`Quantity::ALL`]; `None` is what it does not report.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Line {
-    shots: u64,
-    values: [Option<f64>; Quantity::COUNT],
 }
 
 impl History {
@@ -71,22 +64,15 @@ impl History {
         if self.last.as_ref().is_some_and(|last| record.shots < last.shots) {
             *self = Self::default();
         }
-        let values = Quantity::ALL.map(|quantity| quantity.of(record, self.last.as_ref()));
-        for (total, value) in self.odd.iter_mut().zip(values) {
-            let odd = value.map_or(Odd::default(), |value| Summary::of(value).odd());
-            total.nan += odd.nan;
-            total.above += odd.above;
-            total.below += odd.below;
-        }
         if let Some(value) = record.held_out_reward.filter(|value| value.is_finite()) {
             self.best = Some(self.best.map_or(value, |best| best.max(value)));
         }
         if self.recent.len() == RECENT
             && let Some(oldest) = self.recent.pop_front()
         {
-            self.thinned.push(&oldest);
+            self.thinned.push(oldest);
         }
-        self.recent.push_back(Line { shots: record.shots, values });
+        self.recent.push_back(Stretch::of(record, self.last.as_ref()));
         self.last = Some(record.clone());
     }
 
@@ -102,18 +88,14 @@ impl History {
 
     /// The last finite value of a quantity, or the mean of those that it was thinned to.
     pub fn last_of(&self, quantity: Quantity) -> Option<f64> {
-        let recent = self.recent.iter().rev().filter_map(|line| line.point(quantity));
-        let before = self.thinned.stretches().iter().rev().filter_map(|stretch| stretch.point(quantity));
-        recent.chain(before).find_map(|point| point.finite).map(|span| span.mean)
+        self.all(quantity).rev().find_map(|point| point.finite).map(|span| span.mean)
     }
 
     /// The points of a quantity between two numbers of shots and the next one beyond either end, in order: exact where
     /// the lines are recent. Stretches that do not report it are left out.
     pub fn points(&self, quantity: Quantity, shots: std::ops::RangeInclusive<f64>) -> Vec<Point> {
-        let recent = self.recent.iter().filter_map(|line| line.point(quantity));
-        let all = self.thinned.stretches().iter().filter_map(|stretch| stretch.point(quantity)).chain(recent);
         let (mut points, mut before) = (Vec::new(), None);
-        for point in all {
+        for point in self.all(quantity) {
             if (point.shots.1 as f64) < *shots.start() {
                 before = Some(point);
                 continue;
@@ -130,13 +112,17 @@ impl History {
 
     /// All values of a quantity that were not finite.
     pub fn odd(&self, quantity: Quantity) -> Odd {
-        self.odd[quantity as usize]
+        let add = |total: Odd, Odd { nan, above, below }| Odd {
+            nan: total.nan + nan,
+            above: total.above + above,
+            below: total.below + below,
+        };
+        self.all(quantity).map(|point| point.odd).fold(Odd::default(), add)
     }
-}
 
-impl Line {
-    fn point(&self, quantity: Quantity) -> Option<Point> {
-        Summary::of(self.values[quantity as usize]?).point((self.shots, self.shots))
+    /// All points of a quantity, in order.
+    fn all(&self, quantity: Quantity) -> impl DoubleEndedIterator<Item = Point> {
+        self.thinned.stretches().iter().chain(&self.recent).filter_map(move |stretch| stretch.point(quantity))
     }
 }
 

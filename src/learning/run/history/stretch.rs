@@ -1,11 +1,11 @@
 //! Several lines of a run as one: what stays of their values when memory is short.
 
-use super::{Line, Odd, Point, Span};
-use crate::learning::run::quantity::Quantity;
+use super::{Odd, Point, Span};
+use crate::learning::run::{metrics::Record, quantity::Quantity};
 
 /// What stays of the values of one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Summary {
+struct Summary {
     min: f64,
     /// A running mean, because a sum of large values may overflow.
     mean: f64,
@@ -30,7 +30,7 @@ impl Summary {
     };
 
     /// One value.
-    pub fn of(value: f64) -> Self {
+    fn of(value: f64) -> Self {
         if value.is_finite() {
             let not_positive = u32::from(value <= 0.0);
             Self { min: value, mean: value, max: value, finite: 1, not_positive, ..Self::EMPTY }
@@ -59,16 +59,11 @@ impl Summary {
         self.below = self.below.saturating_add(other.below);
     }
 
-    /// How many values were not finite.
-    pub fn odd(&self) -> Odd {
-        Odd { nan: self.nan.into(), above: self.above.into(), below: self.below.into() }
-    }
-
     /// The values as those between two numbers of shots; `None` where there are none.
-    pub fn point(&self, shots: (u64, u64)) -> Option<Point> {
+    fn point(&self, shots: (u64, u64)) -> Option<Point> {
         let &Self { min, mean, max, .. } = self;
         let finite = (self.finite > 0).then(|| Span { min, mean, max, not_positive: self.not_positive.into() });
-        let odd = self.odd();
+        let odd = Odd { nan: self.nan.into(), above: self.above.into(), below: self.below.into() };
         (finite.is_some() || odd != Odd::default()).then_some(Point { shots, finite, odd })
     }
 }
@@ -81,10 +76,10 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// A stretch of one line.
-    pub fn of(line: &Line) -> Self {
-        let summaries = line.values.map(|value| value.map_or(Summary::EMPTY, Summary::of));
-        Self { shots: (line.shots, line.shots), summaries }
+    /// A stretch of one line, which comes after `last`.
+    pub fn of(record: &Record, last: Option<&Record>) -> Self {
+        let summary = |quantity: Quantity| quantity.of(record, last).map_or(Summary::EMPTY, Summary::of);
+        Self { shots: (record.shots, record.shots), summaries: Quantity::ALL.map(summary) }
     }
 
     /// Takes in the stretch that follows.

@@ -139,7 +139,7 @@ fn a_week_stays_in_bounded_memory_and_keeps_a_peak_of_one_line() {
         assert!(history.thinned.stretches().len() <= thinned::CAPACITY && history.recent.len() <= RECENT);
     }
     assert!(history.thinned.stretches().len() >= thinned::CAPACITY / 2);
-    assert!(size_of::<stretch::Stretch>() * thinned::CAPACITY + size_of::<Line>() * RECENT < 1_250_000);
+    assert!(size_of::<Stretch>() * (thinned::CAPACITY + RECENT) < 1_400_000);
     let points = history.points(Quantity::Reward, 0.0..=3e8);
     let peaks: Vec<_> = points.iter().filter(|point| point.finite.is_some_and(|span| span.max == 9.0)).collect();
     assert_eq!(peaks.len(), 1);

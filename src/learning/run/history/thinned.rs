@@ -1,6 +1,6 @@
 //! Any number of lines as a bounded number of stretches.
 
-use super::{Line, stretch::Stretch};
+use super::stretch::Stretch;
 
 /// Most stretches that are kept; one takes 450 bytes, all of them not quite a megabyte.
 pub const CAPACITY: usize = 2048;
@@ -24,8 +24,7 @@ impl Default for Thinned {
 impl Thinned {
     /// Adds a line after all others. Each doubling of the size touches as many stretches as lines have come in since the
     /// one before, at most: constant time a line on average.
-    pub fn push(&mut self, line: &Line) {
-        let line = Stretch::of(line);
+    pub fn push(&mut self, line: Stretch) {
         if self.filled < self.size
             && let Some(last) = self.stretches.last_mut()
         {
