@@ -123,6 +123,16 @@ impl Hyperparameters {
         Inputs { space: self.actions, context: self.context, closed_form: self.closed_form }
     }
 
+    /// Layer sizes of the actor and of the critic, inputs first.
+    pub fn sizes(&self) -> [Vec<usize>; 2] {
+        // A file may say anything.
+        let outputs = self.heads.saturating_mul(self.actions.actions());
+        [
+            [&[self.inputs().actor()], self.actor_layers.as_slice(), &[outputs]].concat(),
+            [&[self.inputs().critic()], self.critic_layers.as_slice(), &[1]].concat(),
+        ]
+    }
+
     /// The critic's optimiser at the start of a run.
     pub const fn critic_adam(&self) -> AdamConfig {
         AdamConfig { learning_rate: self.critic_learning_rate, gradient_clip: self.gradient_clip }

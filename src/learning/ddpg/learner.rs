@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::{
     agent::Ddpg,
-    context::{CONTEXT_FEATURES, Inputs},
+    context::CONTEXT_FEATURES,
     features::STATE_FEATURES,
     hyperparameters::Hyperparameters,
     networks::Networks,
@@ -113,31 +113,22 @@ impl Learner for Trainer {
     /// The networks that play, from a checkpoint or a policy, become both the learning and the averaged ones.
     fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
         let prefix = if weights.has("target.actor.0.weight") { "target." } else { "" };
-        let (own, inputs) = (&self.agent.online, self.task.hyperparameters.inputs());
-        let blind = Inputs { context: false, ..inputs };
-        let network = |name: &str, count: fn(Inputs) -> usize, own: &[usize]| {
+        let blind = Hyperparameters { context: false, ..self.agent.hyper.clone() }.sizes();
+        let network = |name: &str, told: &[usize], blind: &[usize]| {
             let name = format!("{prefix}{name}");
-            let network = match weights.network(&name, count(inputs)) {
+            weights.network(&name, told).or_else(|error| match weights.network(&name, blind) {
                 // What it has learnt without a context holds under any, until it learns better.
-                Err(_) if inputs.context => {
-                    weights.network(&name, count(blind))?.with_more_inputs(STATE_FEATURES, CONTEXT_FEATURES)?
-                }
-                network => network?,
-            };
-            if network.sizes() == own {
-                return Ok(network);
-            }
-            let [expected, found] =
-                [own, network.sizes()].map(|sizes| sizes.iter().map(usize::to_string).collect::<Vec<_>>().join("-"));
-            let expected = format!("a network of {expected} units, as the settings say, but {found}");
-            Err(WeightsError::Array { name, expected })
+                Ok(network) => Ok(network.with_more_inputs(STATE_FEATURES, CONTEXT_FEATURES)?),
+                Err(_) => Err(error),
+            })
         };
+        let own = &self.agent.online;
         let actor = if self.agent.hyper.new_actor {
             own.actor.duplicate()?
         } else {
-            network("actor", Inputs::actor, own.actor.sizes())?
+            network("actor", own.actor.sizes(), &blind[0])?
         };
-        let critic = network("critic", Inputs::critic, own.critic.sizes())?;
+        let critic = network("critic", own.critic.sizes(), &blind[1])?;
         let hyper = self.agent.hyper.clone();
         self.agent = Ddpg::starting_from(Networks::new(&hyper, actor, critic)?, hyper)?;
         Ok(())

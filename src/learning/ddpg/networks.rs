@@ -47,11 +47,9 @@ impl Networks {
             let tip = TIP_STEPS.map(|step| ((0.5 + step * head as f64).fract() - 0.5) as f32);
             start.extend_from_slice(&[aim_at(offset).atanh(), 0.0, tip[0], tip[1], 0.0][..outputs]);
         }
-        let sizes = |inputs, hidden: &[usize], outputs| [&[inputs], hidden, &[outputs]].concat();
-        let actor_sizes = sizes(hyper.inputs().actor(), &hyper.actor_layers, hyper.heads * outputs);
-        let critic_sizes = sizes(hyper.inputs().critic(), &hyper.critic_layers, 1);
-        let actor = Mlp::random(&actor_sizes, rng)?.with_output_bias(&start)?;
-        Self::new(hyper, actor, Mlp::random(&critic_sizes, rng)?)
+        let [actor, critic] = hyper.sizes();
+        let actor = Mlp::random(&actor, rng)?.with_output_bias(&start)?;
+        Self::new(hyper, actor, Mlp::random(&critic, rng)?)
     }
 
     /// A copy with its own parameters.

@@ -89,8 +89,9 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
         return Err(WeightsError::Foreign);
     }
     let networks = |name: &str| -> Result<Networks, WeightsError> {
-        let actor = reader.network(&format!("{name}.actor"), inputs.actor())?;
-        let critic = reader.network(&format!("{name}.critic"), inputs.critic())?;
+        let [actor, critic] = note.task.hyperparameters.sizes();
+        let actor = reader.network(&format!("{name}.actor"), &actor)?;
+        let critic = reader.network(&format!("{name}.critic"), &critic)?;
         Ok(Networks::new(&note.task.hyperparameters, actor, critic)?)
     };
     let (online, target) = (networks("online")?, networks("target")?);

@@ -208,36 +208,32 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The network that [`Writer::add_network`] wrote, whose first layer takes `inputs` values.
+    /// The network that [`Writer::add_network`] wrote, which must have layers of these `sizes`, inputs first.
     ///
     /// # Errors
-    /// Where a layer is missing or does not fit the one before.
-    pub fn network(&self, name: &str, inputs: usize) -> Result<Mlp, WeightsError> {
-        let (mut sizes, mut parameters) = (vec![inputs], Vec::new());
-        for layer in 0.. {
-            let weight_name = format!("{name}.{layer}.weight");
-            if layer > 0 && self.arrays.tensor(&weight_name).is_err() {
-                break;
-            }
-            let before = sizes[layer];
-            let wrong = |name: String, expected: String| Err(WeightsError::Array { name, expected });
-            let (shape, weight) = self.array(&weight_name)?;
-            let &[rows, outputs] = shape.as_slice() else {
-                return wrong(weight_name, format!("a matrix of {before} rows"));
-            };
-            if rows != before || outputs == 0 {
-                return wrong(weight_name, format!("a matrix of {before} rows"));
-            }
-            let bias_name = format!("{name}.{layer}.bias");
-            let (shape, bias) = self.array(&bias_name)?;
-            if shape != [outputs] {
-                return wrong(bias_name, format!("{outputs} values"));
-            }
-            parameters.extend(weight);
-            parameters.extend(bias);
-            sizes.push(outputs);
+    /// Where it has others, or an array is missing.
+    pub fn network(&self, name: &str, sizes: &[usize]) -> Result<Mlp, WeightsError> {
+        let weight = |layer: usize| format!("{name}.{layer}.weight");
+        let shapes = (0..).map_while(|layer| Some(self.arrays.tensor(&weight(layer)).ok()?.shape().to_vec()));
+        let found: Vec<_> = shapes.collect();
+        let fits = !sizes.contains(&0) && found.iter().map(Vec::as_slice).eq(sizes.windows(2));
+        if !found.is_empty() && !fits {
+            let inputs = found[0].first().into_iter();
+            let found = units(inputs.chain(found.iter().filter_map(|shape| shape.last())));
+            let expected = format!("a network of {} units, as the settings say, but {found}", units(sizes));
+            return Err(WeightsError::Array { name: name.to_owned(), expected });
         }
-        Ok(Mlp::from_parameters(&sizes, parameters)?)
+        let mut parameters = Vec::new();
+        for (layer, pair) in sizes.windows(2).enumerate() {
+            parameters.extend(self.array(&weight(layer))?.1);
+            let name = format!("{name}.{layer}.bias");
+            let (shape, bias) = self.array(&name)?;
+            if shape != pair[1..] {
+                return Err(WeightsError::Array { name, expected: format!("{} values", pair[1]) });
+            }
+            parameters.extend(bias);
+        }
+        Ok(Mlp::from_parameters(sizes, parameters)?)
     }
 
     /// The optimiser of `network` that [`Writer::add_optimiser`] wrote after so many steps.
@@ -257,6 +253,11 @@ impl<'a> Reader<'a> {
         let moments = vec![[moment(0)?, moment(1)?]];
         Ok(Adam::resume(vec![network.parameters().clone()], config, moments, steps)?)
     }
+}
+
+/// Layer sizes in a sentence.
+fn units<'a>(sizes: impl IntoIterator<Item = &'a usize>) -> String {
+    sizes.into_iter().map(usize::to_string).collect::<Vec<_>>().join("-")
 }
 
 fn moment_name(optimiser: &str, order: usize) -> String {
@@ -287,7 +288,7 @@ mod tests {
         assert_eq!(reader.array("extra").unwrap(), (vec![2], vec![1.0, 2.0]));
         assert_eq!(reader.array_f64("exact").unwrap(), [0.1]);
         let mlp = Mlp::random(&[3, 4, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
-        let read = reader.network("actor", 3).unwrap();
+        let read = reader.network("actor", mlp.sizes()).unwrap();
         assert_eq!(read.sizes(), mlp.sizes());
         let values = |mlp: &Mlp| mlp.parameters().to_vec1::<f32>().unwrap();
         assert_eq!(values(&read), values(&mlp));
@@ -304,7 +305,7 @@ mod tests {
         };
         let bytes = file(&mlp);
         assert!(bytes.len() < 2 * mlp.parameters().elem_count() + 700, "{} bytes", bytes.len());
-        let read = Reader::new(&bytes).unwrap().network("actor", 30).unwrap();
+        let read = Reader::new(&bytes).unwrap().network("actor", mlp.sizes()).unwrap();
         let values = |mlp: &Mlp| mlp.parameters().to_vec1::<f32>().unwrap();
         assert!(
             values(&read).iter().zip(values(&mlp)).all(|(read, own)| (read - own).abs() <= 5e-4 * own.abs() + 1e-7)
@@ -318,8 +319,9 @@ mod tests {
         let reader = Reader::new(&bytes).unwrap();
         assert!(matches!(reader.array("extra"), Err(WeightsError::NotFinite(_))));
         assert!(reader.array("exact").unwrap_err().to_string().contains("32-bit"));
-        assert!(reader.network("actor", 5).unwrap_err().to_string().contains("5 rows"));
-        assert!(reader.network("critic", 3).unwrap_err().to_string().contains("critic.0.weight"));
+        let refused = reader.network("actor", &[3, 5, 2]).unwrap_err().to_string();
+        assert!(refused.contains("3-5-2") && refused.contains("3-4-2"), "{refused}");
+        assert!(reader.network("critic", &[3, 4, 2]).unwrap_err().to_string().contains("critic.0.weight"));
         assert!(matches!(reader.note::<usize>(), Err(WeightsError::Foreign)));
         for cut in [0, 7, 20, bytes.len() - 1] {
             assert!(Reader::new(&bytes[..cut]).is_err(), "cut at {cut}");

@@ -204,9 +204,9 @@ impl Agent for Dqn {
 
     fn restore(settings: DqnSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
         let DqnState { shots, updates, next } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
-        let online = network(&settings, reader, "online")?;
+        let online = reader.network("online", &settings.sizes())?;
         Ok(Self {
-            target: network(&settings, reader, "target")?,
+            target: reader.network("target", &settings.sizes())?,
             optimiser: reader.optimiser("", &online, settings.adam(), updates)?,
             replay: replay::restore(settings.memory, reader, MEMORY, next)?,
             online,
@@ -217,19 +217,10 @@ impl Agent for Dqn {
     }
 
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
-        let online = network(&self.settings, reader, "online")?;
+        let online = reader.network("online", &self.settings.sizes())?;
         self.target = online.duplicate()?;
         self.optimiser = Adam::new(vec![online.parameters().clone()], self.settings.adam())?;
         self.online = online;
         Ok(())
     }
-}
-
-fn network(settings: &DqnSettings, reader: &Reader<'_>, name: &str) -> Result<Mlp, WeightsError> {
-    let network = reader.network(name, STATES)?;
-    if network.sizes() == settings.sizes() {
-        return Ok(network);
-    }
-    let expected = format!("a network of sizes {:?}, as the settings say", settings.sizes());
-    Err(WeightsError::Array { name: name.to_owned(), expected })
 }

@@ -142,25 +142,11 @@ impl Policy {
             if same { Ok(()) } else { Err(error()) }
         };
         let inputs = origin.hyperparameters.inputs();
-        let space = inputs.space;
         version("features", &origin.features, inputs.version())?;
-        version("actions", &origin.actions, space.meaning())?;
-        let network = |name, inputs, outputs: &dyn Fn(usize) -> bool, expected: &str| {
-            let network = reader.network(name, inputs)?;
-            let last = network.sizes()[network.sizes().len() - 1];
-            let wrong = || WeightsError::Array { name: name.to_owned(), expected: expected.to_owned() };
-            if outputs(last) { Ok(network) } else { Err(wrong()) }
-        };
-        let heads = |outputs: usize| outputs.is_multiple_of(space.actions());
-        let actor = network(
-            "actor",
-            inputs.actor(),
-            &heads,
-            "a network with as many outputs a head as its actions have numbers",
-        )
-        .map_err(content)?;
-        let one = |outputs| outputs == 1;
-        let critic = network("critic", inputs.critic(), &one, "a network with one output").map_err(content)?;
+        version("actions", &origin.actions, inputs.space.meaning())?;
+        let [actor, critic] = origin.hyperparameters.sizes();
+        let actor = reader.network("actor", &actor).map_err(content)?;
+        let critic = reader.network("critic", &critic).map_err(content)?;
         let networks = Networks::new(&origin.hyperparameters, actor, critic).map_err(|error| content(error.into()))?;
         Ok(Self { networks, origin })
     }
