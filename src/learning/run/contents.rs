@@ -1,6 +1,6 @@
 //! What is in a checkpoint: the learner, the run's own state, and a checksum of it all.
 
-use std::{io::Read, path::Path};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -18,9 +18,6 @@ use crate::{
     },
     storage,
 };
-
-/// Longest header that is believed, bytes. Notes and names of arrays take some thousands.
-const LONGEST_HEADER: u64 = 1 << 24;
 
 /// What a checkpoint says beside the learner's arrays. No clock goes in: equal states give equal files.
 #[derive(Serialize, Deserialize)]
@@ -97,26 +94,14 @@ struct Version {
     format: u32,
 }
 
-/// Shots that the checkpoint at `path` has played, from its header alone; `None` where that cannot be read.
+/// Shots that the checkpoint at `path` has played; `None` where that cannot be read.
 pub fn shots_in(path: &Path) -> Option<u64> {
-    #[derive(Deserialize)]
-    struct Header {
-        #[serde(rename = "__metadata__")]
-        metadata: std::collections::HashMap<String, String>,
-    }
     #[derive(Deserialize)]
     struct Progress {
         shots: u64,
     }
-    let mut file = storage::open(path).ok()?;
-    let mut length = [0; 8];
-    file.read_exact(&mut length).ok()?;
-    let length = u64::from_le_bytes(length).min(LONGEST_HEADER);
-    let mut text = String::new();
-    file.take(length).read_to_string(&mut text).ok()?;
-    let header: Header = serde_json::from_str(&text).ok()?;
-    let progress: Progress = serde_json::from_str(header.metadata.get("carom")?).ok()?;
-    Some(progress.shots)
+    let bytes = storage::read(path, storage::LARGE).ok()?;
+    Some(Reader::new(&bytes).ok()?.note::<Progress>().ok()?.shots)
 }
 
 #[cfg(test)]
