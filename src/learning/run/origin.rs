@@ -78,12 +78,6 @@ impl Weights {
         Self { start, settings: learner.settings(), table: Some(learner.table().clone()), bytes }
     }
 
-    /// The same under what was known of them when the file was copied.
-    #[must_use]
-    pub fn known_as(self, start: Start) -> Self {
-        Self { start, ..self }
-    }
-
     /// Gives the weights to an untrained agent.
     ///
     /// # Errors

@@ -138,10 +138,11 @@ impl Group {
     pub fn resume(folder: &Path) -> Result<Self, RunError> {
         let note = GroupFile::read(folder)?;
         let lock = super::lock(folder)?;
-        let weights = match &note.from {
-            Some(start) => Some(Weights::load(&folder.join(WEIGHTS))?.known_as(start.clone())),
-            None => None,
-        };
+        let mut weights = None;
+        if let Some(start) = &note.from {
+            // Under what was known of them when the file was copied.
+            weights.insert(Weights::load(&folder.join(WEIGHTS))?).start = start.clone();
+        }
         Ok(Self { folder: folder.to_owned(), note, weights, _lock: lock })
     }
 
@@ -173,11 +174,11 @@ impl Group {
         self.folder.join(format!("seed-{seed}"))
     }
 
-    /// The spread between the seeds at every measurement, oldest first.
+    /// Writes the spread between the seeds at every measurement as CSV and returns its last line, if there is one.
     ///
     /// # Errors
     /// Whatever the file system reports.
-    pub fn spread(&self) -> Result<Vec<Spread>, RunError> {
+    pub fn write_spread(&self) -> Result<Option<Spread>, RunError> {
         let mut rewards = std::collections::BTreeMap::<u64, Vec<f64>>::new();
         for seed in self.seeds() {
             let path = self.member(seed).join(METRICS);
@@ -187,24 +188,19 @@ impl Group {
                 }
             }
         }
-        Ok(rewards.into_iter().map(|(shots, rewards)| Spread::of(shots, &rewards)).collect())
-    }
-
-    /// Writes the spread as CSV and returns its last line, if there is one.
-    ///
-    /// # Errors
-    /// Whatever the file system reports.
-    pub fn write_spread(&self) -> Result<Option<Spread>, RunError> {
-        let spread = self.spread()?;
+        let mut last = None;
         let mut text = "shots,seeds,mean,sd,min,max\n".to_owned();
-        for Spread { shots, seeds, mean, sd, min, max } in &spread {
+        for (shots, rewards) in rewards {
+            let spread = Spread::of(shots, &rewards);
+            let Spread { seeds, mean, sd, min, max, .. } = spread;
             let sd = sd.map(|sd| sd.to_string()).unwrap_or_default();
             // Writing to a string cannot fail.
             let _ = writeln!(text, "{shots},{seeds},{mean},{sd},{min},{max}");
+            last = Some(spread);
         }
         let path = self.folder.join(SPREAD);
         write_atomic(&path, text.as_bytes()).map_err(file(&path))?;
-        Ok(spread.last().copied())
+        Ok(last)
     }
 }
 
