@@ -129,11 +129,11 @@ impl Run {
                 self.save(&mut reporting.metrics, Some(score)).map_err(|reason| self.unsaved(reason))?;
                 return Ok(Ending::Stopped(score));
             }
-            let Reached { score, all } = self.iterate(reporting)?;
+            let score = self.iterate(reporting)?;
             if score.is_some() || saved.elapsed() >= CHECKPOINT_INTERVAL {
                 let done = self.save(&mut reporting.metrics, score);
                 saved = Instant::now();
-                match (done, score.filter(|_| all)) {
+                match (done, score.filter(|_| self.learner.is_finished())) {
                     (Ok(()), Some(score)) => return Ok(Ending::Finished(score)),
                     (Ok(()), None) => {}
                     (Err(reason), Some(_)) => return Err(self.unsaved(reason)),
@@ -173,17 +173,17 @@ impl Run {
         Ok(score)
     }
 
-    /// One iteration, and the line of metrics that is due after it.
-    fn iterate(&mut self, reporting: &mut Reporting<'_>) -> Result<Reached, RunError> {
+    /// One iteration, and the measurement and the line of metrics that are due after it.
+    fn iterate(&mut self, reporting: &mut Reporting<'_>) -> Result<Option<Score>, RunError> {
         let Schedule { log_every, evaluate_every, .. } = self.state.schedule;
         let before = self.learner.shots();
         let iteration = self.learner.iterate()?;
         let shots = self.learner.shots();
         let is_finite = self.state.accumulator.add(&iteration);
-        let all = self.learner.is_finished();
         let passed = |every: u64| before / every != shots / every;
         let trained = reporting.clock.seconds();
-        let score = if is_finite && (all || passed(evaluate_every)) { Some(self.measure(reporting)?) } else { None };
+        let is_due = is_finite && (self.learner.is_finished() || passed(evaluate_every));
+        let score = if is_due { Some(self.measure(reporting)?) } else { None };
         if !is_finite || score.is_some() || passed(log_every) {
             let measuring = reporting.clock.seconds() - trained;
             let record = reporting.clock.record(self.learner.as_ref(), self.state.accumulator.take(), score, measuring);
@@ -195,7 +195,7 @@ impl Run {
             // Until there is room it waits in memory. No checkpoint is written before it is.
             let _ = reporting.metrics.flush();
         }
-        if is_finite { Ok(Reached { score, all }) } else { Err(RunError::NotFinite { shots }) }
+        if is_finite { Ok(score) } else { Err(RunError::NotFinite { shots }) }
     }
 }
 
@@ -208,12 +208,4 @@ impl Reporting<'_> {
         self.watcher.warn(&sentence);
         self.heartbeat.warn(&sentence);
     }
-}
-
-/// Where a iteration has led.
-struct Reached {
-    /// The measurement, where one was due.
-    score: Option<Score>,
-    /// Whether all shots have been played.
-    all: bool,
 }
