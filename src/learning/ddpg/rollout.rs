@@ -64,24 +64,18 @@ impl Trainer {
     /// Looks for the best stroke of a player who errs, on some layouts. It remembers the strokes that went far, and the best among those
     /// that the actor imitates.
     fn search(&mut self) -> Result<()> {
-        let count = self.task.hyperparameters.searched;
-        if count == 0 {
-            return Ok(());
-        }
-        let scenes: Vec<Scene> = (0..count)
+        let scenes: Vec<Scene> = (0..self.task.hyperparameters.searched)
             .map(|_| {
                 let (layout, conditions) = self.scene();
                 (layout, Conditions { errors: Venues::errors(&mut self.rng), ..conditions })
             })
             .collect();
-        let (observed, actions, _) = self.judged(&self.agent.target, &scenes)?;
-        let heads = actions.len() / observed.observations().len();
-        let proposals: Vec<_> =
-            actions.iter().enumerate().map(|(row, action)| (observed.observations()[row / heads], *action)).collect();
-        for ((layout, conditions), proposals) in scenes.iter().zip(proposals.chunks(OBSERVATIONS * heads)) {
+        for ((layout, conditions), proposals) in scenes.iter().zip(self.judged(&self.agent.target, &scenes)?) {
+            let proposals: Vec<_> =
+                proposals.into_iter().map(|(observation, action, _)| (observation, action)).collect();
             let (reward, space, conditions) = (self.task.plan.reward, self.space(), *conditions);
             let expert = Expert { venues: &self.venues, reward, space, layout, conditions };
-            let strokes = expert.search(proposals, &mut self.rng);
+            let strokes = expert.search(&proposals, &mut self.rng);
             if let Some(best) = strokes.first() {
                 self.searched.push(*best);
             }
@@ -92,30 +86,30 @@ impl Trainer {
         Ok(())
     }
 
-    /// What networks propose on every layout from every side, with the critic's logits, an observation's heads one after the
+    /// What networks propose on each of the layouts from every side, with the critic's logits, an observation's heads one after the
     /// other.
-    fn judged(&self, networks: &Networks, scenes: &[Scene]) -> Result<(ObservationBatch, Vec<Action>, Vec<f32>)> {
+    fn judged(&self, networks: &Networks, scenes: &[Scene]) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
+        if scenes.is_empty() {
+            return Ok(Vec::new());
+        }
         let sides = scenes.iter().flat_map(|(layout, conditions)| {
             Observation::all(layout).map(|observation| self.venues.seen(observation, *conditions))
         });
         let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &sides.collect::<Vec<_>>())?;
         let (actions, logits) = networks.judge(&observed)?;
-        Ok((observed, actions, logits))
+        let heads = actions.len() / observed.observations().len();
+        let all = actions.into_iter().zip(logits).enumerate();
+        let all = all.map(|(row, (action, logit))| (observed.observations()[row / heads], action, logit));
+        Ok(all.collect::<Vec<_>>().chunks(OBSERVATIONS * heads).map(<[_]>::to_vec).collect())
     }
 
     /// Plays the averaged networks' best proposals on every layout, as they are. Returns the rewards' sum.
     fn play_ranked(&mut self, scenes: &[Scene]) -> Result<f64> {
-        if scenes.is_empty() {
-            return Ok(0.0);
-        }
-        let (observed, actions, logits) = self.judged(&self.agent.target, scenes)?;
-        let heads = actions.len() / observed.observations().len();
         let mut total = 0.0;
-        for (index, scene) in scenes.iter().enumerate() {
-            let mut rows: Vec<usize> = (index * OBSERVATIONS * heads..(index + 1) * OBSERVATIONS * heads).collect();
-            rows.sort_by(|a, b| logits[*b].total_cmp(&logits[*a]));
-            for row in rows.into_iter().cycle().take(RANKED) {
-                total += self.rollout(scene, observed.observations()[row / heads], actions[row]);
+        for (scene, mut proposals) in scenes.iter().zip(self.judged(&self.agent.target, scenes)?) {
+            proposals.sort_by(|(.., a), (.., b)| b.total_cmp(a));
+            for (observation, action, _) in proposals.into_iter().cycle().take(RANKED) {
+                total += self.rollout(scene, observation, action);
             }
         }
         Ok(total)
@@ -124,16 +118,11 @@ impl Trainer {
     /// Plays near the critic's favourite on every layout: there it must learn where it is wrong. Returns the rewards'
     /// sum.
     fn play_near_best(&mut self, scenes: &[Scene]) -> Result<f64> {
-        if scenes.is_empty() {
-            return Ok(0.0);
-        }
-        let (observed, actions, logits) = self.judged(&self.agent.online, scenes)?;
-        let heads = actions.len() / observed.observations().len();
         let mut total = 0.0;
-        for (index, scene) in scenes.iter().enumerate() {
-            let rows = index * OBSERVATIONS * heads..(index + 1) * OBSERVATIONS * heads;
-            let best = rows.max_by(|a, b| logits[*a].total_cmp(&logits[*b])).unwrap_or(0);
-            total += self.stray(scene, observed.observations()[best / heads], actions[best]);
+        for (scene, proposals) in scenes.iter().zip(self.judged(&self.agent.online, scenes)?) {
+            if let Some((observation, choice, _)) = proposals.into_iter().max_by(|(.., a), (.., b)| a.total_cmp(b)) {
+                total += self.stray(scene, observation, choice);
+            }
         }
         Ok(total)
     }
