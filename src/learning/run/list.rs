@@ -150,29 +150,13 @@ impl RunsFolder {
     /// As [`runs_in`].
     pub fn look(&mut self) -> io::Result<Listing> {
         let mut listing = Listing::default();
-        let folder = self.folder.clone();
-        if holds_checkpoints(&folder) {
-            self.add(&folder, name_of(&folder), &mut listing);
-            return Ok(listing);
-        }
-        for path in folders_in(&folder)? {
-            let name = name_of(&path);
-            if holds_checkpoints(&path) {
-                self.add(&path, name, &mut listing);
-                continue;
-            }
-            for member in folders_in(&path).unwrap_or_default().iter().filter(|path| holds_checkpoints(path)) {
-                self.add(member, format!("{name}/{}", name_of(member)), &mut listing);
+        for (name, folder) in run_folders(&self.folder)? {
+            match Config::read(&folder) {
+                Ok(config) => listing.runs.push(self.summary(&folder, name, config)),
+                Err(error) => listing.unreadable.push(format!("{name}: {}", config::unreadable(&folder, &error))),
             }
         }
         Ok(listing)
-    }
-
-    fn add(&mut self, folder: &Path, name: String, listing: &mut Listing) {
-        match Config::read(folder) {
-            Ok(config) => listing.runs.push(self.summary(folder, name, config)),
-            Err(error) => listing.unreadable.push(format!("{name}: {}", config::unreadable(folder, &error))),
-        }
     }
 
     fn summary(&mut self, folder: &Path, name: String, config: Config) -> Summary {
@@ -220,16 +204,31 @@ impl RunsFolder {
 
 /// The folder of the run in `folder`, groups of seeds included, that was the last to write something.
 pub fn latest_in(folder: &Path) -> Option<PathBuf> {
-    let inner = |folder: &Path| folders_in(folder).unwrap_or_default();
-    let (runs, others): (Vec<_>, Vec<_>) = inner(folder).into_iter().partition(|path| holds_checkpoints(path));
-    let members = others.iter().flat_map(|group| inner(group)).filter(|path| holds_checkpoints(path));
-    runs.into_iter().chain(members).max_by_key(|run| last_written(run))
+    run_folders(folder).ok()?.into_iter().map(|(_, run)| run).max_by_key(|run| last_written(run))
 }
 
 /// When the run in `folder` last wrote one of its files.
 fn last_written(folder: &Path) -> Option<SystemTime> {
     let written = |name: &str| std::fs::metadata(folder.join(name)).and_then(|data| data.modified()).ok();
     [status::FILE, METRICS, config::FILE].into_iter().filter_map(written).max()
+}
+
+/// The runs in `folder`, groups of seeds included, in order, by their names below it; `folder` alone where it is a run itself.
+fn run_folders(folder: &Path) -> io::Result<Vec<(String, PathBuf)>> {
+    if holds_checkpoints(folder) {
+        return Ok(vec![(name_of(folder), folder.to_owned())]);
+    }
+    let mut runs = Vec::new();
+    for path in folders_in(folder)? {
+        let name = name_of(&path);
+        if holds_checkpoints(&path) {
+            runs.push((name, path));
+        } else {
+            let members = folders_in(&path).unwrap_or_default().into_iter().filter(|path| holds_checkpoints(path));
+            runs.extend(members.map(|member| (format!("{name}/{}", name_of(&member)), member)));
+        }
+    }
+    Ok(runs)
 }
 
 fn folders_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
