@@ -1,11 +1,10 @@
 //! `carom` is a terminal coach for carom billiards: it shows the table, recommends how to strike and plays the shot.
 //!
 //! The rooms, from the ground up; each may use those above it, never those below: [`platform`] what operating systems do
-//! each in its own way, [`printing`] what goes out, [`storage`] files, [`statistics`] fits, [`table`] what is played on,
-//! [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`player`] who plays,
-//! [`learning`] agents, [`coach`]
-//! recommendations, [`calibration`] a table of one's own, [`drills`] practice, [`study`] the program measuring itself,
-//! [`terminal`] screens, [`commands`] the command line.
+//! each in its own way, [`printing`] what goes out, [`storage`] files, [`statistics`] shares and fits, [`table`] what is
+//! played on, [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`player`] who plays,
+//! [`learning`] agents, [`coach`] recommendations, [`calibration`] a table of one's own, [`drills`] practice, [`study`] the
+//! program measuring itself, [`terminal`] screens, [`commands`] the command line.
 
 // What may not be used stands in clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_macros, clippy::disallowed_methods))]

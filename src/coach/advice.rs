@@ -5,7 +5,7 @@ use std::{fmt, time::Duration};
 use serde::Serialize;
 
 use super::{Kind, Risk};
-use crate::{learning::evaluation::SuccessRate, physics::CueInputs};
+use crate::{physics::CueInputs, statistics::SuccessRate};
 
 /// Where a shot comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -17,9 +17,10 @@ use super::{
 };
 use crate::{
     game::Rule,
-    learning::{Policy, evaluation::SuccessRate},
+    learning::Policy,
     physics::CueInputs,
     platform::parallel,
+    statistics::SuccessRate,
     table::{Layout, LayoutError, Table},
 };
 

@@ -13,9 +13,9 @@ use super::{
 };
 use crate::{
     game::Rule,
-    learning::evaluation::SuccessRate,
     physics::CueInputs,
     platform::{self, parallel},
+    statistics::SuccessRate,
     table::{Layout, Table},
 };
 

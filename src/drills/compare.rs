@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use crate::{
     coach::{Coach, Request, Shooter, make_probability},
     game::Rule,
-    learning::evaluation::SuccessRate,
     physics::CueInputs,
+    statistics::SuccessRate,
     table::{Layout, LayoutError, Table},
 };
 

@@ -1,7 +1,7 @@
 //! The score of a list of attempts: how many, how often, how many in a row.
 
 use super::session::{Attempt, Session};
-use crate::learning::evaluation::SuccessRate;
+use crate::statistics::SuccessRate;
 
 /// The score of a list of attempts.
 #[derive(Clone, Copy, Debug, PartialEq)]

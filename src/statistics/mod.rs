@@ -1,9 +1,11 @@
-//! Numbers out of measurements: what more than one room fits with.
+//! Numbers out of measurements: what more than one room counts and fits with.
 
 mod least_squares;
 mod normal;
+mod success_rate;
 mod symmetric;
 
 pub use least_squares::{Fit, Minimum, Problem, fit, minimize, solve};
 pub use normal::{normal_pair, quantile};
+pub use success_rate::SuccessRate;
 pub use symmetric::{cholesky, dot, inverse, undo};

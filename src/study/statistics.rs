@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::learning::evaluation::SuccessRate;
+use crate::statistics::SuccessRate;
 
 /// How a kind of error is spread over the shots.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

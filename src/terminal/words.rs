@@ -6,8 +6,8 @@ use indicatif::HumanCount;
 use crate::{
     coach::Skill,
     game::Rule,
-    learning::evaluation::SuccessRate,
     simulation::{EventKind, Rail},
+    statistics::SuccessRate,
     table::{CueBall, Table},
 };
 

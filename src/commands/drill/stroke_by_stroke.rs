@@ -20,8 +20,8 @@ use crate::{
         Advice, Exercise, Goal, Par, Session, Store, advise, chance, changes, check, difference,
         exam::{Mark, mark},
     },
-    learning::evaluation::SuccessRate,
     physics::{CueInputs, least_elevation},
+    statistics::SuccessRate,
     table::{CueBall, Layout, Table},
 };
 

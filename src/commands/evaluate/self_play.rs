@@ -16,8 +16,9 @@ use crate::{
         Failure,
         output::{json_line, tell},
     },
-    learning::evaluation::{SuccessRate, held_out_layouts},
+    learning::evaluation::held_out_layouts,
     printing,
+    statistics::SuccessRate,
     table::Layout,
 };
 

@@ -15,12 +15,10 @@ use crate::{
     coach::{Coach, Request, Skill},
     commands::output::json_line,
     game::{Reward, Rule, scores},
-    learning::{
-        Policy, Proposal,
-        evaluation::{SuccessRate, held_out_layouts},
-    },
+    learning::{Policy, Proposal, evaluation::held_out_layouts},
     physics::{CueInputs, has_room},
     printing,
+    statistics::SuccessRate,
     table::{Layout, Table},
 };
 

@@ -26,10 +26,11 @@ use super::{
 use crate::{
     coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Shooter, Skill, Source, systems::Guide},
     game::Rule,
-    learning::{Proposal, evaluation::SuccessRate},
+    learning::Proposal,
     physics::{CueInputs, strike},
     printing,
     simulation::ShotError,
+    statistics::SuccessRate,
     table::{Layout, Table},
 };
 

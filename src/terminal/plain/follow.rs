@@ -10,9 +10,9 @@ use std::{
 
 use crate::{
     coach::Units,
-    learning::evaluation::SuccessRate,
     physics::CueInputs,
     printing,
+    statistics::SuccessRate,
     table::Layout,
     terminal::{
         plain::speech,

@@ -18,9 +18,9 @@ use crate::{
         Coach, Kind, Pattern, Request, Sensitivity, ShotWords, Technique, Units, Verdict, Why, aim, systems::guide, why,
     },
     game::Point,
-    learning::evaluation::SuccessRate,
     physics::CueInputs,
     simulation::Recording,
+    statistics::SuccessRate,
     table::{CueBall, Layout, Side, Table},
     terminal::{
         Settings,

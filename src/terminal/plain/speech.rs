@@ -6,9 +6,9 @@ use crate::{
         systems::Guide,
         words::{LengthUnit, TIP},
     },
-    learning::evaluation::SuccessRate,
     physics::CueInputs,
     simulation::{Event, EventKind, Recording},
+    statistics::SuccessRate,
     table::{BALLS, CueBall, Layout, Table},
     terminal::words::{event_words, fixed, in_diamonds, percent, rail_name},
 };

@@ -8,9 +8,9 @@ use std::sync::{
 use crate::{
     coach::{Units, Verdict},
     game::Rule,
-    learning::evaluation::SuccessRate,
     physics::{CueInputs, with_room},
     simulation::ShotError,
+    statistics::SuccessRate,
     table::{CueBall, Layout, Table},
     terminal::Shot,
 };

@@ -5,7 +5,8 @@ use std::{sync::Arc, time::Duration};
 use crate::{
     coach::{Doubt, Kind, Map, Margin, Recommendation, Risk, Scatter, Shooter, Skill, systems::Guide},
     game::Rule,
-    learning::{Policy, evaluation::SuccessRate},
+    learning::Policy,
+    statistics::SuccessRate,
     terminal::Shot,
 };
 

@@ -14,9 +14,10 @@ use crate::{
         Coach, Improvement, Input, Recommendation, Request, Sensitivity, Skill, Why, make_probability, scatter,
         systems::guide, why,
     },
-    learning::{Policy, evaluation::SuccessRate},
+    learning::Policy,
     physics::CueInputs,
     simulation::Recording,
+    statistics::SuccessRate,
     table::{Layout, Table},
     terminal::{Advice, CoachQuery, Effort, Proposal, Shot, ShotAnalysis},
 };

@@ -9,14 +9,12 @@ use std::{
 use carom::{
     coach::{Kind, Pace, Way},
     drills::{Exercise, Session, store::Store},
-    learning::{
-        evaluation::SuccessRate,
-        run::{
-            follow::{Condition, Update},
-            status::{Phase, RunStatus},
-        },
+    learning::run::{
+        follow::{Condition, Update},
+        status::{Phase, RunStatus},
     },
     physics::CueInputs,
+    statistics::SuccessRate,
     storage::Places,
     table::{Layout, Table},
     terminal::{

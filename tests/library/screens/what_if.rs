@@ -2,8 +2,8 @@
 
 use super::player::{ASCII, NO_COLOUR, OTHERS, Player, SHOT, TRUE_COLOUR};
 use carom::{
-    learning::evaluation::SuccessRate,
     physics::CueInputs,
+    statistics::SuccessRate,
     terminal::{Capabilities, CoachNews, CoachWorker, KeyContext},
 };
 

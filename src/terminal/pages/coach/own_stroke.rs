@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::{
-    learning::evaluation::SuccessRate,
+    statistics::SuccessRate,
     terminal::{
         Effect, Job,
         pages::coach::CoachPage,

@@ -3,7 +3,7 @@
 use std::{path::PathBuf, sync::Arc};
 
 use crate::{
-    learning::evaluation::SuccessRate,
+    statistics::SuccessRate,
     terminal::{
         Advice, AdviceState, CoachQuery, Mode, Proposal,
         pages::coach::{CoachPage, Position},

@@ -13,8 +13,8 @@ use crate::{
         words::{LengthUnit, no_jump_words},
     },
     drills::{Exercise, ExerciseError, Goal, Session, Venue},
-    learning::evaluation::SuccessRate,
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
+    statistics::SuccessRate,
     table::{CueBall, Layout, Table},
     terminal::{
         DrillTask, JudgedStroke, Outcome, Position, Shot, Stroke, Taught,

@@ -8,10 +8,8 @@ use ratatui::{
 };
 
 use crate::{
-    learning::{
-        evaluation::SuccessRate,
-        run::{follow::Condition, status::Phase},
-    },
+    learning::run::{follow::Condition, status::Phase},
+    statistics::SuccessRate,
     terminal::{
         pages::training::{Named, TrainingPage, Watch},
         ui::{
