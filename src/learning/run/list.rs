@@ -33,7 +33,7 @@ pub enum Stage {
     /// All shots have been played.
     Finished,
     /// It was stopped and can go on.
-    Interrupted,
+    Stopped,
     /// It broke down.
     Failed,
     /// Its process is gone without a word.
@@ -48,7 +48,7 @@ impl Stage {
             Self::Paused => "paused",
             Self::Stalled => "stalled",
             Self::Finished => "finished",
-            Self::Interrupted => "interrupted",
+            Self::Stopped => "stopped",
             Self::Failed => "failed",
             Self::Died => "died",
         }
@@ -69,7 +69,7 @@ impl From<Condition> for Stage {
             Condition::Is(Phase::Finished) => Self::Finished,
             Condition::Is(Phase::Failed) => Self::Failed,
             Condition::Died => Self::Died,
-            _ => Self::Interrupted,
+            _ => Self::Stopped,
         }
     }
 }

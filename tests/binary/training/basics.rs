@@ -68,12 +68,12 @@ fn an_interrupted_run_is_listed_saves_and_goes_on_and_nobody_else_may_meanwhile(
     assert_eq!(child.wait().unwrap().code(), Some(75));
     assert!(run.join("policy.safetensors").exists());
     let stopped = listed();
-    assert_eq!(stopped["state"], "interrupted");
+    assert_eq!(stopped["state"], "stopped");
     let resumed = unfinished(here, &format!("train --resume {name} --minutes 0.002"));
     assert!(resumed.err.contains("carom train --resume"), "{}", resumed.err);
     assert!(listed()["shots"].as_u64() > stopped["shots"].as_u64());
     let table = done(here, "train --list").out;
-    assert!(table.lines().count() == 2 && table.contains(name) && table.contains("interrupted"), "{table}");
+    assert!(table.lines().count() == 2 && table.contains(name) && table.contains("stopped"), "{table}");
 }
 
 #[test]

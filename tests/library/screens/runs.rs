@@ -44,7 +44,7 @@ pub fn listing() -> Listing {
     let runs = vec![
         summary(OTHER, 5_000_000, Some(0.931), Stage::Finished),
         summary(NAME, 1_200_000, Some(0.874), Stage::Running),
-        summary("20261118-three-cushions/seed-1", 40_000, None, Stage::Interrupted),
+        summary("20261118-three-cushions/seed-1", 40_000, None, Stage::Stopped),
     ];
     Listing { runs, ..Listing::default() }
 }

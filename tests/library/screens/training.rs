@@ -36,7 +36,7 @@ fn the_list_of_runs() {
     let down = player.press("Down Down Down");
     down.shows(&[
         "▸ 20261118-three-cushions/seed-1",
-        "40k    1      -      -  interrupted",
+        "40k    1      -      -  stopped",
         "Run 3 of 3",
         "seed 1: 40,000 of 5,000,000 shots",
         "r go on with it",
@@ -240,7 +240,7 @@ fn a_run_is_started_once_however_long_the_key_is_held() {
     let player = died().press("r r r");
     assert_eq!(player.effects.len(), 1);
     player.says("the run is being started");
-    let listed = Listing { runs: vec![summary(NAME, 9, None, Stage::Interrupted)], ..Listing::default() };
+    let listed = Listing { runs: vec![summary(NAME, 9, None, Stage::Stopped)], ..Listing::default() };
     let player = player.press("Esc").report(Report::Runs(Ok(listed)));
     assert_eq!(player.press("r r").effects.len(), 1, "nor from the list");
     let again = died().press("r").condition(Condition::Is(Phase::Training), None).condition(Condition::Died, None);

@@ -34,7 +34,7 @@ pub enum Condition {
     Stalled(Duration),
     /// Its process is gone without having said so: it was killed, or the machine stopped.
     Died,
-    /// It is not finished and no process works on it; how it ended is not known.
+    /// It is not finished and no process works on it; how it ended is not known, and it is called stopped.
     Interrupted,
     /// Its folder has been removed.
     Removed,
@@ -64,7 +64,7 @@ impl fmt::Display for Condition {
             Self::Is(phase) => out.write_str(phase.name()),
             Self::Stalled(since) => write!(out, "stalled for {} s", since.as_secs()),
             Self::Died => out.write_str("died"),
-            Self::Interrupted => out.write_str("interrupted"),
+            Self::Interrupted => out.write_str("stopped"),
             Self::Removed => out.write_str("removed"),
         }
     }

@@ -95,7 +95,8 @@ impl Followed {
     /// How it is, in a sentence that says what to do.
     pub fn sentence(&self) -> String {
         let folder = self.folder.display();
-        let after = self.history.last().map_or_else(String::new, |record| format!(" after {} shots", record.shots));
+        let shots = self.shots();
+        let after = if shots > 0 { format!(" after {shots} shots") } else { String::new() };
         let go_on = format!("go on with: carom train --resume \"{folder}\"");
         match self.condition {
             Condition::Unknown => format!("looking at {folder}"),
@@ -104,7 +105,12 @@ impl Followed {
                 let reason = self.standing.as_ref().and_then(|standing| standing.reason.as_deref());
                 format!("the run has failed{after}: {}", reason.unwrap_or("no reason was given"))
             }
-            Condition::Is(Phase::Stopped) => format!("the run was stopped{after}; {go_on}"),
+            Condition::Is(Phase::Stopped) => {
+                // What is measured at a stop has no line of metrics, which must not depend on where a run was stopped.
+                let reward = self.standing.as_ref().and_then(|standing| standing.held_out_reward);
+                let reward = reward.map_or_else(String::new, |reward| format!(", held-out reward {reward:.4}"));
+                format!("the run was stopped{after}{reward}; {go_on}")
+            }
             Condition::Is(phase) => format!("the run is {}{after}", phase.name()),
             Condition::Stalled(time) => format!(
                 "the run is stalled{after}: its process is there and has written nothing for {} s; it may have been \
@@ -114,7 +120,7 @@ impl Followed {
             Condition::Died => {
                 format!("the run died{after}: its process is gone without a word, killed or with the machine; {go_on}")
             }
-            Condition::Interrupted => format!("the run was interrupted{after}; {go_on}"),
+            Condition::Interrupted => format!("the run was stopped{after}; {go_on}"),
             Condition::Removed => format!("{folder} has been removed"),
         }
     }

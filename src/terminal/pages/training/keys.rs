@@ -157,7 +157,7 @@ const MARK: Binding<A, W> = bind(List, W::Marked, &[
 pub const RUNS: &[Binding<A, W>] = &[
     bind(List, W::Marked, &[key(Enter, A::Choose)], Some(("watch", 1)), "watch the marked run"),
     bind(List, W::MayTrain, &[letter('n', A::New)], Some(("new run", 1)), "start a new run"),
-    bind(List, W::MarkedCanGoOn, &[letter('r', A::Resume)], Some(("go on with it", 1)), "go on with a run that was interrupted"),
+    bind(List, W::MarkedCanGoOn, &[letter('r', A::Resume)], Some(("go on with it", 1)), "go on with a run that was stopped or killed"),
     MARK,
     BACK,
 ];

@@ -91,7 +91,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
             _ if n == mark => ui.theme.accent(),
             Stage::Running | Stage::Paused => ui.theme.good(),
             Stage::Stalled | Stage::Failed | Stage::Died => ui.theme.warning(),
-            Stage::Finished | Stage::Interrupted => ui.theme.text(),
+            Stage::Finished | Stage::Stopped => ui.theme.text(),
         };
         if n == mark {
             ui.buffer.set_string(area.x + 1, y, ui.caps.pick("▸", ">"), ui.theme.accent());
