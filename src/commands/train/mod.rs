@@ -64,7 +64,8 @@ pub struct Args {
     /// Held-out layouts of a measurement.
     #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = value_parser!(u32).range(1..=10_000_000))]
     evaluation_layouts: u32,
-    /// The run's folder; by default a new one among the user's runs.
+    /// The run's folder; by default a new one among the user's runs, called after the moment of its start and what is
+    /// trained, with -2, -3 and so on behind where that name is taken.
     #[arg(long, value_name = "DIR")]
     run: Option<PathBuf>,
     /// Go on with the run in the folder of --run where it holds one, and start it where it holds none: the same command
@@ -144,14 +145,15 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return resume(&read.folder, args.jobs, &options);
     }
     if let Some(seeds) = args.seeds {
-        return multi_seed::start(read, seeds, args.jobs, &options);
+        return multi_seed::start(&read, seeds, args.jobs, &options);
     }
     if args.jobs > 1 {
         let jobs = args.jobs;
         return Err(Failure::wrong_input(format_args!("--jobs {jobs} is for several seeds; say how many by --seeds")));
     }
-    let spec::Read { spec, weights, folder } = read;
-    train(spec.start(&folder, spec.plan.seed, weights.as_ref()).map_err(failure)?, &options)
+    let spec::Read { spec, weights, .. } = &read;
+    let run = read.begin(|folder| spec.start(folder, spec.plan.seed, weights.as_ref())).map_err(failure)?;
+    train(run, &options)
 }
 
 /// Goes on with one run or several.

@@ -15,9 +15,10 @@ use crate::{
 };
 
 /// Trains new runs with `seeds` seeds, `jobs` at a time.
-pub fn start(read: Read, seeds: u64, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
-    let Read { spec, weights, folder } = read;
-    train(&Group::create(&folder, spec, seeds, weights).map_err(failure)?, jobs, options)
+pub fn start(read: &Read, seeds: u64, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
+    let Read { spec, weights, .. } = read;
+    let group = read.begin(|folder| Group::create(folder, spec.clone(), seeds, weights.clone())).map_err(failure)?;
+    train(&group, jobs, options)
 }
 
 /// Goes on with the runs in `folder`.

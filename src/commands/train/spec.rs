@@ -10,7 +10,7 @@ use crate::{
     learning::{
         learner::{Agent, TrainingPlan},
         run::{
-            Config, Schedule, Start,
+            Config, RunError, Schedule, Start,
             origin::Weights,
             run_name,
             seeds::{TrainingSpec, described, is_group},
@@ -25,6 +25,30 @@ pub struct Read {
     pub spec: TrainingSpec,
     pub weights: Option<Weights>,
     pub folder: PathBuf,
+    /// Whether the folder was chosen by whoever gave the order.
+    pub is_named: bool,
+}
+
+impl Read {
+    /// What `start` begins in the folder. One that nobody has named gets a number where it is taken: its name is exact to the
+    /// second, and another training may have begun in the same one.
+    pub fn begin<T>(&self, start: impl Fn(&Path) -> Result<T, RunError>) -> Result<T, RunError> {
+        if self.is_named { start(&self.folder) } else { begin_in_free(&self.folder, start) }
+    }
+}
+
+/// What `start` begins in `folder`, or in the first of those with -2, -3 and so on behind its name that is not taken.
+fn begin_in_free<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>) -> Result<T, RunError> {
+    let mut begun = start(folder);
+    for number in 2_u32.. {
+        if !matches!(begun, Err(RunError::Occupied(_) | RunError::Foreign { .. } | RunError::Busy(_))) {
+            break;
+        }
+        let mut name = folder.as_os_str().to_owned();
+        name.push(format!("-{number}"));
+        begun = start(Path::new(&name));
+    }
+    begun
 }
 
 /// What the command line orders. Whatever it leaves open is as in the run that the weights come from, or the default.
@@ -55,7 +79,7 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     });
     let plan = TrainingPlan { reward, seed: args.seed, shots: args.steps };
     let spec = TrainingSpec { agent, plan, settings, schedule: Schedule::new(every, layouts), table };
-    Ok(Read { spec, weights, folder })
+    Ok(Read { spec, weights, folder, is_named: args.run.is_some() })
 }
 
 /// Whether the run, or the group of seeds, in the folder was started by such an order.
@@ -138,4 +162,22 @@ fn replace(settings: &mut Value, text: &str, origin: &str) -> Result<(), Failure
         settings[name] = value;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_that_nobody_has_named_gets_a_number_where_it_is_taken() {
+        let taken = |folder: &Path| match folder.display().to_string() {
+            name if name == "runs/a-1" => Err(RunError::Occupied(name)),
+            name if name == "runs/a-1-2" => Err(RunError::Busy(name)),
+            name => Ok(name),
+        };
+        assert_eq!(begin_in_free(Path::new("runs/a-1"), taken).unwrap(), "runs/a-1-3");
+        assert_eq!(begin_in_free(Path::new("runs/b-1"), taken).unwrap(), "runs/b-1");
+        let missing = |folder: &Path| Err::<(), _>(RunError::Missing(folder.display().to_string()));
+        assert!(begin_in_free(Path::new("runs/a-1"), missing).is_err(), "no other name helps");
+    }
 }

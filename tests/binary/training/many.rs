@@ -4,7 +4,8 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::common::{Files, SHORT, carom, done, folder, unfinished};
+use super::common::{Files, SHORT, carom, command, done, folder, unfinished};
+use crate::program::outcome;
 
 #[test]
 fn several_seeds_are_the_single_runs_and_go_on_as_one() {
@@ -48,6 +49,18 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     let single = carom(here, &format!("{SHORT} --run whole"));
     assert_eq!(single.code, Some(2));
     assert!(single.err.contains("--resume"), "{}", single.err);
+}
+
+#[test]
+fn runs_that_begin_in_the_same_second_have_folders_of_their_own() {
+    let folder = folder();
+    let here = folder.path();
+    let line = "train --config small.toml --steps 64 --evaluation-layouts 20";
+    let children = [0; 3].map(|_| command(here, line).spawn().unwrap());
+    for begun in children.map(outcome) {
+        assert_eq!(begun.code, Some(0), "{}", begun.err);
+    }
+    assert_eq!(done(here, "train --list --json").out.lines().count(), 3);
 }
 
 #[test]
