@@ -22,11 +22,11 @@ pub fn run_named(name: &Path) -> PathBuf {
     if known.exists() { known } else { name.to_owned() }
 }
 
-/// The folder of the run to look at: as [`run_named`], or the user's latest for `latest`.
+/// The folder of a run that is there: as [`run_named`], or the user's latest for `latest`.
 ///
 /// # Errors
 /// Where there is no such folder.
-pub fn run_to_watch(name: &Path) -> Result<PathBuf, Failure> {
+pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
     let folder = run_named(name);
     if folder.exists() {
         return Ok(folder);
@@ -38,7 +38,7 @@ pub fn run_to_watch(name: &Path) -> Result<PathBuf, Failure> {
         });
     }
     Err(Failure::failed(format_args!(
-        "there is no run {}, neither here nor in {}; carom watch lists the runs there are",
+        "there is no run {}, neither here nor in {}; carom train --list shows the runs there are",
         name.display(),
         runs.display()
     )))

@@ -10,7 +10,7 @@ use std::{
 
 use super::{
     Failure,
-    lookup::run_to_watch,
+    lookup::existing_run,
     output::{json_line, tell},
     train::{line, print_runs},
 };
@@ -48,7 +48,7 @@ pub struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let folder = args.run.as_deref().map(run_to_watch).transpose()?;
+    let folder = args.run.as_deref().map(existing_run).transpose()?;
     let is_run = folder.as_deref().is_some_and(holds_checkpoints);
     if !args.plain && !args.json && terminal::is_there() {
         return terminal::watch(folder.as_deref().filter(|_| is_run), folder.as_deref().filter(|_| !is_run))

@@ -16,7 +16,7 @@ use clap::value_parser;
 
 use self::progress::Progress;
 pub(super) use self::{listing::print as print_runs, progress::line};
-use super::{Failure, input::minutes, lookup::run_named, output::tell};
+use super::{Failure, input::minutes, lookup::existing_run, output::tell};
 use crate::{
     game::Reward,
     learning::{
@@ -45,7 +45,8 @@ pub struct Args {
     /// Seed of everything random: the same seed gives the same weights.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Shots to play. The learning rates fall to nothing over them.
+    /// Shots to play. The learning rates fall to nothing over them. The agent ddpg plays in whole rounds, of 192 shots by
+    /// default: its run ends with the first round at or beyond this number.
     #[arg(long, value_name = "SHOTS", default_value_t = 5_000_000, value_parser = value_parser!(u64).range(1..))]
     steps: u64,
     /// Settings of the agent that differ from its defaults, or from those of --from, as a TOML file.
@@ -58,7 +59,7 @@ pub struct Args {
     /// networks, new optimiser, new memory, new schedule.
     #[arg(long, value_name = "RUN|FILE")]
     from: Option<PathBuf>,
-    /// Shots between two measurements on held-out layouts; by default a fiftieth of the shots, at least 10,000.
+    /// Shots between two measurements on held-out layouts; by default a fiftieth of the shots, or 10,000 where that is more.
     #[arg(long, value_name = "SHOTS", value_parser = value_parser!(u64).range(1..))]
     evaluate_every: Option<u64>,
     /// Held-out layouts of a measurement.
@@ -75,8 +76,8 @@ pub struct Args {
     /// Train so many seeds, from --seed on, each in a folder of the run's folder, and write the spread to seeds.csv.
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1000))]
     seeds: Option<u64>,
-    /// Go on with this run or these seeds (a folder, or a name among the user's runs), with the settings they started
-    /// with.
+    /// Go on with this run or these seeds (a folder, a name among the user's runs, or "latest"), with the settings they
+    /// started with.
     #[arg(long, value_name = "RUN", conflicts_with_all = [
         "agent", "reward", "table", "seed", "steps", "config", "set", "from", "evaluate_every", "evaluation_layouts", "run",
         "seeds", "continue",
@@ -137,7 +138,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let options =
         TrainOptions { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json, objective: args.objective };
     if let Some(name) = &args.resume {
-        return resume(&run_named(name), args.jobs, &options);
+        return resume(&existing_run(name)?, args.jobs, &options);
     }
     let read = spec::read(args)?;
     if args.r#continue && (is_group(&read.folder) || holds_checkpoints(&read.folder)) {

@@ -194,6 +194,7 @@ fn runs_are_found_by_name_or_as_the_latest_and_listed_where_none_is_named() {
     let none = carom(here, "watch latest");
     assert_eq!(none.code, Some(1));
     assert!(none.err.contains("carom train"), "{}", none.err);
+    assert!(carom(here, "train --resume latest").err.contains("there are no runs in"));
     assert!(done(here, "watch").err.contains("no runs in"));
     let unknown = carom(here, "watch nowhere");
     assert_eq!(unknown.code, Some(1));
@@ -205,6 +206,8 @@ fn runs_are_found_by_name_or_as_the_latest_and_listed_where_none_is_named() {
     let name =
         list.lines().find_map(|line| line.split_whitespace().next().filter(|name| name.ends_with("-4"))).unwrap();
     assert_eq!(done(here, "watch latest --json").out, done(here, &format!("watch {name} --json")).out);
+    let resumed = done(here, "train --resume latest");
+    assert!(resumed.err.contains(name) && resumed.err.contains("is finished"), "{}", resumed.err);
     let dumb = outcome(command(here, "watch latest").env("TERM", "dumb").spawn().unwrap());
     assert_eq!(dumb.out.lines().count(), 10, "{}", dumb.err);
 }

@@ -207,7 +207,7 @@ pub const WATCH: &[Binding<A, W>] = &[
     bind(Charts, W::Zoomed, &[letter('0', A::All)], None, "show all of the run"),
     bind(Charts, W::Zoomed, &[key(End, A::Follow)], None, "follow the end of the run"),
     bind(Run, W::HasPolicy, &[letter('k', A::Keep)], Some(("keep", 1)), "keep these weights under a name"),
-    bind(Run, W::AtWork, &[letter('A', A::Abandon)], None, "abandon the run and delete it; asks first"),
+    bind(Run, W::AtWork, &[letter('A', A::Abandon)], None, "end a run at work and delete it; asks first"),
     bind(Replay, W::Shots, &[letter(' ', A::Play)], Some(("replay", 1)), "play and pause the latest shots on held-out layouts"),
     bind(Replay, W::Shots, &[letter(',', A::Shot(-1)), letter('.', A::Shot(1))], None, "the shot before, the next shot"),
     BACK,
