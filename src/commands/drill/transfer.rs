@@ -22,7 +22,7 @@ use crate::{
 /// Write all sessions, positions and the skill of one's own as one JSON file.
 #[derive(Debug, clap::Args)]
 pub struct ExportArgs {
-    /// The file; without one, or for "-", the standard output.
+    /// The file, in a folder that is there; without one, or for "-", the standard output.
     file: Option<PathBuf>,
 }
 
@@ -46,8 +46,14 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
         None => json_line(&practice)?,
         Some(file) => {
             let refuse = |error: io::Error| Failure::failed(format_args!("{}: {error}", file.display()));
+            let target = target_of(file);
+            // A path with a mistake in it must not make folders that nobody looks into.
+            if let Some(folder) = target.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.exists()) {
+                let (file, folder) = (file.display(), folder.display());
+                return Err(Failure::failed(format_args!("{file}: there is no folder {folder}; make it first")));
+            }
             let bytes = serde_json::to_vec(&practice).map_err(|error| refuse(error.into()))?;
-            write_atomic(&target_of(file), &bytes).map_err(refuse)?;
+            write_atomic(&target, &bytes).map_err(refuse)?;
             let (positions, sessions) = (practice.library.exercises.len(), practice.sessions.len());
             tell(format_args!(
                 "{} and {} written to {}",

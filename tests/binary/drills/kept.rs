@@ -33,6 +33,9 @@ fn what_is_exported_is_imported_elsewhere_and_once() {
     drill(here.path(), &["log", "mine", "make", "miss"]);
     drill(here.path(), &["log", "mine", "make"]);
     assert_eq!(drill(here.path(), &["export", "all.json"]).code, Some(0));
+    let mistyped = drill(here.path(), &["export", "al/l.json"]);
+    assert!(mistyped.code == Some(1) && mistyped.err.contains("there is no folder al"), "{}", mistyped.err);
+    assert!(!here.path().join("al").exists());
     let file = here.path().join("all.json");
     let file = file.to_str().unwrap();
     let import = || drill(there.path(), &["import", file, "--json"]).json().remove(0);
