@@ -186,6 +186,34 @@ fn the_page_of_the_command_line_has_every_command_and_option_and_no_other() {
     }
 }
 
+#[test]
+fn the_examples_of_the_pages_work() {
+    let pages = [
+        include_str!("../../README.md"),
+        include_str!("../../docs/practice.md"),
+        include_str!("../../docs/command-line.md"),
+    ];
+    // Those that take no time, need no file of the reader's and keep nothing.
+    let examples = pages.iter().flat_map(|page| page.lines()).filter(|line| {
+        ["carom simulate ", "carom drill list "].iter().any(|begin| line.starts_with(begin))
+            && !line.contains("--batch")
+    });
+    let mut count = 0;
+    for example in examples {
+        let words = example.split('#').next().unwrap().trim();
+        // What stands between quotation marks is one word.
+        let words = words
+            .split('"')
+            .enumerate()
+            .flat_map(|(n, part)| if n % 2 == 1 { vec![part] } else { part.split_whitespace().collect() });
+        let words: Vec<&str> = words.skip(1).collect();
+        let answer = carom(&words).output().unwrap();
+        assert!(answer.status.success(), "{example}: {}", String::from_utf8_lossy(&answer.stderr));
+        count += 1;
+    }
+    assert!(count >= 5, "{count} examples");
+}
+
 /// Panics unless every element of `document` is closed in its turn and every attribute is quoted.
 fn check_elements(document: &str) {
     let mut open = Vec::new();

@@ -123,7 +123,8 @@ fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
     let stopped = done(here, "watch stop");
     let standing: Value = serde_json::from_slice(&fs::read(here.join("stop/state.json")).unwrap()).unwrap();
     let reward = standing["held_out_reward"].as_f64().unwrap();
-    let told = format!("the run was stopped after {} shots, held-out reward {reward:.4}; go on with", standing["shots"]);
+    let told =
+        format!("the run was stopped after {} shots, held-out reward {reward:.4}; go on with", standing["shots"]);
     assert!(stopped.err.contains(&told), "{told}: {}", stopped.err);
 }
 
