@@ -91,7 +91,8 @@ pub struct Args {
     /// Time that the recommender has for a layout, ms.
     #[arg(long, default_value_t = 500, conflicts_with = "policy_only")]
     budget_ms: u64,
-    /// Simulations that the recommender has for a layout in place of a time: the answer is then the same on any machine.
+    /// Simulations after which the recommender begins nothing new on a layout, in place of a time: the answer is then the same
+    /// on any machine. As for `carom recommend`, what has to be done in any case comes on top.
     #[arg(long, value_name = "COUNT", conflicts_with_all = ["policy_only", "random_search", "budget_ms"],
         value_parser = clap::value_parser!(u64).range(1..))]
     simulations: Option<u64>,

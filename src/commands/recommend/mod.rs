@@ -64,7 +64,8 @@ pub struct Args {
     /// Time to look for a shot, ms.
     #[arg(long, default_value_t = 500, value_parser = clap::value_parser!(u64).range(0..=3_600_000))]
     budget_ms: u64,
-    /// Simulations after which the search ends, if time has not ended it: then the answer is the same on every machine.
+    /// Simulations after which the search begins nothing new, if time has not ended it: then the answer is the same on every
+    /// machine. It is no limit: a least search and judging the shots that were found come on top, thousands of simulations.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
     simulations: Option<u64>,
     /// Give the networks' own shot, without any simulation.
