@@ -143,7 +143,7 @@ impl Cli {
             for complaint in &complaints {
                 tell(format_args!("{}: {complaint}", path.display()));
             }
-            return crate::terminal::talk(table, &settings).map_err(failure);
+            return crate::terminal::talk(table, &settings, &seat.places).map_err(failure);
         }
         crate::terminal::run(table, &settings, &complaints, seat).map_err(failure)
     }

@@ -19,7 +19,7 @@ mod ui;
 mod words;
 
 use std::{
-    io::{self, IsTerminal},
+    io::{self, IsTerminal, Write},
     path::Path,
     time::SystemTime,
 };
@@ -31,6 +31,8 @@ use crate::{
     storage::{self, Places},
     table::{Layout, LayoutError, Table},
 };
+
+use plain::Beginning;
 
 pub use app::{
     App, LEAST_SIZE, Overlay,
@@ -122,15 +124,21 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
     Ok(host::runner::run(app, seat.places)?)
 }
 
-/// The coach as a conversation in lines, on the standard input and output.
+/// The coach as a conversation in lines, on the standard input and output, for the player whose files are at `places`.
 ///
 /// # Errors
 /// [`TerminalError`]: a layout that is not possible, or input or output that fails.
-pub fn talk(table: Table, settings: &Settings) -> Result<(), TerminalError> {
+pub fn talk(table: Table, settings: &Settings, places: &Places) -> Result<(), TerminalError> {
     let layout = Layout::opening(&table);
     let prompt = if io::stdin().is_terminal() { "> " } else { "" };
     let coach = Coach::new(table);
-    Ok(plain::converse(coach, layout, settings, seed(), io::stdin().lock(), printing::stdout(), prompt)?)
+    let own = Store::new(places).own_skill().unwrap_or_else(|error| {
+        // As if none was kept; what is wrong is said once.
+        let _ = writeln!(printing::stderr(), "note: {error}");
+        None
+    });
+    let beginning = Beginning { layout, own: own.map(|own| own.skill), seed: seed() };
+    Ok(plain::converse(coach, beginning, settings, io::stdin().lock(), printing::stdout(), prompt)?)
 }
 
 /// What the terminal can show, where the user has set that or the environment lets it be guessed.

@@ -15,7 +15,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
     coach::{
-        Coach, Kind, Pattern, Request, Sensitivity, ShotWords, Technique, Units, Verdict, Why, aim, systems::guide, why,
+        Coach, Kind, Pattern, Request, Sensitivity, ShotWords, Skill, Technique, Units, Verdict, Why, aim,
+        systems::guide, why,
     },
     game::Point,
     physics::CueInputs,
@@ -41,6 +42,8 @@ struct Found {
 struct Conversation {
     coach: Coach,
     request: Request,
+    /// The player's own skill, where one is kept.
+    own: Option<Skill>,
     balls: History<(Layout, CueBall)>,
     /// The shots that were found for the balls as they lie, and which of them is spoken of.
     shots: Vec<Found>,
@@ -51,16 +54,25 @@ struct Conversation {
     rng: Xoshiro256PlusPlus,
 }
 
-/// Talks about `layout` until the input ends or the player quits; with a `prompt` before every answer that is awaited.
-/// `seed` decides about random layouts.
+/// What a conversation begins with.
+#[derive(Clone, Copy, Debug)]
+pub struct Beginning {
+    /// Where the balls lie.
+    pub layout: Layout,
+    /// The player's own skill, where one is kept.
+    pub own: Option<Skill>,
+    /// What decides about random layouts.
+    pub seed: u64,
+}
+
+/// Talks until the input ends or the player quits; with a `prompt` before every answer that is awaited.
 ///
 /// # Errors
 /// What reading or writing reports.
 pub fn converse(
     coach: Coach,
-    layout: Layout,
+    Beginning { layout, own, seed }: Beginning,
     settings: &Settings,
-    seed: u64,
     input: impl BufRead,
     mut output: impl Write,
     prompt: &str,
@@ -78,6 +90,7 @@ pub fn converse(
     let mut talk = Conversation {
         coach,
         request,
+        own,
         balls: History::new((layout, CueBall::White)),
         shots: Vec::new(),
         chosen: 0,
@@ -152,6 +165,13 @@ impl Conversation {
                 self.request.skill = skill;
                 self.forget(format!("The player is {skill}."))
             }
+            Order::OwnSkill => match self.own {
+                Some(skill) => {
+                    self.request.skill = skill;
+                    self.forget(format!("The player is you: {skill}."))
+                }
+                None => "No skill of your own is kept yet; carom drill skill --keep estimates and keeps it.".to_owned(),
+            },
             Order::Plan(plan) => {
                 self.request.plan = plan;
                 self.forget(format!("The next point {}.", if plan { "counts too" } else { "does not count" }))
@@ -294,11 +314,17 @@ mod tests {
     use std::time::Instant;
 
     fn talk(lines: &str) -> String {
+        talk_of(None, lines)
+    }
+
+    /// With a player whose own skill this is.
+    fn talk_of(own: Option<Skill>, lines: &str) -> String {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let mut output = Vec::new();
         let settings = Settings { think_ms: 1_000, ..Settings::default() };
-        converse(Coach::new(table), layout, &settings, 1, lines.as_bytes(), &mut output, "").unwrap();
+        let beginning = Beginning { layout, own, seed: 1 };
+        converse(Coach::new(table), beginning, &settings, lines.as_bytes(), &mut output, "").unwrap();
         String::from_utf8(output).unwrap()
     }
 
@@ -382,6 +408,14 @@ mod tests {
         assert!(said.contains("hits white") || said.contains("hits red"), "{said}");
         assert!(said.contains("yellow meets") && !said.contains("white meets yellow"), "{said}");
         assert!(said.trim_end().ends_with("The cue ball is white already."), "{said}");
+    }
+
+    #[test]
+    fn the_skill_that_is_kept_plays_and_where_none_is_that_is_said() {
+        assert!(talk("skill own").contains("No skill of your own is kept yet"));
+        let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
+        let said = talk_of(own.parse().ok(), "skill own\n");
+        assert!(said.contains(&format!("The player is you: {own}.")), "{said}");
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub enum Order {
     Rule(Rule),
     /// Who plays.
     Skill(Skill),
+    /// The player of the skill that was kept plays.
+    OwnSkill,
     /// Whether the next point counts too.
     Plan(bool),
     /// A shot.
@@ -82,13 +84,13 @@ pub const HELP: &[(&str, &str)] = &[
     ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
     (
         "skill club",
-        "who plays: perfect, expert, world-class, national, club, beginner or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
+        "who plays: perfect, expert, world-class, national, club, beginner, own (your own skill, once it is kept) or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
     ),
     ("plan off", "whether the coach has the next point in mind: on or off"),
     ("film", "which filmed shots there are"),
     ("film 12", "that filmed shot, and how far the simulated balls are from the filmed ones"),
     ("undo", "take the last change of the balls back"),
-    ("quit", "end; so does the end of the input"),
+    ("quit", "end; so do exit and the end of the input"),
 ];
 
 impl FromStr for Order {
@@ -118,11 +120,12 @@ impl FromStr for Order {
                     .parse()
                     .map_err(|_| format!("\"{number}\" is no shot of the film; film says which there are"))?,
             ),
-            ["help"] => Self::Help,
-            ["quit"] => Self::Quit,
+            ["help" | "?"] => Self::Help,
+            ["quit" | "exit"] => Self::Quit,
             ["plan", "on"] => Self::Plan(true),
             ["plan", "off"] => Self::Plan(false),
             ["rule", name] => Self::Rule(name.parse().map_err(|error| format!("{error}"))?),
+            ["skill", "own"] => Self::OwnSkill,
             ["skill", name] => Self::Skill(name.parse().map_err(|error| format!("{error}"))?),
             ["balls", ref places @ ..] => Self::Balls(places.join(" ")),
             ["move", ball, direction, distance] => Self::Move(ball_named(ball)?, step(direction, distance)?),
@@ -162,6 +165,8 @@ mod tests {
             assert!(line.parse::<Order>().is_ok(), "{line}");
         }
         assert_eq!("".parse(), Ok(Order::Shot));
+        assert_eq!("?".parse(), Ok(Order::Help));
+        assert_eq!("exit".parse(), Ok(Order::Quit));
     }
 
     #[test]
