@@ -183,11 +183,11 @@ impl Entry {
         let Mark { name, .. } = mark;
         let unit = mark.unit();
         let no_number = |written: &Written| {
-            let accepted = match unit {
-                Unit::Diamonds => "a number of diamonds, or a text like \"412 mm\"",
-                Unit::Seconds => "a number of seconds",
+            let (what, accepted) = match unit {
+                Unit::Diamonds => ("length", "a number of diamonds, or a text like \"412 mm\""),
+                Unit::Seconds => ("time", "a number of seconds"),
             };
-            format!("{name} = {written} is no {}; accepted is {accepted}", unit.sign())
+            format!("{name} = {written} is no {what}; accepted is {accepted}")
         };
         let (value, is_taped) = written.read(unit, table).ok_or_else(|| no_number(written))?;
         let least = if unit == Unit::Seconds { SHORTEST } else { 0.0 };

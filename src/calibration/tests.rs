@@ -186,7 +186,7 @@ fn odd_marks_are_named_with_what_would_be_accepted() {
         ("lap = 0.05", "nobody stops a watch that fast"),
         ("lap = -3", "lap = -3"),
         ("lap = nan", "lap = NaN"),
-        ("lap = \"3 mm\"", "is no s; accepted is a number of seconds"),
+        ("lap = \"3 mm\"", "is no time; accepted is a number of seconds"),
         ("stop = \"far\"", "\"412 mm\""),
         ("stopp = 3", "no mark \"stopp\"; its marks are lap, rest, stop"),
         ("stop = 3\nrails = 40", "rails = 40: nobody strikes that hard"),

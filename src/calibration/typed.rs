@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn letters_are_kept_to_be_named() {
         let said = entry(&[("stop", "far")]).readings(&Table::default()).1;
-        assert!(said[0].contains("stop = \"far\" is no diamonds"), "{said:?}");
+        assert!(said[0].contains("stop = \"far\" is no length"), "{said:?}");
         let mut entry = Entry::default();
         assert!(entry.take(RAILS, "two").unwrap_err().contains("rails two is no number"));
     }

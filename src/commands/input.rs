@@ -145,14 +145,14 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
             continue;
         }
         lines += 1;
-        let question = question(&line).map_err(|reason| {
-            Failure::wrong_input(format_args!("line {index} is not a valid JSON question: {reason}"))
-        });
-        match question.and_then(&mut answer) {
+        let question = question(&line).map_err(|reason| format!("line {index} is not a valid JSON question: {reason}"));
+        let answered =
+            question.and_then(|question| answer(question).map_err(|failure| format!("line {index}: {failure}")));
+        match answered {
             Ok(answer) => printing::json_line(&mut out, &answer)?,
-            Err(failure) => {
+            Err(error) => {
                 refused += 1;
-                printing::json_line(&mut out, &Refusal { error: failure.to_string() })?;
+                printing::json_line(&mut out, &Refusal { error })?;
             }
         }
         if file == "-" {

@@ -35,6 +35,11 @@ pub fn line(text: impl Display) -> Result<(), Failure> {
     Ok(writeln!(printing::stdout(), "{}", OneLine(text))?)
 }
 
+/// A number of things.
+pub fn plural(count: usize, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
 /// The units that the user has chosen; a file with mistakes is the business of `carom config --check`.
 pub fn units() -> Units {
     Settings::load(&Settings::path()).0.units

@@ -52,7 +52,8 @@ fn a_batch_answers_every_line_in_order_and_goes_on_after_a_bad_one() {
     let output = carom(&["simulate", "--batch", "-"]).write_stdin(input.join("\n")).assert().code(2);
     let answers = lines(&output.get_output().stdout);
     assert_eq!(answers.len(), 5);
-    assert!(answers[1]["error"].as_str().unwrap().contains("0.0100"));
+    let refused = answers[1]["error"].as_str().unwrap();
+    assert!(refused.starts_with("line 2: ") && refused.contains("0.0100"), "{refused}");
     assert!(answers[4]["error"].as_str().unwrap().contains("line 5"));
     let expected: Value = serde_json::from_str(shots.lines().next().unwrap()).unwrap();
     let difference = answers[0]["duration"].as_f64().unwrap() - expected["duration"].as_f64().unwrap();

@@ -6,13 +6,13 @@ use serde::Serialize;
 
 use super::{
     Workspace,
-    score::{Score, plural, words},
+    score::{Score, words},
     workspace::player,
 };
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, prompt, tell},
+        output::{json_line, line, plural, prompt, tell},
     },
     drills::{Goal, Session, Venue},
     storage::Lock,

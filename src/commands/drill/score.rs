@@ -4,7 +4,7 @@ use std::time::{Duration, UNIX_EPOCH};
 
 use serde::Serialize;
 
-use crate::{drills::Record, learning::moment, physics::CueInputs, table::Layout};
+use crate::{commands::output::plural, drills::Record, learning::moment, physics::CueInputs, table::Layout};
 
 /// A record in JSON.
 #[derive(Clone, Debug, Serialize)]
@@ -59,11 +59,6 @@ pub fn words(record: &Record) -> String {
         100.0 * record.rate.low,
         100.0 * record.rate.high
     )
-}
-
-/// A number of things.
-pub fn plural(count: usize, thing: &str) -> String {
-    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
 /// Unix time as `2026-11-20T14:30:05Z`.

@@ -6,14 +6,14 @@ use serde::Serialize;
 
 use super::{
     options::{PlayOptions, StrokeInput},
-    score::{Score, layout_text, plural, shot_text, words},
+    score::{Score, layout_text, shot_text, words},
 };
 use crate::{
     coach::{Coach, Request, Shooter, words::LengthUnit},
     commands::{
         Failure,
         input::ByTable,
-        output::{json_line, line, tell, units},
+        output::{json_line, line, plural, tell, units},
         recommend::coach_for,
     },
     drills::{

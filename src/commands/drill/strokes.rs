@@ -4,11 +4,13 @@ use std::io::{self, BufRead, IsTerminal};
 
 use super::{
     options::{PlayOptions, StrokeInput},
-    score::plural,
     stroke_by_stroke::StrokeByStroke,
 };
 use crate::{
-    commands::{Failure, output::prompt},
+    commands::{
+        Failure,
+        output::{plural, prompt},
+    },
     drills::{Session, Store},
 };
 

@@ -5,11 +5,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{Workspace, score::plural, workspace::note};
+use super::{Workspace, workspace::note};
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, tell},
+        output::{json_line, line, plural, tell},
     },
     drills::{
         Store,

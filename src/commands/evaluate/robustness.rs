@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::order::Order;
 use crate::{
     coach::{Doubt, Shooter, Skill, make_probability},
+    commands::output::plural,
     game::Rule,
     physics::CueInputs,
     table::{Layout, Table},
@@ -69,7 +70,13 @@ impl fmt::Display for Said {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "said beforehand: {:.2} %", 100.0 * self.claimed)?;
         for Tenth { layouts, claimed, made } in &self.tenths {
-            write!(formatter, "\nsaid {:.1} %, made {:.1} % ({layouts} layouts)", 100.0 * claimed, 100.0 * made)?;
+            write!(
+                formatter,
+                "\nsaid {:.1} %, made {:.1} % ({})",
+                100.0 * claimed,
+                100.0 * made,
+                plural(*layouts, "layout")
+            )?;
         }
         Ok(())
     }

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     coach::{Coach, Request, Skill},
-    commands::output::json_line,
+    commands::output::{json_line, plural},
     game::{Reward, Rule, scores},
     learning::{Policy, Proposal, evaluation::held_out_layouts},
     physics::{CueInputs, has_room},
@@ -212,19 +212,18 @@ fn report<'a>(order: &'a Order, records: &[ShotRecord]) -> EvaluationReport<'a> 
 fn print_text(out: &mut impl Write, report: &EvaluationReport<'_>, layouts: usize) -> std::io::Result<()> {
     let EvaluationReport { player, policy, table, measure, .. } = report;
     let policy = policy.map_or_else(String::new, |policy| format!(" {policy}"));
+    let layouts = plural(layouts, "layout");
     match report.success {
         Some(SuccessRate { rate, low, high, .. }) => writeln!(
             out,
-            "{player}{policy} on \"{table}\": {measure} on {:.2} % of {layouts} layouts (95 % interval {:.2} to {:.2} %)",
+            "{player}{policy} on \"{table}\": {measure} on {:.2} % of {layouts} (95 % interval {:.2} to {:.2} %)",
             100.0 * rate,
             100.0 * low,
             100.0 * high
         )?,
-        None => writeln!(
-            out,
-            "{player}{policy} on \"{table}\": mean {measure} {:.4} over {layouts} layouts",
-            report.mean_reward
-        )?,
+        None => {
+            writeln!(out, "{player}{policy} on \"{table}\": mean {measure} {:.4} over {layouts}", report.mean_reward)?;
+        }
     }
     write!(out, "{:.0} layouts a second, the slowest took {:.2} ms", report.layouts_per_second, report.slowest_ms)?;
     match report.simulations_per_layout {

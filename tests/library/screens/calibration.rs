@@ -79,7 +79,7 @@ fn odd_marks_are_named_and_what_is_typed_stays() {
     assert_eq!(kept(&player).trials[0].typed("stop"), "5.4");
     for (marks, says) in [
         (["240", "", "", ""], "was the stopwatch left running?"),
-        (["abc", "", "", ""], "time = \"abc\" is no s; accepted is a number of seconds"),
+        (["abc", "", "", ""], "time = \"abc\" is no time; accepted is a number of"),
         (["", "", "", ""], "nothing is marked yet"),
         (["9", "5", "", "two"], "rails two is no number of rails"),
     ] {

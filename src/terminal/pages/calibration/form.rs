@@ -173,7 +173,7 @@ mod tests {
         let said = |test: &str, typed: &[&str]| form(test, typed).entry(&Table::default()).unwrap_err();
         assert!(said("slow-roll", &["9", "99"]).contains("stop = 99: no ball can be there"));
         assert!(said("slow-roll", &["240"]).contains("was the stopwatch left running?"));
-        assert!(said("slow-roll", &["abc"]).contains("time = \"abc\" is no s"));
+        assert!(said("slow-roll", &["abc"]).contains("time = \"abc\" is no time; accepted is a number of seconds"));
         assert!(said("slow-roll", &[]).contains("nothing is marked yet"));
         assert!(said("hard-lag", &["2.6", "3"]).contains("add rails = 5"));
     }
