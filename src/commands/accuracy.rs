@@ -6,7 +6,11 @@ use std::{
     sync::atomic::AtomicBool,
 };
 
-use super::{Failure, input::table_named, output::tell};
+use super::{
+    Failure,
+    input::{seed, table_named},
+    output::tell,
+};
 use crate::{
     printing::{self, ProgressLine},
     storage::write_atomic,
@@ -27,7 +31,7 @@ pub struct Args {
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
     shots: Option<u32>,
     /// Seed of the shots.
-    #[arg(long, default_value_t = 2026)]
+    #[arg(long, default_value_t = 2026, value_parser = seed)]
     seed: u64,
     /// The table: "match", "textbook", "thesis" or the path of a TOML file; where balls leave its cloth, strokes of up to 60
     /// degrees are studied too. Default: textbook and thesis, and such strokes on match

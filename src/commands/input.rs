@@ -4,6 +4,7 @@ use std::{
     collections::HashMap,
     fs::File,
     io::{self, BufRead, BufReader, Read, Write},
+    ops::RangeInclusive,
     path::Path,
     time::Duration,
 };
@@ -68,6 +69,22 @@ impl PositionArgs {
         layout.validate(&table).map_err(Failure::wrong_input)?;
         Ok((table, layout))
     }
+}
+
+/// What reads a whole number in a range. Whatever else is given is refused by that range: clap tells of none where a number that
+/// has no sign would be negative.
+pub fn whole(range: RangeInclusive<u64>) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| {
+        text.parse().ok().filter(|number| range.contains(number)).ok_or_else(|| match (range.start(), range.end()) {
+            (least, &u64::MAX) => format!("accepted is a whole number from {least} on"),
+            (least, most) => format!("accepted is a whole number from {least} to {most}"),
+        })
+    }
+}
+
+/// A seed, as [`whole`] reads it.
+pub fn seed(text: &str) -> Result<u64, String> {
+    whole(0..=u64::MAX)(text)
 }
 
 /// The time that `--minutes` gives, fractions of a minute too.

@@ -22,9 +22,9 @@ mod table;
 mod train;
 mod watch;
 
-use std::{error::Error, io::Write, process::ExitCode};
+use std::{any::TypeId, error::Error, ffi::OsString, io::Write, process::ExitCode};
 
-use clap::{Parser, Subcommand};
+use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use failure::Failure;
 use output::tell;
@@ -88,7 +88,7 @@ impl Cli {
     /// Where it is wrong or asks for help: all is said then, and this is the exit code.
     pub fn read() -> Result<Self, ExitCode> {
         let asked = std::env::var(ASKED_OVER_SSH).unwrap_or_default();
-        Self::try_parse().and_then(|cli| cli.asked(&asked)).map_err(|answer| {
+        Self::parsed(std::env::args_os()).and_then(|cli| cli.asked(&asked)).map_err(|answer| {
             // A value that is right and whose file cannot be read is no wrong input.
             if let Some(failure) = answer.source().and_then(|source| source.downcast_ref::<Failure>())
                 && failure.code() != 2
@@ -106,13 +106,20 @@ impl Cli {
         })
     }
 
+    /// What these words say, the program's name first.
+    fn parsed(words: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Self, clap::Error> {
+        let mut command = with_negative_numbers(Self::command());
+        let mut matches = command.try_get_matches_from_mut(words)?;
+        Self::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
+    }
+
     /// The same with what a guest has asked for behind `ssh`: another player may be followed so, and nothing else be done.
     fn asked(self, words: &str) -> Result<Self, clap::Error> {
         let words: Vec<&str> = words.split_whitespace().collect();
         if !self.guest || words.first() != Some(&"follow") {
             return Ok(self);
         }
-        let asked = Self::try_parse_from(["carom"].iter().chain(&words))?;
+        let asked = Self::parsed(["carom"].iter().chain(&words))?;
         Ok(Self { command: asked.command, ..self })
     }
 
@@ -175,6 +182,17 @@ impl Cli {
             Some(Command::Man(args)) => documents::man(&args),
         }
     }
+}
+
+/// The command with options of numbers that take negative ones for numbers, and not for options that nobody knows: what is out
+/// of range is then refused by its range.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let numbers = [TypeId::of::<f64>(), TypeId::of::<u64>(), TypeId::of::<u32>(), TypeId::of::<u8>()];
+    let with_negative = |option: Arg| {
+        let value = option.get_value_parser().type_id();
+        if numbers.iter().any(|number| value == *number) { option.allow_negative_numbers(true) } else { option }
+    };
+    command.mut_args(with_negative).mut_subcommands(with_negative_numbers)
 }
 
 fn failure(error: TerminalError) -> Failure {

@@ -4,7 +4,11 @@ use std::{io::Write, path::PathBuf, sync::atomic::Ordering, thread};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Failure, input::table_named, output::tell};
+use super::{
+    Failure,
+    input::{seed, table_named, whole},
+    output::tell,
+};
 use crate::{
     platform::stop_when_told,
     printing,
@@ -21,10 +25,10 @@ pub struct Args {
     #[arg(long = "figure", value_name = "NAME")]
     figures: Vec<String>,
     /// Shots of every training. Default: 50,000 for q-learning, 200,000 to 400,000 for the others
-    #[arg(long, value_name = "SHOTS", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "SHOTS", value_parser = whole(1..=u64::MAX))]
     episodes: Option<u64>,
     /// Seed of everything random: the same seed gives the same curves.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seed)]
     seed: u64,
     /// The table: "match", "textbook", "thesis" or the path of a TOML file.
     #[arg(long, default_value = "thesis")]

@@ -211,6 +211,22 @@ fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
 }
 
 #[test]
+fn a_negative_number_is_refused_by_the_range_and_not_as_an_option() {
+    for (args, words) in [
+        (&["recommend", "--budget-ms", "-5"][..], &["from 0 to 3600000", "--budget-ms"][..]),
+        (&["recommend", "--seed", "-1"], &["from 0 on", "--seed"]),
+        (&["simulate", "--shot", SHOT, "--method", "steps", "--dt", "-1"], &["dt = -1", "accepted"]),
+        (&["drill", "list", "--grade", "-1"], &["-1 is not in 0..=5"]),
+        (&["bench", "--seconds", "-1"], &["-1"]),
+        (&["evaluate", "--layouts", "-2"], &["-2 is not in 1..=10000000"]),
+    ] {
+        let (code, said) = refusal(&mut carom(args));
+        assert_eq!(code, 2, "{args:?}: {said}");
+        assert!(words.iter().all(|word| said.contains(word)) && !said.contains("unexpected"), "{args:?}: {said}");
+    }
+}
+
+#[test]
 fn files_that_cannot_be_read_end_with_exit_code_one() {
     let folder = tempfile::tempdir().unwrap();
     let corrupt = folder.path().join("weights.safetensors");

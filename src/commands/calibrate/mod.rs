@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::{
     Failure,
-    input::table_named,
+    input::{seed, table_named},
     output::{line, tell},
 };
 use crate::{
@@ -56,7 +56,7 @@ pub struct Args {
         value_parser = clap::value_parser!(u32).range(1..=100_000))]
     simulate: Option<u32>,
     /// With --simulate, the seed of tables and player.
-    #[arg(long, requires = "simulate", default_value_t = 1)]
+    #[arg(long, requires = "simulate", default_value_t = 1, value_parser = seed)]
     seed: u64,
     /// Print one JSON object.
     #[arg(long)]

@@ -3,7 +3,11 @@
 use super::workspace::player;
 use crate::{
     coach::Skill,
-    commands::{Failure, lookup::skill_called},
+    commands::{
+        Failure,
+        input::{seed, whole},
+        lookup::skill_called,
+    },
     drills::{Exercise, Goal, Session, Venue},
     physics::CueInputs,
 };
@@ -19,10 +23,10 @@ pub struct PlayOptions {
     #[arg(long, value_parser = skill_called)]
     skill: Option<Skill>,
     /// Seed of the errors; without it they are others every time.
-    #[arg(long)]
+    #[arg(long, value_parser = seed)]
     seed: Option<u64>,
     /// Time that the coach has for a shot, ms.
-    #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u64).range(0..=3_600_000))]
+    #[arg(long, default_value_t = 300, value_parser = whole(0..=3_600_000))]
     pub(super) budget_ms: u64,
     /// The coach advises neither jumps over a ball nor massés, as most clubs have it.
     #[arg(long)]

@@ -14,7 +14,7 @@ use self::{
 };
 use super::{
     Failure,
-    input::{minutes, note_doubts, table_named},
+    input::{minutes, note_doubts, seed, table_named, whole},
     lookup::{policy_called, skill_called},
     output::json_line,
     recommend::coach_for,
@@ -35,7 +35,7 @@ pub struct Args {
     #[arg(long, default_value_t = 2_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     layouts: u32,
     /// Seed of the layouts.
-    #[arg(long, default_value_t = EVALUATION_SEED)]
+    #[arg(long, default_value_t = EVALUATION_SEED, value_parser = seed)]
     seed: u64,
     /// The table: "match", "textbook", "thesis" or the path of a TOML file.
     #[arg(long, default_value = "match")]
@@ -80,7 +80,7 @@ pub struct Args {
     #[arg(long, requires = "self_play", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     most_points: u32,
     /// With --self-play, minutes after which play is broken off; fractions are accepted.
-    #[arg(long, requires = "self_play", allow_negative_numbers = true)]
+    #[arg(long, requires = "self_play")]
     minutes: Option<f64>,
     /// Rank shots by the probability of this point and the next.
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
@@ -89,12 +89,12 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
     no_jumps: bool,
     /// Time that the recommender has for a layout, ms.
-    #[arg(long, default_value_t = 500, conflicts_with = "policy_only")]
+    #[arg(long, default_value_t = 500, conflicts_with = "policy_only", value_parser = whole(0..=u64::MAX))]
     budget_ms: u64,
     /// Simulations after which the recommender begins nothing new on a layout, in place of a time: the answer is then the same
     /// on any machine. As for `carom recommend`, what has to be done in any case comes on top.
     #[arg(long, value_name = "COUNT", conflicts_with_all = ["policy_only", "random_search", "budget_ms"],
-        value_parser = clap::value_parser!(u64).range(1..))]
+        value_parser = whole(1..=u64::MAX))]
     simulations: Option<u64>,
     /// Measure part K of N of the layouts only, and print what was measured as JSON for --merge.
     #[arg(long, value_name = "K/N", conflicts_with = "json")]

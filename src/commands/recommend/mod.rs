@@ -19,7 +19,7 @@ use self::{
 };
 use super::{
     Failure,
-    input::{ByTable, Keys, PositionArgs, answer_lines, note_doubts},
+    input::{ByTable, Keys, PositionArgs, answer_lines, note_doubts, seed, whole},
     lookup::{policy_called, skill_called},
     output::{impulse_words, units},
 };
@@ -62,11 +62,11 @@ pub struct Args {
     #[arg(long)]
     margins: bool,
     /// Time to look for a shot, ms.
-    #[arg(long, default_value_t = 500, value_parser = clap::value_parser!(u64).range(0..=3_600_000))]
+    #[arg(long, default_value_t = 500, value_parser = whole(0..=3_600_000))]
     budget_ms: u64,
     /// Simulations after which the search begins nothing new, if time has not ended it: then the answer is the same on every
     /// machine. It is no limit: a least search and judging the shots that were found come on top, thousands of simulations.
-    #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_parser = whole(1..=u64::MAX))]
     simulations: Option<u64>,
     /// Give the networks' own shot, without any simulation.
     #[arg(long)]
@@ -75,7 +75,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", default_value = "bundled")]
     policy: String,
     /// Seed of the search: while time does not run out, the same seed finds the same shot.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
     /// Print one JSON object.
     #[arg(long)]

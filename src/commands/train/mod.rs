@@ -16,7 +16,12 @@ use clap::value_parser;
 
 use self::progress::Progress;
 pub(super) use self::{listing::print as print_runs, progress::line};
-use super::{Failure, input::minutes, lookup::existing_run, output::tell};
+use super::{
+    Failure,
+    input::{minutes, seed, whole},
+    lookup::existing_run,
+    output::tell,
+};
 use crate::{
     game::Reward,
     learning::{
@@ -43,11 +48,11 @@ pub struct Args {
     #[arg(long)]
     table: Option<String>,
     /// Seed of everything random: the same seed gives the same weights.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seed)]
     seed: u64,
     /// Shots to play. The learning rates fall to nothing over them. The agent ddpg plays in whole rounds, of 192 shots by
     /// default: its run ends with the first round at or beyond this number.
-    #[arg(long, value_name = "SHOTS", default_value_t = 5_000_000, value_parser = value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "SHOTS", default_value_t = 5_000_000, value_parser = whole(1..=u64::MAX))]
     steps: u64,
     /// Settings of the agent that differ from its defaults, or from those of --from, as a TOML file.
     #[arg(long, value_name = "FILE")]
@@ -60,7 +65,7 @@ pub struct Args {
     #[arg(long, value_name = "RUN|FILE")]
     from: Option<PathBuf>,
     /// Shots between two measurements on held-out layouts; by default a fiftieth of the shots, or 10,000 where that is more.
-    #[arg(long, value_name = "SHOTS", value_parser = value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "SHOTS", value_parser = whole(1..=u64::MAX))]
     evaluate_every: Option<u64>,
     /// Held-out layouts of a measurement.
     #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = value_parser!(u32).range(1..=10_000_000))]
@@ -74,7 +79,7 @@ pub struct Args {
     #[arg(long, requires = "run")]
     r#continue: bool,
     /// Train so many seeds, from --seed on, each in a folder of the run's folder, and write the spread to seeds.csv.
-    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1000))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=1000))]
     seeds: Option<u64>,
     /// Go on with this run or these seeds (a folder, a name among the user's runs, or "latest"), with the settings they
     /// started with.
@@ -87,7 +92,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=256))]
     jobs: u32,
     /// Stop after this many minutes, finished or not.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long)]
     minutes: Option<f64>,
     /// List the runs in this folder, by default the user's, and train nothing.
     #[arg(long, value_name = "DIR", num_args = 0..=1, conflicts_with_all = ["resume", "run", "from", "seeds", "minutes"])]
