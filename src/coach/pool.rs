@@ -167,13 +167,42 @@ pub fn suppose_the_worst(candidates: &mut [Candidate]) {
     }
 }
 
+/// Leaders that may be nearly alike. The neighbours of one would crowd out all other ways to play the shot, some of which get better
+/// in the end: with it searches differ less by chance, and a club player's shots are made 0.1 in a hundred more often.
+const ALIKE: usize = 4;
+
+/// Steps of the tip, rad and m/s within which strokes are nearly alike: those to a neighbour, or little less.
+const NEARLY: [f64; 3] = [0.15, 0.01, 0.4];
+
+/// The same as [`keep`] for those whose neighbours are tried: of strokes that are nearly alike, the best [`ALIKE`] alone.
+pub fn keep_leaders(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
+    sort(candidates);
+    let mut kept: Vec<CueInputs> = Vec::new();
+    candidates.retain(|Candidate { shot: Suggestion { cue, .. }, .. }| {
+        let [tip, direction, speed] = NEARLY;
+        let is_near = |other: &&CueInputs| {
+            (other.a - cue.a).abs().max((other.b - cue.b).abs()) < tip
+                && (other.phi - cue.phi).abs() < direction
+                && (other.speed - cue.speed).abs() < speed
+        };
+        let is_one_of_few = kept.iter().filter(is_near).count() < ALIKE;
+        kept.extend(is_one_of_few.then_some(*cue));
+        is_one_of_few
+    });
+    keep(candidates, best, of_each);
+}
+
+fn sort(candidates: &mut [Candidate]) {
+    candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
+}
+
 /// Share of the best one's score that a jump or a massé needs to be kept for its kind's sake: usual shots of all kinds are followed,
 /// for they may still get better; these cost as much, and hardly ever lead.
 const NEAR: f64 = 0.8;
 
 /// Sorts the best first, and keeps the first `best` and the first `of_each` of every kind. Equals stay in their order.
 pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
-    candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
+    sort(candidates);
     let mut seen: Vec<(Kind, usize)> = Vec::new();
     let mut place = 0;
     let bar = candidates.first().map_or(0.0, |best| NEAR * best.score());
@@ -195,10 +224,8 @@ mod tests {
     use super::*;
     use crate::coach::{Pace, Way};
 
-    #[test]
-    fn a_shot_that_nobody_has_looked_at_ranks_behind_those_that_leave_a_good_next_one() {
-        let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 };
-        let candidate = |made, next| Candidate {
+    fn candidate(cue: CueInputs, made: usize, next: NextValue) -> Candidate {
+        Candidate {
             shot: Suggestion { cue, source: Source::Search },
             kind: Kind { first_ball: 1, cushion_first: false, way: Way::Direct, pace: Pace::Soft, raised: false },
             tried: 32,
@@ -207,7 +234,22 @@ mod tests {
             drift: Errors::default(),
             next,
             effort_penalty: 0.0,
-        };
+        }
+    }
+
+    #[test]
+    fn neighbours_of_one_leader_do_not_crowd_out_the_others() {
+        let cue = |phi: f64| CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi, speed: 2.0 };
+        let near = (0..9).map(|n| candidate(cue(1e-3 * f64::from(n)), 24, NextValue::Supposed(1.0)));
+        let mut pool: Vec<_> = near.chain([candidate(cue(0.5), 20, NextValue::Supposed(1.0))]).collect();
+        keep_leaders(&mut pool, 8, 1);
+        assert_eq!(pool.iter().map(|shot| shot.made).collect::<Vec<_>>(), [24, 24, 24, 24, 20]);
+    }
+
+    #[test]
+    fn a_shot_that_nobody_has_looked_at_ranks_behind_those_that_leave_a_good_next_one() {
+        let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 };
+        let candidate = |made, next| candidate(cue, made, next);
         let (good, bad, unseen) = (NextValue::Known(0.9), NextValue::Known(0.6), NextValue::Supposed(1.0));
         let mut pool = vec![candidate(24, unseen), candidate(24, bad), candidate(22, good)];
         suppose_the_worst(&mut pool);

@@ -8,7 +8,7 @@ use super::{
     candidates::{MIN_SPEED, neighbour, stratified, variation},
     elevated::raised,
     next::NextValue,
-    pool::{Candidate, Race, keep, suppose_the_worst},
+    pool::{Candidate, Race, keep, keep_leaders, suppose_the_worst},
     trial::{Course, Task},
 };
 use crate::{physics::CueInputs, platform::parallel};
@@ -206,7 +206,7 @@ impl<'a> Search<'a> {
             if self.plan && errors == SECOND_LOOK {
                 self.look_ahead();
             }
-            keep(&mut self.pool, best, of_each);
+            keep_leaders(&mut self.pool, best, of_each);
             self.tell(tell);
         }
     }
@@ -252,7 +252,7 @@ impl<'a> Search<'a> {
             let (errors, _, neighbours) = STAGES[stage];
             self.race.extend_to(self.task.worlds, errors);
             self.pool = self.raced(&self.pool, errors);
-            keep(&mut self.pool, self.leaders, 1);
+            keep_leaders(&mut self.pool, self.leaders, 1);
             let scale = 1.0 - 0.8 * progress.max(0.0);
             let mut tries = Vec::with_capacity(self.pool.len() * neighbours);
             for parent in &self.pool {
@@ -263,7 +263,7 @@ impl<'a> Search<'a> {
             }
             let found = parallel::map(self.threads, &tries, |(parent, cue)| self.beside(parent, *cue, errors));
             self.pool.extend(found.into_iter().flatten());
-            keep(&mut self.pool, self.leaders, 1);
+            keep_leaders(&mut self.pool, self.leaders, 1);
             self.tell(tell);
         }
     }

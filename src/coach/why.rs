@@ -280,7 +280,7 @@ impl Why {
     /// The part of it that a list of the shots with their chances does not say; `None` where there is nothing.
     pub fn beside_the_list(&self, cue_ball: CueBall) -> Option<String> {
         let facts = self.facts(cue_ball);
-        (!facts.is_empty()).then(|| format!("{}.", facts.join("; ")))
+        (!facts.is_empty()).then(|| words::capital(&format!("{}.", facts.join("; "))))
     }
 
     fn facts(&self, cue_ball: CueBall) -> Vec<String> {
@@ -294,7 +294,7 @@ impl Why {
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
             format!("{} and {} kiss in {}", names[one], names[other], percent(share))
         }));
-        parts.extend(self.next_probability.map(|next| format!("the next point {}", percent(next))));
+        parts.extend(self.next_probability.map(|next| format!("it leaves the next point at {}", percent(next))));
         parts
     }
 }

@@ -114,6 +114,7 @@ impl Tolerance {
     /// Where the end of one chatter leaves just more than counts as nothing, the next begins at once and leaves as much. A shot
     /// caught so comes free by a small error that is known, where the guard of the engine would take all its speed. Places, forces
     /// and the error of a step stay as they are.
+    #[must_use]
     pub fn coarser(&self) -> Self {
         const MORE: f64 = 5.0;
         Self {
