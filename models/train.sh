@@ -1,6 +1,6 @@
 #!/bin/sh
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about seventeen hours of a shared core. The bundled files for match began from networks that a
+# with the same version. All of it takes about nineteen hours of a shared core. The bundled files for match began from networks that a
 # version before this one had trained; their first rounds were played without the cue's room, and those up to match-r3-third,
 # match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth.
 set -eu
@@ -88,11 +88,13 @@ speeds="head_speeds=[[0.5, 2.0], [1.4, 3.6], [2.8, 6.0]]"
 context context-r3-third --from "$folder/context-r3-second" --seed 112 --steps 3400000 $heads $expert --set "$speeds"
 context context-r3-fourth --from "$folder/context-r3-third" --seed 132 --steps 3900000 $heads $choice $both --set "$speeds"
 context context-one-cushion-second --from "$folder/context-one-cushion-first" --seed 202 --steps 6000000 $heads $expert --set "$speeds"
-context context-one-cushion --from "$folder/context-one-cushion-second" --seed 232 --steps 3900000 $heads $choice $both --set "$speeds"
+context context-one-cushion-third --from "$folder/context-one-cushion-second" --seed 232 --steps 3900000 $heads $choice $both --set "$speeds"
 # The same once more: new_actor stands behind what `context` says of it, and its last word holds.
 again="--set new_actor=false"
 context context-r3-fifth --from "$folder/context-r3-fourth" --seed 212 --steps 5000000 $heads $expert $again --set "$speeds"
 context context-r3 --from "$folder/context-r3-fifth" --seed 242 --steps 3900000 $heads $choice $both --set "$speeds"
+context context-one-cushion-fourth --from "$folder/context-one-cushion-third" --seed 212 --steps 4000000 $heads $expert $again --set "$speeds"
+context context-one-cushion --from "$folder/context-one-cushion-fourth" --seed 242 --steps 3500000 $heads $choice $both --set "$speeds"
 speeds="head_speeds=[[0.8, 2.6], [1.8, 4.2], [3.0, 6.0]]"
 context context-three-cushion-sixth --from "$folder/context-three-cushion-fifth" --seed 211 --steps 6000000 $heads $expert $again --set "$speeds"
 context context-three-cushion --from "$folder/context-three-cushion-sixth" --seed 241 --steps 4200000 $heads $choice $critic --set "$speeds"
