@@ -189,11 +189,6 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     };
     let told_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
     let best_rate = probability(0).map_or(0.0, |rate| rate.rate);
-    // Where the next point counts, too, the order is that of the search.
-    let by_chance = |one: &Alternative, other: &Alternative| {
-        let [one, other] = [one, other].map(|shot| shot.make_probability.map_or(0.0, |rate| rate.rate));
-        if request.plan { std::cmp::Ordering::Equal } else { other.total_cmp(&one) }
-    };
     let is_worth = |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= WORTH_LISTING * best_rate);
     let mut alternatives: Vec<_> = (1..pool.len())
         .map(|index| Alternative {
@@ -205,7 +200,11 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         })
         .filter(is_worth)
         .collect();
-    alternatives.sort_by(by_chance);
+    // Where the next point counts, too, the order is that of the search.
+    if !request.plan {
+        let chance = |shot: &Alternative| shot.make_probability.map_or(0.0, |rate| rate.rate);
+        alternatives.sort_by(|one, other| chance(other).total_cmp(&chance(one)));
+    }
     Recommendation {
         cue: best.shot.cue,
         solved: true,

@@ -23,10 +23,16 @@ pub enum PositionsError {
     #[error("some positions have a colour and some have none; write one before each, or before none")]
     Mixed,
     /// A ball was put outside the table in diamonds.
-    #[error("{name} is outside the table; accepted are {least:.2}d to {along:.2}d, and {least:.2}d to {up:.2}d")]
+    #[error(
+        "{name} at {x:.2}d,{y:.2}d is outside the table; accepted are {least:.2}d to {along:.2}d, and {least:.2}d to {up:.2}d"
+    )]
     Outside {
         /// The ball's name.
         name: &'static str,
+        /// Its place along the table, diamonds.
+        x: f64,
+        /// Its place across it, diamonds.
+        y: f64,
         /// The least of both coordinates, diamonds.
         least: f64,
         /// The largest along the table, diamonds.
@@ -75,10 +81,10 @@ impl Layout {
         }
         let is_in_diamonds = text.split_whitespace().any(|word| word.contains(',') && word.ends_with('d'));
         layout.validate(table).map_err(|error| match error {
-            LayoutError::Outside { ball, max_x, max_y, .. } if is_in_diamonds => {
-                let [least, along] = [-1.0, 1.0].map(|sign| (0.5 * table.length + sign * max_x) / table.diamond());
-                let up = (0.5 * table.width + max_y) / table.diamond();
-                PositionsError::Outside { name: names[ball], least, along, up }
+            LayoutError::Outside { ball, x, y, max_x, max_y } if is_in_diamonds => {
+                let [x, least, along] = [x, -max_x, max_x].map(|x| (0.5 * table.length + x) / table.diamond());
+                let [y, up] = [y, max_y].map(|y| (0.5 * table.width + y) / table.diamond());
+                PositionsError::Outside { name: names[ball], x, y, least, along, up }
             }
             error => error.into(),
         })?;
@@ -125,7 +131,7 @@ mod tests {
             ("2d;1d", "\"2d\""),
             ("red", "where is red?"),
             ("red 2d,1d 3d,3d", "some have none"),
-            ("9d,1d", "red is outside the table; accepted are 0.09d to 7.91d, and 0.09d to 3.91d"),
+            ("9d,1d", "red at 9.00d,1.00d is outside the table; accepted are 0.09d to 7.91d, and 0.09d to 3.91d"),
             ("1.5,0.1", "|x| <= 1.389"),
             ("nan,1d", "finite"),
         ] {

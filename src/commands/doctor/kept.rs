@@ -9,7 +9,7 @@ use crate::{
     learning::run::list::{Listing, runs_in},
     storage::{self, Places, room_in},
     table::Table,
-    terminal::{Complaint, Settings},
+    terminal::Complaint,
 };
 
 /// Room on the disk below which it counts as full, bytes: the last checkpoints of a run and a few sessions.
@@ -79,18 +79,16 @@ pub struct Found {
 
 impl Kept {
     /// Looks at everything.
-    pub fn find(places: &Places, settings: &Settings, complaints: &[Complaint]) -> Self {
+    pub fn find(places: &Places, complaints: &[Complaint]) -> Self {
         let store = Store::new(places);
         let (sessions, positions) = (store.sessions(), store.positions());
-        let mut tables = tables(&places.tables);
-        tables.wrong.extend(settings.table().err());
         Self {
             settings: Found {
                 path: places.settings.clone(),
                 count: usize::from(places.settings.exists()),
                 wrong: Complaint::sentences(&places.settings, complaints),
             },
-            tables,
+            tables: tables(&places.tables),
             runs: runs(&places.runs),
             sessions: Found { path: places.sessions.clone(), count: sessions.items.len(), wrong: sessions.notes },
             positions: Found { path: places.positions.clone(), count: positions.items.len(), wrong: positions.notes },

@@ -59,7 +59,7 @@ impl Report {
             program: Program { version: VERSION, source: SOURCE, target: TARGET, machine: Machine::this() },
             places: kept::places(&places),
             screen: Screen::detect(&settings),
-            kept: Kept::find(&places, &settings, &complaints),
+            kept: Kept::find(&places, &complaints),
             self_test: Trial::run(),
             problems: Vec::new(),
         };
