@@ -90,7 +90,7 @@ fn a_run_that_is_killed_is_said_to_have_died_and_a_broken_connection_kills_none(
 fn a_run_that_is_taken_up_again_is_watched_though_it_was_stopped_before() {
     let folder = folder();
     let here = folder.path();
-    unfinished(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "60000")));
+    unfinished(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "120000")));
     let list = |state: &str| {
         let list = done(here, "train --list . --json").out;
         let run = lines(&list).remove(0);
