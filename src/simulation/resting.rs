@@ -255,7 +255,7 @@ impl Resting {
             let slip = |state: &BallState| slip(radius, state.velocity, state.spin);
             if slips(self.set.cloth[ball]) {
                 each(Place::Cloth(ball), slip(state), slip(rate));
-            } else if slips(self.set.roll[ball]) {
+            } else if slips(self.set.roll[ball]) || self.set.roll[ball] == Friction::Eases {
                 each(Place::Roll(ball), state.velocity, rate.velocity);
             }
         }
@@ -350,7 +350,7 @@ impl Resting {
         let end = &trial.step.end.balls;
         let turned = |ball: usize| match self.set.spin[ball] {
             Friction::Slips(sign) => table.radius * end[ball].spin.z * sign.x < -self.constants.tolerance.slip,
-            Friction::Sticks | Friction::Yields => false,
+            Friction::Sticks | Friction::Yields | Friction::Eases => false,
         };
         if (0..BALLS).any(|ball| self.members[ball] && turned(ball)) {
             return false;

@@ -64,6 +64,9 @@ pub enum Friction {
     /// It acts at its limit against the slip, to which this is added, m/s: what begins to slip has a direction before it
     /// has a speed. Of a spin it is the sign.
     Slips(DVec2),
+    /// Of the resistance to rolling: as much of it acts as the cloth's friction can hold a ball against without letting it slide, and
+    /// sliding would end at once, for a ball that slides has no such resistance (Filippov 1988).
+    Eases,
 }
 
 impl Friction {
@@ -77,6 +80,7 @@ impl Friction {
         match self {
             Self::Sticks | Self::Yields => None,
             Self::Slips(start) => Some((slip + start).normalize_or_zero()),
+            Self::Eases => Some(slip.normalize_or_zero()),
         }
     }
 }
@@ -147,8 +151,14 @@ impl ActiveSet {
 
     /// Whether nothing begins to slip: no friction yields, and no slip has only a direction.
     pub fn lasts(&self) -> bool {
-        let lasts = |friction: &Friction| matches!(friction, Friction::Sticks | Friction::Slips(DVec2::ZERO));
+        let lasts =
+            |friction: &Friction| matches!(friction, Friction::Sticks | Friction::Eases | Friction::Slips(DVec2::ZERO));
         self.cloth.iter().chain(&self.roll).chain(&self.contact).all(lasts)
+    }
+
+    /// The first ball whose resistance to rolling eases, if there is one.
+    pub(super) fn eased(&self) -> Option<usize> {
+        self.roll.iter().position(|friction| *friction == Friction::Eases)
     }
 
     /// Whether any friction yields.

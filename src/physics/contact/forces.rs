@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// What begins to slip more slowly than this share of g holds: in a second it would come to 1e-9 m/s.
-const DEPARTING: f64 = 1e-10;
+pub(super) const DEPARTING: f64 = 1e-10;
 
 /// The speed that gives a direction to what begins to slip, m/s: far below every slip that counts.
 const STARTING: f64 = 1e-8;
@@ -69,25 +69,22 @@ impl Resolved {
     }
 }
 
-/// Finds which of the `contacts` push and which frictions hold, and the forces; `set` tells what slips already. `None`
-/// where nothing pushes by more than `slack`, m/s². Where forces are not unique they are near to the `similar` ones.
-pub fn resolve(
+/// What a solution of the problem tells. `None` where nothing pushes by more than `slack`, m/s².
+pub(super) fn read_off(
     table: &Table,
     balls: &[BallState; BALLS],
     contacts: &Contacts,
     set: &ActiveSet,
     slack: f64,
-    similar: Option<&Forces>,
+    (problem, solution): (&Problem, &Solution),
 ) -> Option<Resolved> {
-    let (problem, mut solution) = solved(table, balls, contacts.as_slice(), set, similar);
-    if let Some(spared) = with_margin(&problem, &solution, DEPARTING * table.gravity) {
-        solution = spared;
-    }
+    let spared = with_margin(problem, solution, DEPARTING * table.gravity);
+    let solution = spared.as_ref().unwrap_or(solution);
     let accelerations = problem.accelerations(&solution.sizes);
     let mut resolved = Resolved {
         contacts: *contacts,
         set: *set,
-        forces: Forces::of(table.radius, &problem, &solution, &accelerations),
+        forces: Forces::of(table.radius, problem, solution, &accelerations),
         shared: false,
         sticking: None,
         paradox: [false; MAX_CONTACTS],
@@ -104,7 +101,7 @@ pub fn resolve(
                 sticking_at(&resolved.sticking.unwrap_or(*set), unknown.place, ends).or(resolved.sticking);
         }
         let Side::Limited(force) = *side else { continue };
-        let rate = DVec2::from_array(rates(&problem, &solution, index)).length();
+        let rate = DVec2::from_array(rates(problem, solution, index)).length();
         let holds = rate <= DEPARTING * table.gravity;
         resolved.shared |= holds;
         let size =
@@ -139,12 +136,12 @@ pub fn resolve(
         return None;
     }
     resolved.set.contact = kept;
-    resolved.forces.slack = spin_slack(table.radius, balls, &resolved.set).min(slack_of(&problem, &solution.sizes));
+    resolved.forces.slack = spin_slack(table.radius, balls, &resolved.set).min(slack_of(problem, &solution.sizes));
     Some(resolved)
 }
 
 /// The problem and its solution. Balls that never slip grip without limit, unless no forces obey all laws then.
-fn solved(
+pub(super) fn solved(
     table: &Table,
     balls: &[BallState; BALLS],
     contacts: &[Contact],
@@ -304,7 +301,7 @@ impl Forces {
 #[cfg(test)]
 mod tests {
     use super::{super::forces, *};
-    use crate::physics::slip;
+    use crate::physics::{resolve, slip};
 
     fn resolved(ball: BallState, contacts: &[Contact]) -> Option<Resolved> {
         let table = Table::preset("thesis").unwrap();

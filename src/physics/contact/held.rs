@@ -2,6 +2,7 @@
 //! small linear system in the contacts' forces. What the cloth holds is taken out beforehand: a ball that rolls or stands
 //! answers to a force with less motion than one that slides.
 
+mod easing;
 mod joint;
 
 use glam::{DVec2, DVec3};
@@ -10,7 +11,7 @@ use self::joint::{Joint, Movement, Triple};
 use super::{
     ActiveSet, Contact, Forces, Friction, MAX_CONTACTS,
     linear::{factorize, substitute},
-    problem::{coefficient, never_slips},
+    problem::{coefficient, never_slips, rolling_resistance},
 };
 use crate::{
     physics::{BallState, slip},
@@ -57,7 +58,7 @@ impl Sticking {
     fn of(set: &ActiveSet, ball: usize) -> Self {
         let cloth = match (set.cloth[ball], set.roll[ball]) {
             (Friction::Slips(_), _) => Cloth::Slides,
-            (_, Friction::Slips(_)) => Cloth::Rolls,
+            (_, Friction::Slips(_) | Friction::Eases) => Cloth::Rolls,
             _ => Cloth::Stands,
         };
         Self { cloth, spin: !matches!(set.spin[ball], Friction::Slips(_)) }
@@ -168,7 +169,9 @@ impl<const ROOM: usize> Held<ROOM> {
         self.fill(factors);
         let unique = factorize(factors, pivots) > SINGULAR;
         if unique {
-            self.sizes = [[0.0; 3]; ROOM];
+            for (joint, sizes) in self.joints[..self.contacts].iter().zip(&mut self.sizes) {
+                sizes[..joint.unknowns].fill(0.0);
+            }
         } else {
             self.fill(factors);
             for index in 0..count {
@@ -298,10 +301,10 @@ pub fn accelerations(
 }
 
 /// The movement under a single contact that slips: its normal force is the only unknown, for which no system has to be solved.
-/// None where it sticks, or where what the cloth holds does not feel it.
+/// None where it sticks, where what the cloth holds does not feel it, or where a resistance eases.
 fn slipping(table: &Table, balls: &[BallState; BALLS], contact: &Contact, set: &ActiveSet) -> Option<Movement> {
     let joint = Joint::new(table.radius, balls, contact, set.contact[0], coefficient(table, contact));
-    if joint.unknowns > 1 {
+    if joint.unknowns > 1 || set.eased().is_some() {
         return None;
     }
     let mut members = [false; BALLS];
@@ -333,6 +336,8 @@ struct Solved<const ROOM: usize> {
     system: Held<ROOM>,
     unheld: Movement,
     moved: Movement,
+    /// By how much the share of a resistance to rolling that eases is from its ends, m/s²; infinite where none does.
+    within: f64,
 }
 
 impl<const ROOM: usize> Solved<ROOM> {
@@ -351,21 +356,25 @@ impl<const ROOM: usize> Solved<ROOM> {
             }
         }
         let free = free(table, balls, set, system.members);
+        if let Some(ball) = set.eased() {
+            return Self::easing(table, balls, contacts, system, &free, ball);
+        }
         let [unheld, moved] = system.solve(&free, true)?;
-        Some(Self { system, unheld, moved })
+        Some(Self { system, unheld, moved, within: f64::INFINITY })
     }
 
     /// All forces, and by how much their laws hold.
     fn forces(&self, table: &Table, balls: &[BallState; BALLS], contacts: &[Contact], set: &ActiveSet) -> Forces {
-        let Self { system, unheld, moved } = self;
+        let Self { system, unheld, moved, within } = self;
         let [sliding, rolling, boring] = frictions(table);
         let mut forces = Forces::NONE;
+        forces.slack = *within;
         let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
         for ball in (0..BALLS).filter(|&ball| system.members[ball]) {
             let sticking = system.sticking[ball];
             let (cloth, roll, spin) = sticking.holding(unheld.linear[ball], unheld.angular[ball]);
             (forces.cloth[ball], forces.roll[ball], forces.spin[ball]) = (cloth, roll, spin);
-            if sticking.cloth != Cloth::Slides {
+            if sticking.cloth != Cloth::Slides && set.roll[ball] != Friction::Eases {
                 limit(sliding, cloth.length());
             }
             if sticking.cloth == Cloth::Stands {
@@ -397,7 +406,7 @@ impl<const ROOM: usize> Solved<ROOM> {
 
 /// How the `members` would move without their contacts.
 fn free(table: &Table, balls: &[BallState; BALLS], set: &ActiveSet, members: [bool; BALLS]) -> Movement {
-    let [sliding, rolling, boring] = frictions(table);
+    let [sliding, _, boring] = frictions(table);
     let mut free = Movement::NONE;
     for ball in (0..BALLS).filter(|&ball| members[ball]) {
         let state = &balls[ball];
@@ -406,8 +415,7 @@ fn free(table: &Table, balls: &[BallState; BALLS], set: &ActiveSet, members: [bo
             *linear = -sliding * against;
             *angular = (2.5 * sliding * against.perp()).extend(0.0);
         } else if let Some(against) = set.roll[ball].direction(state.velocity) {
-            let growth = 1.4 * table.rolling_growth * state.velocity.length();
-            *linear = -(rolling + growth) * against;
+            *linear = -rolling_resistance(table, state) * against;
         }
         *linear += table.tilt;
         if let Friction::Slips(sign) = set.spin[ball] {

@@ -11,6 +11,7 @@ mod held;
 mod linear;
 mod margin;
 mod problem;
+mod resolve;
 mod solve;
 
 use glam::{DVec2, DVec3};
@@ -18,9 +19,10 @@ use glam::{DVec2, DVec3};
 use super::BallState;
 use crate::table::BALLS;
 pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
-pub use forces::{Forces, Resolved, resolve, yielding};
+pub use forces::{Forces, Resolved, yielding};
 pub use held::{accelerations, forces, stop_by_impulses};
 pub use linear::{factorize, substitute};
+pub use resolve::resolve;
 
 /// Speed at which balls that never slip begin to bounce where no forces hold them together (Painlevé's paradox), in units of
 /// `√(g R)`. What would hold the slip parts them, and once they have parted, and nothing holds, they come back: each bounce is

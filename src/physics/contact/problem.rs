@@ -92,6 +92,11 @@ pub fn never_slips(table: &Table, contact: &Contact) -> bool {
     table.ball_friction.is_none() && contact.second.is_some()
 }
 
+/// What rolling resists, per mass, m/s²: the force on the centre of a ball that rolls.
+pub fn rolling_resistance(table: &Table, ball: &BallState) -> f64 {
+    table.rolling_friction * table.gravity + 1.4 * table.rolling_growth * ball.velocity.length()
+}
+
 /// Coulomb's coefficient in a contact.
 pub fn coefficient(table: &Table, contact: &Contact) -> f64 {
     if contact.second.is_some() { table.ball_friction.unwrap_or(NO_SLIP) } else { table.rail_friction }
@@ -182,7 +187,7 @@ impl Problem {
     fn lay_on_cloth(&mut self, table: &Table, ball: usize, state: &BallState, set: &ActiveSet) {
         let gravity = table.gravity;
         let sliding = table.sliding_friction * gravity;
-        let resistance = table.rolling_friction * gravity + 1.4 * table.rolling_growth * state.velocity.length();
+        let resistance = rolling_resistance(table, state);
         let slips = [DVec2::X, DVec2::Y].map(|axis| Row::cloth(ball, axis));
         self.known = self.known.with(ball, table.tilt, DVec3::ZERO);
         if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
@@ -190,7 +195,9 @@ impl Problem {
             self.known.add(-sliding * against.y, &slips[1]);
         } else {
             self.push(Place::Cloth(ball), Limit::Fixed(sliding), &slips, [0.0; 2]);
-            if let Some(against) = set.roll[ball].direction(state.velocity) {
+            if set.cloth[ball] == Friction::Yields {
+                // It slides, if ever so slowly: nothing resists its rolling.
+            } else if let Some(against) = set.roll[ball].direction(state.velocity) {
                 self.known = self.known.with(ball, -resistance * against, DVec3::ZERO);
             } else {
                 let still = [DVec2::X, DVec2::Y].map(|axis| Row::ZERO.with(ball, axis, DVec3::ZERO));
@@ -201,7 +208,7 @@ impl Problem {
         let boring = table.spinning_friction * gravity;
         match set.spin[ball] {
             Friction::Slips(sign) => self.known.add(-boring * sign.x, &about_vertical),
-            Friction::Sticks | Friction::Yields => {
+            Friction::Sticks | Friction::Yields | Friction::Eases => {
                 self.push(Place::Spin(ball), Limit::Fixed(boring), &[about_vertical], [0.0; 2]);
             }
         }
@@ -212,6 +219,12 @@ impl Problem {
         self.rates.extend_from_slice(rows);
         self.forces.extend_from_slice(rows);
         self.bias.extend_from_slice(&bias[..rows.len()]);
+    }
+
+    /// Takes a share of its resistance to rolling from a ball in this state.
+    pub fn ease(&mut self, table: &Table, ball: usize, state: &BallState, share: f64) {
+        let resistance = rolling_resistance(table, state) * state.velocity.normalize_or_zero();
+        self.known = self.known.with(ball, share * resistance, DVec3::ZERO);
     }
 
     /// Takes away the limit of frictions between balls.

@@ -1,0 +1,199 @@
+//! The forces where a ball's resistance to rolling eases: as much of it acts as the cloth can hold.
+//!
+//! All forces depend linearly on the share that is taken away, so that two solutions and a quadratic equation tell it. A ball that
+//! rolls along a cushion is kept from turning towards it by the cloth and by the cushion's friction upwards: how they divide that is one
+//! more unknown, and they hold most where both are at their limits.
+
+use glam::DVec2;
+
+use super::{Held, Joint, Movement, SINGULAR, Solved, Triple, coefficient, factorize, frictions, rolling_resistance};
+use crate::{
+    physics::{
+        BallState,
+        contact::{Contact, forces::DEPARTING},
+    },
+    table::{BALLS, Table},
+};
+
+/// Newton steps towards both limits; from the share that the cloth alone asks for it takes four or five.
+const MOST_STEPS: usize = 20;
+
+/// To this much the share is known, and the friction upwards as a share of the cloth's limit.
+const KNOWN: f64 = 1e-15;
+
+/// Forces in contacts and the movement that follows: linear in the share and in the friction upwards.
+#[derive(Clone, Copy)]
+struct Solution<const ROOM: usize> {
+    sizes: [Triple; ROOM],
+    unheld: Movement,
+    moved: Movement,
+}
+
+impl<const ROOM: usize> Solution<ROOM> {
+    /// With a multiple of the way from one solution to another added.
+    fn plus(mut self, factor: f64, from: &Self, to: &Self) -> Self {
+        let sizes = from.sizes.as_flattened().iter().zip(to.sizes.as_flattened());
+        for (sum, (from, to)) in self.sizes.as_flattened_mut().iter_mut().zip(sizes) {
+            *sum += factor * (to - from);
+        }
+        self.unheld.add(factor, &from.unheld, &to.unheld);
+        self.moved.add(factor, &from.moved, &to.moved);
+        self
+    }
+}
+
+impl Movement {
+    fn add(&mut self, factor: f64, from: &Self, to: &Self) {
+        for ball in 0..BALLS {
+            self.linear[ball] += factor * (to.linear[ball] - from.linear[ball]);
+            self.angular[ball] += factor * (to.angular[ball] - from.angular[ball]);
+        }
+    }
+}
+
+impl<const ROOM: usize> Held<ROOM> {
+    /// Whether its forces are unique.
+    fn is_unique(&self) -> bool {
+        let mut matrix = [[[[0.0; 3]; 3]; ROOM]; ROOM];
+        let factors =
+            &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..self.unknowns * self.unknowns];
+        let mut pivots = [[0; 3]; ROOM];
+        self.fill(factors);
+        factorize(factors, &mut pivots.as_flattened_mut()[..self.unknowns]) > SINGULAR
+    }
+
+    /// Takes the friction upwards out of the unknowns at the cushion that holds the `ball`, which it returns: the cloth holds the same.
+    fn prescribe(&mut self, ball: usize) -> Option<usize> {
+        let held = |joint: &Joint| joint.first == ball && joint.second.is_none() && joint.unknowns == 3;
+        let index = self.joints().iter().position(held)?;
+        self.joints[index].unknowns = 2;
+        self.unknowns -= 1;
+        self.joints[index + 1..].iter_mut().for_each(|joint| joint.at -= 1);
+        self.is_unique().then_some(index)
+    }
+
+    fn solution(&mut self, free: &Movement) -> Option<Solution<ROOM>> {
+        let [unheld, moved] = self.solve(free, true)?;
+        Some(Solution { sizes: self.sizes, unheld, moved })
+    }
+}
+
+impl<const ROOM: usize> Solved<ROOM> {
+    /// The solution in which the `ball`'s resistance eases; the `free` movement has all of it. None where a force can be divided in
+    /// more ways than one cushion's.
+    pub(super) fn easing(
+        table: &Table,
+        balls: &[BallState; BALLS],
+        contacts: &[Contact],
+        mut system: Held<ROOM>,
+        free: &Movement,
+        ball: usize,
+    ) -> Option<Self> {
+        let [limit, ..] = frictions(table);
+        let mut without = *free;
+        without.linear[ball] += rolling_resistance(table, &balls[ball]) * balls[ball].velocity.normalize_or_zero();
+        let cushion = if system.is_unique() { None } else { Some(system.prescribe(ball)?) };
+        let (whole, none) = (system.solution(free)?, system.solution(&without)?);
+        let sticking = system.sticking[ball];
+        let cloth =
+            |solution: &Solution<ROOM>| sticking.holding(solution.unheld.linear[ball], solution.unheld.angular[ball]).0;
+        let held = Force { whole: cloth(&whole), by_share: cloth(&none) - cloth(&whole), by_up: DVec2::ZERO };
+        let mut edge = Edge::of_the_cloth(limit, held);
+        let mut solution = whole;
+        if let Some(index) = cushion {
+            system.sizes[index][2] += 1.0;
+            let raised = system.solution(free)?;
+            let force = |of: fn(&Triple) -> DVec2| {
+                let [whole, none, raised] = [&whole, &none, &raised].map(|solution| of(&solution.sizes[index]));
+                Force { whole, by_share: none - whole, by_up: raised - whole }
+            };
+            let held = Force { by_up: cloth(&raised) - held.whole, ..held };
+            let friction = force(|[_, along, up]| DVec2::new(*along, *up));
+            let push = force(|[normal, ..]| DVec2::new(*normal, 0.0)).times(coefficient(table, &contacts[index]));
+            let (both, up) = edge.with_a_cushion(limit, held, friction, push)?;
+            (edge, solution) = (both, solution.plus(up, &whole, &raised));
+            system.joints[index].unknowns = 3;
+        }
+        let Solution { sizes, unheld, moved } = solution.plus(edge.share.min(1.0), &whole, &none);
+        system.sizes = sizes;
+        Some(Self { system, unheld, moved, within: edge.slack(DEPARTING * table.gravity) })
+    }
+}
+
+/// A force as it depends on the share of the resistance that is taken away and on the friction upwards, per mass, m/s².
+#[derive(Clone, Copy)]
+struct Force {
+    whole: DVec2,
+    by_share: DVec2,
+    by_up: DVec2,
+}
+
+impl Force {
+    fn times(self, factor: f64) -> Self {
+        Self { whole: factor * self.whole, by_share: factor * self.by_share, by_up: factor * self.by_up }
+    }
+
+    /// Its size and how that changes.
+    fn size(&self, share: f64, up: f64) -> (f64, DVec2) {
+        let force = self.whole + share * self.by_share + up * self.by_up;
+        let direction = force.normalize_or_zero();
+        (force.length(), DVec2::new(direction.dot(self.by_share), direction.dot(self.by_up)))
+    }
+}
+
+/// Where what holds a ball is just at its limit.
+#[derive(Clone, Copy)]
+struct Edge {
+    share: f64,
+    /// How fast the forces fall below their limits as the share grows, m/s².
+    falls: f64,
+    /// By how much they are above them all the same, m/s².
+    over: f64,
+    /// By how much none of them gives way to the other, m/s².
+    divided: f64,
+}
+
+impl Edge {
+    /// The least share with which the cloth is not above its limit, or nearest to it.
+    fn of_the_cloth(limit: f64, held: Force) -> Self {
+        let (square, falls) = (held.by_share.length_squared(), -held.whole.dot(held.by_share));
+        let excess = held.whole.length_squared() - limit * limit;
+        let discriminant = falls * falls - square * excess;
+        let share = if discriminant < 0.0 { falls / square } else { excess / (falls + discriminant.sqrt()) };
+        let (size, by) = held.size(share, 0.0);
+        Self { share, falls: -by.x, over: size - limit, divided: f64::INFINITY }
+    }
+
+    /// The share with which the cloth and a cushion's friction, which may be as large as `most`, are both at their limits, and what it
+    /// adds to the friction upwards; none where there is none.
+    fn with_a_cushion(mut self, limit: f64, held: Force, friction: Force, most: Force) -> Option<(Self, f64)> {
+        let mut up = 0.0;
+        for _ in 0..MOST_STEPS {
+            let [cloth, friction, most] = [held, friction, most].map(|force| force.size(self.share, up));
+            let over = DVec2::new(cloth.0 - limit, friction.0 - most.0);
+            let (by_share, by_up) =
+                (DVec2::new(cloth.1.x, friction.1.x - most.1.x), DVec2::new(cloth.1.y, friction.1.y - most.1.y));
+            let area = by_share.perp_dot(by_up);
+            let (share_step, up_step) = (-over.perp_dot(by_up) / area, -by_share.perp_dot(over) / area);
+            // More from below takes as much off the one as it puts on the other.
+            let part = by_up.y / (by_up.y - by_up.x);
+            self = Self {
+                share: self.share + share_step,
+                falls: -by_share.dot(DVec2::new(part, 1.0 - part)),
+                over: over.max_element(),
+                divided: limit * part.min(1.0 - part),
+            };
+            up += up_step;
+            if share_step.abs() <= KNOWN && up_step.abs() <= KNOWN * limit {
+                break;
+            }
+        }
+        (self.share.is_finite() && up.is_finite()).then_some((self, up))
+    }
+
+    /// By how much the share is within its bounds, m/s²; what slips more slowly than at the rate `departing` holds.
+    fn slack(&self, departing: f64) -> f64 {
+        let bounds = (self.share * self.falls).min((1.0 - self.share) * self.falls + departing);
+        bounds.min(self.divided) - self.over.max(0.0)
+    }
+}

@@ -1,0 +1,181 @@
+//! Which contacts push and which frictions hold.
+//!
+//! The complementarity problem tells, but for one thing: while a ball rolls, the cloth's friction holds it against its resistance to
+//! rolling, too; while it slides it has none. Where friction cannot hold a ball with the whole resistance and could without, neither can
+//! be, for a slip would end as soon as it began. The ball then rolls with as much of the resistance as friction can hold (Filippov,
+//! "Differential Equations with Discontinuous Righthand Sides", 1988).
+
+use glam::DVec2;
+
+use super::{
+    ActiveSet, Contacts, Forces, Friction,
+    forces::{DEPARTING, Resolved, read_off, solved},
+    held::forces,
+    margin::rates,
+    problem::{Place, Problem},
+    solve::{Side, Solution, solve_near},
+};
+use crate::{
+    physics::BallState,
+    table::{BALLS, Table},
+};
+
+/// Halvings of the range in which the share lies that eases. They tell which contacts hold there; the share itself follows from their
+/// forces.
+const HALVINGS: usize = 20;
+
+/// What is held may be so much above its limit, as a share of g: a thousand roundings.
+const ROUNDING: f64 = 1e-12;
+
+/// Finds which of the `contacts` push and which frictions hold, and the forces; `set` tells what slips already. `None`
+/// where nothing pushes by more than `slack`, m/s². Where forces are not unique they are near to the `similar` ones.
+pub fn resolve(
+    table: &Table,
+    balls: &[BallState; BALLS],
+    contacts: &Contacts,
+    set: &ActiveSet,
+    slack: f64,
+    similar: Option<&Forces>,
+) -> Option<Resolved> {
+    let (mut problem, mut solution) = solved(table, balls, contacts.as_slice(), set, similar);
+    if let Some(eased) = easing(table, balls, contacts, set, slack, (&mut problem, &mut solution)) {
+        return Some(eased);
+    }
+    read_off(table, balls, contacts, set, slack, (&problem, &solution))
+}
+
+/// What holds where a ball's resistance eases; none where none does. From a ball that slides even without its resistance the problem and
+/// its solution lose it.
+fn easing(
+    table: &Table,
+    balls: &[BallState; BALLS],
+    contacts: &Contacts,
+    set: &ActiveSet,
+    slack: f64,
+    (problem, solution): (&mut Problem, &mut Solution),
+) -> Option<Resolved> {
+    let rolls = |ball: usize| set.cloth[ball] == Friction::Sticks && matches!(set.roll[ball], Friction::Slips(_));
+    for ball in (0..BALLS).filter(|&ball| contacts.hold(ball) && rolls(ball)) {
+        if !begins_to_slide(table, problem, solution, ball) {
+            continue;
+        }
+        let without = |share: f64, near: &Solution| {
+            let mut eased = problem.clone();
+            eased.ease(table, ball, &balls[ball], share);
+            let solution = solve_near(&eased, &near.sizes);
+            (eased, solution)
+        };
+        let mut rolling = without(1.0, solution);
+        if begins_to_slide(table, &rolling.0, &rolling.1, ball) {
+            (*problem, *solution) = rolling;
+            continue;
+        }
+        let (mut sliding, mut most) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let share = 0.5 * (sliding + most);
+            let tried = without(share, &rolling.1);
+            if begins_to_slide(table, &tried.0, &tried.1, ball) {
+                sliding = share;
+            } else {
+                (rolling, most) = (tried, share);
+            }
+        }
+        let mut resolved = read_off(table, balls, contacts, set, slack, (&rolling.0, &rolling.1))?;
+        resolved.set.roll[ball] = Friction::Eases;
+        let held = forces(table, balls, resolved.contacts.as_slice(), &resolved.set, Some(&resolved.forces));
+        if let Some(forces) = held.filter(|held| held.slack >= -ROUNDING * table.gravity) {
+            (resolved.forces, resolved.shared) = (forces, false);
+            return Some(resolved);
+        }
+    }
+    None
+}
+
+/// Whether the cloth cannot hold a ball that has rolled.
+fn begins_to_slide(table: &Table, problem: &Problem, solution: &Solution, ball: usize) -> bool {
+    problem.unknowns.iter().zip(&solution.sides).enumerate().any(|(index, (unknown, side))| {
+        matches!((unknown.place, side), (Place::Cloth(place), Side::Limited(_)) if place == ball)
+            && DVec2::from_array(rates(problem, solution, index)).length() > DEPARTING * table.gravity
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use crate::{
+        physics::{ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, forces, resolve, slip},
+        table::Table,
+    };
+
+    /// A ball rolls along the lower cushion, against which another one presses it, whose velocity, spin and place as seen from the first
+    /// ball are those of `second`.
+    fn pressed(table: &Table, speed: f64, about_vertical: f64, second: [DVec3; 3]) -> ([BallState; 3], Contacts) {
+        let position = DVec2::new(0.0, -table.half_width());
+        let spin = DVec3::new(0.0, speed / table.radius, about_vertical);
+        let rolls = BallState { position, velocity: DVec2::new(speed, 0.0), spin };
+        let [velocity, spin, apart] = second;
+        let presses = BallState {
+            position: position + 2.0 * table.radius * apart.truncate().normalize(),
+            velocity: velocity.truncate(),
+            spin,
+        };
+        let mut contacts = Contacts::NONE;
+        contacts.push(Contact::with_cushion(0, DVec2::Y));
+        contacts.push(Contact::of_balls(0, 1));
+        ([rolls, presses, BallState::at_rest(DVec2::new(0.9, 0.4))], contacts)
+    }
+
+    /// `thesis` with a tenth more resistance to rolling.
+    fn rough() -> Table {
+        let table = Table::preset("thesis").unwrap();
+        Table { rolling_friction: 1.1 * table.rolling_friction, ..table }
+    }
+
+    fn resolved(table: &Table, (balls, contacts): &([BallState; 3], Contacts)) -> Resolved {
+        let set = ActiveSet::of(table, balls, contacts.as_slice(), 1e-4);
+        resolve(table, balls, contacts, &set, 1e-11, None).expect("they press each other")
+    }
+
+    /// The first ball keeps rolling, the cloth does all it can, and no law is broken. With the whole resistance one would be, and with
+    /// next to none the ball would roll with all of it.
+    fn rolls_with_part_of_its_resistance(table: &Table, scene: &([BallState; 3], Contacts)) -> Forces {
+        let Resolved { set, forces: eased, shared, .. } = resolved(table, scene);
+        assert_eq!((set.cloth[0], set.roll[0], shared), (Friction::Sticks, Friction::Eases, false));
+        let limit = table.sliding_friction * table.gravity;
+        assert!((eased.cloth[0].length() - limit).abs() < 1e-12, "{:?} of {limit}", eased.cloth[0]);
+        assert!(slip(table.radius, eased.linear[0], eased.angular[0]).length() < 1e-12 && eased.slack > -1e-12);
+        let whole = ActiveSet { roll: [Friction::Slips(DVec2::ZERO); 3], ..set };
+        assert!(forces(table, &scene.0, scene.1.as_slice(), &whole, Some(&eased)).expect("forces").slack < -1e-4);
+        let smooth = Table { rolling_friction: 1e-3 * table.rolling_friction, ..table.clone() };
+        let Resolved { set, .. } = resolved(&smooth, scene);
+        assert_eq!((set.cloth[0], set.roll[0]), (Friction::Sticks, Friction::Slips(DVec2::ZERO)));
+        eased
+    }
+
+    #[test]
+    fn a_ball_that_can_neither_roll_nor_slide_rolls_with_part_of_its_resistance() {
+        let table = rough();
+        let second = [
+            DVec3::new(-0.120_405, 0.000_195, 0.0),
+            DVec3::new(0.214_397, -3.935_79, -1.669_767),
+            DVec3::new(-0.001_608_785, 0.060_978_782, 0.0),
+        ];
+        rolls_with_part_of_its_resistance(&table, &pressed(&table, -0.127_815, 1.426_753, second));
+    }
+
+    /// Here the ball does not slip on the cushion either: its friction upwards and the cloth's hold the ball together.
+    #[test]
+    fn cloth_and_cushion_together_hold_as_much_of_the_resistance_as_they_can() {
+        let table = rough();
+        let second = [
+            DVec3::new(0.236_963, -0.103_806, 0.0),
+            DVec3::new(7.096_403, 5.769_832, -2.173_038),
+            DVec3::new(0.037_382_565, 0.048_203_152, 0.0),
+        ];
+        let speed = 0.103_11;
+        let forces = rolls_with_part_of_its_resistance(&table, &pressed(&table, speed, -speed / table.radius, second));
+        let most = table.rail_friction * forces.normal[0];
+        assert!((forces.friction[0].length() - most).abs() < 1e-12, "{:?} of {most}", forces.friction[0]);
+    }
+}
