@@ -83,6 +83,11 @@ impl Friction {
             Self::Eases => Some(slip.normalize_or_zero()),
         }
     }
+
+    /// Whether it lets a slip begin.
+    pub(super) fn begins(self) -> bool {
+        !matches!(self, Self::Sticks | Self::Eases | Self::Slips(DVec2::ZERO))
+    }
 }
 
 /// What every friction does in one active set.
@@ -151,9 +156,7 @@ impl ActiveSet {
 
     /// Whether nothing begins to slip: no friction yields, and no slip has only a direction.
     pub fn lasts(&self) -> bool {
-        let lasts =
-            |friction: &Friction| matches!(friction, Friction::Sticks | Friction::Eases | Friction::Slips(DVec2::ZERO));
-        self.cloth.iter().chain(&self.roll).chain(&self.contact).all(lasts)
+        !self.cloth.iter().chain(&self.roll).chain(&self.contact).any(|friction| friction.begins())
     }
 
     /// The first ball whose resistance to rolling eases, if there is one.

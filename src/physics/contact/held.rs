@@ -160,6 +160,7 @@ impl<const ROOM: usize> Held<ROOM> {
     /// Finds the sizes for which all rates vanish if the balls would move like `free` without the contacts; `bends` says
     /// whether the courses' bends count. Returns the movement before the cloth holds it and after; none where the rates
     /// cannot vanish together.
+    #[inline(always)]
     fn solve(&mut self, free: &Movement, bends: bool) -> Option<[Movement; 2]> {
         let count = self.unknowns;
         let mut matrix = [[[[0.0; 3]; 3]; ROOM]; ROOM];

@@ -55,7 +55,7 @@ fn easing(
     (problem, solution): (&mut Problem, &mut Solution),
 ) -> Option<Resolved> {
     let rolls = |ball: usize| set.cloth[ball] == Friction::Sticks && matches!(set.roll[ball], Friction::Slips(_));
-    for ball in (0..BALLS).filter(|&ball| contacts.hold(ball) && rolls(ball)) {
+    for ball in (0..BALLS).filter(|&ball| contacts.hold(ball) && rolls(ball) && !set.yields()) {
         if !begins_to_slide(table, problem, solution, ball) {
             continue;
         }
@@ -70,6 +70,24 @@ fn easing(
             (*problem, *solution) = rolling;
             continue;
         }
+        let eased = |(problem, solution): &(Problem, Solution)| {
+            let mut resolved = read_off(table, balls, contacts, set, slack, (problem, solution))?;
+            resolved.set.roll[ball] = Friction::Eases;
+            // With more of the resistance what begins to slip without it may hold.
+            resolved
+                .set
+                .contact
+                .iter_mut()
+                .filter(|friction| friction.begins())
+                .for_each(|begins| *begins = Friction::Sticks);
+            let forces = forces(table, balls, resolved.contacts.as_slice(), &resolved.set, Some(&resolved.forces))
+                .filter(|held| held.slack >= -ROUNDING * table.gravity)?;
+            Some(Resolved { forces, shared: false, ..resolved })
+        };
+        // What pushes and holds without the resistance mostly does so with part of it, too.
+        if let Some(resolved) = eased(&rolling) {
+            return Some(resolved);
+        }
         let (mut sliding, mut most) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let share = 0.5 * (sliding + most);
@@ -80,11 +98,7 @@ fn easing(
                 (rolling, most) = (tried, share);
             }
         }
-        let mut resolved = read_off(table, balls, contacts, set, slack, (&rolling.0, &rolling.1))?;
-        resolved.set.roll[ball] = Friction::Eases;
-        let held = forces(table, balls, resolved.contacts.as_slice(), &resolved.set, Some(&resolved.forces));
-        if let Some(forces) = held.filter(|held| held.slack >= -ROUNDING * table.gravity) {
-            (resolved.forces, resolved.shared) = (forces, false);
+        if let Some(resolved) = eased(&rolling) {
             return Some(resolved);
         }
     }

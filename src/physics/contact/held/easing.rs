@@ -81,6 +81,8 @@ impl<const ROOM: usize> Held<ROOM> {
 impl<const ROOM: usize> Solved<ROOM> {
     /// The solution in which the `ball`'s resistance eases; the `free` movement has all of it. None where a force can be divided in
     /// more ways than one cushion's.
+    #[cold]
+    #[inline(never)]
     pub(super) fn easing(
         table: &Table,
         balls: &[BallState; BALLS],
