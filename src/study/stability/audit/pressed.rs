@@ -143,6 +143,11 @@ fn slips(ends: &[Column; 2], directions: &[Column]) -> bool {
     is_slip(start, end)
 }
 
+/// Whether there is a speed along some directions at either end, however slow.
+fn slips_at_all(ends: &[Column; 2], directions: &[Column]) -> bool {
+    ends.iter().any(|end| size(&along(directions, end)) > NO_SLIP)
+}
+
 /// Whether speeds of these sizes at a stretch's start and end are a slip.
 fn is_slip(start: f64, end: f64) -> bool {
     start > NO_SLIP || end > DEPARTED
@@ -208,17 +213,23 @@ impl Scene<'_> {
 
     /// The power of all frictions. Of each contact it is known whether it slips.
     fn power(&self, accelerations: &Column, contacts: &[(Contact, bool)]) -> Power {
-        let plain = self.explained(accelerations, contacts, false);
-        if plain.defect <= EXPLAINED || !(0..BALLS).any(|ball| self.members[ball] && self.creeps(ball)) {
+        let plain = self.explained(accelerations, contacts, [false; BALLS]);
+        if plain.defect <= EXPLAINED {
             return plain;
         }
-        let at_edge = self.explained(accelerations, contacts, true);
-        let is_better = at_edge.is_possible && 2.0 * at_edge.defect < plain.defect;
-        if is_better && (at_edge.is_unique || !plain.is_unique) { at_edge } else { plain }
+        let creeping: [bool; BALLS] = std::array::from_fn(|ball| self.members[ball] && self.creeps(ball));
+        let begins = std::array::from_fn(|ball| creeping[ball] && slips_at_all(&self.ends, &on_cloth(ball)));
+        // Some balls may be at the edge while others roll: first those whose slip has begun.
+        let edges = [begins, creeping].map(|balls| (balls != [false; BALLS]).then_some(balls));
+        let at_edge = edges.into_iter().flatten().map(|balls| self.explained(accelerations, contacts, balls));
+        let is_better = |at_edge: &Power| {
+            at_edge.is_possible && 2.0 * at_edge.defect < plain.defect && (at_edge.is_unique || !plain.is_unique)
+        };
+        at_edge.into_iter().find(is_better).unwrap_or(plain)
     }
 
     /// The same if all balls slide or roll, or if those that may be `at_edge` of both resist as much as keeps them there.
-    fn explained(&self, accelerations: &Column, contacts: &[(Contact, bool)], at_edge: bool) -> Power {
+    fn explained(&self, accelerations: &Column, contacts: &[(Contact, bool)], at_edge: [bool; BALLS]) -> Power {
         let g = self.table.gravity;
         let mut taken = 0.0;
         // What the known frictions leave of the accelerations, and what unknown forces there are.
@@ -242,7 +253,7 @@ impl Scene<'_> {
         let mut creeping: Vec<(Column, f64)> = Vec::new();
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
             let held = cloth(&on_cloth(ball), sliding);
-            if at_edge && self.creeps(ball) {
+            if at_edge[ball] {
                 strained.extend(held);
                 if let Some((velocity, speed)) = self.slip(&centre(ball)) {
                     let against: Vec<f64> = velocity.iter().map(|part| -part / speed).collect();
