@@ -143,7 +143,10 @@ pub fn lawful(
             // A slip that has ended has done so for a ball that nothing holds, too; one that rolls rolls on.
             let ends = slip(table.radius, now[ball].velocity, now[ball].spin).length() <= tolerance.ending_slip;
             if resolved.set.cloth[ball] == Friction::Sticks && slides(table.radius, &now[ball]) && ends {
-                now[ball] = begin[ball];
+                let slid = std::mem::replace(&mut now[ball], begin[ball]);
+                if closes(constants, &now, contacts) {
+                    now[ball] = slid;
+                }
             }
         }
         pressing = resolved.contacts;
@@ -212,8 +215,17 @@ pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State,
     let mut ended = *balls;
     if balls.iter().enumerate().any(ends) {
         settle(table, constants, &mut ended, contacts.as_slice(), &set);
+        if closes(constants, &ended, contacts) {
+            return *balls;
+        }
     }
     ended
+}
+
+/// Whether a contact closes by as much as, together with what rounding does, would be a bounce: a ball that another drives on does not
+/// stand still.
+fn closes(constants: &Constants, balls: &State, contacts: &Contacts) -> bool {
+    contacts.as_slice().iter().any(|contact| contact.opening_speed(balls) < -0.1 * constants.tolerance.opening)
 }
 
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or

@@ -11,7 +11,7 @@ use super::{
     EventKind, Observer, Rail, Segment,
     ball_ball::Triangle,
     contact_mode::ContactMode,
-    contacts::PAIRS_OF,
+    contacts::{PAIRS_OF, is_in_corner},
     cushions::cushion_ahead,
     engine::{Ball, Engine},
     predict::Ahead,
@@ -53,8 +53,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 let mut state = segment.state_after(constants, *rail_after);
                 state.position += (-n.abs().dot(constants.reach) - state.position.dot(n)) * n;
                 let impulse = self.law.cushions.at(*rail).resolve(constants.radius, n, &mut state);
-                // What might be part of a chatter, or leaves the cloth.
-                if state.velocity.dot(n) <= constants.tolerance.slow_bounce || impulse.climb > constants.lifts {
+                // What might be part of a chatter, meets two cushions at once, or leaves the cloth.
+                if (state.velocity.dot(n) <= constants.tolerance.slow_bounce)
+                    | is_in_corner(constants, state.position)
+                    | (impulse.climb > constants.lifts)
+                {
                     break;
                 }
                 (after, lasts_after) = Segment::free(constants, next, &state);

@@ -10,7 +10,7 @@
 
 use super::{
     Constants,
-    contacts::{PAIRS, PAIRS_OF, nearly_touching},
+    contacts::{PAIRS, PAIRS_OF, contacts_where, nearly_touching},
 };
 use crate::{
     physics::{ActiveSet, BallState, Contact, Contacts, ImpactLaw, resolve, slip},
@@ -37,9 +37,9 @@ const TOLD: u32 = 4;
 /// Flights that shrink more slowly are no sign of a chatter that ends.
 const SLOWEST_SHRINKING: f64 = 0.99;
 
-/// A pause of so many flights between two bounces is the end of a chatter, unless one of its flights has been as long: where
-/// another contact throws a ball back, its chatters are one.
-const PAUSE: f64 = 8.0;
+/// A pause of so many of the last flights and of the longest ones between two bounces is the end of a chatter, unless it is no longer
+/// than the one before: where another contact throws a ball back again and again, its chatters are one.
+const PAUSE: [f64; 2] = [8.0, 2.0];
 
 /// Pairs of balls, and balls with cushions.
 const PLACES: usize = PAIRS.len() + 4 * BALLS;
@@ -52,14 +52,16 @@ struct Bounces {
     flight: f64,
     /// The longest flight of this chatter.
     longest: f64,
+    /// How long before it the last bounce was, s.
+    pause: f64,
     /// The last flight over the one before.
     shrinking: f64,
 }
 
 impl Bounces {
     /// Longest pause before the next bounce of the same chatter, s.
-    fn pause(&self) -> f64 {
-        self.longest.max(PAUSE * self.flight)
+    fn lull(&self) -> f64 {
+        (PAUSE[0] * self.flight).max(PAUSE[1] * self.longest)
     }
 }
 
@@ -71,8 +73,14 @@ impl Chatters {
     /// No bounces yet.
     pub const fn new() -> Self {
         Self(
-            [Bounces { count: 0, last: f64::NEG_INFINITY, flight: f64::INFINITY, longest: 0.0, shrinking: 0.0 };
-                PLACES],
+            [Bounces {
+                count: 0,
+                last: f64::NEG_INFINITY,
+                flight: f64::INFINITY,
+                longest: 0.0,
+                pause: 0.0,
+                shrinking: 0.0,
+            }; PLACES],
         )
     }
 
@@ -89,11 +97,11 @@ impl Chatters {
     pub fn bounce(&mut self, contact: &Contact, now: f64) -> bool {
         let bounces = &mut self.0[Self::place(contact)];
         let flight = now - bounces.last;
-        if flight <= bounces.pause() {
+        if flight <= bounces.lull().max(bounces.pause) {
             let known = if flight.is_finite() { flight } else { 0.0 };
             (bounces.count, bounces.longest) = (bounces.count + 1, bounces.longest.max(known));
         } else {
-            (bounces.count, bounces.longest) = (0, 0.0);
+            (bounces.count, bounces.longest, bounces.pause) = (0, 0.0, flight);
         }
         bounces.shrinking = flight / bounces.flight;
         (bounces.last, bounces.flight) = (now, flight);
@@ -118,7 +126,7 @@ impl Chatters {
         for (other, place) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
             let bounces = self.0[place];
             if bounces.count > TOLD {
-                ends[other] = ends[other].max(bounces.last + bounces.pause());
+                ends[other] = ends[other].max(bounces.last + bounces.lull());
             }
         }
         ends
@@ -143,6 +151,14 @@ fn coupled(
     contacts
 }
 
+/// The end of a chatter.
+pub struct Settled {
+    /// The contacts that rest from now on.
+    pub contacts: Contacts,
+    /// How long the bounces that are left out would have gone on, s; none where they are too slow to be missed.
+    pub lasts: f64,
+}
+
 /// The contacts that come to rest together with one that has just bounced, and opens in the state `balls`: forces press them
 /// once their bounces have ended, and what is left of those can no longer be told. None if it goes on. `shrinking` is by how much the last flight was
 /// shorter than the one before.
@@ -154,7 +170,7 @@ pub fn settles(
     balls: &[BallState; BALLS],
     on_cloth: [bool; BALLS],
     shrinking: f64,
-) -> Option<Contacts> {
+) -> Option<Settled> {
     let tolerance = &constants.tolerance;
     let speed = contact.opening_speed(balls);
     let restitution = law.restitution(contact);
@@ -163,7 +179,7 @@ pub fn settles(
     if speed <= slowest {
         let mut alone = Contacts::NONE;
         alone.push(*contact);
-        return Some(alone);
+        return Some(Settled { contacts: alone, lasts: 0.0 });
     }
     // What the bounces open holds on average, and slips that they make are none.
     let mut contacts = coupled(constants, balls, on_cloth, contact, speed);
@@ -215,7 +231,32 @@ pub fn settles(
     if grips && kick > tolerance.slowest_coupled_bounce {
         return None;
     }
-    ends(pull).then_some(resolved.contacts)
+    if !ends(pull) {
+        return None;
+    }
+    let is_missed = speed > tolerance.slowest_coupled_bounce;
+    let lasts = if is_missed { 2.0 * speed / (pull * (1.0 - restitution)) } else { 0.0 };
+    let is_cut_short = is_missed && meets_another(constants, balls, on_cloth, &resolved.contacts, lasts);
+    (!is_cut_short).then_some(Settled { contacts: resolved.contacts, lasts })
+}
+
+/// Whether a ball of the contacts meets anything else within a `time`, s, in which the bounces that are left out are not over: it would
+/// have the speed of one of them still.
+fn meets_another(
+    constants: &Constants,
+    balls: &[BallState; BALLS],
+    on_cloth: [bool; BALLS],
+    contacts: &Contacts,
+    time: f64,
+) -> bool {
+    let meets = |gap: f64, other: &Contact| {
+        let closing = -other.opening_speed(balls);
+        closing > constants.tolerance.opening
+            && gap <= time * (closing + constants.sliding * time)
+            && !contacts.as_slice().contains(other)
+            && contacts.as_slice().iter().any(|contact| contact.shares_a_ball(other))
+    };
+    !contacts_where(constants, balls, on_cloth, meets).as_slice().is_empty()
 }
 
 #[cfg(test)]
@@ -260,6 +301,40 @@ mod tests {
         assert!(chatters.ends(0)[1] > now && chatters.ends(0)[1] < now + 0.2);
     }
 
+    /// Two contacts in turn throw a ball back, each with two bounces, after pauses that grow shorter.
+    #[test]
+    fn bounces_that_come_back_after_ever_shorter_pauses_are_one_chatter() {
+        let mut chatters = Chatters::new();
+        let contact = Contact::of_balls(0, 2);
+        let (mut now, mut pause, mut told) = (0.0, 6e-3, 0);
+        for _ in 0..50 {
+            for _ in 0..3 {
+                told += u32::from(!chatters.bounce(&contact, now));
+            }
+            pause *= 0.9;
+            now += pause;
+        }
+        assert!(told <= 4 * TOLD, "{told} of 150 bounces are told");
+    }
+
+    /// A ball spins against a cushion, and another one comes from behind: at this speed its bounces are over in some microseconds.
+    #[test]
+    fn a_chatter_goes_on_that_another_ball_would_cut_short() {
+        let table = Table::preset("thesis").unwrap();
+        let (constants, law) = (Constants::of(&table), ImpactLaw::of(&table));
+        let contact = Contact::with_cushion(0, glam::DVec2::NEG_X);
+        let ends = |gap: f64| {
+            let place = glam::DVec2::new(table.reach().x, 0.0);
+            let behind = place - glam::DVec2::new(2.0 * table.radius + gap, 0.0);
+            let mut balls = [place, behind, -place].map(BallState::at_rest);
+            balls[0].velocity.x = -1e-6;
+            balls[0].spin.y = 100.0;
+            balls[1].velocity.x = 0.1;
+            settles(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3).is_some()
+        };
+        assert!(ends(1e-6) && !ends(1e-8));
+    }
+
     /// A ball that is pressed into a corner and bounces on both cushions: one bounce has just ended, the other is in flight.
     #[test]
     fn a_chatter_ends_without_the_contact_that_is_in_flight() {
@@ -277,6 +352,7 @@ mod tests {
             };
             settles(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3)
                 .expect("the chatter ends")
+                .contacts
                 .as_slice()
                 .to_vec()
         };

@@ -32,9 +32,25 @@ pub fn nearly_touching(
     widest: f64,
     wanted: impl Fn(f64) -> bool,
 ) -> Contacts {
+    contacts_where(constants, balls, on_cloth, |gap, contact| gap <= widest && wanted(contact.opening_speed(balls)))
+}
+
+/// Whether a ball touches two cushions: of those that it meets at once it has only foreseen one.
+#[inline(always)]
+pub fn is_in_corner(constants: &Constants, position: DVec2) -> bool {
+    (constants.reach - position.abs()).max_element() <= constants.tolerance.touching
+}
+
+/// Those of all that the balls `on_cloth` may have which are `wanted` with their gap, m.
+pub fn contacts_where(
+    constants: &Constants,
+    balls: &State,
+    on_cloth: [bool; BALLS],
+    wanted: impl Fn(f64, &Contact) -> bool,
+) -> Contacts {
     let mut contacts = Contacts::NONE;
     let mut add = |gap: f64, contact: Contact| {
-        if gap <= widest && wanted(contact.opening_speed(balls)) {
+        if wanted(gap, &contact) {
             contacts.push(contact);
         }
     };

@@ -6,7 +6,7 @@ use super::{
     Event, EventKind, Observer, Rail,
     chatter::{Chatters, settles},
     contact_mode::ContactMode,
-    contacts::{PAIRS, close, touching},
+    contacts::{PAIRS, close, is_in_corner, touching},
     engine::{Ball, Engine, Meeting, either, only},
     savings::Savings,
 };
@@ -31,10 +31,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.balls[index].segment.motion == Motion::Flying {
             return self.rebound_in_space(index, now);
         }
-        if self.is_crowded(now) && self.collide_at_once(now)? {
+        let Ball { rail_after, rail, segment, .. } = &self.balls[index];
+        let (rail_after, rail, meets_two) =
+            (*rail_after, *rail, is_in_corner(&self.constants, segment.position_after(*rail_after)));
+        if (self.is_crowded(now) | meets_two) && self.collide_at_once(now)? {
             return ControlFlow::Continue(());
         }
-        let Ball { rail_after, rail, .. } = self.balls[index];
         let n = rail.normal();
         let freed = if self.resting.is_some() { self.release(now, only(index)) } else { None };
         let mut state = match &freed {
@@ -224,7 +226,17 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     ) -> Option<Contacts> {
         let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
         let states = self.states_with(now, freed, bounced);
-        settles(self.table, &self.constants, &self.law, contact, &states, self.on_cloth(), shrinking)
+        let settled = settles(self.table, &self.constants, &self.law, contact, &states, self.on_cloth(), shrinking)?;
+        (now + settled.lasts < self.next_meeting_aloft()).then_some(settled.contacts)
+    }
+
+    /// When two balls next meet of which one at least is in the air, s: it may throw others back into the contacts that they have left.
+    fn next_meeting_aloft(&self) -> f64 {
+        let meets = |(pair, &(first, second)): (usize, &(usize, usize))| {
+            let on_cloth = self.is_on_cloth(first) && self.is_on_cloth(second);
+            if on_cloth { f64::INFINITY } else { self.times[BALLS + pair] }
+        };
+        PAIRS.iter().enumerate().map(meets).fold(f64::INFINITY, f64::min)
     }
 
     /// All balls now, some of them as given.

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2Swizzles};
 
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
@@ -311,4 +311,20 @@ fn a_shot_whose_forces_are_not_found_is_brought_to_its_end() {
     let mut steps = Steps::default();
     simulate(&table, &Layout::new(balls), &strike(&table, &cue), &mut steps);
     assert!(steps.0 < 1_000, "{}", steps.0);
+}
+
+/// A ball that rolls exactly into the corner of a square table meets both cushions at once, whichever is numbered first: mirrored at the
+/// diagonal, where its side spin turns the other way, the shot is the same.
+#[test]
+fn a_ball_in_a_corner_meets_both_cushions_together() {
+    let table = Table { length: 1.5, width: 1.5, rail_friction: 0.2, ..Table::preset("thesis").unwrap() };
+    let velocity = DVec2::splat(1.0);
+    let ends = [90.0, -90.0].map(|side| {
+        let balls = [DVec2::splat(0.4), DVec2::new(-0.5, 0.1), DVec2::new(0.1, -0.5)];
+        let (course, end) = among(&table, balls, velocity, rolling_spin(table.radius, velocity).extend(side));
+        let met: Vec<_> = course.events[..2].iter().map(|event| event.time).collect();
+        assert!(matches!(course.events[1].kind, EventKind::BallRail(0, _)) && met[0] == met[1], "{:?}", course.events);
+        end
+    });
+    assert!(ends[0].distance(ends[1].yx()) < 1e-12, "{ends:?}");
 }

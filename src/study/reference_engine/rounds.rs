@@ -60,8 +60,8 @@ pub fn collide<R: Real>(
     Ok((met, work))
 }
 
-/// A single impact, by the table's own law.
-fn alone<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, contact: Contact) -> R {
+/// A single impact, by the table's own law. Returns the energy over mass that it takes.
+pub fn alone<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, contact: Contact) -> R {
     match contact {
         Contact::Rail(ball, rail) => {
             rail_collides(numbers, numbers.cushion(rail), contact.normal(balls), &mut balls[ball])
@@ -75,8 +75,12 @@ fn alone<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, contact: Contact) 
     }
 }
 
-/// Impacts at one moment, at the height of the balls' centres and with the friction and restitution of slow ones.
-fn one_round<R: Real>(
+/// Impacts at one moment, at the height of the balls' centres and with the friction and restitution of slow ones. Adds those who push
+/// each other to the ones that have met, and returns the energy over mass that is taken.
+///
+/// # Errors
+/// [`Unjudged::Unsolved`], where no pushes are found.
+pub fn one_round<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
     contacts: &[Contact],

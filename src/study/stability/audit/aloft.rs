@@ -1,11 +1,10 @@
 //! What is lost where balls fly: at landings by formulas apart from the engine's, at impacts by those of the reference engine.
 
+use super::moment::Bounces;
 use crate::{
     physics::{SpatialState, slip},
     simulation::{Event, EventKind},
-    study::reference_engine::{
-        Ball, Contact, Motion, Numbers, Vector, balls_collide, collide_aloft, rail_collides, rail_normal,
-    },
+    study::reference_engine::{Ball, Contact, Motion, Numbers, Vector, collide_aloft, collide_alone, collide_at_once},
     table::{BALLS, Table},
 };
 
@@ -39,15 +38,27 @@ pub fn landings_loss(table: &Table, start: &SpatialState, landings: u32) -> f64 
     lost
 }
 
-/// What the impacts that are told of a `group` of balls take one after another, m²/s², and how far that takes balls out of what they
-/// overlap, m; `flew` are those that have been in the air until now.
-pub fn impacts_loss(
+/// What the impacts of a moment do.
+pub struct Impacts {
+    /// The energy that they take, m²/s².
+    pub lost: f64,
+    /// How far they take balls out of what these overlap, m.
+    pub moved: f64,
+    /// The fastest of the bounces that are left out.
+    pub bounces: Option<Bounces>,
+}
+
+/// What the impacts do that are told of a `group` of balls: in the air one after another, on the cloth together where they close at
+/// once. `flew` are those balls that have been in the air until now; between two that rest from now on, or one and a cushion, there
+/// is no restitution.
+pub fn impacts(
     table: &Table,
     before: &[SpatialState; BALLS],
     flew: [bool; BALLS],
     group: [bool; BALLS],
     told: &[Event],
-) -> [f64; 2] {
+    rests: [bool; BALLS],
+) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let SpatialState { position, velocity, spin } = before[ball];
@@ -56,28 +67,42 @@ pub fn impacts_loss(
         state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
         state
     });
-    let mut work = 0.0;
-    for event in told {
-        let contact = match event.kind {
-            EventKind::BallBall(first, second) if group[first] => Contact::Balls(first, second),
-            EventKind::BallRail(ball, rail) if group[ball] => Contact::Rail(ball, rail),
-            _ => continue,
-        };
+    let mut contacts = told
+        .iter()
+        .filter_map(|event| match event.kind {
+            EventKind::BallBall(first, second) if group[first] => Some(Contact::Balls(first, second)),
+            EventKind::BallRail(ball, rail) if group[ball] => Some(Contact::Rail(ball, rail)),
+            _ => None,
+        })
+        .peekable();
+    let mut lost = 0.0;
+    let mut bounces: Option<Bounces> = None;
+    while let Some(contact) = contacts.next() {
         if contact.is_aloft(&balls) {
-            work += collide_aloft(&numbers, contact, &mut balls).work;
-            continue;
+            lost += collide_aloft(&numbers, contact, &mut balls).work;
+        } else {
+            let closes = |contact: &Contact| !contact.is_aloft(&balls) && contact.opening(&balls) < 0.0;
+            let mut round = vec![contact];
+            while let Some(other) = contacts.next_if(|other| closes(other) && !round.contains(other)) {
+                round.push(other);
+            }
+            let stays = |contact: &Contact| match *contact {
+                Contact::Balls(first, second) => rests[first] && rests[second],
+                Contact::Rail(ball, _) => rests[ball],
+            };
+            for contact in round.iter().filter(|contact| stays(contact)) {
+                let left_out =
+                    Bounces::of(table, contact.balls().0, -contact.opening(&balls), contact.restitution(&numbers));
+                bounces =
+                    bounces.into_iter().chain([left_out]).max_by(|one, other| one.energy.total_cmp(&other.energy));
+            }
+            let restitution = |contact: &Contact| if stays(contact) { 0.0 } else { contact.restitution(&numbers) };
+            lost += match round[..] {
+                [contact] if !stays(&contact) => collide_alone(&numbers, &mut balls, contact),
+                // Where no pushes are found, nothing is explained.
+                _ => collide_at_once(&numbers, &mut balls, &round, restitution, &mut Vec::new()).unwrap_or(0.0),
+            };
         }
-        work += match contact {
-            Contact::Balls(first, second) => {
-                let (mut one, mut other) = (balls[first], balls[second]);
-                let work = balls_collide(&numbers, &mut one, &mut other);
-                (balls[first], balls[second]) = (one, other);
-                work
-            }
-            Contact::Rail(ball, rail) => {
-                rail_collides(&numbers, numbers.cushion(rail), rail_normal(rail), &mut balls[ball])
-            }
-        };
         for ball in balls.iter_mut().filter(|ball| ball.velocity.z > 0.0) {
             ball.motion = Motion::Flying;
         }
@@ -86,5 +111,5 @@ pub fn impacts_loss(
         let Vector { x, y, z } = ball.position;
         before.position.distance(glam::DVec3::new(x, y, z))
     });
-    [work, moved.fold(0.0, f64::max)]
+    Impacts { lost, moved: moved.fold(0.0, f64::max), bounces }
 }

@@ -147,9 +147,11 @@ impl Audit<'_> {
                     position: after_in_space[ball].position,
                     ..in_space[ball]
                 });
-                let [taken, moved] = aloft::impacts_loss(self.table, &at_impact, flew, group, told);
-                doubt.moved = doubt.moved.max(moved.min(self.farthest));
-                Taken { unexplained: lost - taken, bounces: None }
+                let [bounce, stay] = [[false; BALLS], rests]
+                    .map(|rests| aloft::impacts(self.table, &at_impact, flew, group, told, rests));
+                let taken = if (lost - stay.lost).abs() < (lost - bounce.lost).abs() { stay } else { bounce };
+                doubt.moved = doubt.moved.max(taken.moved.min(self.farthest));
+                Taken { unexplained: lost - taken.lost, bounces: taken.bounces }
             } else {
                 moment.taken(group)
             };

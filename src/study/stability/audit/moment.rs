@@ -45,6 +45,16 @@ pub struct Bounces {
     pub lasts: f64,
 }
 
+impl Bounces {
+    /// Those of a `ball` that meets something at a `speed`, m/s, with restitution `e`; the energy is that per mass of what bounces.
+    pub fn of(table: &Table, ball: usize, speed: f64, e: f64) -> Self {
+        // No more than the cloth under all balls presses them together.
+        let pull = BALLS as f64 * table.sliding_friction * table.gravity;
+        let speed = e * speed;
+        Self { ball, energy: 0.5 * speed * speed, lasts: 2.0 * speed / (pull * (1.0 - e)) }
+    }
+}
+
 /// Bounces slower than this may be the last of a chatter, m/s: they take and leave as little as a resting contact.
 const LAST_BOUNCE: f64 = 1e-7;
 
@@ -144,14 +154,9 @@ impl Moment<'_> {
         if !may_stay || unexplained.abs() <= dead.abs() {
             return Taken { unexplained, bounces: None };
         }
-        // No more than the cloth under all balls presses them together.
-        let pull = BALLS as f64 * self.table.sliding_friction * self.table.gravity;
-        let bounces = Bounces {
-            ball: contact.first,
-            energy: 0.5 * speed * speed / dot(&opening, &opening),
-            lasts: 2.0 * speed / (pull * (1.0 - e)),
-        };
-        Taken { unexplained: dead, bounces: Some(bounces) }
+        let bounces = Bounces::of(self.table, contact.first, dot(&opening, before).abs(), e);
+        let energy = bounces.energy / dot(&opening, &opening);
+        Taken { unexplained: dead, bounces: Some(Bounces { energy, ..bounces }) }
     }
 
     /// Several impacts, or some on balls that rest against something: whatever changes must be the work of impulses in

@@ -8,9 +8,9 @@ use crate::{physics::BallState, table::Table};
 /// A step may change a slip by about this share, which makes the relative error of a step `0.05⁵/120`: 3e-9.
 const SHARE: f64 = 0.05;
 
-/// Shortest step, as a share of the stretch: slips that end on it would ask for ever shorter ones. So far from its end, what a
-/// slip does is less than rounding.
-const SHORTEST: f64 = 1e-9;
+/// Shortest step, as a share of the stretch: slips that end on it, or stay as good as none, would ask for ever shorter ones. What a slip
+/// does so near to its end is a tenth of what the work may be wrong by.
+const SHORTEST: f64 = 1e-6;
 
 /// The cushion and what acts there.
 pub struct OnCushion<'a> {

@@ -218,14 +218,17 @@ impl Scene<'_> {
             return plain;
         }
         let creeping: [bool; BALLS] = std::array::from_fn(|ball| self.members[ball] && self.creeps(ball));
-        let begins = std::array::from_fn(|ball| creeping[ball] && slips_at_all(&self.ends, &on_cloth(ball)));
+        let begins: [bool; BALLS] =
+            std::array::from_fn(|ball| creeping[ball] && slips_at_all(&self.ends, &on_cloth(ball)));
         // Some balls may be at the edge while others roll: first those whose slip has begun.
-        let edges = [begins, creeping].map(|balls| (balls != [false; BALLS]).then_some(balls));
-        let at_edge = edges.into_iter().flatten().map(|balls| self.explained(accelerations, contacts, balls));
+        let some: Vec<[bool; BALLS]> = (1..1_usize << BALLS)
+            .map(|some| std::array::from_fn(|ball| creeping[ball] && some >> ball & 1 == 1))
+            .collect();
+        let at_edge = std::iter::once(begins).chain(some).filter(|balls| *balls != [false; BALLS]);
         let is_better = |at_edge: &Power| {
             at_edge.is_possible && 2.0 * at_edge.defect < plain.defect && (at_edge.is_unique || !plain.is_unique)
         };
-        at_edge.into_iter().find(is_better).unwrap_or(plain)
+        at_edge.map(|balls| self.explained(accelerations, contacts, balls)).find(is_better).unwrap_or(plain)
     }
 
     /// The same if all balls slide or roll, or if those that may be `at_edge` of both resist as much as keeps them there.
