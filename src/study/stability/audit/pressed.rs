@@ -54,7 +54,7 @@ pub struct Work {
     pub most: f64,
 }
 
-/// The work on the balls that have a resting course, from time `from` to `until`, s; contacts are closed where the gap is
+/// The work on the balls that have a resting course, from time `from` to `until`, s; contacts are closed where the gap at both ends is
 /// less than `gap`, m.
 pub fn work(
     table: &Table,
@@ -73,8 +73,14 @@ pub fn work(
     let at_ends = [from, until].map(states);
     let ends = at_ends.map(|balls| motion(table.radius, &balls));
     let half = 0.5 * (until - from);
-    let mut contacts = Contact::all(table.radius, constants.reach, &states(from + half), gap);
-    contacts.retain(|contact| members[contact.first] && contact.second.is_none_or(|second| members[second]));
+    // Between the ends a polynomial may stray by as much as counts as a gap.
+    let mut contacts = Contact::all(table.radius, constants.reach, &at_ends[0], gap);
+    let stay = Contact::all(table.radius, constants.reach, &at_ends[1], gap);
+    contacts.retain(|contact| {
+        members[contact.first]
+            && contact.second.is_none_or(|second| members[second])
+            && stay.contains(&contact.at(&at_ends[1]))
+    });
     let mut sum = Work::default();
     for (ball, (member, state)) in members.iter_mut().zip(states(from)).enumerate() {
         let loss = member.then(|| on_one_cushion(table, ball, &contacts, &state, &ends, until - from));
