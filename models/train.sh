@@ -1,6 +1,6 @@
 #!/bin/sh
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about nineteen hours of a shared core. The bundled files for match began from networks that a
+# with the same version. All of it takes about twenty-two hours of a shared core. The bundled files for match began from networks that a
 # version before this one had trained; their first rounds were played without the cue's room, and those up to match-r3-third,
 # match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth.
 set -eu
@@ -92,9 +92,22 @@ context context-one-cushion-third --from "$folder/context-one-cushion-second" --
 # The same once more: new_actor stands behind what `context` says of it, and its last word holds.
 again="--set new_actor=false"
 context context-r3-fifth --from "$folder/context-r3-fourth" --seed 212 --steps 5000000 $heads $expert $again --set "$speeds"
-context context-r3 --from "$folder/context-r3-fifth" --seed 242 --steps 3900000 $heads $choice $both --set "$speeds"
+context context-r3-sixth --from "$folder/context-r3-fifth" --seed 242 --steps 3900000 $heads $choice $both --set "$speeds"
 context context-one-cushion-fourth --from "$folder/context-one-cushion-third" --seed 212 --steps 4000000 $heads $expert $again --set "$speeds"
-context context-one-cushion --from "$folder/context-one-cushion-fourth" --seed 242 --steps 3500000 $heads $choice $both --set "$speeds"
+context context-one-cushion-fifth --from "$folder/context-one-cushion-fourth" --seed 242 --steps 3500000 $heads $choice $both --set "$speeds"
 speeds="head_speeds=[[0.8, 2.6], [1.8, 4.2], [3.0, 6.0]]"
 context context-three-cushion-sixth --from "$folder/context-three-cushion-fifth" --seed 211 --steps 6000000 $heads $expert $again --set "$speeds"
-context context-three-cushion --from "$folder/context-three-cushion-sixth" --seed 241 --steps 4200000 $heads $choice $critic --set "$speeds"
+context context-three-cushion-seventh --from "$folder/context-three-cushion-sixth" --seed 241 --steps 4200000 $heads $choice $critic --set "$speeds"
+# More of both at three cushions, where the choice was what lost most; last rounds in which the critic alone learns, at a quarter of its rate.
+fine="--set ranking=0.7 --set critic_learning_rate=0.0003 --set actor_learning_rate=0.000000001 --set actor_batch=1"
+context context-three-cushion-eighth --from "$folder/context-three-cushion-seventh" --seed 311 --steps 5000000 $heads $expert $again --set "$speeds"
+context context-three-cushion-ninth --from "$folder/context-three-cushion-eighth" --seed 321 --steps 6000000 $heads $expert $again --set "$speeds"
+context context-three-cushion-tenth --from "$folder/context-three-cushion-ninth" --seed 351 --steps 5000000 $heads $choice $critic --set "$speeds"
+context context-three-cushion-eleventh --from "$folder/context-three-cushion-tenth" --seed 361 --steps 14000000 $heads $choice $critic --set "$speeds"
+context context-three-cushion-twelfth --from "$folder/context-three-cushion-eleventh" --seed 371 --steps 6000000 $heads $choice $fine --set "$speeds"
+context context-three-cushion-thirteenth --from "$folder/context-three-cushion-twelfth" --seed 331 --steps 5000000 $heads $expert $again --set "$speeds"
+context context-three-cushion-fourteenth --from "$folder/context-three-cushion-thirteenth" --seed 381 --steps 6000000 $heads $choice $critic --set "$speeds"
+context context-three-cushion --from "$folder/context-three-cushion-fourteenth" --seed 391 --steps 6000000 $heads $choice $fine --set "$speeds"
+speeds="head_speeds=[[0.5, 2.0], [1.4, 3.6], [2.8, 6.0]]"
+context context-one-cushion --from "$folder/context-one-cushion-fifth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
+context context-r3 --from "$folder/context-r3-sixth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"

@@ -98,14 +98,23 @@ fn every_row_of_the_table_is_a_test() {
     assert_eq!(cases().iter().map(|case| case.name).collect::<Vec<_>>(), NAMES);
 }
 
-/// What is excused here is what the document says, row by row.
+/// Rows with a few shots that fail at the document's counts.
+const KNOWN: [&str; 4] = [
+    "friction of 10 and 1000 on the cloth, 0.99 in contacts",
+    "restitution e = 0.3",
+    "the smallest table, six ball radii wide",
+    "balls that touch or almost touch, the cue raised by up to 60°",
+];
+
+/// What is excused is what the document says, row by row.
 #[test]
-fn every_row_is_in_the_document_and_holds_there() {
+fn every_row_is_in_the_document_and_holds_there_but_for_those_that_are_known() {
     let page = include_str!("../../docs/stability.md");
-    for name in NAMES {
+    let fails = |name: &&str| {
         let line = page.lines().find(|line| line.starts_with(&format!("| {name} |"))).expect(name);
-        assert!(line.contains("| holds |"), "{line}");
-    }
+        !line.contains("| holds |")
+    };
+    assert_eq!(NAMES.iter().copied().filter(fails).collect::<Vec<_>>(), KNOWN);
 }
 
 /// Shots of the table that failed once, each for the cause that it names.
