@@ -109,14 +109,14 @@ impl Tolerance {
         }
     }
 
-    /// What ends a chatter on a shot that has taken more work than almost any: three times the slips, bounces and errors.
+    /// What ends a chatter on a shot that has taken more work than almost any: 4.5 times the slips, bounces and errors.
     ///
     /// Where the end of one chatter leaves just more than counts as nothing, the next begins at once and leaves as much. A shot
     /// caught so comes free by a small error that is known, where the guard of the engine would take all its speed. Places, forces
     /// and the error of a step stay as they are.
     #[must_use]
     pub fn coarser(&self) -> Self {
-        const MORE: f64 = 3.0;
+        const MORE: f64 = 4.5;
         Self {
             slip: MORE * self.slip,
             ending_slip: MORE * self.ending_slip,
