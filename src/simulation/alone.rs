@@ -54,9 +54,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 state.position += (-n.abs().dot(constants.reach) - state.position.dot(n)) * n;
                 let impulse = self.law.cushions.at(*rail).resolve(constants.radius, n, &mut state);
                 // What might be part of a chatter, meets two cushions at once, or leaves the cloth.
-                if (state.velocity.dot(n) <= constants.tolerance.slow_bounce)
-                    | is_in_corner(constants, state.position)
-                    | (impulse.climb > constants.lifts)
+                if state.velocity.dot(n) <= constants.tolerance.slow_bounce
+                    || is_in_corner(constants, state.position)
+                    || impulse.climb > constants.lifts
                 {
                     break;
                 }

@@ -34,7 +34,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let Ball { rail_after, rail, segment, .. } = &self.balls[index];
         let (rail_after, rail, meets_two) =
             (*rail_after, *rail, is_in_corner(&self.constants, segment.position_after(*rail_after)));
-        if (self.is_crowded(now) | meets_two) && self.collide_at_once(now)? {
+        if (self.is_crowded(now) || meets_two) && self.collide_at_once(now)? {
             return ControlFlow::Continue(());
         }
         let n = rail.normal();
