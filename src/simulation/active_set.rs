@@ -215,9 +215,6 @@ pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State,
     let mut ended = *balls;
     if balls.iter().enumerate().any(ends) {
         settle(table, constants, &mut ended, contacts.as_slice(), &set);
-        if closes(constants, &ended, contacts) {
-            return *balls;
-        }
     }
     ended
 }

@@ -37,9 +37,10 @@ const TOLD: u32 = 4;
 /// Flights that shrink more slowly are no sign of a chatter that ends.
 const SLOWEST_SHRINKING: f64 = 0.99;
 
-/// A pause of so many of the last flights and of the longest ones between two bounces is the end of a chatter, unless it is no longer
-/// than the one before: where another contact throws a ball back again and again, its chatters are one.
-const PAUSE: [f64; 2] = [8.0, 2.0];
+/// A pause between two bounces is the end of a chatter if it is as long as so many of the last flights, and as so many of the longest
+/// one, unless it is no longer than the pause before: where another contact throws a ball back again and again, its chatters are one.
+const LAST_FLIGHTS: f64 = 8.0;
+const LONGEST_FLIGHTS: f64 = 2.0;
 
 /// Pairs of balls, and balls with cushions.
 const PLACES: usize = PAIRS.len() + 4 * BALLS;
@@ -52,7 +53,7 @@ struct Bounces {
     flight: f64,
     /// The longest flight of this chatter.
     longest: f64,
-    /// How long before it the last bounce was, s.
+    /// How long before this chatter the last bounce was, s.
     pause: f64,
     /// The last flight over the one before.
     shrinking: f64,
@@ -60,8 +61,8 @@ struct Bounces {
 
 impl Bounces {
     /// Longest pause before the next bounce of the same chatter, s.
-    fn lull(&self) -> f64 {
-        (PAUSE[0] * self.flight).max(PAUSE[1] * self.longest)
+    fn longest_pause(&self) -> f64 {
+        (LAST_FLIGHTS * self.flight).max(LONGEST_FLIGHTS * self.longest)
     }
 }
 
@@ -97,7 +98,7 @@ impl Chatters {
     pub fn bounce(&mut self, contact: &Contact, now: f64) -> bool {
         let bounces = &mut self.0[Self::place(contact)];
         let flight = now - bounces.last;
-        if flight <= bounces.lull().max(bounces.pause) {
+        if flight <= bounces.longest_pause().max(bounces.pause) {
             let known = if flight.is_finite() { flight } else { 0.0 };
             (bounces.count, bounces.longest) = (bounces.count + 1, bounces.longest.max(known));
         } else {
@@ -126,7 +127,7 @@ impl Chatters {
         for (other, place) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
             let bounces = self.0[place];
             if bounces.count > TOLD {
-                ends[other] = ends[other].max(bounces.last + bounces.lull());
+                ends[other] = ends[other].max(bounces.last + bounces.longest_pause());
             }
         }
         ends

@@ -149,11 +149,6 @@ fn slips(ends: &[Column; 2], directions: &[Column]) -> bool {
     is_slip(start, end)
 }
 
-/// Whether there is a speed along some directions at either end, however slow.
-fn slips_at_all(ends: &[Column; 2], directions: &[Column]) -> bool {
-    ends.iter().any(|end| size(&along(directions, end)) > NO_SLIP)
-}
-
 /// Whether speeds of these sizes at a stretch's start and end are a slip.
 fn is_slip(start: f64, end: f64) -> bool {
     start > NO_SLIP || end > DEPARTED
@@ -224,13 +219,10 @@ impl Scene<'_> {
             return plain;
         }
         let creeping: [bool; BALLS] = std::array::from_fn(|ball| self.members[ball] && self.creeps(ball));
-        let begins: [bool; BALLS] =
-            std::array::from_fn(|ball| creeping[ball] && slips_at_all(&self.ends, &on_cloth(ball)));
-        // Some balls may be at the edge while others roll: first those whose slip has begun.
-        let some: Vec<[bool; BALLS]> = (1..1_usize << BALLS)
-            .map(|some| std::array::from_fn(|ball| creeping[ball] && some >> ball & 1 == 1))
-            .collect();
-        let at_edge = std::iter::once(begins).chain(some).filter(|balls| *balls != [false; BALLS]);
+        // Some balls may be at the edge while others roll.
+        let at_edge = (1..1_usize << BALLS)
+            .map(|some| -> [bool; BALLS] { std::array::from_fn(|ball| creeping[ball] && some >> ball & 1 == 1) })
+            .filter(|balls| *balls != [false; BALLS]);
         let is_better = |at_edge: &Power| {
             at_edge.is_possible && 2.0 * at_edge.defect < plain.defect && (at_edge.is_unique || !plain.is_unique)
         };
