@@ -7,6 +7,7 @@
 
 mod bounds;
 mod course;
+mod interruption;
 mod stiffness;
 
 use glam::{DVec2, DVec3};
@@ -37,15 +38,18 @@ const STRAY: f64 = 1e-10;
 /// Longest change of speed by the cloth's friction in a step, m/s: courses along which nothing slips bend, too.
 const LONGEST_CURVE: f64 = 0.04;
 
-/// After an interruption a step is tried that is so many times as long as the one that was interrupted.
-const GROWTH_AFTER_INTERRUPTION: f64 = 4.0;
-
 /// Steps longer than so many times in which a slip's direction comes to follow the forces are implicit in it; explicit ones are
 /// not stable then.
 const STIFF: f64 = 4.0;
 
 /// By what angle, in radians, a slip may turn in an implicit step at the rate at which it does in the beginning.
 const MOST_TURN: f64 = 0.03;
+
+/// A law that breaks within this share of a step does so at once: the forces of jammed balls stay at the edge of what may be.
+const AT_ONCE: f64 = 1e-3;
+
+/// After so many such steps in a row forces are sought anew in every state.
+const MOST_SHORT_STEPS: u32 = 16;
 
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
@@ -82,6 +86,8 @@ pub struct Resting {
     first: Forces,
     pub(super) last: Forces,
     shared: bool,
+    /// How many steps in a row have ended at once.
+    short_steps: u32,
     /// Whether all that holds at the end is what held at the beginning.
     goes_on: bool,
     /// Whether something else has ended the step.
@@ -143,6 +149,7 @@ impl Resting {
             first: forces,
             last: forces,
             shared,
+            short_steps: previous.map_or(0, |previous| previous.short_steps),
             goes_on: false,
             interrupted: false,
             next_step,
@@ -193,6 +200,14 @@ impl Resting {
             };
             span = shorter.max(shortest);
         };
+        if !self.seeks() {
+            let at_once = broken && trial.span < AT_ONCE * span;
+            self.short_steps = if at_once { self.short_steps + 1 } else { 0 };
+            if self.seeks() {
+                self.advance(table);
+                return;
+            }
+        }
         if trial.step.end.time.is_nan() || trial.step.end.time <= 0.0 {
             // Nothing can be followed: time goes on.
             (self.step, self.end, self.goes_on) = (shortest, self.begin, false);
@@ -266,12 +281,17 @@ impl Resting {
         }
     }
 
+    /// Whether forces are sought anew in every state, since those that were found did not last again and again.
+    const fn seeks(&self) -> bool {
+        self.short_steps > MOST_SHORT_STEPS
+    }
+
     /// What is reached after `span`, by a step that begins at `from`.
     fn attempt(&self, table: &Table, from: &Trial, span: f64) -> Trial {
         let begin = &from.step.end;
         let mut last = from.forces;
         let contacts = self.contacts.as_slice();
-        let yields = self.set.yields();
+        let yields = self.set.yields() || self.seeks();
         let slope = |phase: &Phase| {
             let (linear, angular) = if yields {
                 last = yielding(table, &phase.balls, contacts, &self.set, &last);
@@ -412,45 +432,6 @@ impl Resting {
         slip.length() / from
     }
 
-    /// State `time` seconds after the start of the step, by one shorter step of the same method.
-    pub fn after(&self, table: &Table, time: f64) -> State {
-        if time >= self.step { self.end } else { self.settled(table, self.until(table, time).step.end.balls) }
-    }
-
-    /// Ends the step `time` seconds after its start: its course is that of the shorter step.
-    pub fn cut(&mut self, table: &Table, time: f64) {
-        if time >= self.step {
-            return;
-        }
-        let trial = self.until(table, time);
-        self.interrupted = true;
-        (self.step, self.last) = (time, trial.forces);
-        (self.end, self.goes_on) = (self.settled(table, trial.step.end.balls), false);
-        if time > 0.0 {
-            // What comes next is likely to be interrupted as soon.
-            self.next_step = GROWTH_AFTER_INTERRUPTION * time;
-        }
-    }
-
-    /// The step that ends after `time` seconds.
-    fn until(&self, table: &Table, time: f64) -> Trial {
-        let begin = Phase { balls: self.begin, time: 0.0 };
-        let begin = Step { end: begin, error: 0.0, best_length: 0.0 };
-        let mut trial = self.attempt(table, &Trial { span: 0.0, step: begin, forces: self.first }, time);
-        if self.time_scale.is_some() {
-            // Newton's steps: how fast time runs is known.
-            for _ in 0..MAX_GUESSES {
-                let late = time - trial.step.end.time;
-                if late.abs() <= 4.0 * f64::EPSILON * time {
-                    break;
-                }
-                let rate = self.time_rate(table.radius, &trial.step.end.balls);
-                trial = self.attempt(table, &trial, trial.span + late / rate);
-            }
-        }
-        trial
-    }
-
     /// Takes the rounding out of a later state.
     fn settled(&self, table: &Table, mut balls: State) -> State {
         let contacts = self.contacts.as_slice();
@@ -466,7 +447,7 @@ impl Resting {
 
     fn forces_in(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
         let contacts = self.contacts.as_slice();
-        if set.yields() {
+        if set.yields() || self.seeks() {
             return yielding(table, state, contacts, set, near);
         }
         forces(table, state, contacts, set, Some(&self.first)).unwrap_or(self.first)

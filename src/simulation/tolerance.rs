@@ -122,6 +122,7 @@ impl Tolerance {
             ending_slip: MORE * self.ending_slip,
             slowest_bounce: MORE * self.slowest_bounce,
             slowest_coupled_bounce: MORE * self.slowest_coupled_bounce,
+            first_bounce: MORE * self.first_bounce,
             negligible: MORE * self.negligible,
             negligible_coupled: MORE * self.negligible_coupled,
             ..*self

@@ -24,6 +24,11 @@ const ENOUGH: f64 = 0.1;
 /// Halvings of a Newton step that are tried.
 const MOST_HALVINGS: i32 = 14;
 
+/// Whole Newton steps that are tried at last, and what they add to the diagonal: where a friction turns along the circle of its limit to a
+/// double root, what it leaves in the laws on the way makes damped steps short.
+const WHOLE_STEPS: usize = 48;
+const NEXT_TO_NO_PROXIMITY: f64 = 1e-13;
+
 /// Rounds of sweeps and Newton steps; the sweeps double from one to the next.
 const ATTEMPTS: u32 = 7;
 const FIRST_SWEEPS: usize = 8;
@@ -75,45 +80,27 @@ pub fn solve_near(problem: &Problem, guess: &Sizes) -> Solution {
 fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32) -> Solution {
     let system = System::new(problem);
     let mut best = (f64::INFINITY, *guess);
-    let mut sizes = *guess;
     for attempt in 0..attempts {
         let error_before = best.0;
-        let (mut residual, mut sides) = system.residual(&sizes);
-        for _ in 0..NEWTON_STEPS {
-            let error = length(&residual);
-            if error < best.0 {
-                best = (error, sizes);
-            }
-            if error <= ROUNDING * system.scale(&sizes) {
-                return Solution { sizes, sides, converged: true };
-            }
-            let Some(change) = system.newton_step(&sizes, &residual, &sides) else { break };
-            // The whole step where it brings the laws nearer to hold, else the share of it that does so most.
-            let mut tried: Option<Point> = None;
-            for halvings in 0..MOST_HALVINGS {
-                let share = 0.5_f64.powi(halvings);
-                let there = std::array::from_fn(|index| sizes[index] + share * change[index]);
-                let (residual, sides) = system.residual(&there);
-                let reached = length(&residual);
-                if tried.as_ref().is_none_or(|best| reached < best.0) {
-                    tried = Some((reached, there, residual, sides));
-                } else if tried.as_ref().is_some_and(|best| best.0 < error) {
-                    break;
-                }
-                if halvings == 0 && reached < ENOUGH * error {
-                    break;
-                }
-            }
-            let Some((_, there, left, now)) = tried else { break };
-            (sizes, residual, sides) = (there, left, now);
+        let begin = if attempt == 0 {
+            *guess
+        } else {
+            let mut sizes = best.1;
+            (0..FIRST_SWEEPS << (attempt - 1)).for_each(|_| system.sweep(&mut sizes));
+            sizes
+        };
+        if let Some(solution) = system.newton(&begin, &mut best, NEWTON_STEPS, MOST_HALVINGS, PROXIMITY) {
+            return solution;
         }
-        sizes = best.1;
-        if best.0 > 0.5 * error_before && best.0 <= NEARLY * system.scale(&sizes) {
+        if best.0 > 0.5 * error_before && best.0 <= NEARLY * system.scale(&best.1) {
             break;
         }
-        for _ in 0..FIRST_SWEEPS << attempt {
-            system.sweep(&mut sizes);
-        }
+    }
+    let begin = best.1;
+    if attempts > 1
+        && let Some(solution) = system.newton(&begin, &mut best, WHOLE_STEPS, 1, NEXT_TO_NO_PROXIMITY)
+    {
+        return solution;
     }
     let (_, sides) = system.residual(&best.1);
     Solution { sizes: best.1, sides, converged: false }
@@ -143,6 +130,47 @@ impl<'a> System<'a> {
             system.matrix.extend(problem.forces.iter().map(|force| rate.dot(force)));
         }
         system
+    }
+
+    /// Newton steps from `sizes` on, with so many halvings at most; keeps the `best` of all errors and sizes.
+    fn newton(
+        &self,
+        sizes: &Sizes,
+        best: &mut (f64, Sizes),
+        steps: usize,
+        most_halvings: i32,
+        proximity: f64,
+    ) -> Option<Solution> {
+        let mut sizes = *sizes;
+        let (mut residual, mut sides) = self.residual(&sizes);
+        for _ in 0..steps {
+            let error = length(&residual);
+            if error < best.0 {
+                *best = (error, sizes);
+            }
+            if error <= ROUNDING * self.scale(&sizes) {
+                return Some(Solution { sizes, sides, converged: true });
+            }
+            let change = self.newton_step(&sizes, &residual, &sides, proximity)?;
+            // The whole step where it brings the laws nearer to hold, else the share of it that does so most.
+            let mut tried: Option<Point> = None;
+            for halvings in 0..most_halvings {
+                let share = 0.5_f64.powi(halvings);
+                let there = std::array::from_fn(|index| sizes[index] + share * change[index]);
+                let (residual, sides) = self.residual(&there);
+                let reached = length(&residual);
+                if tried.as_ref().is_none_or(|best| reached < best.0) {
+                    tried = Some((reached, there, residual, sides));
+                } else if tried.as_ref().is_some_and(|best| best.0 < error) {
+                    break;
+                }
+                if halvings == 0 && reached < ENOUGH * error {
+                    break;
+                }
+            }
+            (_, sizes, residual, sides) = tried?;
+        }
+        None
     }
 
     fn row(&self, index: usize) -> &[f64] {
@@ -199,7 +227,7 @@ impl<'a> System<'a> {
     }
 
     /// A Newton step; `None` where its system is singular.
-    fn newton_step(&self, sizes: &Sizes, residual: &Sizes, sides: &Sides) -> Option<Sizes> {
+    fn newton_step(&self, sizes: &Sizes, residual: &Sizes, sides: &Sides, proximity: f64) -> Option<Sizes> {
         let n = self.count;
         let mut jacobian = vec![0.0; n * n];
         let mut change = NO_SIZES;
@@ -210,7 +238,7 @@ impl<'a> System<'a> {
                 match *side {
                     Side::Holds => {
                         entries.copy_from_slice(self.row(index));
-                        entries[index] += PROXIMITY;
+                        entries[index] += proximity;
                         change[index] = -self.rate(index, sizes);
                     }
                     Side::Absent => {

@@ -4,10 +4,10 @@ use super::{
     doubt::STOPPED_SPEED,
     laws::{friction, impact_loss, impact_loss_by_models, restitution},
     least_squares::{Column, dot, fit},
-    motion::{Contact, energy, motion},
+    motion::{Contact, energy, motion, on_cloth},
 };
 use crate::{
-    physics::BallState,
+    physics::{BallState, slip},
     table::{BALLS, Table},
 };
 
@@ -61,10 +61,10 @@ const LAST_BOUNCE: f64 = 1e-7;
 impl Moment<'_> {
     /// Whether a group's impact is so slow that it may end a chatter.
     pub fn ends_a_chatter(&self, group: [bool; BALLS]) -> bool {
-        self.impacts.iter().filter(|contact| group[contact.first]).any(|contact| {
-            let others = contact.second.map_or(glam::DVec2::ZERO, |second| self.before[second].velocity);
-            (self.before[contact.first].velocity - others).dot(contact.normal).abs() < LAST_BOUNCE
-        })
+        self.impacts
+            .iter()
+            .filter(|contact| group[contact.first])
+            .any(|contact| self.closing_speed(contact).abs() < LAST_BOUNCE)
     }
 
     /// The balls that are joined to `ball` by impacts or closed contacts, itself among them.
@@ -100,13 +100,41 @@ impl Moment<'_> {
         let lost = energy(&before) - energy(&after);
         let impacts: Vec<&Contact> = self.impacts.iter().filter(|contact| group[contact.first]).collect();
         let was_free = (0..BALLS).all(|ball| !(group[ball] && self.rested[ball]));
+        let several = || Taken { unexplained: self.several(group, &impacts, &before, &after), bounces: None };
+        let nearer =
+            |one: Taken, other: Taken| if other.unexplained.abs() < one.unexplained.abs() { other } else { one };
         match impacts[..] {
-            [] if !self.begins_to_grip(group) => Taken { unexplained: lost, bounces: None },
-            [contact] if was_free && !self.grips(contact) && !self.joins_others(contact, group) => {
-                self.one_impact(contact, &before, lost)
+            [] if !self.begins_to_grip(group) => {
+                let nothing = Taken { unexplained: lost, bounces: None };
+                nearer(nothing, if self.stops_softly(group) { several() } else { nothing })
             }
-            _ => Taken { unexplained: self.several(group, &impacts, &before, &after), bounces: None },
+            [contact] if was_free && !self.grips(contact) && !self.joins_others(contact, group) => {
+                let alone = self.one_impact(contact, &before, lost);
+                // A slip on the cloth that ends with it presses, too.
+                let ends_a_slip = self.creeps(contact.first) && self.closing_speed(contact) < STOPPED_SPEED;
+                nearer(alone, if ends_a_slip { several() } else { alone })
+            }
+            _ => several(),
         }
+    }
+
+    /// Whether something in a closed contact closes so softly that it is stopped untold: an impulse does that, and rubs.
+    fn stops_softly(&self, group: [bool; BALLS]) -> bool {
+        let inside = |contact: &&Contact| group[contact.first] && contact.second.is_none_or(|second| group[second]);
+        self.closed.iter().filter(inside).any(|contact| self.closing_speed(contact) > 0.0)
+            && self.closed.iter().filter(inside).all(|contact| self.closing_speed(contact) < STOPPED_SPEED)
+    }
+
+    /// Whether a ball slips so little on the cloth that it may be stopped at once.
+    fn creeps(&self, ball: usize) -> bool {
+        let BallState { velocity, spin, .. } = self.before[ball];
+        slip(self.table.radius, velocity, spin).length() < STOPPED_SPEED
+    }
+
+    /// Speed at which a contact closes before the moment, m/s.
+    fn closing_speed(&self, contact: &Contact) -> f64 {
+        let others = contact.second.map_or(glam::DVec2::ZERO, |second| self.before[second].velocity);
+        -(self.before[contact.first].velocity - others).dot(contact.normal)
     }
 
     /// Whether balls that never slip where they touch begin to rest against each other: what is left of their slip ends at
@@ -170,18 +198,25 @@ impl Moment<'_> {
                 contacts.push(*contact);
             }
         }
-        let directions: Vec<_> = contacts.iter().flat_map(Contact::directions).collect();
         let change = std::array::from_fn(|place| after[place] - before[place]);
         let mean = std::array::from_fn(|place| 0.5 * (after[place] + before[place]));
-        let found = fit(&directions, &change);
-        let mut unexplained = -dot(&mean, &found.residual);
-        for (index, contact) in contacts.iter().enumerate() {
-            let (Some(impulses), Some(mu)) = (&found.factors, friction(self.table, contact)) else { continue };
-            let [push, along, up] = [0, 1, 2].map(|axis| impulses[3 * index + axis]);
-            let excess = (along.hypot(up) - mu * push.max(0.0)).max(0.0);
-            let [opening, slip, rise] = contact.directions().map(|direction| dot(&direction, &mean));
-            unexplained += excess * slip.hypot(rise) + (-push).max(0.0) * opening.abs();
-        }
-        unexplained
+        let directions: Vec<_> = contacts.iter().flat_map(Contact::directions).collect();
+        let unexplained_by = |directions: &[Column]| {
+            let found = fit(directions, &change);
+            let mut unexplained = -dot(&mean, &found.residual);
+            for (index, contact) in contacts.iter().enumerate() {
+                let (Some(impulses), Some(mu)) = (&found.factors, friction(self.table, contact)) else { continue };
+                let [push, along, up] = [0, 1, 2].map(|axis| impulses[3 * index + axis]);
+                let excess = (along.hypot(up) - mu * push.max(0.0)).max(0.0);
+                let [opening, slip, rise] = contact.directions().map(|direction| dot(&direction, &mean));
+                unexplained += excess * slip.hypot(rise) + (-push).max(0.0) * opening.abs();
+            }
+            unexplained
+        };
+        // What slips next to nothing on the cloth may stop there.
+        let stops = (0..BALLS).filter(|&ball| group[ball] && self.creeps(ball)).flat_map(on_cloth);
+        let with_cloth: Vec<_> = directions.iter().copied().chain(stops).collect();
+        let (alone, together) = (unexplained_by(&directions), unexplained_by(&with_cloth));
+        if together.abs() < alone.abs() { together } else { alone }
     }
 }
