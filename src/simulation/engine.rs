@@ -21,7 +21,7 @@ use crate::{
 /// Work after which a shot is brought to its end: so many of the simplest bounces of chatters, of which a step of a resting
 /// contact takes as long as [`STEP_WORK`]. This is a guard, not physics: what takes part in another contact stands still from
 /// then on. The stability table counts the shots that come to it.
-const MOST_WORK: u32 = 50_000;
+const MOST_WORK: u32 = 40_000;
 
 /// Events after which a shot ends where it is. This is a guard, not physics, for what repeats in the air without end; a shot has some
 /// ten events, and one in a chatter some hundred.

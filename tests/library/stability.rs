@@ -6,9 +6,7 @@ use carom::{
     physics::CueInputs,
     printing::ProgressLine,
     simulation::Recording,
-    study::stability::{
-        Case, Finding, Limits, Plan, Row, Shot, Stroke, Trace, Violation, cases, examine, markdown, rows,
-    },
+    study::stability::{Case, Limits, Plan, Row, Shot, Stroke, Trace, cases, examine, markdown, rows},
     table::{Layout, Table, TableError},
 };
 use glam::DVec2;
@@ -20,10 +18,8 @@ const PLAN: Plan = Plan { random: 1_000, adversarial: 1_000, each_case: 100, see
 fn hold(name: &str) {
     let case: Case = cases().into_iter().find(|case| case.name == name).expect("the row is in the table");
     let mut first = None;
-    // How long a shot takes is for the report to tell: the machine of a test may be busy.
-    let is_slow_only = |finding: &&Finding| finding.violations.iter().all(|what| matches!(what, Violation::Slow(_)));
     let row = Row::of(&case, &PLAN, |_, finding| {
-        first = first.take().or_else(|| finding.filter(|finding| !is_slow_only(finding)).cloned());
+        first = first.take().or_else(|| finding.cloned());
         true
     });
     if let Some(first) = first {
