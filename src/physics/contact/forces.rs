@@ -36,6 +36,8 @@ pub struct Forces {
     pub slack: f64,
     /// Whether all laws hold to rounding where forces have been sought.
     pub converged: bool,
+    /// Whether they are one of many that do the same, as the balls are held more often than needed.
+    pub(super) redundant: bool,
     /// Friction per ball mass in each contact, along `t = z×n` and along z, m/s².
     pub(super) friction: [DVec2; MAX_CONTACTS],
     /// The cloth's forces per ball mass where they hold a ball, against slip, against rolling and against spin, m/s².
@@ -240,6 +242,7 @@ impl Forces {
         normal: [0.0; MAX_CONTACTS],
         slack: f64::INFINITY,
         converged: true,
+        redundant: false,
         friction: [DVec2::ZERO; MAX_CONTACTS],
         cloth: [DVec2::ZERO; BALLS],
         roll: [DVec2::ZERO; BALLS],

@@ -2,12 +2,26 @@
 //! small linear system in the contacts' forces. What the cloth holds is taken out beforehand: a ball that rolls or stands
 //! answers to a force with less motion than one that slides.
 
+/// A function's value with as much room as the contacts take.
+macro_rules! in_room {
+    ($contacts:ident, $function:ident($($argument:expr),*)) => {
+        match $contacts.len() {
+            0 | 1 => $function::<1>($($argument),*),
+            2 => $function::<2>($($argument),*),
+            3 => $function::<3>($($argument),*),
+            _ => $function::<MAX_CONTACTS>($($argument),*),
+        }
+    };
+}
+
 mod easing;
 mod joint;
+mod stopping;
 
 use glam::{DVec2, DVec3};
 
 use self::joint::{Joint, Movement, Triple};
+pub use self::stopping::stop_by_impulses;
 use super::{
     ActiveSet, Contact, Forces, Friction, MAX_CONTACTS,
     linear::{factorize, substitute},
@@ -30,10 +44,6 @@ const MAX_REFINEMENTS: usize = 8;
 
 /// Residuals below this share of the largest number are rounding.
 const ROUNDING: f64 = 4096.0 * f64::EPSILON;
-
-/// Impulses that stop some speeds change others by a few times as much. Where it is far more, the contacts are about to open,
-/// and what is stopped is rounding.
-const MOST_AMPLIFICATION: f64 = 100.0;
 
 /// How the cloth holds a ball.
 #[derive(Clone, Copy, PartialEq)]
@@ -104,6 +114,8 @@ struct Held<const ROOM: usize> {
     members: [bool; BALLS],
     /// Each contact's unknowns.
     sizes: [Triple; ROOM],
+    /// Whether they are known not to be unique: something is held more often than needed.
+    redundant: bool,
 }
 
 impl<const ROOM: usize> Held<ROOM> {
@@ -127,6 +139,7 @@ impl<const ROOM: usize> Held<ROOM> {
             sticking: std::array::from_fn(|ball| Sticking::of(set, ball)),
             members: std::array::from_fn(|ball| contacts.iter().any(|contact| contact.has(ball))),
             sizes: [[0.0; 3]; ROOM],
+            redundant: false,
         };
         for (index, place) in system.joints[..system.contacts].iter_mut().enumerate() {
             *place = Joint { at: system.unknowns, ..joint(index) };
@@ -168,13 +181,16 @@ impl<const ROOM: usize> Held<ROOM> {
         let mut pivots = [[0; 3]; ROOM];
         let pivots = &mut pivots.as_flattened_mut()[..count];
         self.fill(factors);
-        let unique = factorize(factors, pivots) > SINGULAR;
+        let unique = !self.redundant && factorize(factors, pivots) > SINGULAR;
         if unique {
             for (joint, sizes) in self.joints[..self.contacts].iter().zip(&mut self.sizes) {
                 sizes[..joint.unknowns].fill(0.0);
             }
         } else {
-            self.fill(factors);
+            if !self.redundant {
+                self.fill(factors);
+                self.redundant = true;
+            }
             for index in 0..count {
                 factors[index * (count + 1)] += PROXIMITY;
             }
@@ -216,29 +232,6 @@ impl<const ROOM: usize> Held<ROOM> {
         None
     }
 
-    /// The largest of the speeds that are to be zero.
-    fn to_stop(&self, speeds: &Movement) -> f64 {
-        let still = Self { sizes: [[0.0; 3]; ROOM], ..*self };
-        let (_, moved) = still.moved(speeds);
-        let largest = moved.distance(speeds, self.members);
-        self.joints().iter().fold(largest, |largest, joint| {
-            let rates = joint.rates(&moved);
-            rates[..joint.unknowns].iter().fold(largest, |largest, rate| largest.max(rate.abs()))
-        })
-    }
-
-    /// Takes the friction of contacts that slip away where they pull back more than has been `given`; tells whether there are
-    /// any.
-    fn smooth_what_pulls(&mut self, given: &[f64; MAX_CONTACTS]) -> bool {
-        let mut any = false;
-        for ((joint, sizes), given) in self.joints[..self.contacts].iter_mut().zip(&self.sizes).zip(given) {
-            if sizes[0] < -given && joint.slip_friction != DVec2::ZERO {
-                (joint.slip_friction, any) = (DVec2::ZERO, true);
-            }
-        }
-        any
-    }
-
     /// The force in a contact.
     fn force(&self, index: usize) -> Triple {
         let [normal, along, up] = self.sizes[index];
@@ -274,11 +267,17 @@ pub fn forces(
     set: &ActiveSet,
     similar: Option<&Forces>,
 ) -> Option<Forces> {
-    Some(match contacts.len() {
-        0 | 1 => Solved::<1>::new(table, balls, contacts, set, similar)?.forces(table, balls, contacts, set),
-        2 => Solved::<2>::new(table, balls, contacts, set, similar)?.forces(table, balls, contacts, set),
-        _ => Solved::<MAX_CONTACTS>::new(table, balls, contacts, set, similar)?.forces(table, balls, contacts, set),
-    })
+    in_room!(contacts, forces_in(table, balls, contacts, set, similar))
+}
+
+fn forces_in<const ROOM: usize>(
+    table: &Table,
+    balls: &[BallState; BALLS],
+    contacts: &[Contact],
+    set: &ActiveSet,
+    similar: Option<&Forces>,
+) -> Option<Forces> {
+    Some(Solved::<ROOM>::new(table, balls, contacts, set, similar)?.forces(table, balls, contacts, set))
 }
 
 /// The accelerations under these forces: linear ones in m/s², angular ones in rad/s².
@@ -289,16 +288,22 @@ pub fn accelerations(
     set: &ActiveSet,
     similar: &Forces,
 ) -> Option<([DVec2; BALLS], [DVec3; BALLS])> {
-    let similar = Some(similar);
-    let moved = match contacts.len() {
-        0 | 1 => match contacts.first().and_then(|contact| slipping(table, balls, contact, set)) {
-            Some(moved) => moved,
-            None => Solved::<1>::new(table, balls, contacts, set, similar)?.moved,
-        },
-        2 => Solved::<2>::new(table, balls, contacts, set, similar)?.moved,
-        _ => Solved::<MAX_CONTACTS>::new(table, balls, contacts, set, similar)?.moved,
+    let alone = if let [contact] = contacts { slipping(table, balls, contact, set) } else { None };
+    let moved = match alone {
+        Some(moved) => moved,
+        None => in_room!(contacts, moved_in(table, balls, contacts, set, similar))?,
     };
     Some((moved.linear, moved.angular.map(|angular| angular / table.radius)))
+}
+
+fn moved_in<const ROOM: usize>(
+    table: &Table,
+    balls: &[BallState; BALLS],
+    contacts: &[Contact],
+    set: &ActiveSet,
+    similar: &Forces,
+) -> Option<Movement> {
+    Some(Solved::<ROOM>::new(table, balls, contacts, set, Some(similar))?.moved)
 }
 
 /// The movement under a single contact that slips: its normal force is the only unknown, for which no system has to be solved.
@@ -351,6 +356,7 @@ impl<const ROOM: usize> Solved<ROOM> {
     ) -> Option<Self> {
         let mut system = Held::new(table, balls, contacts, set, |_| true);
         if let Some(similar) = similar {
+            system.redundant = similar.redundant;
             for (index, joint) in system.joints[..system.contacts].iter().enumerate() {
                 let friction = if joint.unknowns == 3 { similar.friction[index] } else { DVec2::ZERO };
                 system.sizes[index] = [similar.normal[index], friction.x, friction.y];
@@ -370,6 +376,7 @@ impl<const ROOM: usize> Solved<ROOM> {
         let [sliding, rolling, boring] = frictions(table);
         let mut forces = Forces::NONE;
         forces.slack = *within;
+        forces.redundant = system.redundant;
         let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
         for ball in (0..BALLS).filter(|&ball| system.members[ball]) {
             let sticking = system.sticking[ball];
@@ -429,37 +436,6 @@ fn free(table: &Table, balls: &[BallState; BALLS], set: &ActiveSet, members: [bo
 /// What the cloth's frictions of sliding, rolling and spinning can do to a ball, per mass, m/s².
 fn frictions(table: &Table) -> [f64; 3] {
     [table.sliding_friction, table.rolling_friction, table.spinning_friction].map(|mu| mu * table.gravity)
-}
-
-/// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `contacts` and the slips that
-/// do not last by `set`, by impulses in those contacts, as the ends of slips do: a push that stops something has friction where its
-/// contact slips. An impulse that would have to pull takes back part of what an impact has just `given` a contact, per mass in
-/// m/s, and its friction with it; beyond that it is rounding, and has nothing to rub with: energy would be gained. Where the
-/// speeds cannot all vanish, or not without changing others by far more, all stay.
-pub fn stop_by_impulses(
-    table: &Table,
-    balls: &mut [BallState; BALLS],
-    contacts: &[Contact],
-    set: &ActiveSet,
-    given: &[f64; MAX_CONTACTS],
-) {
-    // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
-    let has_friction = |contact: &Contact| table.ball_friction.is_some() || contact.second.is_none();
-    let mut system = Held::<MAX_CONTACTS>::new(table, balls, contacts, &set.slipping_where(set), has_friction);
-    let speeds =
-        Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
-    let before = system.to_stop(&speeds);
-    let mut stopped = system.solve(&speeds, false);
-    while stopped.is_some() && system.smooth_what_pulls(given) {
-        stopped = system.solve(&speeds, false);
-    }
-    if let Some([_, stopped]) = stopped
-        && stopped.distance(&speeds, system.members) <= MOST_AMPLIFICATION * before
-    {
-        for (ball, state) in balls.iter_mut().enumerate().filter(|(ball, _)| system.members[*ball]) {
-            (state.velocity, state.spin) = (stopped.linear[ball], stopped.angular[ball] / table.radius);
-        }
-    }
 }
 
 #[cfg(test)]

@@ -21,6 +21,9 @@ const NEWTON_STEPS: usize = 24;
 /// A step that takes the error below this share of itself is as good as any.
 const ENOUGH: f64 = 0.1;
 
+/// One that takes it below this share is not shortened; it may lead to a double root.
+const DOUBLED: f64 = 0.5;
+
 /// Halvings of a Newton step that are tried.
 const MOST_HALVINGS: i32 = 14;
 
@@ -102,16 +105,25 @@ fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32) -> Solution {
     {
         return solution;
     }
-    let (_, sides) = system.residual(&best.1);
-    Solution { sizes: best.1, sides, converged: false }
+    let mut end = Point::NOWHERE;
+    system.put(&mut end, |index| best.1[index]);
+    Solution { sizes: end.sizes, sides: end.sides, converged: false }
 }
 
-fn length(residual: &Sizes) -> f64 {
-    residual.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
+/// Where a step leads.
+struct Point {
+    sizes: Sizes,
+    /// Forces less their projections.
+    residual: Sizes,
+    sides: Sides,
+    /// The residual's length: how far the laws are from holding.
+    error: f64,
 }
 
-/// Where a step leads: how far the laws are from holding there, the sizes, the residual and the sides.
-type Point = (f64, Sizes, Sizes, Sides);
+impl Point {
+    const NOWHERE: Self =
+        Self { sizes: NO_SIZES, residual: NO_SIZES, sides: [Side::Absent; MOST_UNKNOWNS], error: f64::INFINITY };
+}
 
 /// The problem as numbers: rates are `matrix · sizes + bias`.
 struct System<'a> {
@@ -141,36 +153,62 @@ impl<'a> System<'a> {
         most_halvings: i32,
         proximity: f64,
     ) -> Option<Solution> {
-        let mut sizes = *sizes;
-        let (mut residual, mut sides) = self.residual(&sizes);
+        // Points are large: they change places rather than being moved.
+        let mut points = [Point::NOWHERE; 3];
+        let [here, next, spare] = &mut points;
+        let (mut here, mut next, mut spare) = (here, next, spare);
+        let mut jacobian = Vec::with_capacity(self.count * self.count);
+        self.put(here, |index| sizes[index]);
         for _ in 0..steps {
-            let error = length(&residual);
-            if error < best.0 {
-                *best = (error, sizes);
+            if here.error < best.0 {
+                *best = (here.error, here.sizes);
             }
-            if error <= ROUNDING * self.scale(&sizes) {
-                return Some(Solution { sizes, sides, converged: true });
+            if here.error <= ROUNDING * self.scale(&here.sizes) {
+                return Some(Solution { sizes: here.sizes, sides: here.sides, converged: true });
             }
-            let change = self.newton_step(&sizes, &residual, &sides, proximity)?;
-            // The whole step where it brings the laws nearer to hold, else the share of it that does so most.
-            let mut tried: Option<Point> = None;
-            for halvings in 0..most_halvings {
-                let share = 0.5_f64.powi(halvings);
-                let there = std::array::from_fn(|index| sizes[index] + share * change[index]);
-                let (residual, sides) = self.residual(&there);
-                let reached = length(&residual);
-                if tried.as_ref().is_none_or(|best| reached < best.0) {
-                    tried = Some((reached, there, residual, sides));
-                } else if tried.as_ref().is_some_and(|best| best.0 < error) {
-                    break;
-                }
-                if halvings == 0 && reached < ENOUGH * error {
-                    break;
-                }
-            }
-            (_, sizes, residual, sides) = tried?;
+            let change = self.newton_step(here, &mut jacobian, proximity)?;
+            (next, spare) = self.step(here, &change, most_halvings, [next, spare]);
+            std::mem::swap(&mut here, &mut next);
         }
         None
+    }
+
+    /// Takes the whole step where it brings the laws nearer to hold, else the share of it that does so most: the first of the two points
+    /// that it returns. At a double root the whole step leaves a quarter of the error, and the doubled one hardly any (Rall 1966).
+    fn step<'p>(
+        &self,
+        here: &Point,
+        change: &Sizes,
+        most_halvings: i32,
+        [mut best, mut other]: [&'p mut Point; 2],
+    ) -> (&'p mut Point, &'p mut Point) {
+        let go = |share: f64, point: &mut Point| self.put(point, |index| here.sizes[index] + share * change[index]);
+        go(1.0, best);
+        if best.error < ENOUGH * here.error {
+            return (best, other);
+        }
+        if best.error < DOUBLED * here.error {
+            go(2.0, other);
+            return if other.error < best.error { (other, best) } else { (best, other) };
+        }
+        for halvings in 1..most_halvings {
+            go(0.5_f64.powi(halvings), other);
+            if other.error < best.error {
+                std::mem::swap(&mut best, &mut other);
+            } else if best.error < here.error {
+                break;
+            }
+        }
+        (best, other)
+    }
+
+    /// Puts a point where the sizes are these.
+    fn put(&self, point: &mut Point, size: impl Fn(usize) -> f64) {
+        for (index, place) in point.sizes[..self.count].iter_mut().enumerate() {
+            *place = size(index);
+        }
+        self.residual(&point.sizes, &mut point.residual, &mut point.sides);
+        point.error = point.residual[..self.count].iter().fold(0.0, |sum, x| sum + x * x).sqrt();
     }
 
     fn row(&self, index: usize) -> &[f64] {
@@ -214,22 +252,22 @@ impl<'a> System<'a> {
     }
 
     /// Forces less their projections, and the side of each law.
-    fn residual(&self, sizes: &Sizes) -> (Sizes, Sides) {
-        let (mut residual, mut sides) = (NO_SIZES, [Side::Absent; MOST_UNKNOWNS]);
-        for (unknown, side) in self.problem.unknowns.iter().zip(&mut sides) {
+    fn residual(&self, sizes: &Sizes, residual: &mut Sizes, sides: &mut Sides) {
+        for (unknown, side) in self.problem.unknowns.iter().zip(sides) {
             let force;
             (force, *side) = self.project(unknown, sizes);
             for (axis, projected) in force.to_array().into_iter().take(unknown.count).enumerate() {
                 residual[unknown.first + axis] = sizes[unknown.first + axis] - projected;
             }
         }
-        (residual, sides)
     }
 
     /// A Newton step; `None` where its system is singular.
-    fn newton_step(&self, sizes: &Sizes, residual: &Sizes, sides: &Sides, proximity: f64) -> Option<Sizes> {
+    fn newton_step(&self, point: &Point, jacobian: &mut Vec<f64>, proximity: f64) -> Option<Sizes> {
+        let Point { sizes, residual, sides, .. } = point;
         let n = self.count;
-        let mut jacobian = vec![0.0; n * n];
+        jacobian.clear();
+        jacobian.resize(n * n, 0.0);
         let mut change = NO_SIZES;
         for (unknown, side) in self.problem.unknowns.iter().zip(sides) {
             for axis in 0..unknown.count {
@@ -253,10 +291,10 @@ impl<'a> System<'a> {
             }
         }
         let mut pivots = [0; MOST_UNKNOWNS];
-        if factorize(&mut jacobian, &mut pivots[..n]) == 0.0 {
+        if factorize(jacobian, &mut pivots[..n]) == 0.0 {
             return None;
         }
-        substitute(&jacobian, &pivots[..n], &mut change[..n]);
+        substitute(jacobian, &pivots[..n], &mut change[..n]);
         change.iter().all(|x| x.is_finite()).then_some(change)
     }
 
