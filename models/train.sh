@@ -1,6 +1,6 @@
 #!/bin/sh
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about twenty-two hours of a shared core. The bundled files for match began from networks that a
+# with the same version. All of it takes about twenty-three hours of a shared core. The bundled files for match began from networks that a
 # version before this one had trained; their first rounds were played without the cue's room, and those up to match-r3-third,
 # match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth.
 set -eu
@@ -43,7 +43,9 @@ thesis="--set ranking=0.3 --set saturation_penalty=0.1"
 lower="--set critic_learning_rate=0.0011 --set actor_learning_rate=0.0003"
 lowest="--set critic_learning_rate=0.0008 --set actor_learning_rate=0.00025"
 train match-r3-sixth --from "$folder/match-r3-fifth" --seed 61 --steps 6000000 $match
-train match-r3 --from "$folder/match-r3-sixth" --seed 63 --steps 5000000 $lower
+train match-r3-seventh --from "$folder/match-r3-sixth" --seed 63 --steps 5000000 $lower
+train match-r3-eighth --from "$folder/match-r3-seventh" --seed 65 --steps 5000000 $lowest
+train match-r3 --from "$folder/match-r3-eighth" --seed 67 --steps 8000000 $lowest
 train match-one-cushion-fifth --from "$folder/match-one-cushion-fourth" --seed 62 --steps 6000000 $match
 train match-one-cushion --from "$folder/match-one-cushion-fifth" --seed 64 --steps 3500000 $lower
 train match-three-cushion-sixth --from "$folder/match-three-cushion-fifth" --seed 93 --steps 16000000 $match

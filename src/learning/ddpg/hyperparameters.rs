@@ -21,6 +21,8 @@ pub struct Hyperparameters {
     /// Whether it is told the table's constants and the player's errors, and practises on drawn tables with drawn errors. Its
     /// critic then tells how often this player makes a stroke on this table.
     pub context: bool,
+    /// Share of the shots that are played by players without errors, where it is told who plays.
+    pub perfect: f64,
     /// Whether the critic is told what follows from an action in closed form, up to the first ball; without it, only the action.
     pub closed_form: bool,
     /// Actions that the actor proposes for an observation. One alone averages between success windows and misses all; several,
@@ -89,6 +91,7 @@ impl Default for Hyperparameters {
         Self {
             actions: ActionSpace::Full,
             context: false,
+            perfect: 0.35,
             closed_form: true,
             heads: 6,
             head_speeds: Vec::new(),
@@ -166,6 +169,7 @@ impl Hyperparameters {
         check_positive("gradient_clip", self.gradient_clip)?;
         check_share("target_rate", self.target_rate)?;
         check_share("critic_chooses", self.critic_chooses)?;
+        check_share("perfect", self.perfect)?;
         check_share("ranking", self.ranking)?;
         check_share("hindsight", self.hindsight)?;
         check_share("demonstrations", self.demonstrations)?;

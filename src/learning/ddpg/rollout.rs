@@ -47,7 +47,7 @@ impl Trainer {
 
     /// A fresh layout and its conditions.
     fn scene(&mut self) -> Scene {
-        let conditions = self.venues.draw(&mut self.rng);
+        let conditions = self.venues.draw(self.task.hyperparameters.perfect, &mut self.rng);
         (Layout::random(self.venues.table(conditions), &mut self.rng), conditions)
     }
 

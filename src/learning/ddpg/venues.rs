@@ -27,9 +27,7 @@ const TEXTBOOK: usize = 8;
 /// One in so many of the latter is one on which balls stay on the cloth, as those were that were calibrated before they flew.
 const ON_CLOTH: usize = 8;
 
-/// Share of the shots of players without errors, and between which multiples of an expert's those of the others lie, the
-/// logarithms alike. World-class is 1.55, a beginner 8.8.
-const PERFECT: f64 = 0.35;
+/// Between which multiples of an expert's the errors of players who err lie, the logarithms alike. World-class is 1.55, a beginner 8.8.
 const ERRORS: [f64; 2] = [0.5, 15.0];
 
 /// Standard deviation of each coordinate of each ball for players who err, m: as the coach takes it to be.
@@ -93,13 +91,13 @@ impl Venues {
         Self(all)
     }
 
-    /// Conditions of a shot to come. Where there is one venue, nothing is drawn.
-    pub fn draw(&self, rng: &mut (impl Rng + ?Sized)) -> Conditions {
+    /// Conditions of a shot to come, in this share of a player without errors. Where there is one venue, nothing is drawn.
+    pub fn draw(&self, perfect: f64, rng: &mut (impl Rng + ?Sized)) -> Conditions {
         if self.0.len() < 2 {
             return Conditions::default();
         }
         let venue = rng.random_range(0..self.0.len()) as u32;
-        let errors = if rng.random_bool(PERFECT) { 0.0 } else { Self::errors(rng) };
+        let errors = if rng.random_bool(perfect) { 0.0 } else { Self::errors(rng) };
         Conditions { venue, errors }
     }
 
@@ -154,7 +152,7 @@ mod tests {
         let inputs = |context| Inputs { space: ActionSpace::Full, context, closed_form: true };
         let alone = Venues::new(&table, inputs(false), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-        assert_eq!((alone.0.len(), alone.draw(&mut rng)), (1, Conditions::default()));
+        assert_eq!((alone.0.len(), alone.draw(0.35, &mut rng)), (1, Conditions::default()));
         let [one, same, other] = [1, 1, 2].map(|seed| Venues::new(&table, inputs(true), seed));
         let told = |venues: &Venues| venues.0.iter().map(|venue| Table::clone(&venue.told)).collect::<Vec<_>>();
         assert_eq!(told(&one), told(&same));
@@ -162,7 +160,7 @@ mod tests {
         let known = one.0.iter().filter(|venue| knows(&venue.told)).count();
         assert!(known > VENUES * 9 / 10, "{known} of {VENUES}");
         assert!(one.0.iter().all(|venue| venue.real.len() == REAL));
-        let perfect = (0..1000).filter(|_| one.draw(&mut rng).errors == 0.0).count();
+        let perfect = (0..1000).filter(|_| one.draw(0.35, &mut rng).errors == 0.0).count();
         assert!((300..400).contains(&perfect), "{perfect}");
     }
 
@@ -183,7 +181,7 @@ mod tests {
             points.sum::<f64>()
         });
         assert!(made[0] >= made[1] && made[1] > made[2] + 20.0, "{made:?}");
-        let again = venues.draw(&mut rng);
+        let again = venues.draw(0.35, &mut rng);
         assert!(again.errors == 0.0 || (0.5..15.0).contains(&again.errors));
     }
 }

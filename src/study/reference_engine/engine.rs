@@ -62,8 +62,8 @@ pub enum Unjudged {
     #[error("the table is not level, and rolling on a slope is not part of this engine")]
     Slope,
     /// The events do not end.
-    #[error("more than {MOST_STEPS} steps from event to event")]
-    Endless,
+    #[error("more than {0} steps from event to event")]
+    Endless(usize),
 }
 
 /// What comes next.
@@ -86,6 +86,21 @@ pub fn play<R: Real>(
     spin: Vector<R>,
     finder: Finder<R>,
 ) -> Result<Shot<R>, Unjudged> {
+    play_within(numbers, positions, velocity, spin, finder, MOST_STEPS)
+}
+
+/// [`play`] with so many steps from event to event at most.
+///
+/// # Errors
+/// As [`play`].
+pub fn play_within<R: Real>(
+    numbers: &Numbers<R>,
+    positions: [Vector<R>; BALLS],
+    velocity: Vector<R>,
+    spin: Vector<R>,
+    finder: Finder<R>,
+    most_steps: usize,
+) -> Result<Shot<R>, Unjudged> {
     numbers.judged()?;
     let mut balls = positions.map(Ball::still);
     (balls[0].velocity, balls[0].spin) = (velocity, spin);
@@ -98,7 +113,7 @@ pub fn play<R: Real>(
         events.push((now, EventKind::Jumps(0)));
     }
     let (mut resting, mut stride, mut slow) = ([false; BALLS], 1.0, 0);
-    for _ in 0..MOST_STEPS {
+    for _ in 0..most_steps {
         let moment = happen(numbers, &mut balls, resting, slow > MANY)?;
         events.extend(moment.events.into_iter().map(|kind| (now, kind)));
         work = work + moment.work;
@@ -147,7 +162,7 @@ pub fn play<R: Real>(
             Next::Meets(contact) => touch(numbers, contact, &mut balls),
         }
     }
-    Err(Unjudged::Endless)
+    Err(Unjudged::Endless(most_steps))
 }
 
 /// The next event and the time to it.
