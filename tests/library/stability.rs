@@ -99,8 +99,7 @@ fn every_row_of_the_table_is_a_test() {
 }
 
 /// Rows with a few shots that fail at the document's counts.
-const KNOWN: [&str; 4] = [
-    "friction of 10 and 1000 on the cloth, 0.99 in contacts",
+const KNOWN: [&str; 3] = [
     "restitution e = 0.3",
     "the smallest table, six ball radii wide",
     "balls that touch or almost touch, the cue raised by up to 60°",
