@@ -109,7 +109,8 @@ impl Tolerance {
         }
     }
 
-    /// What ends a chatter on a shot that has taken more work than almost any: 4.5 times the slips, bounces, first bounces too, and errors.
+    /// What ends a chatter on a shot that has taken more work than almost any: 4.5 times the slips, the bounces, the
+    /// first bounces and the errors.
     ///
     /// Where the end of one chatter leaves just more than counts as nothing, the next begins at once and leaves as much. A shot
     /// caught so comes free by a small error that is known, where the guard of the engine would take all its speed. Places, forces

@@ -3,7 +3,7 @@
 use std::{fmt, ops::ControlFlow};
 
 use super::{
-    reference_engine::{Finder, Numbers, Real, Vector, algorithm_1010, by_extrema, closed_form, play_within},
+    reference_engine::{Finder, Numbers, Real, Vector, algorithm_1010, by_extrema, closed_form, play},
     shots::StudyShot,
     stability::{Trace, account},
     steps::Steps,
@@ -140,14 +140,10 @@ impl Observer for Events {
     }
 }
 
-/// Steps from event to event after which the plain engine gives up: with 16 or 8 digits balls that press each other may flap for hours.
-const MOST_STEPS: usize = 5_000;
-
 fn plain<R: Real>(table: &Table, shot: &StudyShot, finder: Finder<R>) -> Option<Run> {
     let flat = |v: glam::DVec2| Vector::new(R::of(v.x), R::of(v.y), R::zero());
     let (velocity, spin) = motion(shot);
-    let places = shot.layout.balls.map(flat);
-    let played = play_within(&Numbers::of(table), places, velocity, spin, finder, MOST_STEPS).ok()?;
+    let played = play(&Numbers::of(table), shot.layout.balls.map(flat), velocity, spin, finder).ok()?;
     Some(Run {
         events: played.events.iter().map(|(time, kind)| (time.to_f64(), *kind)).collect(),
         end: played.layout(table),

@@ -21,7 +21,7 @@ pub struct Hyperparameters {
     /// Whether it is told the table's constants and the player's errors, and practises on drawn tables with drawn errors. Its
     /// critic then tells how often this player makes a stroke on this table.
     pub context: bool,
-    /// Share of the shots that are played by players without errors, where it is told who plays.
+    /// Share of the shots by players without errors, where it is told who plays: a third, so that the same networks serve them too.
     pub perfect: f64,
     /// Whether the critic is told what follows from an action in closed form, up to the first ball; without it, only the action.
     pub closed_form: bool,

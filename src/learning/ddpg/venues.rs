@@ -91,7 +91,7 @@ impl Venues {
         Self(all)
     }
 
-    /// Conditions of a shot to come, in this share of a player without errors. Where there is one venue, nothing is drawn.
+    /// Conditions of a shot to come; the player has no errors with the probability `perfect`. Where there is one venue, nothing is drawn.
     pub fn draw(&self, perfect: f64, rng: &mut (impl Rng + ?Sized)) -> Conditions {
         if self.0.len() < 2 {
             return Conditions::default();

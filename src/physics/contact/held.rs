@@ -2,16 +2,20 @@
 //! small linear system in the contacts' forces. What the cloth holds is taken out beforehand: a ball that rolls or stands
 //! answers to a force with less motion than one that slides.
 
-/// A function's value with as much room as the contacts take.
+/// An expression in which a constant is the least room that the contacts need, of those that there are code for.
 macro_rules! in_room {
-    ($contacts:ident, $function:ident($($argument:expr),*)) => {
+    ($contacts:ident, $room:ident => $value:expr) => {
         match $contacts.len() {
-            0 | 1 => $function::<1>($($argument),*),
-            2 => $function::<2>($($argument),*),
-            3 => $function::<3>($($argument),*),
-            _ => $function::<MAX_CONTACTS>($($argument),*),
+            0 | 1 => in_room!(@ $room, 1, $value),
+            2 => in_room!(@ $room, 2, $value),
+            3 => in_room!(@ $room, 3, $value),
+            _ => in_room!(@ $room, MAX_CONTACTS, $value),
         }
     };
+    (@ $room:ident, $size:expr, $value:expr) => {{
+        const $room: usize = $size;
+        $value
+    }};
 }
 
 mod easing;
@@ -267,17 +271,9 @@ pub fn forces(
     set: &ActiveSet,
     similar: Option<&Forces>,
 ) -> Option<Forces> {
-    in_room!(contacts, forces_in(table, balls, contacts, set, similar))
-}
-
-fn forces_in<const ROOM: usize>(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &[Contact],
-    set: &ActiveSet,
-    similar: Option<&Forces>,
-) -> Option<Forces> {
-    Some(Solved::<ROOM>::new(table, balls, contacts, set, similar)?.forces(table, balls, contacts, set))
+    in_room!(contacts, ROOM => {
+        Some(Solved::<ROOM>::new(table, balls, contacts, set, similar)?.forces(table, balls, contacts, set))
+    })
 }
 
 /// The accelerations under these forces: linear ones in m/s², angular ones in rad/s².
@@ -291,19 +287,9 @@ pub fn accelerations(
     let alone = if let [contact] = contacts { slipping(table, balls, contact, set) } else { None };
     let moved = match alone {
         Some(moved) => moved,
-        None => in_room!(contacts, moved_in(table, balls, contacts, set, similar))?,
+        None => in_room!(contacts, ROOM => Solved::<ROOM>::new(table, balls, contacts, set, Some(similar))?.moved),
     };
     Some((moved.linear, moved.angular.map(|angular| angular / table.radius)))
-}
-
-fn moved_in<const ROOM: usize>(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &[Contact],
-    set: &ActiveSet,
-    similar: &Forces,
-) -> Option<Movement> {
-    Some(Solved::<ROOM>::new(table, balls, contacts, set, Some(similar))?.moved)
 }
 
 /// The movement under a single contact that slips: its normal force is the only unknown, for which no system has to be solved.

@@ -21,7 +21,7 @@ const NEWTON_STEPS: usize = 24;
 /// A step that takes the error below this share of itself is as good as any.
 const ENOUGH: f64 = 0.1;
 
-/// One that takes it below this share is not shortened; it may lead to a double root.
+/// A step that takes it below this share only is tried at double length, too: so does a whole step at a double root.
 const DOUBLED: f64 = 0.5;
 
 /// Halvings of a Newton step that are tried.

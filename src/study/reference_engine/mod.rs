@@ -41,7 +41,7 @@ mod tests;
 pub use contact::Contact;
 pub use cue::{Stroke, strike};
 pub use double_double::DoubleDouble;
-pub use engine::{Shot, Unjudged, play, play_within};
+pub use engine::{Shot, Unjudged, play};
 pub use flight::{Met, collide as collide_aloft};
 pub use impact::{balls_collide, rail_collides};
 pub use motion::{Ball, Motion};

@@ -24,7 +24,7 @@ pub fn stop_by_impulses(
     set: &ActiveSet,
     given: &[f64; MAX_CONTACTS],
 ) {
-    if let Some(stopped) = in_room!(contacts, stopped_in(table, balls, contacts, set, given)) {
+    if let Some(stopped) = in_room!(contacts, ROOM => stopped_in::<ROOM>(table, balls, contacts, set, given)) {
         for (ball, state) in balls.iter_mut().enumerate() {
             if contacts.iter().any(|contact| contact.has(ball)) {
                 (state.velocity, state.spin) = (stopped.linear[ball], stopped.angular[ball] / table.radius);
@@ -33,6 +33,7 @@ pub fn stop_by_impulses(
     }
 }
 
+/// The movement that is left; `None` where all speeds stay.
 fn stopped_in<const ROOM: usize>(
     table: &Table,
     balls: &[BallState; BALLS],
