@@ -103,6 +103,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let Ball { rail_after, rail, .. } = self.balls[index];
         let c = self.constants;
         let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
+        self.land_first(&mut state);
         self.close(index, now);
         let cushion = *self.law.cushions.at(rail);
         let to_nose = Nose::of(&cushion, c.radius).way_from(&c, rail, state.position);
@@ -140,6 +141,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 segment.spatial_after(&c, (since - segment.start) + after)
             }
         });
+        self.land_first(&mut one);
+        self.land_first(&mut other);
         let slowest = c.tolerance.slowest_in_air;
         // Where a ball is in the air there is a cloth that it has left.
         let Some(cloth) = self.cloth else { return ControlFlow::Continue(()) };
@@ -163,6 +166,17 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     fn is_told(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
         approach > self.constants.tolerance.slow_bounce
             || !self.chatters.get_or_insert_with(|| Box::new(Chatters::new())).bounce(contact, now)
+    }
+
+    /// Lets a ball that comes down on the cloth in the very moment of an impact land before it: which side of the landing its state
+    /// is taken from is rounding's choice. One that would be thrown up too slowly to fly lies there.
+    fn land_first(&self, state: &mut SpatialState) {
+        if state.position.z <= 0.0 {
+            self.answer(state);
+            if state.velocity.z <= self.constants.tolerance.slowest_in_air {
+                state.velocity.z = 0.0;
+            }
+        }
     }
 
     /// The cloth's answer to a ball on it that has been struck downwards.

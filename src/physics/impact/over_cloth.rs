@@ -80,7 +80,9 @@ impl BallImpact {
         let along = upper.velocity.dot(n);
         let pushed = lower.velocity.dot(n);
         if along - pushed < 0.5 * slowest {
+            // What is next to nothing and grows is made upright to the normal a second time.
             let across = upper.velocity - along * n;
+            let across = across - across.dot(n) * n;
             let energy = upper.velocity.length_squared();
             let wanted = (pushed + slowest).min(energy.sqrt());
             let left = (energy - wanted * wanted).max(0.0);

@@ -127,6 +127,14 @@ pub fn leaves<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail) -> Opti
     (time >= R::zero() && is_behind).then_some(time)
 }
 
+/// Rate at which the gap opens between two bodies of which a ball in the air is one, m/s.
+pub fn opening_aloft<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &Balls<R>) -> R {
+    match contact {
+        Contact::Rail(ball, rail) => balls[ball].velocity.dot(from_nose(numbers, &balls[ball], rail).direction()),
+        Contact::Balls(..) => contact.opening(balls),
+    }
+}
+
 /// Two bodies meet of which a ball in the air is one.
 pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Balls<R>) -> Met<R> {
     let before = *balls;
@@ -262,6 +270,7 @@ fn held_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut Ball<
     let (rises, pushed) = (upper.velocity.dot(n), lower.velocity.dot(n));
     if rises - pushed < R::of(0.5) * flight.slowest {
         let (across, energy) = (upper.velocity - n * rises, upper.velocity.dot(upper.velocity));
+        let across = across - n * across.dot(n);
         let raised = (pushed + flight.slowest).min(energy.sqrt());
         let left = (energy - raised * raised).max(R::zero()).sqrt();
         let linear = n * raised + across.direction() * left - upper.velocity;

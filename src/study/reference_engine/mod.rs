@@ -42,7 +42,7 @@ pub use contact::Contact;
 pub use cue::{Stroke, strike};
 pub use double_double::DoubleDouble;
 pub use engine::{Shot, Unjudged, play};
-pub use flight::{Met, collide as collide_aloft};
+pub use flight::{Met, collide as collide_aloft, opening_aloft, settle};
 pub use impact::{balls_collide, rail_collides};
 pub use motion::{Ball, Motion};
 pub use rails::Cushion;

@@ -4,12 +4,17 @@ use super::moment::Bounces;
 use crate::{
     physics::{SpatialState, slip},
     simulation::{Event, EventKind},
-    study::reference_engine::{Ball, Contact, Motion, Numbers, Vector, collide_aloft, collide_alone, collide_at_once},
+    study::reference_engine::{
+        Ball, Contact, Motion, Numbers, Vector, collide_aloft, collide_alone, collide_at_once, opening_aloft, settle,
+    },
     table::{BALLS, Table},
 };
 
 /// Landings slower than this take less than rounding does, m/s: of a slip they take in proportion to their speed.
 const LAST_LANDING: f64 = 1e-18;
+
+/// Share of a speed that rounding may take for one with which two bodies close.
+const GRAZING: f64 = 16.0 * f64::EPSILON;
 
 /// Energy per mass of a ball, m²/s²: on the cloth just that of its motion along it and of its spin.
 pub fn energy(table: &Table, ball: &SpatialState) -> f64 {
@@ -49,22 +54,25 @@ pub struct Impacts {
 }
 
 /// What the impacts do that are told of a `group` of balls: in the air one after another, on the cloth together where they close at
-/// once. `flew` are those balls that have been in the air until now; between two that rest from now on, or one and a cushion, there
-/// is no restitution.
+/// once. `flew` are those balls that have been in the air until now, of which those that have come down land first; between two that
+/// rest from now on, or one and a cushion, there is no restitution. What `grazes` does nothing.
 pub fn impacts(
     table: &Table,
     before: &[SpatialState; BALLS],
-    flew: [bool; BALLS],
-    group: [bool; BALLS],
+    [flew, group, rests]: [[bool; BALLS]; 3],
     told: &[Event],
-    rests: [bool; BALLS],
+    grazes: bool,
 ) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
+    let mut lost = 0.0;
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let SpatialState { position, velocity, spin } = before[ball];
         let [position, velocity, spin] = [position, velocity, spin].map(|v| Vector::new(v.x, v.y, v.z));
         let mut state = Ball { velocity, spin, ..Ball::still(position) };
         state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
+        if group[ball] && flew[ball] && position.z <= 0.0 {
+            lost += settle(&numbers, &mut state);
+        }
         state
     });
     let mut contacts = told
@@ -75,10 +83,13 @@ pub fn impacts(
             _ => None,
         })
         .peekable();
-    let mut lost = 0.0;
     let mut bounces: Option<Bounces> = None;
     while let Some(contact) = contacts.next() {
         if contact.is_aloft(&balls) {
+            let rounding = GRAZING * contact.relative(&balls).length();
+            if opening_aloft(&numbers, contact, &balls) > if grazes { -rounding } else { rounding } {
+                continue;
+            }
             lost += collide_aloft(&numbers, contact, &mut balls).work;
         } else {
             let closes = |contact: &Contact| !contact.is_aloft(&balls) && contact.opening(&balls) < 0.0;

@@ -64,9 +64,23 @@ impl<'a> Course<'a> {
         self.piece().map_or(self.before.velocity.z > 0.0, |piece| piece.segment.motion == Motion::Flying)
     }
 
+    /// Whether the ball has left the table.
+    pub fn is_off(&self, trace: &Trace) -> bool {
+        let is_at_end = trace.end.off_table[self.ball];
+        self.piece().map_or(is_at_end, |piece| piece.segment.motion == Motion::OffTable)
+    }
+
     /// Where the ball is at time `now`, s.
     pub fn state(&self, constants: &Constants, now: f64) -> SpatialState {
         self.piece().map_or(self.before, |piece| piece.segment.spatial_after(constants, now - piece.segment.start))
+    }
+
+    /// Where the ball is `by` seconds after the end of its last piece, were that to go on: on which side of a landing that end lies
+    /// is rounding's choice.
+    pub fn beside(&self, constants: &Constants, by: f64) -> SpatialState {
+        self.piece().map_or(self.before, |piece| {
+            piece.segment.spatial_after(constants, (piece.end - piece.segment.start + by).max(0.0))
+        })
     }
 
     /// Begins the next piece, or the rest after the last one, and returns the state at its start.

@@ -45,6 +45,9 @@ pub struct Account {
     pub allowed: f64,
 }
 
+/// A moment is known to so much of itself: four roundings of its sum with the start of a course.
+const TIME_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 struct Audit<'a> {
     table: &'a Table,
     trace: &'a Trace,
@@ -97,6 +100,8 @@ impl Audit<'_> {
         let flew = self.courses.map(|course| course.flies());
         let in_space = self.courses.map(|course| course.before);
         let before_energy = self.courses.map(|course| course.energy);
+        let beside = [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now]
+            .map(|by| self.courses.map(|course| course.beside(&self.trace.constants, by)));
         let after_in_space: [SpatialState; BALLS] = std::array::from_fn(|ball| {
             if changed[ball] {
                 self.courses[ball].begin(self.table, self.trace)
@@ -106,9 +111,10 @@ impl Audit<'_> {
         });
         let rests = self.courses.map(|course| course.resting().is_some());
         let flies = self.courses.map(|course| course.flies());
+        let is_off = self.courses.map(|course| course.is_off(self.trace));
         let [before, after] = [&in_space, &after_in_space].map(|balls| balls.map(|ball| ball.seen_from_above()));
         let mut closed = Contact::all(self.table.radius, self.trace.constants.reach, &after, self.gap);
-        let can_touch = |ball: usize| changed[ball] && !flies[ball];
+        let can_touch = |ball: usize| changed[ball] && !flies[ball] && !is_off[ball];
         closed.retain(|contact| can_touch(contact.first) && contact.second.is_none_or(can_touch));
         let impacts = told.iter().filter_map(|event| match event.kind {
             EventKind::BallBall(first, second) => Some(Contact::of_balls(first, second, &after)),
@@ -142,14 +148,25 @@ impl Audit<'_> {
             };
             let lost = members().map(|member| before_energy[member]).sum::<f64>() - energy(&after_in_space);
             let Taken { mut unexplained, bounces } = if members().any(|member| flew[member] || flies[member]) {
-                // Whether rounding has left a height is told by the engine's answer.
-                let at_impact = std::array::from_fn(|ball| SpatialState {
+                // Whether rounding has left a height is told by the engine's answer; so is the side of a landing on which an impact lies,
+                // and whether what closes no faster than rounding closes.
+                let here = |ball: usize, state: &SpatialState| SpatialState {
                     position: after_in_space[ball].position,
-                    ..in_space[ball]
-                });
-                let [bounce, stay] = [[false; BALLS], rests]
-                    .map(|rests| aloft::impacts(self.table, &at_impact, flew, group, told, rests));
-                let taken = if (lost - stay.lost).abs() < (lost - bounce.lost).abs() { stay } else { bounce };
+                    ..*state
+                };
+                let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &in_space[ball]));
+                let taken = beside
+                    .iter()
+                    .flat_map(|balls| [([false; BALLS], balls), (rests, balls)])
+                    .flat_map(|(rests, balls)| [(rests, balls, false), (rests, balls, true)])
+                    .map(|(rests, balls, grazes)| {
+                        let balls = std::array::from_fn(|ball| here(ball, &balls[ball]));
+                        let mut impacts = aloft::impacts(self.table, &balls, [flew, group, rests], told, grazes);
+                        impacts.lost += energy(&at_impact) - energy(&balls);
+                        impacts
+                    })
+                    .min_by(|one, other| (lost - one.lost).abs().total_cmp(&(lost - other.lost).abs()))
+                    .unwrap();
                 doubt.moved = doubt.moved.max(taken.moved.min(self.farthest));
                 Taken { unexplained: lost - taken.lost, bounces: taken.bounces }
             } else {
