@@ -6,6 +6,10 @@ use crate::table::Table;
 /// After an interruption a step is tried that is so many times as long as the one that was interrupted.
 const GROWTH_AFTER_INTERRUPTION: f64 = 4.0;
 
+/// At this share of its speed at the start the slip that scales time is spent: rescaled time goes on without end, and what is missing of
+/// the time is less than what rounding leaves of it.
+const SPENT: f64 = 1e-9;
+
 impl Resting {
     /// State `time` seconds after the start of the step, by one shorter step of the same method.
     pub fn after(&self, table: &Table, time: f64) -> State {
@@ -40,6 +44,9 @@ impl Resting {
                     break;
                 }
                 let rate = self.time_rate(table.radius, &trial.step.end.balls);
+                if rate < SPENT {
+                    break;
+                }
                 trial = self.attempt(table, &trial, trial.span + late / rate);
             }
         }
