@@ -204,7 +204,7 @@ impl<const ROOM: usize> Held<ROOM> {
             scale.max(free.linear[ball].abs().max_element()).max(free.angular[ball].abs().max_element())
         });
         let mut smallest = f64::INFINITY;
-        for _ in 0..MAX_REFINEMENTS {
+        for round in 0..MAX_REFINEMENTS {
             let (forced, moved) = self.moved(free);
             let mut side = [[0.0; 3]; ROOM];
             let side = side.as_flattened_mut();
@@ -219,10 +219,9 @@ impl<const ROOM: usize> Held<ROOM> {
                     scale = scale.max(sizes[unknown].abs()).max(bias.abs());
                 }
             }
-            // Once rounding is reached, more rounds would only stir it.
-            if residual <= 16.0 * f64::EPSILON * scale
-                || (residual <= ROUNDING * scale && (unique || residual >= 0.5 * smallest))
-            {
+            // Once rounding is reached, more rounds would only stir it. What is next to nothing beside a spin may yet carry a ball on.
+            let is_rounding = residual <= ROUNDING * scale && round > 0 && (unique || residual >= 0.5 * smallest);
+            if residual <= 16.0 * f64::EPSILON * scale || is_rounding {
                 return Some([forced, moved]);
             }
             smallest = smallest.min(residual);
