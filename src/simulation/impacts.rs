@@ -283,8 +283,15 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let impulses = collide_together(c.radius, &law, &mut states, contacts);
             given.iter_mut().zip(impulses).for_each(|(given, impulse)| *given += impulse);
         }
-        // What one of them has given another is a bounce, too.
-        stop_by_impulses(self.table, &mut states, contacts, &ActiveSet::SLIPPING, &given);
+        // What one of them has given another is a bounce, too, but for one that is too fast to be left out.
+        let (mut ended, mut given_there) = (Contacts::NONE, [0.0; MAX_CONTACTS]);
+        for (contact, given) in contacts.iter().zip(given) {
+            if contact.opening_speed(&states) < c.tolerance.slowest_coupled_bounce {
+                given_there[ended.as_slice().len()] = given;
+                ended.push(*contact);
+            }
+        }
+        stop_by_impulses(self.table, &mut states, ended.as_slice(), &ActiveSet::SLIPPING, &given_there);
         let changed = std::array::from_fn(|ball| rests.hold(ball));
         for index in (0..BALLS).filter(|&index| changed[index]) {
             self.close(index, now);

@@ -5,6 +5,8 @@
 //! across, and a ball would never slide off another's top. There the cloth holds the lower ball during the impact: that one
 //! gives way along the table only, and the upper ball slides off in bounces that lose nothing.
 
+use glam::DVec3;
+
 use super::{super::SpatialState, BallImpact};
 use crate::physics::Cloth;
 
@@ -76,25 +78,44 @@ impl BallImpact {
         upper.spin += twist;
         lower.spin += twist;
         cloth.rub(radius, (push * n.z + rub.z).max(0.0), lower);
-        // One that has hardly approached is raised by what its own motion across has.
-        let along = upper.velocity.dot(n);
-        let pushed = lower.velocity.dot(n);
-        if along - pushed < 0.5 * slowest {
-            // What is next to nothing and grows is made upright to the normal a second time.
-            let across = upper.velocity - along * n;
-            let across = across - across.dot(n) * n;
-            let energy = upper.velocity.length_squared();
-            let wanted = (pushed + slowest).min(energy.sqrt());
-            let left = (energy - wanted * wanted).max(0.0);
-            let had = across.length_squared();
-            upper.velocity = wanted * n + if had > 0.0 { (left / had).sqrt() * across } else { glam::DVec3::ZERO };
-        }
+        part_slowly(slowest, n, upper, lower);
     }
+}
+
+/// What has hardly approached parts with the speed `slowest`, m/s, as far as the balls' sliding along each other has the energy for it.
+///
+/// The two ways to move, apart along `n` and along each other, are made independent: impulses that change one leave the other alone,
+/// and no energy is gained.
+fn part_slowly(slowest: f64, n: DVec3, upper: &mut SpatialState, lower: &mut SpatialState) {
+    let relative = upper.velocity - lower.velocity;
+    let opening = relative.dot(n);
+    if opening >= 0.5 * slowest {
+        return;
+    }
+    // What is next to nothing is made upright to the normal a second time.
+    let across = relative - opening * n;
+    let along = (across - across.dot(n) * n).normalize_or_zero();
+    // An impulse along one of them changes the upper ball's velocity by the first vector and the lower one's by the second.
+    let apart = [n, -n.with_z(0.0)];
+    let inertia = |[one, other]: [DVec3; 2]| one.length_squared() + other.length_squared();
+    let shared = n.z * along.z / inertia(apart);
+    let slide = [along + shared * apart[0], -along.with_z(0.0) + shared * apart[1]];
+    let sliding = upper.velocity.dot(slide[0]) + lower.velocity.dot(slide[1]);
+    let [light, slow] = [inertia(apart), inertia(slide)];
+    if slow <= 0.0 {
+        return;
+    }
+    let most = light * sliding * sliding / slow;
+    let gained = (slowest * slowest - opening * opening).min(most);
+    let opened = (opening * opening + gained).sqrt();
+    let left = sliding * (1.0 - gained / most.max(f64::MIN_POSITIVE)).max(0.0).sqrt();
+    let (push, brake) = ((opened - opening) / light, (left - sliding) / slow);
+    upper.velocity += push * apart[0] + brake * slide[0];
+    lower.velocity += push * apart[1] + brake * slide[1];
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
     use proptest::prelude::*;
 
     use super::*;

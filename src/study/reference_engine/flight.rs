@@ -267,16 +267,35 @@ fn held_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut Ball<
         + Change { linear: rub, angular }.apply(numbers, upper)
         + Change { linear: -rub.flat(), angular }.apply(numbers, lower)
         + rubbed_by_cloth(numbers, (push * n.z + rub.z).max(R::zero()), lower);
-    let (rises, pushed) = (upper.velocity.dot(n), lower.velocity.dot(n));
-    if rises - pushed < R::of(0.5) * flight.slowest {
-        let (across, energy) = (upper.velocity - n * rises, upper.velocity.dot(upper.velocity));
-        let across = across - n * across.dot(n);
-        let raised = (pushed + flight.slowest).min(energy.sqrt());
-        let left = (energy - raised * raised).max(R::zero()).sqrt();
-        let linear = n * raised + across.direction() * left - upper.velocity;
-        work = work + Change { linear, angular: still }.apply(numbers, upper);
-    }
+    work = work + parted(flight.slowest, numbers, n, upper, lower);
     Some((approach, work))
+}
+
+/// The energy that two balls need to part along `n` no more slowly than `slowest`, of which the cloth holds the lower one, comes out of
+/// their sliding along each other: the movement that neither opens nor closes them. Returns the energy over mass that this takes.
+fn parted<R: Real>(slowest: R, numbers: &Numbers<R>, n: Vector<R>, upper: &mut Ball<R>, lower: &mut Ball<R>) -> R {
+    let relative = upper.velocity - lower.velocity;
+    let opens = relative.dot(n);
+    let across = relative - n * opens;
+    let across = across - n * across.dot(n);
+    if opens >= R::of(0.5) * slowest || across.dot(across) <= R::zero() {
+        return R::zero();
+    }
+    let (along, still) = (across.direction(), Vector::zero());
+    let lightness = R::of(1.0) + n.flat().dot(n.flat());
+    let shared = n.z * along.z / lightness;
+    let (one, other) = (along + n * shared, along.flat() + n.flat() * shared);
+    let slowness = one.dot(one) + other.dot(other);
+    let slides = upper.velocity.dot(one) - lower.velocity.dot(other);
+    let has = slides * slides * lightness / slowness;
+    let lent = (slowest * slowest - opens * opens).min(has);
+    let push = ((opens * opens + lent).sqrt() - opens) / lightness;
+    let kept = ((has - lent).max(R::zero()) * slowness / lightness).sqrt();
+    let brake = (slides.abs() - kept) / slowness;
+    let brake = if slides < R::zero() { -brake } else { brake };
+    let on_upper = Change { linear: n * push - one * brake, angular: still };
+    let on_lower = Change { linear: other * brake - n.flat() * push, angular: still };
+    on_upper.apply(numbers, upper) + on_lower.apply(numbers, lower)
 }
 
 /// A ball meets a nose, from which `n` points to its centre; returns the speed of the approach, and the energy over mass that it
