@@ -1,6 +1,6 @@
 //! What is lost where balls fly: at landings by formulas apart from the engine's, at impacts by those of the reference engine.
 
-use super::moment::Bounces;
+use super::{doubt::STOPPED_SPEED, moment::Bounces};
 use crate::{
     physics::{SpatialState, slip},
     simulation::{Event, EventKind},
@@ -58,7 +58,7 @@ pub struct Impacts {
 /// rest from now on, or one and a cushion, there is no restitution. What `grazes` does nothing.
 pub fn impacts(
     table: &Table,
-    before: &[SpatialState; BALLS],
+    [before, after]: [&[SpatialState; BALLS]; 2],
     [flew, group, rests]: [[bool; BALLS]; 3],
     told: &[Event],
     grazes: bool,
@@ -75,16 +75,31 @@ pub fn impacts(
         }
         state
     });
-    let mut contacts = told
+    let contacts: Vec<Contact> = told
         .iter()
         .filter_map(|event| match event.kind {
             EventKind::BallBall(first, second) if group[first] => Some(Contact::Balls(first, second)),
             EventKind::BallRail(ball, rail) if group[ball] => Some(Contact::Rail(ball, rail)),
             _ => None,
         })
+        .collect();
+    let after: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
+        let [position, velocity] = [after[ball].position, after[ball].velocity].map(|v| Vector::new(v.x, v.y, v.z));
+        Ball { velocity, ..Ball::still(position) }
+    });
+    let rests = |contact: &Contact| {
+        let (first, second) = contact.balls();
+        let both = rests[first] && second.is_none_or(|second| rests[second]);
+        both && contact.opening(&after) < STOPPED_SPEED
+    };
+    // Of the impacts of one contact it is the last after which it stays closed.
+    let mut contacts = contacts
+        .iter()
+        .enumerate()
+        .map(|(index, contact)| (*contact, rests(contact) && !contacts[index + 1..].contains(contact)))
         .peekable();
     let mut bounces: Option<Bounces> = None;
-    while let Some(contact) = contacts.next() {
+    while let Some((contact, stays)) = contacts.next() {
         if contact.is_aloft(&balls) {
             let rounding = GRAZING * contact.relative(&balls).length();
             if opening_aloft(&numbers, contact, &balls) > if grazes { -rounding } else { rounding } {
@@ -93,23 +108,21 @@ pub fn impacts(
             lost += collide_aloft(&numbers, contact, &mut balls).work;
         } else {
             let closes = |contact: &Contact| !contact.is_aloft(&balls) && contact.opening(&balls) < 0.0;
-            let mut round = vec![contact];
-            while let Some(other) = contacts.next_if(|other| closes(other) && !round.contains(other)) {
+            let (mut round, mut staying) = (vec![contact], Vec::from_iter(stays.then_some(contact)));
+            while let Some((other, stays)) = contacts.next_if(|(other, _)| closes(other) && !round.contains(other)) {
                 round.push(other);
+                staying.extend(stays.then_some(other));
             }
-            let stays = |contact: &Contact| match *contact {
-                Contact::Balls(first, second) => rests[first] && rests[second],
-                Contact::Rail(ball, _) => rests[ball],
-            };
-            for contact in round.iter().filter(|contact| stays(contact)) {
+            for contact in &staying {
                 let left_out =
                     Bounces::of(table, contact.balls().0, -contact.opening(&balls), contact.restitution(&numbers));
                 bounces =
                     bounces.into_iter().chain([left_out]).max_by(|one, other| one.energy.total_cmp(&other.energy));
             }
-            let restitution = |contact: &Contact| if stays(contact) { 0.0 } else { contact.restitution(&numbers) };
+            let restitution =
+                |contact: &Contact| if staying.contains(contact) { 0.0 } else { contact.restitution(&numbers) };
             lost += match round[..] {
-                [contact] if !stays(&contact) => collide_alone(&numbers, &mut balls, contact),
+                [contact] if staying.is_empty() => collide_alone(&numbers, &mut balls, contact),
                 // Where no pushes are found, nothing is explained.
                 _ => collide_at_once(&numbers, &mut balls, &round, restitution, &mut Vec::new()).unwrap_or(0.0),
             };

@@ -161,7 +161,8 @@ impl Audit<'_> {
                     .flat_map(|(rests, balls)| [(rests, balls, false), (rests, balls, true)])
                     .map(|(rests, balls, grazes)| {
                         let balls = std::array::from_fn(|ball| here(ball, &balls[ball]));
-                        let mut impacts = aloft::impacts(self.table, &balls, [flew, group, rests], told, grazes);
+                        let mut impacts =
+                            aloft::impacts(self.table, [&balls, &after_in_space], [flew, group, rests], told, grazes);
                         impacts.lost += energy(&at_impact) - energy(&balls);
                         impacts
                     })
