@@ -170,6 +170,27 @@ mod tests {
         }
     }
 
+    /// All that the upper ball has would not do to follow one that moves away as fast: they met again and again, without end.
+    #[test]
+    fn balls_that_go_the_same_way_part_by_what_they_slide_along_each_other() {
+        let (n, slowest) = (DVec3::new(0.6 * 1.2_f64.sin(), 0.8 * 1.2_f64.sin(), 1.2_f64.cos()), 2e-3);
+        let ball = |velocity| SpatialState { position: DVec3::ZERO, velocity, spin: DVec3::ZERO };
+        let ahead = 0.3 * n.with_z(0.0);
+        let (mut upper, mut lower) = (ball(ahead.dot(n) * n + 0.02 * n.cross(DVec3::Z)), ball(ahead));
+        let energy = |upper: &SpatialState, lower: &SpatialState| {
+            [upper, lower].map(|ball| ball.velocity.length_squared()).iter().sum::<f64>()
+        };
+        let before = energy(&upper, &lower);
+        part_slowly(slowest, n, &mut upper, &mut lower);
+        let opening = (upper.velocity - lower.velocity).dot(n);
+        assert!((opening - slowest).abs() < 1e-12 && lower.velocity.z == 0.0, "{opening} {lower:?}");
+        assert!((energy(&upper, &lower) - before).abs() < 1e-15, "{before}");
+        // Where they do not slide along each other there is nothing to take.
+        let still = upper;
+        part_slowly(slowest, n, &mut upper, &mut ball(still.velocity));
+        assert_eq!(upper, still);
+    }
+
     #[test]
     fn a_ball_that_comes_down_softly_on_another_rebounds_as_softly_and_keeps_its_motion_across() {
         let table =

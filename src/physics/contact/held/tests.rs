@@ -28,6 +28,13 @@ fn what_would_have_to_pull_gains_no_energy() {
     assert!(stopped(-1e-9, 0.0) < -1e-11);
 }
 
+/// It was taken for rounding of the spin's 40 rad/s and left, and carried the ball on.
+#[test]
+fn a_speed_that_is_rounding_beside_a_spin_is_stopped() {
+    assert!(stopped(1e-13, 0.0) <= f64::EPSILON);
+    assert!(stopped(-1e-13, 0.0) <= f64::EPSILON);
+}
+
 #[test]
 fn a_push_that_was_too_large_is_taken_back_with_its_friction() {
     assert!(stopped(1e-9, 1e-6) > 1e-11);

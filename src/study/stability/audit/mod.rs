@@ -155,19 +155,23 @@ impl Audit<'_> {
                     ..*state
                 };
                 let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &in_space[ball]));
-                let taken = beside
-                    .iter()
-                    .flat_map(|balls| [([false; BALLS], balls), (rests, balls)])
-                    .flat_map(|(rests, balls)| [(rests, balls, false), (rests, balls, true)])
-                    .map(|(rests, balls, grazes)| {
-                        let balls = std::array::from_fn(|ball| here(ball, &balls[ball]));
-                        let mut impacts =
-                            aloft::impacts(self.table, [&balls, &after_in_space], [flew, group, rests], told, grazes);
-                        impacts.lost += energy(&at_impact) - energy(&balls);
-                        impacts
-                    })
-                    .min_by(|one, other| (lost - one.lost).abs().total_cmp(&(lost - other.lost).abs()))
-                    .unwrap();
+                let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], grazes: bool| {
+                    let balls = std::array::from_fn(|ball| here(ball, &balls[ball]));
+                    let mut impacts =
+                        aloft::impacts(self.table, [&balls, &after_in_space], [flew, group, rests], told, grazes);
+                    impacts.lost += energy(&at_impact) - energy(&balls);
+                    impacts
+                };
+                let mut taken = explained(&in_space, [false; BALLS], false);
+                for (balls, rests, grazes) in beside.iter().flat_map(|balls| {
+                    [([false; BALLS], false), ([false; BALLS], true), (rests, false), (rests, true)]
+                        .map(|(rests, grazes)| (balls, rests, grazes))
+                }) {
+                    let other = explained(balls, rests, grazes);
+                    if (lost - other.lost).abs() < (lost - taken.lost).abs() {
+                        taken = other;
+                    }
+                }
                 doubt.moved = doubt.moved.max(taken.moved.min(self.farthest));
                 Taken { unexplained: lost - taken.lost, bounces: taken.bounces }
             } else {
