@@ -84,32 +84,32 @@ impl BallImpact {
 
 /// What has hardly approached parts with the speed `slowest`, m/s, as far as the balls' sliding along each other has the energy for it.
 ///
-/// The two ways to move, apart along `n` and along each other, are made independent: impulses that change one leave the other alone,
-/// and no energy is gained.
+/// The impulse that slides is made orthogonal to the one that parts, by their effect on the kinetic energy: either changes one speed
+/// and leaves the other alone, and no energy is gained.
 fn part_slowly(slowest: f64, n: DVec3, upper: &mut SpatialState, lower: &mut SpatialState) {
     let relative = upper.velocity - lower.velocity;
     let opening = relative.dot(n);
     if opening >= 0.5 * slowest {
         return;
     }
-    // What is next to nothing is made upright to the normal a second time.
+    // What is next to nothing is made orthogonal to the normal a second time.
     let across = relative - opening * n;
     let along = (across - across.dot(n) * n).normalize_or_zero();
-    // An impulse along one of them changes the upper ball's velocity by the first vector and the lower one's by the second.
+    // What an impulse per mass of 1 m/s changes the upper ball's velocity by, and the lower one's, which the cloth holds from below.
     let apart = [n, -n.with_z(0.0)];
-    let inertia = |[one, other]: [DVec3; 2]| one.length_squared() + other.length_squared();
-    let shared = n.z * along.z / inertia(apart);
+    let inverse_mass = |[one, other]: [DVec3; 2]| one.length_squared() + other.length_squared();
+    let shared = n.z * along.z / inverse_mass(apart);
     let slide = [along + shared * apart[0], -along.with_z(0.0) + shared * apart[1]];
     let sliding = upper.velocity.dot(slide[0]) + lower.velocity.dot(slide[1]);
-    let [light, slow] = [inertia(apart), inertia(slide)];
-    if slow <= 0.0 {
+    let [parts, slides] = [inverse_mass(apart), inverse_mass(slide)];
+    if sliding * sliding == 0.0 {
         return;
     }
-    let most = light * sliding * sliding / slow;
-    let gained = (slowest * slowest - opening * opening).min(most);
-    let opened = (opening * opening + gained).sqrt();
-    let left = sliding * (1.0 - gained / most.max(f64::MIN_POSITIVE)).max(0.0).sqrt();
-    let (push, brake) = ((opened - opening) / light, (left - sliding) / slow);
+    // Energies are compared as squares of the opening speed.
+    let available = parts / slides * sliding * sliding;
+    let needed = (slowest * slowest - opening * opening).min(available);
+    let push = ((opening * opening + needed).sqrt() - opening) / parts;
+    let brake = ((1.0 - needed / available).sqrt() - 1.0) * sliding / slides;
     upper.velocity += push * apart[0] + brake * slide[0];
     lower.velocity += push * apart[1] + brake * slide[1];
 }

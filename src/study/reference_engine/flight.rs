@@ -267,34 +267,35 @@ fn held_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut Ball<
         + Change { linear: rub, angular }.apply(numbers, upper)
         + Change { linear: -rub.flat(), angular }.apply(numbers, lower)
         + rubbed_by_cloth(numbers, (push * n.z + rub.z).max(R::zero()), lower);
-    work = work + parted(flight.slowest, numbers, n, upper, lower);
+    work = work + part_slowly(flight.slowest, numbers, n, upper, lower);
     Some((approach, work))
 }
 
-/// The energy that two balls need to part along `n` no more slowly than `slowest`, of which the cloth holds the lower one, comes out of
-/// their sliding along each other: the movement that neither opens nor closes them. Returns the energy over mass that this takes.
-fn parted<R: Real>(slowest: R, numbers: &Numbers<R>, n: Vector<R>, upper: &mut Ball<R>, lower: &mut Ball<R>) -> R {
+/// Two balls, of which the cloth holds the lower one, part along `n` no more slowly than `slowest`. The energy for it comes out of their
+/// sliding along each other, which neither opens nor closes them. Returns the energy over mass that this takes.
+fn part_slowly<R: Real>(slowest: R, numbers: &Numbers<R>, n: Vector<R>, upper: &mut Ball<R>, lower: &mut Ball<R>) -> R {
     let relative = upper.velocity - lower.velocity;
-    let opens = relative.dot(n);
-    let across = relative - n * opens;
+    let opening = relative.dot(n);
+    let across = relative - n * opening;
     let across = across - n * across.dot(n);
-    if opens >= R::of(0.5) * slowest || across.dot(across) <= R::zero() {
+    if opening >= R::of(0.5) * slowest || across.dot(across) <= R::zero() {
         return R::zero();
     }
-    let (along, still) = (across.direction(), Vector::zero());
-    let lightness = R::of(1.0) + n.flat().dot(n.flat());
-    let shared = n.z * along.z / lightness;
+    let along = across.direction();
+    // Inverse effective masses against parting and against sliding.
+    let parts = R::of(1.0) + n.flat().dot(n.flat());
+    let shared = n.z * along.z / parts;
     let (one, other) = (along + n * shared, along.flat() + n.flat() * shared);
-    let slowness = one.dot(one) + other.dot(other);
-    let slides = upper.velocity.dot(one) - lower.velocity.dot(other);
-    let has = slides * slides * lightness / slowness;
-    let lent = (slowest * slowest - opens * opens).min(has);
-    let push = ((opens * opens + lent).sqrt() - opens) / lightness;
-    let kept = ((has - lent).max(R::zero()) * slowness / lightness).sqrt();
-    let brake = (slides.abs() - kept) / slowness;
-    let brake = if slides < R::zero() { -brake } else { brake };
-    let on_upper = Change { linear: n * push - one * brake, angular: still };
-    let on_lower = Change { linear: other * brake - n.flat() * push, angular: still };
+    let slides = one.dot(one) + other.dot(other);
+    let sliding = upper.velocity.dot(one) - lower.velocity.dot(other);
+    let available = sliding * sliding * parts / slides;
+    let needed = (slowest * slowest - opening * opening).min(available);
+    let push = ((opening * opening + needed).sqrt() - opening) / parts;
+    let kept = ((available - needed).max(R::zero()) * slides / parts).sqrt();
+    let brake = (sliding.abs() - kept) / slides;
+    let brake = if sliding < R::zero() { -brake } else { brake };
+    let on_upper = Change { linear: n * push - one * brake, angular: Vector::zero() };
+    let on_lower = Change { linear: other * brake - n.flat() * push, angular: Vector::zero() };
     on_upper.apply(numbers, upper) + on_lower.apply(numbers, lower)
 }
 

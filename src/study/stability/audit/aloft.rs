@@ -55,13 +55,14 @@ pub struct Impacts {
 
 /// What the impacts do that are told of a `group` of balls: in the air one after another, on the cloth together where they close at
 /// once. `flew` are those balls that have been in the air until now, of which those that have come down land first; between two that
-/// rest from now on, or one and a cushion, there is no restitution. What `grazes` does nothing.
+/// rest from now on, or one and a cushion, there is no restitution. What closes no faster than rounding counts as closing only where it
+/// does not `graze`.
 pub fn impacts(
     table: &Table,
     [before, after]: [&[SpatialState; BALLS]; 2],
     [flew, group, rests]: [[bool; BALLS]; 3],
     told: &[Event],
-    grazes: bool,
+    graze: bool,
 ) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
     let mut lost = 0.0;
@@ -102,7 +103,7 @@ pub fn impacts(
     while let Some((contact, stays)) = contacts.next() {
         if contact.is_aloft(&balls) {
             let rounding = GRAZING * contact.relative(&balls).length();
-            if opening_aloft(&numbers, contact, &balls) > if grazes { -rounding } else { rounding } {
+            if opening_aloft(&numbers, contact, &balls) > if graze { -rounding } else { rounding } {
                 continue;
             }
             lost += collide_aloft(&numbers, contact, &mut balls).work;

@@ -100,8 +100,7 @@ impl Audit<'_> {
         let flew = self.courses.map(|course| course.flies());
         let in_space = self.courses.map(|course| course.before);
         let before_energy = self.courses.map(|course| course.energy);
-        let beside = [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now]
-            .map(|by| self.courses.map(|course| course.beside(&self.trace.constants, by)));
+        let earlier = self.courses;
         let after_in_space: [SpatialState; BALLS] = std::array::from_fn(|ball| {
             if changed[ball] {
                 self.courses[ball].begin(self.table, self.trace)
@@ -155,21 +154,23 @@ impl Audit<'_> {
                     ..*state
                 };
                 let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &in_space[ball]));
-                let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], grazes: bool| {
-                    let balls = std::array::from_fn(|ball| here(ball, &balls[ball]));
-                    let mut impacts =
-                        aloft::impacts(self.table, [&balls, &after_in_space], [flew, group, rests], told, grazes);
-                    impacts.lost += energy(&at_impact) - energy(&balls);
+                let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], graze: bool| {
+                    let states = [balls, &after_in_space];
+                    let mut impacts = aloft::impacts(self.table, states, [flew, group, rests], told, graze);
+                    impacts.lost += energy(&at_impact) - energy(balls);
                     impacts
                 };
-                let mut taken = explained(&in_space, [false; BALLS], false);
-                for (balls, rests, grazes) in beside.iter().flat_map(|balls| {
-                    [([false; BALLS], false), ([false; BALLS], true), (rests, false), (rests, true)]
-                        .map(|(rests, grazes)| (balls, rests, grazes))
-                }) {
-                    let other = explained(balls, rests, grazes);
-                    if (lost - other.lost).abs() < (lost - taken.lost).abs() {
-                        taken = other;
+                let mut taken = explained(&at_impact, [false; BALLS], false);
+                for by in [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now] {
+                    let balls =
+                        std::array::from_fn(|ball| here(ball, &earlier[ball].beside(&self.trace.constants, by)));
+                    for (rests, graze) in
+                        [([false; BALLS], false), ([false; BALLS], true), (rests, false), (rests, true)]
+                    {
+                        let other = explained(&balls, rests, graze);
+                        if (lost - other.lost).abs() < (lost - taken.lost).abs() {
+                            taken = other;
+                        }
                     }
                 }
                 doubt.moved = doubt.moved.max(taken.moved.min(self.farthest));
