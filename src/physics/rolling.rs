@@ -4,6 +4,9 @@
 //! and the one that keeps its length, and a band ends early enough that a roll from any speed to rest is right in both to
 //! five thousandths: far less than what is known of `c0` and `c1`, and every band costs as much as an impact.
 
+use super::rolling_deceleration;
+use crate::table::Table;
+
 /// One over a band's share of its first speed `v` is this and this times `c1 v / a`: the relative error of a whole roll's
 /// length and of its time is then five thousandths at most.
 const SHARE: [f64; 2] = [1.0, 4.3];
@@ -21,6 +24,11 @@ pub struct Rolling {
 }
 
 impl Rolling {
+    /// The law on `table`.
+    pub fn of(table: &Table) -> Self {
+        Self { least: rolling_deceleration(table), growth: table.rolling_growth }
+    }
+
     /// Deceleration for a roll that begins with `speed`, m/s², and the speed at which it changes, zero for rest.
     #[inline]
     pub fn band(&self, speed: f64) -> (f64, f64) {
@@ -37,6 +45,11 @@ impl Rolling {
             speed - speed * fast / (SHARE[0] * fast + SHARE[1] * growth * speed)
         };
         (self.between(speed, end), end)
+    }
+
+    /// Deceleration for a roll that begins with `speed`, m/s², also with none.
+    pub fn deceleration(&self, speed: f64) -> f64 {
+        if speed > 0.0 { self.band(speed).0 } else { self.least }
     }
 
     /// The constant deceleration that stands for the law between two speeds, m/s².

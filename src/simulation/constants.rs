@@ -45,7 +45,7 @@ impl Constants {
     /// Works out the numbers of `table`.
     pub fn of(table: &Table) -> Self {
         let tolerance = Tolerance::of(table);
-        let (sliding, rolling) = (sliding_deceleration(table), rolling_deceleration(table));
+        let sliding = sliding_deceleration(table);
         Self {
             length: table.length,
             radius: table.radius,
@@ -54,8 +54,8 @@ impl Constants {
             reach: table.reach(),
             sliding,
             slide_time: 1.0 / (3.5 * sliding),
-            rolling: Rolling { least: rolling, growth: table.rolling_growth },
-            roll_time: 1.0 / rolling,
+            rolling: Rolling::of(table),
+            roll_time: 1.0 / rolling_deceleration(table),
             even: table.tilt == DVec2::ZERO && table.rolling_growth == 0.0,
             tilt: table.tilt,
             spinning: spin_deceleration(table),

@@ -10,6 +10,7 @@ use super::{
     chatter::Chatters,
     contact_mode::ContactMode,
     contacts::PAIRS_OF,
+    impacts::MOMENT,
     resting::Resting,
     savings::{All, Savings},
 };
@@ -27,9 +28,12 @@ const MOST_WORK: u32 = 40_000;
 /// ten events, and one in a chatter some hundred.
 const MOST_EVENTS: u32 = 50_000;
 
-/// Work after which tolerances grow, and after each as much again: see [`super::tolerance::Tolerance::coarser`]. Of 10⁶ random shots
-/// on "thesis" some ten take so much.
-const COARSER_EVERY: u32 = 10_000;
+/// Work after which tolerances grow, each time as much: see [`super::tolerance::Tolerance::coarser`]. Of 10⁶ random shots on "thesis"
+/// some ten take so much. Before the guard stops what is left, they grow fast with every bounce: those that never fade are given up.
+const COARSER_AT: [u32; 7] = [10_000, 20_000, 30_000, 32_000, 34_000, 36_000, 38_000];
+
+/// How often tolerances grow with steps of resting contacts.
+const COARSER_STEPS: usize = 3;
 
 /// Bounces that take as long as a step of one resting contact, and as a step whose forces have not been found.
 const STEP_WORK: u32 = 6;
@@ -146,6 +150,8 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) rounds: u32,
     /// Bounces of chatters so far, and steps of resting contacts as if they were bounces.
     pub(super) work: u32,
+    /// How often tolerances have grown.
+    grown: usize,
     /// The slow bounces, once there is one.
     pub(super) chatters: Option<Box<Chatters>>,
     savings: PhantomData<S>,
@@ -172,6 +178,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             last_impact: f64::NEG_INFINITY,
             rounds: 0,
             work: 0,
+            grown: 0,
             chatters: None,
             savings: PhantomData,
         }
@@ -211,7 +218,8 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
                     (next, source) = (time, index);
                 }
             }
-            if self.balls.iter().any(|ball| ball.mode == ContactMode::Bouncing) {
+            // What follows in the same moment may close a contact again.
+            if next - now > MOMENT && self.balls.iter().any(|ball| ball.mode == ContactMode::Bouncing) {
                 let nothing = source == usize::MAX || self.only_rolls_out(source);
                 flow = self.tell_free(now, nothing);
             }
@@ -310,14 +318,14 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     /// Takes note of a bounce of a chatter on the cloth.
     pub(super) fn chatter_bounce(&mut self) {
-        self.add_work(self.bounce_work);
+        self.add_work(self.bounce_work, COARSER_AT.len());
     }
 
-    /// Takes note of work; after much of it tolerances grow.
-    fn add_work(&mut self, work: u32) {
-        let before = self.work / COARSER_EVERY;
+    /// Takes note of work; after much of it tolerances grow, but `most` times.
+    fn add_work(&mut self, work: u32, most: usize) {
         self.work += work;
-        if self.work / COARSER_EVERY > before {
+        if self.grown < most && self.work >= COARSER_AT[self.grown] {
+            self.grown += 1;
             self.constants.tolerance = self.constants.tolerance.coarser();
         }
     }
@@ -326,7 +334,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     pub(super) fn contact_step(&mut self, last: Option<&Resting>) -> ControlFlow<()> {
         let contacts = last.map_or(1, |last| last.contacts.as_slice().len() as u32);
         let is_solved = last.is_none_or(Resting::is_solved);
-        self.add_work(if is_solved { STEP_WORK * contacts } else { UNSOLVED_WORK });
+        self.add_work(if is_solved { STEP_WORK * contacts } else { UNSOLVED_WORK }, COARSER_STEPS);
         self.observer.contact_step()
     }
 

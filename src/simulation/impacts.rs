@@ -19,7 +19,7 @@ use crate::{
 
 /// Impacts that follow each other within this time are at the same moment, s: a ball moves by less than a gap that counts as
 /// none meanwhile, at any speed on a table.
-const MOMENT: f64 = 1e-15;
+pub(super) const MOMENT: f64 = 1e-15;
 
 /// Impacts at one moment after which those that go on are solved without restitution: three touching balls against a
 /// cushion exchange some dozens, an inelastic collapse infinitely many.

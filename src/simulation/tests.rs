@@ -87,7 +87,7 @@ fn each_rail_has_its_own_constants() {
 #[test]
 fn a_bands_edge_right_at_a_cushion_changes_nothing() {
     let table = Table::default();
-    let rolling = Rolling { least: rolling_deceleration(&table), growth: table.rolling_growth };
+    let rolling = Rolling::of(&table);
     let speed = 1.0;
     let (deceleration, end) = rolling.band(speed);
     let length = (speed * speed - end * end) / (2.0 * deceleration);

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 
 use super::{ActiveSet, Contact, Friction, MAX_CONTACTS};
 use crate::{
-    physics::{BallState, slip},
+    physics::{BallState, Rolling, slip},
     table::{BALLS, Table},
 };
 
@@ -92,9 +92,13 @@ pub fn never_slips(table: &Table, contact: &Contact) -> bool {
     table.ball_friction.is_none() && contact.second.is_some()
 }
 
-/// What rolling resists, per mass, m/s²: the force on the centre of a ball that rolls.
+/// What rolling resists, per mass, m/s²: the force on the centre of a ball that rolls, which slows it down by five sevenths of itself.
+///
+/// It is that of a ball which begins to roll freely here: where the two differ, balls whose contact opens by the one close again by the
+/// other, at once and without end.
 pub fn rolling_resistance(table: &Table, ball: &BallState) -> f64 {
-    table.rolling_friction * table.gravity + 1.4 * table.rolling_growth * ball.velocity.length()
+    let rolling = Rolling::of(table);
+    table.rolling_friction * table.gravity + 1.4 * (rolling.deceleration(ball.velocity.length()) - rolling.least)
 }
 
 /// Coulomb's coefficient in a contact.

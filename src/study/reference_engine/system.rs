@@ -100,7 +100,7 @@ impl<R: Real> System<R> {
         if motion == Motion::Rolling {
             let velocity = state.velocity;
             let speed = velocity.length();
-            let resistance = numbers.roll + R::ratio(7.0, 5.0) * numbers.roll_growth * speed;
+            let resistance = R::ratio(7.0, 5.0) * numbers.band(speed).0;
             self.rub(numbers, &Row::centre(ball, velocity.direction()), resistance, speed);
         } else if motion == Motion::Stationary {
             self.unknown(Law::Hold(numbers.roll), &axes.map(|axis| (Row::centre(ball, axis), zero)));

@@ -1,4 +1,4 @@
-//! What is lost where balls fly: at landings by formulas apart from the engine's, at impacts by those of the reference engine.
+//! What is lost at landings, by formulas apart from the engine's, and at impacts one after another, by those of the reference engine.
 
 use super::{doubt::STOPPED_SPEED, moment::Bounces};
 use crate::{
@@ -100,15 +100,19 @@ pub fn impacts(
         .map(|(index, contact)| (*contact, rests(contact) && !contacts[index + 1..].contains(contact)))
         .peekable();
     let mut bounces: Option<Bounces> = None;
+    let rounding = |contact: &Contact, balls: &[Ball<f64>; BALLS]| GRAZING * contact.relative(balls).length();
     while let Some((contact, stays)) = contacts.next() {
         if contact.is_aloft(&balls) {
-            let rounding = GRAZING * contact.relative(&balls).length();
+            let rounding = rounding(&contact, &balls);
             if opening_aloft(&numbers, contact, &balls) > if graze { -rounding } else { rounding } {
                 continue;
             }
             lost += collide_aloft(&numbers, contact, &mut balls).work;
         } else {
-            let closes = |contact: &Contact| !contact.is_aloft(&balls) && contact.opening(&balls) < 0.0;
+            let closes = |contact: &Contact| {
+                let least = if graze { 0.0 } else { rounding(contact, &balls) };
+                !contact.is_aloft(&balls) && contact.opening(&balls) < -least
+            };
             let (mut round, mut staying) = (vec![contact], Vec::from_iter(stays.then_some(contact)));
             while let Some((other, stays)) = contacts.next_if(|(other, _)| closes(other) && !round.contains(other)) {
                 round.push(other);

@@ -146,37 +146,22 @@ impl Audit<'_> {
                 members().map(|member| aloft::energy(self.table, &balls[member])).sum()
             };
             let lost = members().map(|member| before_energy[member]).sum::<f64>() - energy(&after_in_space);
-            let Taken { mut unexplained, bounces } = if members().any(|member| flew[member] || flies[member]) {
-                // Whether rounding has left a height is told by the engine's answer; so is the side of a landing on which an impact lies,
-                // and whether what closes no faster than rounding closes.
-                let here = |ball: usize, state: &SpatialState| SpatialState {
-                    position: after_in_space[ball].position,
-                    ..*state
-                };
-                let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &in_space[ball]));
-                let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], graze: bool| {
-                    let states = [balls, &after_in_space];
-                    let mut impacts = aloft::impacts(self.table, states, [flew, group, rests], told, graze);
-                    impacts.lost += energy(&at_impact) - energy(balls);
-                    impacts
-                };
-                let mut taken = explained(&at_impact, [false; BALLS], false);
-                for by in [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now] {
-                    let balls =
-                        std::array::from_fn(|ball| here(ball, &earlier[ball].beside(&self.trace.constants, by)));
-                    for (rests, graze) in
-                        [([false; BALLS], false), ([false; BALLS], true), (rests, false), (rests, true)]
-                    {
-                        let other = explained(&balls, rests, graze);
-                        if (lost - other.lost).abs() < (lost - taken.lost).abs() {
-                            taken = other;
+            let flown = members().any(|member| flew[member] || flies[member]);
+            let on_cloth = if flown { None } else { Some(moment.taken(group)) };
+            let Taken { mut unexplained, bounces } = match on_cloth {
+                Some(taken) if taken.unexplained.abs() <= doubt.at_a_change(self.table) => taken,
+                _ => {
+                    let states = [&in_space, &after_in_space];
+                    let impacts = self.impacts((now, told), &earlier, states, [flew, group, rests], lost);
+                    let taken = Taken { unexplained: lost - impacts.lost, bounces: impacts.bounces };
+                    match on_cloth {
+                        Some(other) if other.unexplained.abs() <= taken.unexplained.abs() => other,
+                        _ => {
+                            doubt.moved = doubt.moved.max(impacts.moved.min(self.farthest));
+                            taken
                         }
                     }
                 }
-                doubt.moved = doubt.moved.max(taken.moved.min(self.farthest));
-                Taken { unexplained: lost - taken.lost, bounces: taken.bounces }
-            } else {
-                moment.taken(group)
             };
             let mut returned = 0.0;
             for member in members().filter(|&member| rested[member] && !rests[member]) {
@@ -192,6 +177,43 @@ impl Audit<'_> {
             }
             self.note(figures, lost + returned, unexplained, &doubt, doubt.at_a_change(self.table));
         }
+    }
+
+    /// The told impacts of a group one after another, by the laws of the reference engine, in the way that comes nearest to what is
+    /// `lost`: whether rounding has left a height is told by the engine's answer; so is the side of a landing on which an impact lies,
+    /// whether what closes no faster than rounding closes, and which contacts bounce no more.
+    fn impacts(
+        &self,
+        (now, told): (f64, &[Event]),
+        earlier: &[Course; BALLS],
+        [before, after]: [&[SpatialState; BALLS]; 2],
+        [flew, group, rests]: [[bool; BALLS]; 3],
+        lost: f64,
+    ) -> aloft::Impacts {
+        let here = |ball: usize, state: &SpatialState| SpatialState { position: after[ball].position, ..*state };
+        let energy = |balls: &[SpatialState; BALLS]| -> f64 {
+            (0..BALLS).filter(|&ball| group[ball]).map(|ball| aloft::energy(self.table, &balls[ball])).sum()
+        };
+        let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &before[ball]));
+        let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], graze: bool| {
+            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rests], told, graze);
+            impacts.lost += energy(&at_impact) - energy(balls);
+            impacts
+        };
+        let mut nearest = explained(&at_impact, [false; BALLS], false);
+        for by in [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now] {
+            let balls = std::array::from_fn(|ball| here(ball, &earlier[ball].beside(&self.trace.constants, by)));
+            // A resting contact may have ended in the moment in which it began.
+            for rests in [[false; BALLS], rests, [true; BALLS]] {
+                for graze in [false, true] {
+                    let other = explained(&balls, rests, graze);
+                    if (lost - other.lost).abs() < (lost - nearest.lost).abs() {
+                        nearest = other;
+                    }
+                }
+            }
+        }
+        nearest
     }
 
     /// What happens on the pieces that begin at `now`, s: each by itself where a ball moves freely; balls that rest against

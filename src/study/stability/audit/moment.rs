@@ -50,7 +50,7 @@ impl Bounces {
     pub fn of(table: &Table, ball: usize, speed: f64, e: f64) -> Self {
         // No more than the cloth under all balls presses them together.
         let pull = BALLS as f64 * table.sliding_friction * table.gravity;
-        let speed = e * speed;
+        let speed = e * speed.max(0.0);
         Self { ball, energy: 0.5 * speed * speed, lasts: 2.0 * speed / (pull * (1.0 - e)) }
     }
 }

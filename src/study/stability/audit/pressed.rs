@@ -13,6 +13,7 @@ use super::{
 use crate::{
     physics::BallState,
     simulation::{Constants, Segment},
+    study::reference_engine::Numbers,
     table::{BALLS, Table},
 };
 
@@ -232,6 +233,7 @@ impl Scene<'_> {
     /// The same if all balls slide or roll, or if those that may be `at_edge` of both resist as much as keeps them there.
     fn explained(&self, accelerations: &Column, contacts: &[(Contact, bool)], at_edge: [bool; BALLS]) -> Power {
         let g = self.table.gravity;
+        let numbers = Numbers::<f64>::of(self.table);
         let mut taken = 0.0;
         // What the known frictions leave of the accelerations, and what unknown forces there are.
         let mut rest = *accelerations;
@@ -246,19 +248,20 @@ impl Scene<'_> {
             taken += force * speed;
             None
         };
-        let [sliding, rolling] =
-            [self.table.sliding_friction, self.table.rolling_friction].map(|friction| friction * g);
+        let sliding = self.table.sliding_friction * g;
         // Places of frictions that hold, and have to do so with all that they can if the ball is at the edge of sliding.
         let mut strained: Vec<usize> = Vec::new();
-        // Resistances to rolling that are between none and all, and their speeds.
-        let mut creeping: Vec<(Column, f64)> = Vec::new();
+        // Resistances to rolling that are between none and all.
+        let mut creeping: Vec<Resistance> = Vec::new();
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
             let held = cloth(&on_cloth(ball), sliding);
+            let speed = size(&along(&centre(ball), &self.speeds));
+            let rolling = 1.4 * numbers.band(speed).0;
             if at_edge[ball] {
                 strained.extend(held);
                 if let Some((velocity, speed)) = self.slip(&centre(ball)) {
                     let against: Vec<f64> = velocity.iter().map(|part| -part / speed).collect();
-                    creeping.push((sum(&centre(ball), &against), speed));
+                    creeping.push(Resistance { column: sum(&centre(ball), &against), most: rolling, speed });
                 }
             } else if held.is_some() {
                 cloth(&centre(ball), rolling);
@@ -270,7 +273,7 @@ impl Scene<'_> {
         loop {
             // The normal forces come first, then the resistances to rolling.
             let mut columns: Vec<Column> = pushes.iter().map(|push| push.column).collect();
-            columns.extend(creeping.iter().map(|(column, _)| column));
+            columns.extend(creeping.iter().map(|resistance| resistance.column));
             columns.extend(&unknown);
             columns.extend(pushes.iter().flat_map(|push| &push.sticks));
             let Fit { factors, residual } = fit(&columns, &rest);
@@ -280,7 +283,7 @@ impl Scene<'_> {
                 // ask for.
                 let largest = size(&rest) + BALLS as f64 * sliding;
                 let prices: f64 = pushes.iter().map(|push| push.price).sum();
-                let rolls: f64 = creeping.iter().map(|(_, speed)| rolling * speed).sum();
+                let rolls: f64 = creeping.iter().map(|resistance| resistance.most * resistance.speed).sum();
                 return Power {
                     least: taken,
                     most: taken + largest * prices + rolls,
@@ -298,10 +301,11 @@ impl Scene<'_> {
             let rubbed: f64 = pushes.iter().zip(&forces).map(|(push, force)| force * push.price).sum();
             let resistances = &forces[pushes.len()..][..creeping.len()];
             let holding = &forces[pushes.len() + creeping.len()..];
-            let is_possible = resistances.iter().all(|force| (-EDGE..=1.0 + EDGE).contains(&(force / rolling)))
+            let possible = |(law, force): (&Resistance, &f64)| (-EDGE..=1.0 + EDGE).contains(&(force / law.most));
+            let is_possible = creeping.iter().zip(resistances).all(possible)
                 && strained.iter().all(|&at| holding[at].hypot(holding[at + 1]) >= (1.0 - EDGE) * sliding);
             let rolls: f64 =
-                creeping.iter().zip(resistances).map(|((_, speed), force)| force.clamp(0.0, rolling) * speed).sum();
+                creeping.iter().zip(resistances).map(|(law, force)| force.clamp(0.0, law.most) * law.speed).sum();
             let all = taken + rubbed + rolls;
             return Power { least: all, most: all, defect, is_possible, is_unique: true };
         }
@@ -328,6 +332,16 @@ impl Scene<'_> {
             _ => Push { column, price: 0.0, sticks: vec![along_t, up] },
         }
     }
+}
+
+/// A ball's resistance to rolling that is between none and all.
+struct Resistance {
+    /// What a unit of it does.
+    column: Column,
+    /// How large it can be, m/s²: 5/7 of it slow down a ball that rolls.
+    most: f64,
+    /// The ball's speed, m/s.
+    speed: f64,
 }
 
 /// A contact that pushes.
