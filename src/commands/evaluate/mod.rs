@@ -9,6 +9,7 @@ mod shots;
 use std::{path::PathBuf, time::Duration};
 
 use self::{
+    drawn_tables::DrawnTables,
     order::{Order, Part, Records, Shard, merged},
     shots::Player,
 };
@@ -136,8 +137,10 @@ fn measure(args: &Args) -> Result<(Order, Records), Failure> {
     let player = if let Some(shots) = args.random_search {
         Player::RandomSearch(shots)
     } else if args.policy_only {
-        let is_told = args.drawn_tables || skill.is_some_and(|skill| !skill.is_perfect());
-        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default(), is_told)?;
+        let errs = skill.is_some_and(|skill| !skill.is_perfect());
+        // None of the drawn tables has a policy of its own.
+        let on = if args.drawn_tables { DrawnTables::around(&table, args.seed).of(0) } else { table.clone() };
+        let policy = policy_named(&args.policy, &on, reward.rule().unwrap_or_default(), errs)?;
         note_doubts(&policy, &table, reward.rule());
         Player::Policy(Box::new(policy))
     } else {
@@ -185,10 +188,10 @@ fn request(args: &Args, skill: Skill) -> Request {
     Request { rule, skill, doubt, plan, jumps: !no_jumps, budget, simulations, seed, ..Request::default() }
 }
 
-/// The bundled policy for `rule` on `table`, rather one that is told table and player where that matters, or the one in the file.
-fn policy_named(name: &str, table: &Table, rule: Rule, is_told: bool) -> Result<Policy, Failure> {
+/// The bundled policy for `rule` on `table` and a player who `errs` or does not, or the one in the file.
+fn policy_named(name: &str, table: &Table, rule: Rule, errs: bool) -> Result<Policy, Failure> {
     let policy = if name == "bundled" {
-        Policy::bundled_for(table, rule, is_told).ok_or_else(|| {
+        Policy::bundled_for(table, rule, errs).ok_or_else(|| {
             Failure::wrong_input(format_args!(
                 "no policy is bundled for this table \"{}\"; use --table match, textbook or thesis, or --policy FILE with one from \
                  `carom train`",

@@ -181,7 +181,7 @@ mod tests {
     #[test]
     fn with_a_context_an_agent_begins_with_what_was_learnt_without() {
         let table = Table::default();
-        let old = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
+        let old = Policy::bundled(&table, Rule::OneCushion).unwrap().unwrap();
         let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-22").unwrap().unwrap();
         let mut task = old_trainer(&old).task;
         task.hyperparameters.context = true;

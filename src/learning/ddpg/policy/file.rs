@@ -105,13 +105,19 @@ impl Policy {
     }
 
     /// The policy that comes with the program for `rule` on this table: for a player who `errs` rather one that is told who plays, and
-    /// for one who does not, rather one that was trained on this table alone.
+    /// for one who does not, rather this table's own, or that of `match` if it is told the table.
     ///
     /// # Errors
     /// As [`Policy::bundled`].
     pub fn bundled_for(table: &Table, rule: Rule, errs: bool) -> Option<Result<Self, PolicyError>> {
         let (own, told) = (|| Self::bundled(table, rule), || Self::bundled_with_context(table, rule));
-        if errs { told().or_else(own) } else { own().or_else(told) }
+        if errs { told().or_else(own) } else { own().or_else(|| Self::bundled_of_match(table, rule)).or_else(told) }
+    }
+
+    /// The policy for `rule` on `match`, if it is told the table and this is one that it knows.
+    fn bundled_of_match(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
+        let policy = Self::bundled(&Table::default(), rule).filter(|_| knows(table))?;
+        policy.as_ref().map_or(true, Self::has_context).then_some(policy)
     }
 
     /// The policy for `rule` on all tables like `match`, if this is one.
@@ -194,10 +200,15 @@ mod tests {
         ] {
             for rule in Rule::ALL {
                 let policy = Policy::bundled_for(table, rule, errs).unwrap().unwrap();
-                assert!(policy.has_context() == has_context && policy.knows(table));
+                // That for three cushions on `match` is told the table, too.
+                assert_eq!(policy.has_context(), has_context || rule == Rule::ThreeCushion);
+                assert!(policy.knows(table));
                 assert_eq!(policy.origin().reward, Reward::for_rule(rule));
             }
         }
+        let [erring, flawless] =
+            [true, false].map(|errs| Policy::bundled_for(&own, Rule::ThreeCushion, errs).unwrap().unwrap());
+        assert_ne!(erring.origin().seed, flawless.origin().seed);
         let thesis = Table::preset("thesis").unwrap();
         assert!(!Policy::bundled_for(&thesis, Rule::ThreeCushion, true).unwrap().unwrap().has_context());
         let sizes =
