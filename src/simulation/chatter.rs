@@ -38,7 +38,7 @@ const TOLD: u32 = 4;
 const SLOWEST_SHRINKING: f64 = 0.99;
 
 /// A pause between two bounces is the end of a chatter if it is as long as so many of the last flights, and as so many of the longest
-/// one, unless it is no longer than the pause before: where another contact throws a ball back again and again, its chatters are one.
+/// one or of the pause before: where another contact throws a ball back again and again, its chatters are one.
 const LAST_FLIGHTS: f64 = 8.0;
 const LONGEST_FLIGHTS: f64 = 2.0;
 
@@ -62,7 +62,7 @@ struct Bounces {
 impl Bounces {
     /// Longest pause before the next bounce of the same chatter, s.
     fn longest_pause(&self) -> f64 {
-        (LAST_FLIGHTS * self.flight).max(LONGEST_FLIGHTS * self.longest)
+        (LAST_FLIGHTS * self.flight).max(LONGEST_FLIGHTS * self.longest.max(self.pause))
     }
 }
 
@@ -98,7 +98,7 @@ impl Chatters {
     pub fn bounce(&mut self, contact: &Contact, now: f64) -> bool {
         let bounces = &mut self.0[Self::place(contact)];
         let flight = now - bounces.last;
-        if flight <= bounces.longest_pause().max(bounces.pause) {
+        if flight <= bounces.longest_pause() {
             let known = if flight.is_finite() { flight } else { 0.0 };
             (bounces.count, bounces.longest) = (bounces.count + 1, bounces.longest.max(known));
         } else {

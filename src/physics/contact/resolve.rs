@@ -92,6 +92,10 @@ fn easing(
         for _ in 0..HALVINGS {
             let share = 0.5 * (sliding + most);
             let tried = without(share, &rolling.1);
+            if !tried.1.converged {
+                // Nor would those on either side of it.
+                break;
+            }
             if begins_to_slide(table, &tried.0, &tried.1, ball) {
                 sliding = share;
             } else {

@@ -31,11 +31,12 @@ fn layout(table: &Table, rng: &mut impl Rng) -> Layout {
     }
 }
 
-/// Exactly nothing, or anything from 1e-16 to 1e-6 m; now and then an overlap that is still accepted.
+/// Exactly nothing, or anything from 1e-16 to 1e-6 m; now and then an overlap that is still accepted, also where two of them add up: a
+/// ball that stands behind a cushion's nose is put on it, and further into its neighbour.
 fn gap(rng: &mut impl Rng) -> f64 {
     match rng.random_range(0..8) {
         0..3 => 0.0,
-        3 => -draw::log_uniform(rng, 1e-16, 9e-10),
+        3 => -draw::log_uniform(rng, 1e-16, 4.5e-10),
         _ => draw::log_uniform(rng, 1e-16, 1e-6),
     }
 }
