@@ -109,6 +109,13 @@ impl Chatters {
         bounces.count > TOLD
     }
 
+    /// Takes note that a contact begins to rest: after a pause, that is like a bounce.
+    pub fn begin_rest(&mut self, contact: &Contact, now: f64) {
+        if now > self.0[Self::place(contact)].last {
+            self.bounce(contact, now);
+        }
+    }
+
     /// Takes note that a contact has rested until now: its chatter goes on from here.
     pub fn rest(&mut self, contact: &Contact, now: f64) {
         self.0[Self::place(contact)].last = now;

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::{
     EventKind, Observer, Segment,
+    chatter::Chatters,
     contact_mode::ContactMode,
     contacts::PAIRS_OF,
     engine::Engine,
@@ -128,6 +129,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ) {
             Outcome::Rests(resting) => {
                 self.next_step = resting.next_step;
+                let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
+                resting.contacts.as_slice().iter().for_each(|contact| chatters.begin_rest(contact, now));
                 for index in (0..BALLS).filter(|&index| !resting.members[index]) {
                     if resting.begin[index] != states[index] {
                         states[index] = resting.begin[index];
