@@ -203,8 +203,7 @@ impl Audit<'_> {
         let mut nearest = explained(&at_impact, [false; BALLS], false);
         for by in [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now] {
             let balls = std::array::from_fn(|ball| here(ball, &earlier[ball].beside(&self.trace.constants, by)));
-            // A resting contact may have ended in the moment in which it began.
-            for rests in [[false; BALLS], rests, [true; BALLS]] {
+            for rests in [[false; BALLS], rests] {
                 for graze in [false, true] {
                     let other = explained(&balls, rests, graze);
                     if (lost - other.lost).abs() < (lost - nearest.lost).abs() {
