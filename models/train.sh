@@ -1,6 +1,6 @@
 #!/bin/sh
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about twenty-three hours of a shared core. The bundled files for match began from networks that a
+# with the same version. All of it takes about thirty hours of a shared core. The bundled files for match began from networks that a
 # version before this one had trained; their first rounds were played without the cue's room, and those up to match-r3-third,
 # match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth.
 set -eu
@@ -51,7 +51,7 @@ train match-one-cushion --from "$folder/match-one-cushion-fifth" --seed 64 --ste
 train match-three-cushion-sixth --from "$folder/match-three-cushion-fifth" --seed 93 --steps 16000000 $match
 train match-three-cushion-seventh --from "$folder/match-three-cushion-sixth" --seed 95 --steps 5000000 $lower
 train match-three-cushion-eighth --from "$folder/match-three-cushion-seventh" --seed 97 --steps 4000000 $lowest
-train match-three-cushion --from "$folder/match-three-cushion-eighth" --seed 99 --steps 4000000 $lowest
+train match-three-cushion-ninth --from "$folder/match-three-cushion-eighth" --seed 99 --steps 4000000 $lowest
 train thesis-three-cushion-second --from "$folder/thesis-three-cushion-first" --seed 92 --steps 30000000 $thesis
 train thesis-three-cushion-third --from "$folder/thesis-three-cushion-second" --seed 94 --steps 5500000 $lower
 train thesis-three-cushion --from "$folder/thesis-three-cushion-third" --seed 96 --steps 4000000 $lowest
@@ -69,6 +69,18 @@ context context-three-cushion-second --from "$folder/context-three-cushion-first
 context context-r3-first --from "$folder/match-r3-fifth" --seed 82 --steps 8000000 $rate
 # Stopped by hand after 4,570,176 shots.
 context context-one-cushion-first --from "$folder/match-one-cushion-fourth" --seed 83 --steps 5500000 $rate
+# Three cushions without errors on every table like match: what has learnt match alone learns the others.
+perfect() {
+    name=$1
+    shift
+    train "$name" --set context=true --set perfect=1.0 --set saturation_penalty=0.1 "$@"
+}
+fast="--set critic_learning_rate=0.0012 --set actor_learning_rate=0.0004"
+perfect match-three-cushion-tenth --from "$folder/match-three-cushion-ninth" --seed 501 --steps 12000000 $fast --set ranking=0.4
+perfect match-three-cushion-eleventh --from "$folder/match-three-cushion-tenth" --seed 502 --steps 40000000 $fast --set ranking=0.6
+slower="--set critic_learning_rate=0.001 --set actor_learning_rate=0.0003 --set ranking=0.6"
+perfect match-three-cushion-twelfth --from "$folder/match-three-cushion-eleventh" --seed 503 --steps 24000000 $slower
+perfect match-three-cushion --from "$folder/match-three-cushion-twelfth" --seed 504 --steps 16000000 $slower
 # Heads with speeds of their own; then expert iteration, in which a search shows what players who err make most often; then without a
 # search, so that the critic learns to choose: at three cushions it alone, for there the actor went back to harder strokes.
 heads="$rate --set heads=9 --set actor_batch=64"

@@ -144,9 +144,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let c = self.constants;
         // Without any restitution the rounds would go on for ever; their limit is one impact of all that touches.
         let collapsed = self.dead || self.rounds > MOST_ROUNDS;
-        let contacts = touching(&c, &states, self.on_cloth(), |opening| {
+        let mut contacts = touching(&c, &states, self.on_cloth(), |opening| {
             opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
         });
+        // What shares no ball with another is an impact of its own, where its law is another then.
+        let all = contacts;
+        let is_joined =
+            |contact: &Contact| all.as_slice().iter().any(|other| other != contact && other.shares_a_ball(contact));
+        contacts.retain(|_, contact| collapsed || self.law.is_plain(contact) || is_joined(contact));
         if contacts.as_slice().len() < 2 {
             return ControlFlow::Continue(false);
         }

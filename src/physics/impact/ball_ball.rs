@@ -33,10 +33,15 @@ impl BallImpact {
         Self { restitution: 0.0, fade: None, ..self }
     }
 
+    /// Whether it is the same for slow and fast impacts.
+    pub const fn is_plain(&self) -> bool {
+        self.fade.is_none() && self.by_slip.is_none()
+    }
+
     /// Velocities and spins after a collision; returns what [`collide_balls`] does.
     #[inline(always)]
     pub fn resolve(&self, radius: f64, first: &mut BallState, second: &mut BallState) -> f64 {
-        if self.fade.is_none() && self.by_slip.is_none() {
+        if self.is_plain() {
             return collide_balls(radius, self.restitution, self.friction, first, second);
         }
         self.resolve_by_speed(radius, first, second)

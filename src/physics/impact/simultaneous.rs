@@ -46,6 +46,11 @@ impl ImpactLaw {
         Self { balls: self.balls.inelastic(), cushions: self.cushions.inelastic() }
     }
 
+    /// Whether an impact by itself has the law that it has together with others.
+    pub fn is_plain(&self, contact: &Contact) -> bool {
+        if contact.second.is_some() { self.balls.is_plain() } else { self.cushion(contact).is_plain() }
+    }
+
     fn cushion(&self, contact: &Contact) -> &Cushion {
         self.cushions.at(Rail::with_normal(contact.cushion_normal))
     }

@@ -39,6 +39,11 @@ impl Contact {
         first == ball || second == Some(ball)
     }
 
+    /// Whether a ball takes part in both.
+    pub fn shares_a_ball(self, other: Self) -> bool {
+        (0..BALLS).any(|ball| self.has(ball) && other.has(ball))
+    }
+
     /// Whether a ball takes part that is not on the cloth.
     pub fn is_aloft<R: Real>(self, balls: &Balls<R>) -> bool {
         let (first, second) = self.balls();

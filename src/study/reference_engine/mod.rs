@@ -48,6 +48,6 @@ pub use motion::{Ball, Motion};
 pub use rails::Cushion;
 pub use real::Real;
 pub use roots::{Finder, algorithm_1010, by_extrema, closed_form};
-pub use rounds::{alone as collide_alone, one_round as collide_at_once};
+pub use rounds::at_once as collide_at_once;
 pub use table::{Numbers, normal as rail_normal};
 pub use vector::Vector;

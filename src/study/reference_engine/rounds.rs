@@ -13,6 +13,7 @@ use super::{
     rows::{Movement, Row, movement},
     tolerance::{closed, touching},
 };
+use crate::table::BALLS;
 
 /// Rounds after which what touches takes one inelastic impact.
 const MOST_ROUNDS: usize = 32;
@@ -43,21 +44,56 @@ pub fn collide<R: Real>(
             contacts.iter().filter(closes).copied().collect::<Vec<_>>()
         };
         let closing = closing(balls);
-        match closing[..] {
-            [] => break,
-            [contact] if !is_last && !inelastic.contains(&contact) => {
-                met.push(contact);
-                work = work + alone(numbers, balls, contact);
-                continue;
-            }
-            _ => {}
+        if closing.is_empty() {
+            break;
         }
-        let restitution = |contact: &Contact| {
-            if is_last || inelastic.contains(contact) { R::zero() } else { contact.restitution(numbers) }
-        };
-        work = work + one_round(numbers, balls, &closing, restitution, &mut met)?;
+        work = work
+            + if is_last {
+                one_round(numbers, balls, &closing, |_| R::zero(), &mut met)?
+            } else {
+                at_once(numbers, balls, &closing, inelastic, &mut met)?
+            };
     }
     Ok((met, work))
+}
+
+/// The `contacts` collide that close at one moment: those that share balls together, any other by the table's own law; the
+/// contacts in `inelastic` have no restitution. Adds those who push each other to the ones that have met, and returns the energy over
+/// mass that it takes.
+///
+/// # Errors
+/// [`Unjudged::Unsolved`], where no pushes are found.
+pub fn at_once<R: Real>(
+    numbers: &Numbers<R>,
+    balls: &mut Balls<R>,
+    contacts: &[Contact],
+    inelastic: &[Contact],
+    met: &mut Vec<Contact>,
+) -> Result<R, Unjudged> {
+    let restitution =
+        |contact: &Contact| if inelastic.contains(contact) { R::zero() } else { contact.restitution(numbers) };
+    let mut work = R::zero();
+    let mut left = contacts.to_vec();
+    while !left.is_empty() {
+        let mut joined = vec![left.remove(0)];
+        // Three balls are reached in two rounds.
+        for _ in 1..BALLS {
+            let (sharing, others): (Vec<_>, Vec<_>) =
+                left.into_iter().partition(|contact| joined.iter().any(|other| contact.shares_a_ball(*other)));
+            joined.extend(sharing);
+            left = others;
+        }
+        work = work
+            + match joined[..] {
+                [contact] => {
+                    met.push(contact);
+                    let numbers = if inelastic.contains(&contact) { &numbers.inelastic() } else { numbers };
+                    alone(numbers, balls, contact)
+                }
+                _ => one_round(numbers, balls, &joined, restitution, met)?,
+            };
+    }
+    Ok(work)
 }
 
 /// A single impact, by the table's own law. Returns the energy over mass that it takes.
@@ -75,7 +111,7 @@ pub fn alone<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, contact: Conta
     }
 }
 
-/// Impacts at one moment, at the height of the balls' centres and with the friction and restitution of slow ones. Adds those who push
+/// Impacts that share balls at one moment, at the height of the balls' centres and with the friction and restitution of slow ones. Adds those who push
 /// each other to the ones that have met, and returns the energy over mass that is taken.
 ///
 /// # Errors

@@ -101,6 +101,18 @@ impl<R: Real> Numbers<R> {
         }
     }
 
+    /// The same without restitution: the end of endless bounces, at the height of the balls' centres.
+    #[must_use]
+    pub fn inelastic(&self) -> Self {
+        let dead = |cushion: Cushion<R>| Cushion {
+            restitution: R::zero(),
+            falling: None,
+            meeting: Meeting::Equator,
+            ..cushion
+        };
+        Self { ball_restitution: R::zero(), ball_falling: None, cushions: self.cushions.map(dead), ..*self }
+    }
+
     /// Whether the table has laws that this engine lacks.
     ///
     /// # Errors

@@ -77,11 +77,16 @@ impl Cushion {
         Self { restitution: 0.0, law: Law::Equator, fade: None, ..self }
     }
 
+    /// Whether it meets slow and fast balls alike, at the height of their centres.
+    pub fn is_plain(&self) -> bool {
+        matches!(self.law, Law::Equator) && self.fade.is_none()
+    }
+
     /// Velocity and spin after a collision of a ball on the cloth with this cushion, whose normal into the table is `n`.
     #[inline(always)]
     pub fn resolve(&self, radius: f64, n: DVec2, ball: &mut BallState) -> RailImpulse {
         match self.law {
-            Law::Equator if self.fade.is_none() => {
+            _ if self.is_plain() => {
                 let normal = collide_rail(radius, self.restitution, self.friction, n, ball);
                 RailImpulse { normal, climb: 0.0 }
             }

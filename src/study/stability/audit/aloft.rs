@@ -5,7 +5,7 @@ use crate::{
     physics::{SpatialState, slip},
     simulation::{Event, EventKind},
     study::reference_engine::{
-        Ball, Contact, Motion, Numbers, Vector, collide_aloft, collide_alone, collide_at_once, opening_aloft, settle,
+        Ball, Contact, Motion, Numbers, Vector, collide_aloft, collide_at_once, opening_aloft, settle,
     },
     table::{BALLS, Table},
 };
@@ -124,13 +124,8 @@ pub fn impacts(
                 bounces =
                     bounces.into_iter().chain([left_out]).max_by(|one, other| one.energy.total_cmp(&other.energy));
             }
-            let restitution =
-                |contact: &Contact| if staying.contains(contact) { 0.0 } else { contact.restitution(&numbers) };
-            lost += match round[..] {
-                [contact] if staying.is_empty() => collide_alone(&numbers, &mut balls, contact),
-                // Where no pushes are found, nothing is explained.
-                _ => collide_at_once(&numbers, &mut balls, &round, restitution, &mut Vec::new()).unwrap_or(0.0),
-            };
+            // Where no pushes are found, nothing is explained.
+            lost += collide_at_once(&numbers, &mut balls, &round, &staying, &mut Vec::new()).unwrap_or(0.0);
         }
         for ball in balls.iter_mut().filter(|ball| ball.velocity.z > 0.0) {
             ball.motion = Motion::Flying;

@@ -46,9 +46,15 @@ pub fn impact_loss(table: &Table, contact: &Contact, before: &Column, restitutio
 }
 
 /// The same for a table whose impacts go by other models: `None` for the thesis' laws, and for models that the reference engine
-/// has not.
-pub fn impact_loss_by_models(table: &Table, contact: &Contact, balls: &[BallState; BALLS]) -> Option<f64> {
+/// has not. Where it is not elastic there is no restitution.
+pub fn impact_loss_by_models(
+    table: &Table,
+    contact: &Contact,
+    balls: &[BallState; BALLS],
+    is_elastic: bool,
+) -> Option<f64> {
     let numbers = Numbers::<f64>::of(table);
+    let numbers = if is_elastic { numbers } else { numbers.inelastic() };
     let vector = |v: glam::DVec2, z: f64| Vector::new(v.x, v.y, z);
     let plain = |state: &BallState| Ball {
         velocity: vector(state.velocity, 0.0),

@@ -172,14 +172,17 @@ impl Moment<'_> {
     /// contact, with none.
     fn one_impact(&self, contact: &Contact, before: &Column, lost: f64) -> Taken {
         let e = restitution(self.table, contact);
-        let by_models = impact_loss_by_models(self.table, contact, &self.before);
-        let unexplained = lost - by_models.unwrap_or_else(|| impact_loss(self.table, contact, before, e));
+        let left = |e: f64| {
+            let by_models = impact_loss_by_models(self.table, contact, &self.before, e > 0.0);
+            lost - by_models.unwrap_or_else(|| impact_loss(self.table, contact, before, e))
+        };
+        let unexplained = left(e);
         let [opening, ..] = contact.directions();
         let speed = e * dot(&opening, before).abs();
         let stays = |ball: usize| self.rests[ball];
         let may_stay = speed <= STOPPED_SPEED || stays(contact.first) && contact.second.is_none_or(stays);
-        let dead = lost - impact_loss(self.table, contact, before, 0.0);
-        if !may_stay || unexplained.abs() <= dead.abs() {
+        let dead = if may_stay { left(0.0) } else { unexplained };
+        if unexplained.abs() <= dead.abs() {
             return Taken { unexplained, bounces: None };
         }
         let bounces = Bounces::of(self.table, contact.first, dot(&opening, before).abs(), e);

@@ -18,11 +18,17 @@ const fn case(
 }
 
 pub const CASES: &[Case] = &[
+    case("random shots, table \"match\"", match_table, random::shot, Size::Random),
     case("random shots, table \"textbook\"", textbook_table, random::shot, Size::Random),
     case("random shots, table \"thesis\"", thesis_table, random::shot, Size::Random),
+    case("adversarial shots, table \"match\"", match_table, adversarial::shot, Size::Adversarial),
     case("adversarial shots, table \"textbook\"", textbook_table, adversarial::shot, Size::Adversarial),
     case("adversarial shots, table \"thesis\"", thesis_table, adversarial::shot, Size::Adversarial),
 ];
+
+fn match_table() -> Vec<Table> {
+    Table::preset("match").into_iter().collect()
+}
 
 fn textbook_table() -> Vec<Table> {
     Table::preset("textbook").into_iter().collect()
