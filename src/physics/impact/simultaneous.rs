@@ -24,8 +24,8 @@ use crate::{
 /// Sweeps over the normal impulses: they converge like a power of at most 3/4 for three balls, in some hundred.
 const MAX_SWEEPS: usize = 200;
 
-/// The laws of the impacts on a table. Where several contacts close at once, cushions are met at the height of the balls'
-/// centres, with the friction and restitution of slow impacts.
+/// The laws of the impacts on a table. Where several contacts that share balls close at once, cushions are met at the height of the
+/// balls' centres, with the friction and restitution of slow impacts.
 #[derive(Clone, Debug)]
 pub struct ImpactLaw {
     /// That of two balls.
