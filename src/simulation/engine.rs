@@ -10,7 +10,6 @@ use super::{
     chatter::Chatters,
     contact_mode::ContactMode,
     contacts::PAIRS_OF,
-    impacts::MOMENT,
     resting::Resting,
     savings::{All, Savings},
 };
@@ -18,6 +17,10 @@ use crate::{
     physics::{BallState, Cloth, ImpactLaw, Impulse, Motion, SpatialState},
     table::{BALLS, Layout, Table},
 };
+
+/// Impacts that follow each other within this time are at the same moment, s: a ball moves by less than a gap that counts as
+/// none meanwhile, at any speed on a table.
+pub(super) const MOMENT: f64 = 1e-15;
 
 /// Work after which a shot is brought to its end: so many of the simplest bounces of chatters, of which a step of a resting
 /// contact takes as long as [`STEP_WORK`]. This is a guard, not physics: what takes part in another contact stands still from

@@ -7,7 +7,7 @@ use super::{
     chatter::{Chatters, settles},
     contact_mode::ContactMode,
     contacts::{PAIRS, close, is_in_corner, touching},
-    engine::{Ball, Engine, Meeting, either, only},
+    engine::{Ball, Engine, MOMENT, Meeting, either, only},
     savings::Savings,
 };
 use crate::{
@@ -16,10 +16,6 @@ use crate::{
     },
     table::BALLS,
 };
-
-/// Impacts that follow each other within this time are at the same moment, s: a ball moves by less than a gap that counts as
-/// none meanwhile, at any speed on a table.
-pub(super) const MOMENT: f64 = 1e-15;
 
 /// Impacts at one moment after which those that go on are solved without restitution: three touching balls against a
 /// cushion exchange some dozens, an inelastic collapse infinitely many.

@@ -118,7 +118,7 @@ fn every_row_is_in_the_document_and_holds_there_but_for_those_that_are_known() {
 /// Shots of the table that failed once, each for the cause that it names.
 #[test]
 fn shots_that_failed_hold() {
-    let tables: Vec<Table> = cases().iter().flat_map(|case| (case.tables)()).chain([Table::default()]).collect();
+    let tables: Vec<Table> = cases().iter().flat_map(|case| (case.tables)()).collect();
     for line in include_str!("../data/mended.jsonl").lines() {
         let line: serde_json::Value = serde_json::from_str(line).unwrap();
         let table = tables.iter().find(|table| line["table"] == table.name).expect("a table of the cases");

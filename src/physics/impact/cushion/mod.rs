@@ -85,13 +85,11 @@ impl Cushion {
     /// Velocity and spin after a collision of a ball on the cloth with this cushion, whose normal into the table is `n`.
     #[inline(always)]
     pub fn resolve(&self, radius: f64, n: DVec2, ball: &mut BallState) -> RailImpulse {
-        match self.law {
-            _ if self.is_plain() => {
-                let normal = collide_rail(radius, self.restitution, self.friction, n, ball);
-                RailImpulse { normal, climb: 0.0 }
-            }
-            _ => self.resolve_at_height(radius, n, ball),
+        if self.is_plain() {
+            let normal = collide_rail(radius, self.restitution, self.friction, n, ball);
+            return RailImpulse { normal, climb: 0.0 };
         }
+        self.resolve_at_height(radius, n, ball)
     }
 
     #[inline(never)]
