@@ -87,14 +87,12 @@ fn gap(constants: &Constants, rail: Rail, centre: DVec3) -> f64 {
     cushion_gap(constants, rail.normal(), centre.truncate())
 }
 
-/// The greatest height on an arc, m.
+/// The greatest height that the energy of an arc reaches, m: on none of those that follow it is a ball higher.
 fn top(arc: &Arc, gravity: f64) -> f64 {
-    let climb = arc.velocity.z.max(0.0);
-    arc.position.z + 0.5 * climb * climb / gravity
+    arc.position.z + 0.5 * arc.velocity.z * arc.velocity.z / gravity
 }
 
-/// Whether a ball surely does not come near the nose of `rail` on this arc and all that follow, which are lower, in the `rest`
-/// of the time.
+/// Whether a ball surely does not come near the nose of `rail` on this arc and all that follow in the `rest` of the time.
 fn stays_away(constants: &Constants, nose: &Nose, hops: &Hops, arc: &Arc, rest: f64, rail: Rail) -> bool {
     let n = rail.normal();
     let approach = -lesser(arc.velocity.truncate().dot(n), hops.last_velocity().dot(n));

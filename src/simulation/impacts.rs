@@ -12,7 +12,8 @@ use super::{
 };
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, MAX_CONTACTS, Motion, SpatialState, collide_together, stop_by_impulses,
+        ActiveSet, BallState, Contact, Contacts, MAX_CONTACTS, Motion, RailImpulse, SpatialState, collide_together,
+        stop_by_impulses,
     },
     table::BALLS,
 };
@@ -140,14 +141,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let c = self.constants;
         // Without any restitution the rounds would go on for ever; their limit is one impact of all that touches.
         let collapsed = self.dead || self.rounds > MOST_ROUNDS;
-        let mut contacts = touching(&c, &states, self.on_cloth(), |opening| {
+        let contacts = touching(&c, &states, self.on_cloth(), |opening| {
             opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
         });
-        // What shares no ball with another is an impact of its own, where its law is another then.
-        let all = contacts;
-        let is_joined =
-            |contact: &Contact| all.as_slice().iter().any(|other| other != contact && other.shares_a_ball(contact));
-        contacts.retain(|_, contact| collapsed || self.law.is_plain(contact) || is_joined(contact));
         if contacts.as_slice().len() < 2 {
             return ControlFlow::Continue(false);
         }
@@ -165,24 +161,29 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         let law = if collapsed { self.law.inelastic() } else { self.law.clone() };
         let impulses = collide_together(c.radius, &law, &mut states, contacts.as_slice());
-        if impulses.iter().all(|impulse| *impulse <= 0.0) {
+        let met = || contacts.as_slice().iter().zip(&impulses).filter(|(_, impulse)| impulse.normal > 0.0);
+        if met().next().is_none() {
             // Balls that stand where they touch: what has met now is something else.
             return ControlFlow::Continue(false);
         }
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
-        let mut told = [false; MAX_CONTACTS];
-        for (index, contact) in contacts.as_slice().iter().enumerate() {
-            if impulses[index] > 0.0 {
-                let slow = contact.opening_speed(&states) <= c.tolerance.slow_bounce;
-                told[index] = !slow || self.slow_bounce(now, contact)?;
-            }
+        let climbs = |impulse: &RailImpulse| impulse.climb > c.lifts;
+        let mut told = Vec::with_capacity(MAX_CONTACTS);
+        for (contact, impulse) in met() {
+            let slow = contact.opening_speed(&states) <= c.tolerance.slow_bounce && !climbs(impulse);
+            told.push(!slow || self.slow_bounce(now, contact)?);
         }
         for index in (0..BALLS).filter(|&index| changed[index]) {
             self.close(index, now);
             self.launch(index, now, &states[index]);
         }
-        for (index, contact) in contacts.as_slice().iter().enumerate().filter(|(index, _)| impulses[*index] > 0.0) {
-            self.tell_impact(now, kind(contact), told[index])?;
+        for ((contact, _), told) in met().zip(told) {
+            self.tell_impact(now, kind(contact), told)?;
+        }
+        for (contact, impulse) in met().filter(|(_, impulse)| climbs(impulse)) {
+            let mut climbing = SpatialState::from(states[contact.first]);
+            climbing.velocity.z = impulse.climb;
+            self.launch_in_space(contact.first, now, &climbing)?;
         }
         self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))?;
         ControlFlow::Continue(true)
@@ -282,7 +283,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 break;
             }
             let impulses = collide_together(c.radius, &law, &mut states, contacts);
-            given.iter_mut().zip(impulses).for_each(|(given, impulse)| *given += impulse);
+            given.iter_mut().zip(impulses).for_each(|(given, impulse)| *given += impulse.normal);
         }
         // What one of them has given another is a bounce, too, but for one that is too fast to be left out.
         let (mut ended, mut given_there) = (Contacts::NONE, [0.0; MAX_CONTACTS]);

@@ -15,7 +15,7 @@
 
 use glam::DVec2;
 
-use super::{BallImpact, BallState, Cushion, Cushions, contact_twist};
+use super::{BallImpact, BallState, Cushion, Cushions, RailImpulse, contact_twist};
 use crate::{
     physics::{Contact, MAX_CONTACTS},
     table::{BALLS, Rail, Table},
@@ -61,19 +61,38 @@ impl ImpactLaw {
     }
 }
 
-/// One round: all `contacts` collide together. Returns the normal impulse of each, per mass, m/s; zero for those that the
-/// others relieve of theirs.
+/// One round: all `contacts` collide, those that share balls together, any other by a law of its own where it has one. Returns what
+/// each does, its normal impulse per mass being zero for those that the others relieve of theirs.
 pub fn collide_together(
+    radius: f64,
+    law: &ImpactLaw,
+    balls: &mut [BallState; BALLS],
+    contacts: &[Contact],
+) -> [RailImpulse; MAX_CONTACTS] {
+    let is_alone = |contact: &Contact| {
+        let shares = |other: &Contact| other != contact && other.shares_a_ball(contact);
+        contacts.len() == 1 || !law.is_plain(contact) && !contacts.iter().any(shares)
+    };
+    let mut impulses = [RailImpulse::default(); MAX_CONTACTS];
+    let (alone, together): (Vec<_>, Vec<_>) = (0..contacts.len()).partition(|&index| is_alone(&contacts[index]));
+    for index in alone {
+        impulses[index] = collide_alone(radius, law, balls, &contacts[index]);
+    }
+    let joined: Vec<Contact> = together.iter().map(|&index| contacts[index]).collect();
+    for (index, normal) in together.into_iter().zip(collide_joined(radius, law, balls, &joined)) {
+        impulses[index].normal = normal;
+    }
+    impulses
+}
+
+/// Impacts at the height of the balls' centres that are solved together. Returns the normal impulse of each, per mass, m/s.
+fn collide_joined(
     radius: f64,
     law: &ImpactLaw,
     balls: &mut [BallState; BALLS],
     contacts: &[Contact],
 ) -> [f64; MAX_CONTACTS] {
     let mut impulses = [0.0; MAX_CONTACTS];
-    if let [contact] = contacts {
-        impulses[0] = collide_alone(radius, law, balls, contact);
-        return impulses;
-    }
     let normals: Vec<DVec2> = contacts.iter().map(|contact| contact.normal(balls)).collect();
     let slips: Vec<DVec2> = contacts.iter().map(|contact| contact.slip(radius, balls)).collect();
     normal_impulses(law, balls, contacts, &normals, &mut impulses);
@@ -118,14 +137,14 @@ pub fn collide_together(
 }
 
 /// A single impact.
-fn collide_alone(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> f64 {
+fn collide_alone(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> RailImpulse {
     match contact.second {
-        None => law.cushion(contact).resolve(radius, contact.cushion_normal, &mut balls[contact.first]).normal,
+        None => law.cushion(contact).resolve(radius, contact.cushion_normal, &mut balls[contact.first]),
         Some(second) => {
             let (mut one, mut other) = (balls[contact.first], balls[second]);
-            let impulse = law.balls.resolve(radius, &mut one, &mut other);
+            let normal = law.balls.resolve(radius, &mut one, &mut other);
             (balls[contact.first], balls[second]) = (one, other);
-            impulse
+            RailImpulse { normal, climb: 0.0 }
         }
     }
 }
@@ -244,6 +263,21 @@ mod tests {
         // Moreau's law: both part at e times the speed at which they met.
         let parting = contacts[0].opening_speed(&balls);
         assert!((parting - 0.9 * 3.0 * 0.75_f64.sqrt()).abs() < 1e-14, "{parting}");
+    }
+
+    #[test]
+    fn what_shares_no_ball_collides_by_its_own_law_in_the_same_round() {
+        let law = ImpactLaw::of(&Table::preset("match").unwrap());
+        let mut balls = in_line(2.0);
+        balls[2].velocity = DVec2::new(3.0, 1.0);
+        let (mut pair, mut alone) = (balls, balls);
+        let contacts = [LINE[0], Contact::with_cushion(2, DVec2::NEG_X)];
+        let together = collide_together(RADIUS, &law, &mut balls, &contacts);
+        let one = collide_together(RADIUS, &law, &mut pair, &contacts[..1]);
+        let other = collide_together(RADIUS, &law, &mut alone, &contacts[1..]);
+        assert_eq!((together[0], together[1]), (one[0], other[0]));
+        assert_eq!(balls, [pair[0], pair[1], alone[2]]);
+        assert!(balls[2].velocity.x < 0.0 && balls[1].velocity.x > 1.8);
     }
 
     #[test]

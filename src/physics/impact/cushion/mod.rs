@@ -24,7 +24,7 @@ pub struct Cushion {
 }
 
 /// What a rail does to a ball besides changing its motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RailImpulse {
     /// The impulse per mass along the line of the impact, m/s, which is zero or less for a ball that does not approach.
     pub normal: f64,

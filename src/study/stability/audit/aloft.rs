@@ -1,6 +1,9 @@
 //! What is lost at landings, by formulas apart from the engine's, and at impacts one after another, by those of the reference engine.
 
-use super::{doubt::STOPPED_SPEED, moment::Bounces};
+use super::{
+    doubt::{RESTING_SPEED, STOPPED_SPEED},
+    moment::Bounces,
+};
 use crate::{
     physics::{SpatialState, slip},
     simulation::{Event, EventKind},
@@ -60,7 +63,7 @@ pub struct Impacts {
 pub fn impacts(
     table: &Table,
     [before, after]: [&[SpatialState; BALLS]; 2],
-    [flew, group, rests]: [[bool; BALLS]; 3],
+    [flew, group, rested, rests]: [[bool; BALLS]; 4],
     told: &[Event],
     graze: bool,
 ) -> Impacts {
@@ -100,7 +103,12 @@ pub fn impacts(
         .map(|(index, contact)| (*contact, rests(contact) && !contacts[index + 1..].contains(contact)))
         .peekable();
     let mut bounces: Option<Bounces> = None;
-    let rounding = |contact: &Contact, balls: &[Ball<f64>; BALLS]| GRAZING * contact.relative(balls).length();
+    let rounding = |contact: &Contact, balls: &[Ball<f64>; BALLS]| {
+        let (first, second) = contact.balls();
+        let speed = |ball: usize| balls[ball].velocity.length();
+        let held = if rested[first] && second.is_none_or(|second| rested[second]) { RESTING_SPEED } else { 0.0 };
+        held.max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
+    };
     while let Some((contact, stays)) = contacts.next() {
         if contact.is_aloft(&balls) {
             let rounding = rounding(&contact, &balls);

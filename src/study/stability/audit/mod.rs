@@ -152,7 +152,7 @@ impl Audit<'_> {
                 Some(taken) if taken.unexplained.abs() <= doubt.at_a_change(self.table) => taken,
                 _ => {
                     let states = [&in_space, &after_in_space];
-                    let impacts = self.impacts((now, told), &earlier, states, [flew, group, rests], lost);
+                    let impacts = self.impacts((now, told), &earlier, states, [flew, group, rested, rests], lost);
                     let taken = Taken { unexplained: lost - impacts.lost, bounces: impacts.bounces };
                     match on_cloth {
                         Some(other) if other.unexplained.abs() <= taken.unexplained.abs() => other,
@@ -187,7 +187,7 @@ impl Audit<'_> {
         (now, told): (f64, &[Event]),
         earlier: &[Course; BALLS],
         [before, after]: [&[SpatialState; BALLS]; 2],
-        [flew, group, rests]: [[bool; BALLS]; 3],
+        [flew, group, rested, rests]: [[bool; BALLS]; 4],
         lost: f64,
     ) -> aloft::Impacts {
         let here = |ball: usize, state: &SpatialState| SpatialState { position: after[ball].position, ..*state };
@@ -196,7 +196,7 @@ impl Audit<'_> {
         };
         let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &before[ball]));
         let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], graze: bool| {
-            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rests], told, graze);
+            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], told, graze);
             impacts.lost += energy(&at_impact) - energy(balls);
             impacts
         };
