@@ -23,6 +23,8 @@ pub struct Ended<'a> {
     pub forces: &'a Forces,
     /// Whether something else has ended the step.
     pub interrupted: bool,
+    /// Whether step after step has begun anew.
+    pub repeats: bool,
 }
 
 impl Ended<'_> {
@@ -85,17 +87,19 @@ pub fn lawful(
             previous.goes_on_yielding(table.radius, tolerance, &begin, touching, &mut set);
         }
         settle(table, constants, &mut begin, touching, &set);
-        // Where forces are not unique they go on as they were.
-        let same = |previous: &Ended<'_>| previous.interrupted && previous.contacts.as_slice() == touching;
-        let similar = previous.filter(same).map(|previous| previous.forces);
-        let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
+        // Where forces are not unique they go on as they were behind what ends nothing, and where they have changed again and again.
+        let same =
+            |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts.as_slice() == touching;
+        let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts.as_slice(), touching);
+        let similar = previous.filter(same).map(of_these);
+        let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref())?;
         if resolved.is_paradox() {
             return Some((begin, resolved, false));
         }
         if let Some(sticking) = resolved.sticking {
             set = sticking;
             settle(table, constants, &mut begin, touching, &set);
-            resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
+            resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref())?;
         }
         let departs = resolved.set != set && {
             let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);

@@ -81,8 +81,15 @@ const CAUTION: f64 = 0.25;
 const MOST_GROWTH: f64 = 4.0;
 const LEAST_GROWTH: f64 = 0.1;
 
-/// Steps from `begin`, whose slope is `first`, over `length`, in as many rounds as bring the error below `tolerance`; all of
-/// them if none does. Only the `members` move, balls of a `radius` in m. `stiff` is what decays fast, if anything does.
+/// Whether so many more rounds would not bring an error below the tolerance, even if each took twice the powers of it that the last one
+/// did: what is not smooth on the way does not converge. The first error has none before it, and tells nothing.
+fn is_hopeless(error: f64, error_before: f64, rounds: usize, tolerance: f64) -> bool {
+    let ahead = i32::try_from(2 * rounds).unwrap_or(i32::MAX);
+    error_before.is_finite() && error * (error / error_before).powi(ahead) > tolerance
+}
+
+/// Steps from `begin`, whose slope is `first`, over `length`, in as many rounds as bring the error below `tolerance`, or until it is
+/// plain that none will. Only the `members` move, balls of a `radius` in m. `stiff` is what decays fast, if anything does.
 pub fn extrapolate(
     begin: &Phase,
     first: &Phase,
@@ -98,6 +105,7 @@ pub fn extrapolate(
     let mut best = Step { end: *begin, error: f64::INFINITY, best_length: LEAST_GROWTH * length };
     let (mut least_work, mut done) = (f64::INFINITY, 0.0);
     let counts = if stiff.is_some() { STIFF_COUNTS } else { COUNTS };
+    let mut hopeless = false;
     for (round, &count) in counts.iter().enumerate() {
         let h = length / count as f64;
         done += count as f64;
@@ -114,7 +122,8 @@ pub fn extrapolate(
         }
         if round > 0 {
             // An error of this round falls with the power 2 round + 1 of the length.
-            best.error = distance(&newer, &row[round - 1], members, radius);
+            let error_before = std::mem::replace(&mut best.error, distance(&newer, &row[round - 1], members, radius));
+            hopeless = is_hopeless(best.error, error_before, ROUNDS - 1 - round, tolerance);
             let room = CAUTION * tolerance / best.error.max(f64::MIN_POSITIVE);
             let growth = libm::pow(room, 1.0 / (2 * round + 1) as f64).clamp(LEAST_GROWTH, MOST_GROWTH);
             let work = done / growth;
@@ -130,7 +139,7 @@ pub fn extrapolate(
         }
         row[round] = newer;
         best.end = newer;
-        if best.error <= tolerance {
+        if best.error <= tolerance || hopeless {
             break;
         }
     }
@@ -221,6 +230,23 @@ mod tests {
         assert!((step.end.balls[1].position.x - 0.5_f64.cos()).abs() < 1e-14, "{step:?}");
         assert!((step.end.balls[2].velocity.x + 0.5_f64.sin()).abs() < 1e-14);
         assert!(step.error <= 1e-14 && step.best_length > 0.1 && (step.end.time - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_is_not_smooth_is_given_up_early() {
+        let mut slopes = 0;
+        let kinked = |phase: &Phase| {
+            slopes += 1;
+            let pull = if phase.time < 0.3 { DVec2::X } else { DVec2::NEG_X };
+            Phase { balls: phase.balls.map(|_| BallState { velocity: pull, ..BallState::at_rest(pull) }), time: 1.0 }
+        };
+        let still = Phase { balls: [BallState::at_rest(DVec2::ZERO); BALLS], time: 0.0 };
+        let first =
+            Phase { balls: [BallState { velocity: DVec2::X, ..BallState::at_rest(DVec2::X) }; BALLS], time: 1.0 };
+        let step = extrapolate(&still, &first, kinked, None, [true; BALLS], 0.5, (1.0, 1e-12));
+        assert!(step.error > 1e-12 && step.best_length < 0.5, "{step:?}");
+        // All rounds take 72.
+        assert!(slopes < 30, "{slopes}");
     }
 
     /// A speed that follows a cosine within a hundred-thousandth of its period: explicit steps would be as short.

@@ -51,6 +51,10 @@ const AT_ONCE: f64 = 1e-3;
 /// After so many such steps in a row forces are sought anew in every state.
 const MOST_SHORT_STEPS: u32 = 16;
 
+/// After so many steps in a row that began anew, forces that are not unique are near to those before: found without them, they may break
+/// a law at once, again and again.
+const MOST_RESTARTS: u32 = 8;
+
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
 
@@ -88,6 +92,8 @@ pub struct Resting {
     shared: bool,
     /// How many steps in a row have ended at once.
     short_steps: u32,
+    /// How many steps in a row have begun anew.
+    restarts: u32,
     /// Whether all that holds at the end is what held at the beginning.
     goes_on: bool,
     /// Whether something else has ended the step.
@@ -150,6 +156,7 @@ impl Resting {
             last: forces,
             shared,
             short_steps: previous.map_or(0, |previous| previous.short_steps),
+            restarts: previous.map_or(0, |previous| previous.restarts + 1),
             goes_on: false,
             interrupted: false,
             next_step,
@@ -161,7 +168,13 @@ impl Resting {
 
     /// What the end of this step leaves to the next.
     const fn ended(&self) -> Ended<'_> {
-        Ended { contacts: &self.contacts, set: &self.set, forces: &self.last, interrupted: self.interrupted }
+        Ended {
+            contacts: &self.contacts,
+            set: &self.set,
+            forces: &self.last,
+            interrupted: self.interrupted,
+            repeats: self.restarts > MOST_RESTARTS,
+        }
     }
 
     /// Whether the forces at both ends of the step obey all laws to rounding.
@@ -176,6 +189,7 @@ impl Resting {
         let moves = |ball: usize| self.members[ball] && !is_still(limit, table.radius, &self.end[ball]);
         if self.goes_on && (0..BALLS).any(moves) {
             (self.start, self.begin, self.first) = (self.start + self.step, self.end, self.last);
+            self.restarts = 0;
             self.advance(table);
             return true;
         }

@@ -149,9 +149,10 @@ pub(super) fn solved(
     contacts: &[Contact],
     set: &ActiveSet,
     similar: Option<&Forces>,
+    seek: fn(&Problem, &Sizes) -> Solution,
 ) -> (Problem, Solution) {
     let mut problem = Problem::new(table, balls, contacts, set);
-    let mut solution = solve(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)));
+    let mut solution = seek(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)));
     let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.place, side), (Place::Contact(index), Side::Limited(_)) if never_slips(table, &contacts[index]));
     if problem.unknowns.iter().zip(&solution.sides).any(reaches_its_limit) {
         problem.grip(contacts);
@@ -187,7 +188,9 @@ pub fn yielding(
     set: &ActiveSet,
     similar: &Forces,
 ) -> Forces {
-    let (problem, solution) = solved(table, balls, contacts, set, Some(similar));
+    // Where none have been found the step fails, as a rule: it is not worth a long search in each of its states.
+    let seek = if similar.converged { solve } else { solve_near };
+    let (problem, solution) = solved(table, balls, contacts, set, Some(similar), seek);
     let accelerations = problem.accelerations(&solution.sizes);
     let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);
     forces.slack = spin_slack(table.radius, balls, set);
@@ -284,6 +287,18 @@ impl Forces {
             sizes[unknown.first..][..unknown.count].copy_from_slice(&own[..unknown.count]);
         }
         sizes
+    }
+
+    /// The same forces for other contacts; those that are new have none.
+    #[must_use]
+    pub fn of_contacts(&self, own: &[Contact], contacts: &[Contact]) -> Self {
+        let mut forces = Self { normal: [0.0; MAX_CONTACTS], friction: [DVec2::ZERO; MAX_CONTACTS], ..*self };
+        for (index, contact) in contacts.iter().enumerate() {
+            if let Some(before) = own.iter().position(|before| before == contact) {
+                (forces.normal[index], forces.friction[index]) = (self.normal[before], self.friction[before]);
+            }
+        }
+        forces
     }
 
     /// The largest friction in a contact per ball mass, m/s².

@@ -13,7 +13,7 @@ use super::{
     held::forces,
     margin::rates,
     problem::{Place, Problem},
-    solve::{Side, Solution, solve_near},
+    solve::{Side, Solution, solve, solve_near},
 };
 use crate::{
     physics::BallState,
@@ -37,7 +37,7 @@ pub fn resolve(
     slack: f64,
     similar: Option<&Forces>,
 ) -> Option<Resolved> {
-    let (mut problem, mut solution) = solved(table, balls, contacts.as_slice(), set, similar);
+    let (mut problem, mut solution) = solved(table, balls, contacts.as_slice(), set, similar, solve);
     if let Some(eased) = easing(table, balls, contacts, set, slack, (&mut problem, &mut solution)) {
         return Some(eased);
     }
