@@ -80,7 +80,11 @@ perfect match-three-cushion-tenth --from "$folder/match-three-cushion-ninth" --s
 perfect match-three-cushion-eleventh --from "$folder/match-three-cushion-tenth" --seed 502 --steps 40000000 $fast --set ranking=0.6
 slower="--set critic_learning_rate=0.001 --set actor_learning_rate=0.0003 --set ranking=0.6"
 perfect match-three-cushion-twelfth --from "$folder/match-three-cushion-eleventh" --seed 503 --steps 24000000 $slower
-perfect match-three-cushion --from "$folder/match-three-cushion-twelfth" --seed 504 --steps 16000000 $slower
+perfect match-three-cushion-thirteenth --from "$folder/match-three-cushion-twelfth" --seed 504 --steps 16000000 $slower
+# Then the critic alone.
+alone="--set ranking=0.7 --set actor_learning_rate=0.000000001 --set actor_batch=1"
+perfect match-three-cushion-fourteenth --from "$folder/match-three-cushion-thirteenth" --seed 505 --steps 14000000 $alone --set critic_learning_rate=0.0013
+perfect match-three-cushion --from "$folder/match-three-cushion-fourteenth" --seed 506 --steps 6000000 $alone --set critic_learning_rate=0.0003
 # Heads with speeds of their own; then expert iteration, in which a search shows what players who err make most often; then without a
 # search, so that the critic learns to choose: at three cushions it alone, for there the actor went back to harder strokes.
 heads="$rate --set heads=9 --set actor_batch=64"

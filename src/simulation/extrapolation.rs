@@ -80,6 +80,7 @@ impl Phase {
 const CAUTION: f64 = 0.25;
 const MOST_GROWTH: f64 = 4.0;
 const LEAST_GROWTH: f64 = 0.1;
+const GIVEN_UP_GROWTH: f64 = 0.25;
 
 /// Whether so many more rounds would not bring an error below the tolerance, even if each took twice the powers of it that the last one
 /// did: what is not smooth on the way does not converge. The first error has none before it, and tells nothing.
@@ -139,7 +140,12 @@ pub fn extrapolate(
         }
         row[round] = newer;
         best.end = newer;
-        if best.error <= tolerance || hopeless {
+        if best.error <= tolerance {
+            break;
+        }
+        if hopeless {
+            // Few rounds tell little of how much shorter a step must be; trying costs as little.
+            best.best_length = best.best_length.max(GIVEN_UP_GROWTH * length);
             break;
         }
     }
