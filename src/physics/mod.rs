@@ -19,7 +19,7 @@ pub use cue_room::tests::collides;
 pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};
 pub use flight::{Cloth, SpatialState, turned_by_cloth};
 pub use impact::{
-    BallImpact, Cushion, Cushions, ImpactLaw, RailImpulse, collide_balls, collide_rail, collide_together,
+    BallImpact, Cushion, Cushions, ImpactImpulse, ImpactLaw, collide_balls, collide_rail, collide_together,
 };
 pub use motion::{
     BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, sliding_deceleration, slip, spin_deceleration,

@@ -23,7 +23,7 @@ pub struct Ended<'a> {
     pub forces: &'a Forces,
     /// Whether something else has ended the step.
     pub interrupted: bool,
-    /// Whether step after step has begun anew.
+    /// Whether many steps in a row have begun anew.
     pub repeats: bool,
 }
 
@@ -87,7 +87,8 @@ pub fn lawful(
             previous.goes_on_yielding(table.radius, tolerance, &begin, touching, &mut set);
         }
         settle(table, constants, &mut begin, touching, &set);
-        // Where forces are not unique they go on as they were behind what ends nothing, and where they have changed again and again.
+        // Where forces are not unique, those near to the ones before are taken: after an interruption that has changed no contact, and after
+        // many steps in a row that have begun anew.
         let same =
             |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts.as_slice() == touching;
         let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts.as_slice(), touching);

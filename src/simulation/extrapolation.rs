@@ -80,13 +80,15 @@ impl Phase {
 const CAUTION: f64 = 0.25;
 const MOST_GROWTH: f64 = 4.0;
 const LEAST_GROWTH: f64 = 0.1;
-const GIVEN_UP_GROWTH: f64 = 0.25;
 
-/// Whether so many more rounds would not bring an error below the tolerance, even if each took twice the powers of it that the last one
-/// did: what is not smooth on the way does not converge. The first error has none before it, and tells nothing.
+/// How much of a step is tried next, at least, after one that was given up early: few rounds tell little of the right length, and to try
+/// costs as little.
+const LEAST_GROWTH_AFTER_FEW_ROUNDS: f64 = 0.25;
+
+/// Whether an error stays above the tolerance in so many more rounds, even if each of them reduces it by the square of the factor by
+/// which the last one did. Where the slope jumps within the step nothing converges. The first error has none to be compared with.
 fn is_hopeless(error: f64, error_before: f64, rounds: usize, tolerance: f64) -> bool {
-    let ahead = i32::try_from(2 * rounds).unwrap_or(i32::MAX);
-    error_before.is_finite() && error * (error / error_before).powi(ahead) > tolerance
+    error_before.is_finite() && error * libm::pow(error / error_before, (2 * rounds) as f64) > tolerance
 }
 
 /// Steps from `begin`, whose slope is `first`, over `length`, in as many rounds as bring the error below `tolerance`, or until it is
@@ -106,9 +108,9 @@ pub fn extrapolate(
     let mut best = Step { end: *begin, error: f64::INFINITY, best_length: LEAST_GROWTH * length };
     let (mut least_work, mut done) = (f64::INFINITY, 0.0);
     let counts = if stiff.is_some() { STIFF_COUNTS } else { COUNTS };
-    let mut hopeless = false;
     for (round, &count) in counts.iter().enumerate() {
         let h = length / count as f64;
+        let error_before = best.error;
         done += count as f64;
         let mut newer = match stiff {
             Some(stiff) => leap_damped(begin, first, &mut slope, stiff, members, (count, h)),
@@ -123,8 +125,7 @@ pub fn extrapolate(
         }
         if round > 0 {
             // An error of this round falls with the power 2 round + 1 of the length.
-            let error_before = std::mem::replace(&mut best.error, distance(&newer, &row[round - 1], members, radius));
-            hopeless = is_hopeless(best.error, error_before, ROUNDS - 1 - round, tolerance);
+            best.error = distance(&newer, &row[round - 1], members, radius);
             let room = CAUTION * tolerance / best.error.max(f64::MIN_POSITIVE);
             let growth = libm::pow(room, 1.0 / (2 * round + 1) as f64).clamp(LEAST_GROWTH, MOST_GROWTH);
             let work = done / growth;
@@ -143,9 +144,8 @@ pub fn extrapolate(
         if best.error <= tolerance {
             break;
         }
-        if hopeless {
-            // Few rounds tell little of how much shorter a step must be; trying costs as little.
-            best.best_length = best.best_length.max(GIVEN_UP_GROWTH * length);
+        if is_hopeless(best.error, error_before, ROUNDS - 1 - round, tolerance) {
+            best.best_length = best.best_length.max(LEAST_GROWTH_AFTER_FEW_ROUNDS * length);
             break;
         }
     }

@@ -14,7 +14,7 @@ use super::{
     segment::Course,
 };
 use crate::{
-    physics::{Contact, Motion, SpatialState},
+    physics::{BallState, Contact, Motion, SpatialState},
     table::BALLS,
 };
 
@@ -88,12 +88,26 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// A ball that a cushion has lifted.
     #[cold]
-    pub(super) fn climb(&mut self, index: usize, now: f64, state: &SpatialState, freed: bool) -> ControlFlow<()> {
+    pub(super) fn climb(
+        &mut self,
+        index: usize,
+        now: f64,
+        state: BallState,
+        climb: f64,
+        freed: bool,
+    ) -> ControlFlow<()> {
         self.close(index, now);
         let rail = self.balls[index].rail;
         self.tell(now, EventKind::BallRail(index, rail))?;
-        self.launch_in_space(index, now, state)?;
+        self.lift(index, now, state, climb)?;
         self.look_ahead(now, either(freed, self.freed_members(), only(index)))
+    }
+
+    /// Sends a ball off the cloth with the upward velocity `climb`, m/s.
+    pub(super) fn lift(&mut self, index: usize, now: f64, state: BallState, climb: f64) -> ControlFlow<()> {
+        let mut lifted = SpatialState::from(state);
+        lifted.velocity.z = climb;
+        self.launch_in_space(index, now, &lifted)
     }
 
     /// A ball in the air meets the nose of a cushion, or comes down behind it.

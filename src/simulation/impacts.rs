@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, MAX_CONTACTS, Motion, RailImpulse, SpatialState, collide_together,
+        ActiveSet, BallState, Contact, Contacts, ImpactImpulse, MAX_CONTACTS, Motion, collide_together,
         stop_by_impulses,
     },
     table::BALLS,
@@ -46,9 +46,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let before = state;
         let impulse = self.law.cushions.at(rail).resolve(c.radius, n, &mut state);
         if impulse.climb > c.lifts {
-            let mut climbing = SpatialState::from(state);
-            climbing.velocity.z = impulse.climb;
-            return self.climb(index, now, &climbing, freed.is_some());
+            return self.climb(index, now, state, impulse.climb, freed.is_some());
         }
         let mut told = true;
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
@@ -167,7 +165,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return ControlFlow::Continue(false);
         }
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
-        let climbs = |impulse: &RailImpulse| impulse.climb > c.lifts;
+        let climbs = |impulse: &ImpactImpulse| impulse.climb > c.lifts;
         let mut told = Vec::with_capacity(MAX_CONTACTS);
         for (contact, impulse) in met() {
             let slow = contact.opening_speed(&states) <= c.tolerance.slow_bounce && !climbs(impulse);
@@ -181,9 +179,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             self.tell_impact(now, kind(contact), told)?;
         }
         for (contact, impulse) in met().filter(|(_, impulse)| climbs(impulse)) {
-            let mut climbing = SpatialState::from(states[contact.first]);
-            climbing.velocity.z = impulse.climb;
-            self.launch_in_space(contact.first, now, &climbing)?;
+            self.lift(contact.first, now, states[contact.first], impulse.climb)?;
         }
         self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))?;
         ControlFlow::Continue(true)

@@ -51,8 +51,8 @@ const AT_ONCE: f64 = 1e-3;
 /// After so many such steps in a row forces are sought anew in every state.
 const MOST_SHORT_STEPS: u32 = 16;
 
-/// After so many steps in a row that began anew, forces that are not unique are near to those before: found without them, they may break
-/// a law at once, again and again.
+/// After so many steps in a row that began anew, forces that are not unique are sought near to those before. Sought from nothing, they
+/// may lie at the edge of a law and break it at once, in every step.
 const MOST_RESTARTS: u32 = 8;
 
 /// Most guesses at the moment at which a law breaks; false position needs about ten.

@@ -188,7 +188,7 @@ pub fn yielding(
     set: &ActiveSet,
     similar: &Forces,
 ) -> Forces {
-    // Where none have been found the step fails, as a rule: it is not worth a long search in each of its states.
+    // Where the state before has no forces the step mostly fails: a long search in each of its states is not worth its time.
     let seek = if similar.converged { solve } else { solve_near };
     let (problem, solution) = solved(table, balls, contacts, set, Some(similar), seek);
     let accelerations = problem.accelerations(&solution.sizes);

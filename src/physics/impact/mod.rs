@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::BallState;
 pub use ball_ball::{BallImpact, collide_balls};
-pub use cushion::{Cushion, Cushions, RailImpulse, collide_rail};
+pub use cushion::{Cushion, Cushions, ImpactImpulse, collide_rail};
 pub use simultaneous::{ImpactLaw, collide_together};
 
 /// The speed with which an impact in the air opens that closes with `approach`, m/s. One slower than `slowest` loses nothing: a

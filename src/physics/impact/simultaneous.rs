@@ -1,11 +1,11 @@
 //! Several impacts at the same moment: balls that touch, a ball that meets another and a cushion at once.
 //!
 //! The impacts run through touching balls in rounds, as in Smith, Kaufman, Vouga, Tamstorf and Grinspun, "Reflections on
-//! simultaneous impact" (2012). A round takes the contacts that close at that moment, all of them together, and solves
-//! Moreau's law for their normal impulses: `0 ≤ v⁺ + e v⁻ ⊥ P ≥ 0`. Since each of them closes, `v⁻ < 0`, the round takes
-//! `½ Σ (1 - e²)`-wise the energy of their approach and never adds any, also where coefficients differ. Each contact's friction then
-//! follows from its slip before the round and its `P` by the law of a single impact; should they together add energy, they
-//! are scaled down until they do not. What closes behind a round belongs to the next one.
+//! simultaneous impact" (2012). A round takes all contacts that close at that moment. One that shares no ball with another is
+//! a single impact. For the others together Moreau's law gives the normal impulses: `0 ≤ v⁺ + e v⁻ ⊥ P ≥ 0`. Since each of them
+//! closes, `v⁻ < 0`, the round takes `½ Σ (1 - e²)`-wise the energy of their approach and never adds any, also where coefficients
+//! differ. Each contact's friction then follows from its slip before the round and its `P` by the law of a single impact; should
+//! they together add energy, they are scaled down until they do not. What closes behind a round belongs to the next one.
 //!
 //! So the outcome is the limit of vanishing gaps where that limit is one: Newton's cradle passes a blow on to its last ball,
 //! as does a frozen pair that is struck from behind. Where it is not, as in a symmetric break, no order of numbering
@@ -15,7 +15,7 @@
 
 use glam::DVec2;
 
-use super::{BallImpact, BallState, Cushion, Cushions, RailImpulse, contact_twist};
+use super::{BallImpact, BallState, Cushion, Cushions, ImpactImpulse, contact_twist};
 use crate::{
     physics::{Contact, MAX_CONTACTS},
     table::{BALLS, Rail, Table},
@@ -61,19 +61,20 @@ impl ImpactLaw {
     }
 }
 
-/// One round: all `contacts` collide, those that share balls together, any other by a law of its own where it has one. Returns what
-/// each does, its normal impulse per mass being zero for those that the others relieve of theirs.
+/// One round: all `contacts` collide, those that share balls together, any other as a single impact. Returns the impulse of each; the
+/// normal one is zero where the others relieve a contact of its own.
 pub fn collide_together(
     radius: f64,
     law: &ImpactLaw,
     balls: &mut [BallState; BALLS],
     contacts: &[Contact],
-) -> [RailImpulse; MAX_CONTACTS] {
+) -> [ImpactImpulse; MAX_CONTACTS] {
+    // A contact whose law is the same in both cases stays with the others.
     let is_alone = |contact: &Contact| {
         let shares = |other: &Contact| other != contact && other.shares_a_ball(contact);
         contacts.len() == 1 || !law.is_plain(contact) && !contacts.iter().any(shares)
     };
-    let mut impulses = [RailImpulse::default(); MAX_CONTACTS];
+    let mut impulses = [ImpactImpulse::default(); MAX_CONTACTS];
     let (alone, together): (Vec<_>, Vec<_>) = (0..contacts.len()).partition(|&index| is_alone(&contacts[index]));
     for index in alone {
         impulses[index] = collide_alone(radius, law, balls, &contacts[index]);
@@ -137,14 +138,14 @@ fn collide_joined(
 }
 
 /// A single impact.
-fn collide_alone(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> RailImpulse {
+fn collide_alone(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> ImpactImpulse {
     match contact.second {
         None => law.cushion(contact).resolve(radius, contact.cushion_normal, &mut balls[contact.first]),
         Some(second) => {
             let (mut one, mut other) = (balls[contact.first], balls[second]);
             let normal = law.balls.resolve(radius, &mut one, &mut other);
             (balls[contact.first], balls[second]) = (one, other);
-            RailImpulse { normal, climb: 0.0 }
+            ImpactImpulse { normal, climb: 0.0 }
         }
     }
 }

@@ -23,13 +23,13 @@ pub struct Cushion {
     fade: Option<Fade>,
 }
 
-/// What a rail does to a ball besides changing its motion.
+/// What an impact with a rail or another ball does besides changing the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RailImpulse {
+pub struct ImpactImpulse {
     /// The impulse per mass along the line of the impact, m/s, which is zero or less for a ball that does not approach.
     pub normal: f64,
     /// Upward velocity that the ball would have, were nothing above the cloth to hold it, m/s: the friction of much follow
-    /// lets it climb the nose.
+    /// lets it climb the nose of a rail. None for two balls.
     pub climb: f64,
 }
 
@@ -84,16 +84,16 @@ impl Cushion {
 
     /// Velocity and spin after a collision of a ball on the cloth with this cushion, whose normal into the table is `n`.
     #[inline(always)]
-    pub fn resolve(&self, radius: f64, n: DVec2, ball: &mut BallState) -> RailImpulse {
+    pub fn resolve(&self, radius: f64, n: DVec2, ball: &mut BallState) -> ImpactImpulse {
         if self.is_plain() {
             let normal = collide_rail(radius, self.restitution, self.friction, n, ball);
-            return RailImpulse { normal, climb: 0.0 };
+            return ImpactImpulse { normal, climb: 0.0 };
         }
         self.resolve_at_height(radius, n, ball)
     }
 
     #[inline(never)]
-    fn resolve_at_height(&self, radius: f64, n: DVec2, ball: &mut BallState) -> RailImpulse {
+    fn resolve_at_height(&self, radius: f64, n: DVec2, ball: &mut BallState) -> ImpactImpulse {
         let restitution = self.restitution_at(-ball.velocity.dot(n));
         let [normal, climb] = match self.law {
             Law::Equator => [collide_rail(radius, restitution, self.friction, n, ball), 0.0],
@@ -104,7 +104,7 @@ impl Cushion {
                 [mathavan::collide(radius, restitution, [self.friction, cloth], [sine, cosine], n, ball), 0.0]
             }
         };
-        RailImpulse { normal, climb }
+        ImpactImpulse { normal, climb }
     }
 
     fn restitution_at(&self, approach: f64) -> f64 {
