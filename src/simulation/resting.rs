@@ -31,12 +31,13 @@ use crate::{
 /// A slip may fall to this power of `e` in a step: to a tenth.
 const FALL: f64 = 1.3;
 
-/// How far a course may stray from the polynomial of degree five as which it is handed on, m. In a step of `h` seconds along
-/// which a slip turns in `turn` seconds under accelerations `a` it strays by about `a h⁶/(2000 turn⁴)`.
+/// How far a course may stray from the polynomial of degree five as which it is handed on while a slip turns or ends, m. In a step of
+/// `h` seconds along which a slip turns in `turn` seconds under accelerations `a` it strays by about `a h⁶/(2000 turn⁴)`; half-way it may
+/// not show.
 const STRAY: f64 = 1e-10;
 
-/// Longest change of speed by the cloth's friction in a step, m/s: courses along which nothing slips bend, too.
-const LONGEST_CURVE: f64 = 0.04;
+/// Longest change of speed by the cloth's friction in a step, m/s: where nothing tells how long one may be, this much is tried.
+const LONGEST_CURVE: f64 = 0.08;
 
 /// Steps longer than so many times in which a slip's direction comes to follow the forces are implicit in it; explicit ones are
 /// not stable then.
@@ -206,8 +207,12 @@ impl Resting {
         };
         let mut span = self.longest_step(table.radius).min(self.next_step).max(shortest);
         let (trial, broken) = loop {
-            let trial = self.attempt(table, &begin, span);
-            let Some(shorter) = self.shorter(table, &trial).filter(|_| span > shortest) else {
+            let mut trial = self.attempt(table, &begin, span);
+            let middle = self.forces(table, &self.half_way(&trial), &trial.forces);
+            let course = self.longest_course(&trial, &middle);
+            trial.step.best_length = trial.step.best_length.min(course);
+            let Some(shorter) = self.shorter(table, &trial, course).filter(|_| span > shortest) else {
+                let trial = self.breaking_half(table, &begin, &trial, &middle).unwrap_or(trial);
                 let doubtful = trial.forces.slack < -self.constants.tolerance.slack || self.shared;
                 let broken = doubtful && !self.holds(table, &trial);
                 break (if broken { self.until_a_law_breaks(table, &begin, &trial) } else { trial }, broken);
@@ -346,7 +351,7 @@ impl Resting {
             }
             let secant = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
             let share = if same_side.abs() > 2 { 0.5 } else { secant };
-            let middle = self.attempt(table, &before, before.span + share * (after.span - before.span));
+            let middle = self.reach(table, &before, before.span + share * (after.span - before.span));
             let value = middle.forces.slack + allowed;
             if value < 0.0 {
                 (after, high_value) = (middle, value);
@@ -369,7 +374,7 @@ impl Resting {
     fn while_it_holds(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         let (mut before, mut after) = (*begin, *whole);
         while after.span - before.span > self.constants.tolerance.shortest_step.max(1e-9 * after.span) {
-            let middle = self.attempt(table, &before, 0.5 * (before.span + after.span));
+            let middle = self.reach(table, &before, 0.5 * (before.span + after.span));
             if self.holds(table, &middle) {
                 before = middle;
             } else {
@@ -390,15 +395,19 @@ impl Resting {
             return false;
         }
         resolve(table, end, &self.contacts, &self.set, self.constants.tolerance.slack, Some(&trial.forces)).is_some_and(
-            |lawful| trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * self.constants.tolerance.slack,
+            |lawful| {
+                trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * self.constants.tolerance.slack
+                    && lawful.contacts.as_slice() == self.contacts.as_slice()
+                    && !lawful.set.lets_go(&self.set)
+            },
         )
     }
 
-    /// Longest step whose course a polynomial can follow, in rescaled time; sets the scale.
+    /// Longest step that is worth trying, in rescaled time; sets the scale.
     fn longest_step(&mut self, radius: f64) -> f64 {
         self.time_scale = None;
         let sliding = self.constants.sliding;
-        let strays = |force: f64, turn: f64| libm::pow(2000.0 * STRAY / force * turn.powi(4), 1.0 / 6.0);
+        let strays = |turn: f64| libm::pow(2000.0 * STRAY / sliding * turn.powi(4), 1.0 / 6.0);
         let mut longest = LONGEST_CURVE / sliding;
         let (mut soonest, mut time_scale) = (f64::INFINITY, None);
         self.slips(radius, &self.begin, &self.first, |place, slip, rate| {
@@ -406,8 +415,7 @@ impl Resting {
             if length <= self.constants.tolerance.slip {
                 return;
             }
-            let turn = length / rate.length();
-            longest = longest.min(strays(sliding, turn));
+            longest = longest.min(strays(length / rate.length()));
             // An implicit step begins where a direction has come to follow the forces; before, it turns fast.
             let turning = (slip.perp_dot(rate) / (length * length)).abs();
             longest = longest.min((STIFF * length / (3.5 * sliding)).max(MOST_TURN / turning));
@@ -416,16 +424,6 @@ impl Resting {
                 (soonest, time_scale) = (falls, Some((place, length)));
             }
         });
-        // Two balls turn about each other, and the forces between them with them.
-        for contact in self.contacts.as_slice().iter().filter(|contact| contact.second.is_some()) {
-            let across = contact.relative_speed(&self.begin);
-            let (turn, force) = (2.0 * radius / across, sliding + across * across / radius);
-            // However slow they are, what is accelerated past the other ball turns about it in the end.
-            let apart =
-                self.first.linear[contact.first] - contact.second.map_or(DVec2::ZERO, |ball| self.first.linear[ball]);
-            let turns = (2.0 * radius / apart.length()).sqrt();
-            longest = longest.min(strays(force, turn)).min(strays(sliding, turns));
-        }
         // A slip that is far from its end needs no other time.
         if longest < 0.1 * soonest {
             return longest;

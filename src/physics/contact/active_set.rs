@@ -159,6 +159,13 @@ impl ActiveSet {
         !self.cloth.iter().chain(&self.roll).chain(&self.contact).any(|friction| friction.begins())
     }
 
+    /// Whether a ball slips, rolls or spins that by another set is held.
+    pub fn lets_go(&self, held: &Self) -> bool {
+        let pairs = [(&self.cloth, &held.cloth), (&self.roll, &held.roll), (&self.spin, &held.spin)];
+        let lets_go = |(now, before): (&Friction, &Friction)| *before == Friction::Sticks && *now != Friction::Sticks;
+        pairs.into_iter().any(|(now, before)| now.iter().zip(before).any(lets_go))
+    }
+
     /// The first ball whose resistance to rolling eases, if there is one.
     pub(super) fn eased(&self) -> Option<usize> {
         self.roll.iter().position(|friction| *friction == Friction::Eases)

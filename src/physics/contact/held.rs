@@ -156,35 +156,57 @@ impl<const ROOM: usize> Held<ROOM> {
         &self.joints[..self.contacts]
     }
 
-    /// The rates of all unknowns by all unknowns, row by row.
-    fn fill(&self, matrix: &mut [f64]) {
+    /// How the balls move under each unknown alone, where the cloth holds them.
+    #[inline(always)]
+    fn responses(&self) -> [[Movement; 3]; ROOM] {
+        let mut responses = [[Movement::NONE; 3]; ROOM];
+        let all = responses.as_flattened_mut();
         for joint in self.joints() {
             for unknown in 0..joint.unknowns {
                 let (push, twist) = joint.act(joint.unit(unknown));
-                let mut response = Movement::NONE;
+                let response = &mut all[joint.at + unknown];
                 for (ball, sense) in joint.members() {
                     (response.linear[ball], response.angular[ball]) = self.sticking[ball].held(sense * push, twist);
                 }
-                for other in self.joints() {
-                    for (row, rate) in other.rates(&response)[..other.unknowns].iter().enumerate() {
-                        matrix[(other.at + row) * self.unknowns + joint.at + unknown] = *rate;
-                    }
+            }
+        }
+        responses
+    }
+
+    /// The rates of all unknowns by all unknowns, row by row.
+    #[inline(always)]
+    fn fill(&self, matrix: &mut [f64], responses: &[Movement]) {
+        for (column, response) in responses.iter().enumerate() {
+            for joint in self.joints() {
+                for (row, rate) in joint.rates(response)[..joint.unknowns].iter().enumerate() {
+                    matrix[(joint.at + row) * responses.len() + column] = *rate;
                 }
             }
         }
     }
 
     /// Finds the sizes for which all rates vanish if the balls would move like `free` without the contacts; `bends` says
-    /// whether the courses' bends count. Returns the movement before the cloth holds it and after; none where the rates
-    /// cannot vanish together.
+    /// whether the courses' bends count. Returns the movement that is left; none where the rates cannot vanish together.
     #[inline(always)]
-    fn solve(&mut self, free: &Movement, bends: bool) -> Option<[Movement; 2]> {
-        let count = self.unknowns;
+    fn solve(&mut self, free: &Movement, bends: bool) -> Option<Movement> {
+        // Numbers that the compiler knows make most of the systems cheaper: a contact that slips, one that sticks, and both.
+        match self.unknowns {
+            1 => self.solve_for(1, free, bends),
+            3 => self.solve_for(3, free, bends),
+            4 => self.solve_for(4, free, bends),
+            count => self.solve_for(count, free, bends),
+        }
+    }
+
+    #[inline(always)]
+    fn solve_for(&mut self, count: usize, free: &Movement, bends: bool) -> Option<Movement> {
+        let responses = self.responses();
+        let responses = &responses.as_flattened()[..count];
         let mut matrix = [[[[0.0; 3]; 3]; ROOM]; ROOM];
         let factors = &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..count * count];
         let mut pivots = [[0; 3]; ROOM];
         let pivots = &mut pivots.as_flattened_mut()[..count];
-        self.fill(factors);
+        self.fill(factors, responses);
         let unique = !self.redundant && factorize(factors, pivots) > SINGULAR;
         if unique {
             for (joint, sizes) in self.joints[..self.contacts].iter().zip(&mut self.sizes) {
@@ -192,7 +214,7 @@ impl<const ROOM: usize> Held<ROOM> {
             }
         } else {
             if !self.redundant {
-                self.fill(factors);
+                self.fill(factors, responses);
                 self.redundant = true;
             }
             for index in 0..count {
@@ -203,9 +225,9 @@ impl<const ROOM: usize> Held<ROOM> {
         let scale = (0..BALLS).fold(f64::MIN_POSITIVE, |scale, ball| {
             scale.max(free.linear[ball].abs().max_element()).max(free.angular[ball].abs().max_element())
         });
+        let mut moved = self.held(&self.unheld(free));
         let mut smallest = f64::INFINITY;
         for round in 0..MAX_REFINEMENTS {
-            let (forced, moved) = self.moved(free);
             let mut side = [[0.0; 3]; ROOM];
             let side = side.as_flattened_mut();
             let (mut residual, mut scale) = (0.0_f64, scale);
@@ -222,7 +244,7 @@ impl<const ROOM: usize> Held<ROOM> {
             // Once rounding is reached, more rounds would only stir it. What is next to nothing beside a spin may yet carry a ball on.
             let is_rounding = residual <= ROUNDING * scale && round > 0 && (unique || residual >= 0.5 * smallest);
             if residual <= 16.0 * f64::EPSILON * scale || is_rounding {
-                return Some([forced, moved]);
+                return Some(moved);
             }
             smallest = smallest.min(residual);
             substitute(factors, pivots, &mut side[..count]);
@@ -230,6 +252,9 @@ impl<const ROOM: usize> Held<ROOM> {
                 for (size, change) in sizes[..joint.unknowns].iter_mut().zip(&side[joint.at..]) {
                     *size += change;
                 }
+            }
+            for (change, response) in side.iter().zip(responses) {
+                moved.add(*change, response);
             }
         }
         None
@@ -242,22 +267,27 @@ impl<const ROOM: usize> Held<ROOM> {
         [normal, along + slip_friction.x * normal, up + slip_friction.y * normal]
     }
 
-    /// The movement under the contacts' forces, before the cloth holds it and after.
-    fn moved(&self, free: &Movement) -> (Movement, Movement) {
-        let mut forced = *free;
+    /// How the balls would move under the contacts' forces if the cloth held nothing.
+    fn unheld(&self, free: &Movement) -> Movement {
+        let mut unheld = *free;
         for (index, joint) in self.joints().iter().enumerate() {
             let (push, twist) = joint.act(self.force(index));
             for (ball, sense) in joint.members() {
-                forced.linear[ball] += sense * push;
-                forced.angular[ball] += twist;
+                unheld.linear[ball] += sense * push;
+                unheld.angular[ball] += twist;
             }
         }
-        let mut moved = forced;
+        unheld
+    }
+
+    /// What the cloth leaves of a movement of the contacts' balls.
+    fn held(&self, movement: &Movement) -> Movement {
+        let mut held = *movement;
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
-            (moved.linear[ball], moved.angular[ball]) =
-                self.sticking[ball].held(forced.linear[ball], forced.angular[ball]);
+            (held.linear[ball], held.angular[ball]) =
+                self.sticking[ball].held(movement.linear[ball], movement.angular[ball]);
         }
-        (forced, moved)
+        held
     }
 }
 
@@ -283,49 +313,15 @@ pub fn accelerations(
     set: &ActiveSet,
     similar: &Forces,
 ) -> Option<([DVec2; BALLS], [DVec3; BALLS])> {
-    let alone = if let [contact] = contacts { slipping(table, balls, contact, set) } else { None };
-    let moved = match alone {
-        Some(moved) => moved,
-        None => in_room!(contacts, ROOM => Solved::<ROOM>::new(table, balls, contacts, set, Some(similar))?.moved),
-    };
+    let moved = in_room!(contacts, ROOM => Solved::<ROOM>::new(table, balls, contacts, set, Some(similar))?.moved);
     Some((moved.linear, moved.angular.map(|angular| angular / table.radius)))
 }
 
-/// The movement under a single contact that slips: its normal force is the only unknown, for which no system has to be solved.
-/// None where it sticks, where what the cloth holds does not feel it, or where a resistance eases.
-fn slipping(table: &Table, balls: &[BallState; BALLS], contact: &Contact, set: &ActiveSet) -> Option<Movement> {
-    let joint = Joint::new(table.radius, balls, contact, set.contact[0], coefficient(table, contact));
-    if joint.unknowns > 1 || set.eased().is_some() {
-        return None;
-    }
-    let mut members = [false; BALLS];
-    joint.members().for_each(|(ball, _)| members[ball] = true);
-    let mut moved = free(table, balls, set, members);
-    let (mut response, (push, twist)) = (Movement::NONE, joint.act(joint.unit(0)));
-    for (ball, sense) in joint.members() {
-        let sticking = Sticking::of(set, ball);
-        (moved.linear[ball], moved.angular[ball]) = sticking.held(moved.linear[ball], moved.angular[ball]);
-        (response.linear[ball], response.angular[ball]) = sticking.held(sense * push, twist);
-    }
-    let gives = joint.rates(&response)[0];
-    if gives <= SINGULAR {
-        return None;
-    }
-    // The second round takes out what the first has left by rounding.
-    for _ in 0..2 {
-        let normal = -(joint.rates(&moved)[0] + joint.bias[0]) / gives;
-        for (ball, _) in joint.members() {
-            moved.linear[ball] += normal * response.linear[ball];
-            moved.angular[ball] += normal * response.angular[ball];
-        }
-    }
-    Some(moved)
-}
-
-/// A system of forces and the accelerations that follow from it, before the cloth holds the balls and after.
+/// A system of forces and the accelerations that follow from it.
 struct Solved<const ROOM: usize> {
     system: Held<ROOM>,
-    unheld: Movement,
+    /// The accelerations without the contacts.
+    free: Movement,
     moved: Movement,
     /// By how much the share of a resistance to rolling that eases is from its ends, m/s²; infinite where none does.
     within: f64,
@@ -351,13 +347,14 @@ impl<const ROOM: usize> Solved<ROOM> {
         if let Some(ball) = set.eased() {
             return Self::easing(table, balls, contacts, system, &free, ball);
         }
-        let [unheld, moved] = system.solve(&free, true)?;
-        Some(Self { system, unheld, moved, within: f64::INFINITY })
+        let moved = system.solve(&free, true)?;
+        Some(Self { system, free, moved, within: f64::INFINITY })
     }
 
     /// All forces, and by how much their laws hold.
     fn forces(&self, table: &Table, balls: &[BallState; BALLS], contacts: &[Contact], set: &ActiveSet) -> Forces {
-        let Self { system, unheld, moved, within } = self;
+        let Self { system, free, moved, within } = self;
+        let unheld = system.unheld(free);
         let [sliding, rolling, boring] = frictions(table);
         let mut forces = Forces::NONE;
         forces.slack = *within;

@@ -4,6 +4,7 @@
 /// Factorizes the square matrix with these rows, one after another: `L` below the diagonal, `U` on and above it; `pivots`
 /// become the rows that stood in each place when it was eliminated. Returns the smallest pivot's size, zero for a matrix that
 /// is singular to the last bit, which cannot be used.
+#[inline(always)]
 pub fn factorize(entries: &mut [f64], pivots: &mut [usize]) -> f64 {
     let size = pivots.len();
     let mut least = f64::INFINITY;
@@ -34,6 +35,7 @@ pub fn factorize(entries: &mut [f64], pivots: &mut [usize]) -> f64 {
 }
 
 /// Replaces the right-hand side by the solution of a system that has been factorized.
+#[inline(always)]
 pub fn substitute(entries: &[f64], pivots: &[usize], side: &mut [f64]) {
     let size = pivots.len();
     let row = |index: usize| &entries[index * size..(index + 1) * size];

@@ -5,43 +5,91 @@ use glam::DVec2;
 
 use super::{Resting, State, Trial};
 use crate::{
-    physics::{Contact, Friction, slip},
-    table::Table,
+    physics::{BallState, Contact, Forces, Friction, slip},
+    table::{BALLS, Table},
 };
 
-/// How far the courses of two pressed balls may part or overlap in between, m: half of what counts as an overlap.
-const MOST_STRAY: f64 = 5e-10;
+/// How far the course of a pressed ball may be from the polynomial as which it is handed on, m: a tenth of what counts as an overlap.
+const MOST_STRAY: f64 = 1e-10;
+
+/// A step is tried again if it is so much longer than one whose course strays by half of that: `2^(-1/6)`.
+const ROOM_TO_STRAY: f64 = 0.89;
 
 /// A slip that has begun slowly may get so many times too fast for it within a step.
 const MOST_YIELDED: f64 = 1.5;
 
+/// How often the way to a place within a step is halved where one step that leads there is not right.
+const MOST_HALVINGS: u32 = 6;
+
 impl Resting {
-    /// Which step to try instead of one that is wrong by too much, or does either of these.
-    pub(super) fn shorter(&self, table: &Table, trial: &Trial) -> Option<f64> {
+    /// What is reached after `span` from within a step that has been taken: as exact as the step, in several parts if need be. A shorter
+    /// way may be given up where the whole one converged, for the first errors of an extrapolation tell little.
+    pub(super) fn reach(&self, table: &Table, from: &Trial, span: f64) -> Trial {
+        self.reach_in_halves(table, from, span, MOST_HALVINGS)
+    }
+
+    fn reach_in_halves(&self, table: &Table, from: &Trial, span: f64, halvings: u32) -> Trial {
+        let whole = self.attempt(table, from, span);
+        if whole.step.error <= self.constants.tolerance.step || halvings == 0 {
+            return whole;
+        }
+        let middle = self.reach_in_halves(table, from, 0.5 * (from.span + span), halvings - 1);
+        self.reach_in_halves(table, &middle, span, halvings - 1)
+    }
+
+    /// The first half of a step if a law is broken in the `middle` that holds at both ends: a push that is next to none falls below it and
+    /// comes back.
+    pub(super) fn breaking_half(&self, table: &Table, begin: &Trial, whole: &Trial, middle: &Forces) -> Option<Trial> {
+        let breaks = |forces: &Forces| forces.slack < -self.constants.tolerance.slack;
+        if breaks(&whole.forces) || !breaks(middle) {
+            return None;
+        }
+        Some(self.attempt(table, begin, 0.5 * (begin.span + whole.span))).filter(|half| breaks(&half.forces))
+    }
+
+    /// Which step to try instead of one that is wrong by too much, or does either of these; the longest is told whose course is right.
+    pub(super) fn shorter(&self, table: &Table, trial: &Trial, course: f64) -> Option<f64> {
         let tolerance = &self.constants.tolerance;
         if trial.step.error.is_nan() || trial.step.error > tolerance.step {
             return Some(trial.step.best_length.min(0.7 * trial.span));
         }
-        let strays = self.strays(trial) / MOST_STRAY;
-        if strays > 1.0 {
-            // It falls with the sixth power of the step.
-            return Some(libm::pow(0.5 / strays, 1.0 / 6.0) * trial.span);
+        if course < ROOM_TO_STRAY * trial.span {
+            return Some(course);
         }
         let yielded = self.yielded(table, &trial.step.end.balls) / tolerance.yielding;
         (yielded > MOST_YIELDED).then(|| (1.0 / yielded).max(0.1) * trial.span)
     }
 
-    /// How far the polynomials as which a step's course is handed on let two pressed balls part or overlap half-way, m.
-    fn strays(&self, trial: &Trial) -> f64 {
-        let (h, end) = (trial.step.end.time, &trial.step.end.balls);
-        let half_way = |ball: usize| {
-            let (p0, p1) = (&self.begin[ball], &end[ball]);
-            let bends = self.first.linear[ball] + trial.forces.linear[ball];
-            0.5 * (p0.position + p1.position) + 5.0 / 32.0 * h * (p0.velocity - p1.velocity) + h * h / 64.0 * bends
+    /// The longest step whose course the polynomial as which it is handed on follows, by how far this one's strays half-way: a
+    /// twenty-fourth of what it misses of the acceleration there, times the square of the step, as the rest of a polynomial of degree five
+    /// tells.
+    pub(super) fn longest_course(&self, trial: &Trial, middle: &Forces) -> f64 {
+        let h = trial.step.end.time;
+        let missed = |ball: usize| {
+            let [begin, end] = [&self.begin, &trial.step.end.balls].map(|balls| balls[ball].velocity);
+            let ends = self.first.linear[ball] + trial.forces.linear[ball];
+            (1.5 / h * (end - begin) - 0.25 * ends).distance(middle.linear[ball])
         };
-        let balls = self.contacts.as_slice().iter().filter_map(|contact| Some((contact.first, contact.second?)));
-        balls.fold(0.0, |largest: f64, (one, other)| {
-            largest.max((half_way(one).distance(half_way(other)) - self.constants.diameter).abs())
+        let members = (0..BALLS).filter(|&ball| self.members[ball]);
+        let strays = h * h / 24.0 * members.map(missed).fold(f64::MIN_POSITIVE, f64::max);
+        // It grows with the sixth power of the step.
+        libm::pow(0.5 * MOST_STRAY / strays, 1.0 / 6.0) * trial.span
+    }
+
+    /// The state half-way in time, by polynomials through both ends.
+    pub(super) fn half_way(&self, trial: &Trial) -> State {
+        let h = trial.step.end.time;
+        std::array::from_fn(|ball| {
+            let (begin, end) = (&self.begin[ball], &trial.step.end.balls[ball]);
+            let [a0, a1] = [&self.first, &trial.forces].map(|forces| forces.linear[ball]);
+            let [w0, w1] = [&self.first, &trial.forces].map(|forces| forces.angular[ball]);
+            let passed = 5.0 / 32.0 * h * (begin.velocity - end.velocity) + h * h / 64.0 * (a0 + a1);
+            BallState {
+                position: 0.5 * (begin.position + end.position) + passed,
+                velocity: 1.875 / h * (end.position - begin.position) - 0.4375 * (begin.velocity + end.velocity)
+                    + h / 32.0 * (a1 - a0),
+                spin: 0.5 * (begin.spin + end.spin) + h / 8.0 * (w0 - w1),
+            }
         })
     }
 

@@ -35,7 +35,7 @@ impl Resting {
     fn until(&self, table: &Table, time: f64) -> Trial {
         let begin = Phase { balls: self.begin, time: 0.0 };
         let begin = Step { end: begin, error: 0.0, best_length: 0.0 };
-        let mut trial = self.attempt(table, &Trial { span: 0.0, step: begin, forces: self.first }, time);
+        let mut trial = self.reach(table, &Trial { span: 0.0, step: begin, forces: self.first }, time);
         if self.time_scale.is_some() {
             // Newton's steps: how fast time runs is known.
             for _ in 0..MAX_GUESSES {
@@ -47,7 +47,7 @@ impl Resting {
                 if rate < SPENT {
                     break;
                 }
-                trial = self.attempt(table, &trial, trial.span + late / rate);
+                trial = self.reach(table, &trial, trial.span + late / rate);
             }
         }
         trial

@@ -25,8 +25,10 @@ const KNOWN: f64 = 1e-15;
 #[derive(Clone, Copy)]
 struct Solution<const ROOM: usize> {
     sizes: [Triple; ROOM],
-    unheld: Movement,
+    free: Movement,
     moved: Movement,
+    /// What the cloth holds against the slip of the ball whose resistance eases.
+    cloth: DVec2,
 }
 
 impl<const ROOM: usize> Solution<ROOM> {
@@ -36,14 +38,16 @@ impl<const ROOM: usize> Solution<ROOM> {
         for (sum, (from, to)) in self.sizes.as_flattened_mut().iter_mut().zip(sizes) {
             *sum += factor * (to - from);
         }
-        self.unheld.add(factor, &from.unheld, &to.unheld);
-        self.moved.add(factor, &from.moved, &to.moved);
+        self.free.follow(factor, &from.free, &to.free);
+        self.moved.follow(factor, &from.moved, &to.moved);
+        self.cloth += factor * (to.cloth - from.cloth);
         self
     }
 }
 
 impl Movement {
-    fn add(&mut self, factor: f64, from: &Self, to: &Self) {
+    /// Goes so many times the way from one movement to another.
+    fn follow(&mut self, factor: f64, from: &Self, to: &Self) {
         for ball in 0..BALLS {
             self.linear[ball] += factor * (to.linear[ball] - from.linear[ball]);
             self.angular[ball] += factor * (to.angular[ball] - from.angular[ball]);
@@ -58,7 +62,7 @@ impl<const ROOM: usize> Held<ROOM> {
         let factors =
             &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..self.unknowns * self.unknowns];
         let mut pivots = [[0; 3]; ROOM];
-        self.fill(factors);
+        self.fill(factors, &self.responses().as_flattened()[..self.unknowns]);
         factorize(factors, &mut pivots.as_flattened_mut()[..self.unknowns]) > SINGULAR
     }
 
@@ -72,9 +76,12 @@ impl<const ROOM: usize> Held<ROOM> {
         self.is_unique().then_some(index)
     }
 
-    fn solution(&mut self, free: &Movement) -> Option<Solution<ROOM>> {
-        let [unheld, moved] = self.solve(free, true)?;
-        Some(Solution { sizes: self.sizes, unheld, moved })
+    /// Forces and movement, and how the cloth holds the `ball`.
+    fn solution(&mut self, free: &Movement, ball: usize) -> Option<Solution<ROOM>> {
+        let moved = self.solve(free, true)?;
+        let unheld = self.unheld(free);
+        let (cloth, ..) = self.sticking[ball].holding(unheld.linear[ball], unheld.angular[ball]);
+        Some(Solution { sizes: self.sizes, free: *free, moved, cloth })
     }
 }
 
@@ -95,30 +102,27 @@ impl<const ROOM: usize> Solved<ROOM> {
         let mut without = *free;
         without.linear[ball] += rolling_resistance(table, &balls[ball]) * balls[ball].velocity.normalize_or_zero();
         let cushion = if system.is_unique() { None } else { Some(system.prescribe(ball)?) };
-        let (whole, none) = (system.solution(free)?, system.solution(&without)?);
-        let sticking = system.sticking[ball];
-        let cloth =
-            |solution: &Solution<ROOM>| sticking.holding(solution.unheld.linear[ball], solution.unheld.angular[ball]).0;
-        let held = Force { whole: cloth(&whole), by_share: cloth(&none) - cloth(&whole), by_up: DVec2::ZERO };
+        let (whole, none) = (system.solution(free, ball)?, system.solution(&without, ball)?);
+        let held = Force { whole: whole.cloth, by_share: none.cloth - whole.cloth, by_up: DVec2::ZERO };
         let mut edge = Edge::of_the_cloth(limit, held);
         let mut solution = whole;
         if let Some(index) = cushion {
             system.sizes[index][2] += 1.0;
-            let raised = system.solution(free)?;
+            let raised = system.solution(free, ball)?;
             let force = |of: fn(&Triple) -> DVec2| {
                 let [whole, none, raised] = [&whole, &none, &raised].map(|solution| of(&solution.sizes[index]));
                 Force { whole, by_share: none - whole, by_up: raised - whole }
             };
-            let held = Force { by_up: cloth(&raised) - held.whole, ..held };
+            let held = Force { by_up: raised.cloth - held.whole, ..held };
             let friction = force(|[_, along, up]| DVec2::new(*along, *up));
             let push = force(|[normal, ..]| DVec2::new(*normal, 0.0)).times(coefficient(table, &contacts[index]));
             let (both, up) = edge.with_a_cushion(limit, held, friction, push)?;
             (edge, solution) = (both, solution.plus(up, &whole, &raised));
             system.joints[index].unknowns = 3;
         }
-        let Solution { sizes, unheld, moved } = solution.plus(edge.share.min(1.0), &whole, &none);
+        let Solution { sizes, free, moved, .. } = solution.plus(edge.share.min(1.0), &whole, &none);
         system.sizes = sizes;
-        Some(Self { system, unheld, moved, within: edge.slack(DEPARTING * table.gravity) })
+        Some(Self { system, free, moved, within: edge.slack(DEPARTING * table.gravity) })
     }
 }
 

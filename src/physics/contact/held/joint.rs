@@ -20,6 +20,14 @@ pub struct Movement {
 impl Movement {
     pub const NONE: Self = Self { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS] };
 
+    /// Adds a multiple of another one.
+    pub fn add(&mut self, factor: f64, other: &Self) {
+        for ball in 0..BALLS {
+            self.linear[ball] += factor * other.linear[ball];
+            self.angular[ball] += factor * other.angular[ball];
+        }
+    }
+
     /// The largest difference of the members' speeds.
     pub fn distance(&self, other: &Self, members: [bool; BALLS]) -> f64 {
         (0..BALLS).filter(|&ball| members[ball]).fold(0.0, |largest, ball| {

@@ -51,15 +51,13 @@ fn stopped_in<const ROOM: usize>(
     while system.smooth_what_pulls(given) {
         stopped = system.solve(&speeds, false)?;
     }
-    let [_, stopped] = stopped;
     (stopped.distance(&speeds, system.members) <= MOST_AMPLIFICATION * before).then_some(stopped)
 }
 
 impl<const ROOM: usize> Held<ROOM> {
     /// The largest of the speeds that are to be zero.
     fn to_stop(&self, speeds: &Movement) -> f64 {
-        let still = Self { sizes: [[0.0; 3]; ROOM], ..*self };
-        let (_, moved) = still.moved(speeds);
+        let moved = self.held(speeds);
         let largest = moved.distance(speeds, self.members);
         self.joints().iter().fold(largest, |largest, joint| {
             let rates = joint.rates(&moved);

@@ -58,14 +58,14 @@ pub struct Impacts {
 
 /// What the impacts do that are told of a `group` of balls: in the air one after another, on the cloth together where they close at
 /// once. `flew` are those balls that have been in the air until now, of which those that have come down land first; between two that
-/// rest from now on, or one and a cushion, there is no restitution. What closes no faster than rounding counts as closing only where it
-/// does not `graze`.
+/// rest from now on, or one and a cushion, there is no restitution. What closes no faster than rounding, or at `none` m/s, counts as
+/// closing only where it does not `graze`.
 pub fn impacts(
     table: &Table,
     [before, after]: [&[SpatialState; BALLS]; 2],
     [flew, group, rested, rests]: [[bool; BALLS]; 4],
     told: &[Event],
-    graze: bool,
+    (graze, none): (bool, f64),
 ) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
     let mut lost = 0.0;
@@ -74,7 +74,7 @@ pub fn impacts(
         let [position, velocity, spin] = [position, velocity, spin].map(|v| Vector::new(v.x, v.y, v.z));
         let mut state = Ball { velocity, spin, ..Ball::still(position) };
         state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
-        if group[ball] && flew[ball] && position.z <= 0.0 {
+        if group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= 0.0 {
             lost += settle(&numbers, &mut state);
         }
         state
@@ -107,7 +107,7 @@ pub fn impacts(
         let (first, second) = contact.balls();
         let speed = |ball: usize| balls[ball].velocity.length();
         let held = if rested[first] && second.is_none_or(|second| rested[second]) { RESTING_SPEED } else { 0.0 };
-        held.max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
+        held.max(none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
     };
     while let Some((contact, stays)) = contacts.next() {
         if contact.is_aloft(&balls) {

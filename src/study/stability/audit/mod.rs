@@ -195,17 +195,17 @@ impl Audit<'_> {
             (0..BALLS).filter(|&ball| group[ball]).map(|ball| aloft::energy(self.table, &balls[ball])).sum()
         };
         let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &before[ball]));
-        let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], graze: bool| {
-            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], told, graze);
+        let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], grazes: (bool, f64)| {
+            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], told, grazes);
             impacts.lost += energy(&at_impact) - energy(balls);
             impacts
         };
-        let mut nearest = explained(&at_impact, [false; BALLS], false);
+        let mut nearest = explained(&at_impact, [false; BALLS], (false, 0.0));
         for by in [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now] {
             let balls = std::array::from_fn(|ball| here(ball, &earlier[ball].beside(&self.trace.constants, by)));
             for rests in [[false; BALLS], rests] {
-                for graze in [false, true] {
-                    let other = explained(&balls, rests, graze);
+                for grazes in [(false, 0.0), (true, 0.0), (false, self.trace.constants.tolerance.opening)] {
+                    let other = explained(&balls, rests, grazes);
                     if (lost - other.lost).abs() < (lost - nearest.lost).abs() {
                         nearest = other;
                     }
