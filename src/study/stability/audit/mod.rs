@@ -201,10 +201,14 @@ impl Audit<'_> {
             impacts
         };
         let mut nearest = explained(&at_impact, [false; BALLS], (false, 0.0));
+        // A ball that is moved on to what it hits turns the normals of its other contacts.
+        let moved = |ball: usize| before[ball].position.distance(after[ball].position) / (2.0 * self.table.radius);
+        let turned = (0..BALLS).filter(|&ball| group[ball]).map(|ball| moved(ball) * before[ball].velocity.length());
+        let none = self.trace.constants.tolerance.opening + turned.fold(0.0, f64::max);
         for by in [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now] {
             let balls = std::array::from_fn(|ball| here(ball, &earlier[ball].beside(&self.trace.constants, by)));
             for rests in [[false; BALLS], rests] {
-                for grazes in [(false, 0.0), (true, 0.0), (false, self.trace.constants.tolerance.opening)] {
+                for grazes in [(false, 0.0), (true, 0.0), (false, none)] {
                     let other = explained(&balls, rests, grazes);
                     if (lost - other.lost).abs() < (lost - nearest.lost).abs() {
                         nearest = other;
