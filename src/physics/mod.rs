@@ -25,4 +25,4 @@ pub use motion::{
     BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, sliding_deceleration, slip, spin_deceleration,
 };
 pub use rolling::Rolling;
-pub use slope::{Stretch, roll_on_slope, slide_on_slope};
+pub use slope::{Stretch, is_last_on_slope, roll_on_slope, slide_on_slope};

@@ -26,16 +26,25 @@ pub struct Stretch {
     pub velocity: DVec2,
 }
 
+/// Speed at the end of a stretch that begins with `speed` under the pull on a rolling ball, m/s: zero for rest.
+fn end_on_slope(rolling: &Rolling, pull: DVec2, speed: f64) -> f64 {
+    let (_, end) = rolling.band(speed);
+    let is_wide = 0.04 * pull.length() * speed * speed > STRAY * rolling.least * rolling.least;
+    if is_wide { end.max((1.0 - WIDEST) * speed) } else { end }
+}
+
+/// Whether the next stretch of a ball that rolls so on such a table ([`roll_on_slope`]) is its last.
+pub fn is_last_on_slope(rolling: &Rolling, tilt: DVec2, velocity: DVec2) -> bool {
+    end_on_slope(rolling, 5.0 / 7.0 * tilt, velocity.length()) == 0.0
+}
+
 /// The next stretch of a ball that rolls with `velocity` on a table whose slope gives free bodies the acceleration `tilt`.
 pub fn roll_on_slope(rolling: &Rolling, tilt: DVec2, velocity: DVec2) -> Stretch {
     // A rolling ball takes up five sevenths of any pull.
     let pull = 5.0 / 7.0 * tilt;
     let speed = velocity.length();
     let direction = velocity / speed;
-    let (_, mut end) = rolling.band(speed);
-    if 0.04 * pull.length() * speed * speed > STRAY * rolling.least * rolling.least {
-        end = end.max((1.0 - WIDEST) * speed);
-    }
+    let end = end_on_slope(rolling, pull, speed);
     let deceleration = rolling.between(speed, end);
     let along = pull.dot(direction);
     let across = pull - along * direction;
