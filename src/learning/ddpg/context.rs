@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::{
     action::ActionSpace,
     features::{ACTION_FEATURES, FEATURE_VERSION, STATE_FEATURES},
+    rail_first::RAIL_FEATURES,
 };
 use crate::table::{Rail, RailModel, Rails, Table};
 
@@ -53,26 +54,39 @@ pub struct Inputs {
     pub context: bool,
     /// Whether of a stroke it has what follows in closed form up to the first ball, besides what is chosen.
     pub closed_form: bool,
+    /// Whether ways to the first ball by a cushion are seen, too.
+    pub rails_first: bool,
 }
 
 impl Inputs {
     /// Numbers about what is seen: inputs of the actor.
     pub const fn actor(self) -> usize {
-        STATE_FEATURES + if self.context { CONTEXT_FEATURES } else { 0 }
+        STATE_FEATURES
+            + if self.context { CONTEXT_FEATURES } else { 0 }
+            + if self.rails_first { Rail::ALL.len() } else { 0 }
+    }
+
+    /// Numbers about a stroke.
+    pub const fn action(self) -> usize {
+        ACTION_FEATURES + if self.rails_first { RAIL_FEATURES } else { 0 }
     }
 
     /// The same and those of a stroke: inputs of the critic.
     pub const fn critic(self) -> usize {
-        self.actor() + ACTION_FEATURES
+        self.actor() + self.action()
     }
 
     /// Changes whenever the features change: weights fit one version only.
     pub const fn version(self) -> &'static str {
-        match (self.context, self.closed_form) {
-            (false, true) => FEATURE_VERSION,
-            (true, true) => CONTEXT_VERSION,
-            (false, false) => "final-course-1, actions alone",
-            (true, false) => "final-course-1, context-1, actions alone",
+        match (self.context, self.rails_first, self.closed_form) {
+            (false, false, true) => FEATURE_VERSION,
+            (true, false, true) => CONTEXT_VERSION,
+            (false, true, true) => "final-course-1, rails-1",
+            (true, true, true) => "final-course-1, context-1, rails-1",
+            (false, false, false) => "final-course-1, actions alone",
+            (true, false, false) => "final-course-1, context-1, actions alone",
+            (false, true, false) => "final-course-1, rails-1, actions alone",
+            (true, true, false) => "final-course-1, context-1, rails-1, actions alone",
         }
     }
 }

@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     action::{ACTIONS, Action, ActionSpace, aim_at, speed_of},
-    observation::{OBSERVATIONS, Observation},
+    observation::Observation,
     replay::Transition,
     venues::{Conditions, Venues},
 };
@@ -42,6 +42,8 @@ pub struct Expert<'a> {
     pub reward: Reward,
     /// What the actions mean.
     pub space: ActionSpace,
+    /// Whether ways to the first ball by a cushion are tried, too.
+    pub rails_first: bool,
     /// The balls.
     pub layout: &'a Layout,
     /// Who plays on which table.
@@ -75,7 +77,7 @@ impl Expert<'_> {
         let mut runners: Vec<Runner> =
             proposals.iter().map(|&(observation, action)| Runner::new(observation, action)).collect();
         runners.extend((0..TRIED).map(|_| {
-            let observation = Observation::new(self.layout, rng.random_range(0..OBSERVATIONS));
+            let observation = Observation::random(self.layout, self.rails_first, rng);
             Runner::new(observation, self.stroke(rng))
         }));
         let mut seen = Vec::new();
@@ -164,14 +166,15 @@ mod tests {
     #[test]
     fn what_the_expert_finds_is_made_more_often_than_what_was_proposed() {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
-        let inputs = Inputs { space: ActionSpace::Full, context: true, closed_form: true };
+        let inputs = Inputs { space: ActionSpace::Full, context: true, closed_form: true, rails_first: false };
         let venues = Venues::new(&table, inputs, 1);
         let reward = Reward::R3;
         let [mut proposed, mut found] = [0.0; 2];
         for _ in 0..12 {
             let layout = Layout::random(&table, &mut rng);
             let conditions = Conditions { venue: 0, errors: 3.7 };
-            let expert = Expert { venues: &venues, reward, space: ActionSpace::Full, layout: &layout, conditions };
+            let space = ActionSpace::Full;
+            let expert = Expert { venues: &venues, reward, space, rails_first: false, layout: &layout, conditions };
             let proposal = Runner::new(Observation::new(&layout, 0), expert.stroke(&mut rng));
             let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng);
             let winner = strokes.first().unwrap();

@@ -9,6 +9,7 @@ use super::{
     dual::{Dual, DualVector},
     first_contact::FirstContact,
     observation::{Line, Observation, free_path},
+    rail_first::{Arrival, ByRail, RAIL_FEATURES},
 };
 use crate::table::Table;
 
@@ -73,10 +74,16 @@ pub fn push_state_features(table: &Table, observation: &Observation, out: &mut V
 /// the second ball and its images are given in that frame, as seen from where the cue ball then stands: a network
 /// would need many units to find this rotation by itself, and points are missed by a degree. Where the spin takes the
 /// cue ball from there in the end, its final direction, is the second such frame.
-pub fn push_action_features(table: &Table, observation: &Observation, action: Action, out: &mut Vec<Dual>) {
+pub fn push_action_features(
+    table: &Table,
+    observation: &Observation,
+    action: Action,
+    asked: Asked,
+    out: &mut Vec<Dual>,
+) {
     let meaning = Meaning::of(table, action);
     let lines = observation.lines(table);
-    let stroke = FirstContact::of(table, &meaning, lines.to_first.distance);
+    let Approach { stroke, course, by_rail } = Approach::of(table, observation, &meaning, asked.slopes);
     let offset = meaning.offset;
     let speed = Dual::action(1, f64::from(action[1]));
     out.extend([offset, offset * offset]);
@@ -87,12 +94,7 @@ pub fn push_action_features(table: &Table, observation: &Observation, action: Ac
     out.extend([speed, speed * speed]);
 
     let diameter = 2.0 * table.radius;
-    // The course turns left of the line to the first ball, the line of centres right of the course by the cut angle.
-    // That the ball is aimed a little to the side where it swerves is left out here: typically less than a degree, 10 for
-    // the strongest massés.
-    let sin_turn = offset * (diameter / lines.to_first.distance);
-    let course = DualVector { x: cosine(sin_turn), y: sin_turn + stroke.turn }.normalised();
-    let course = course.rotated(lines.to_first.direction);
+    // The line of centres lies right of the course by the cut angle.
     let cos_cut = cosine(offset);
     let normal = DualVector { x: course.x * cos_cut + course.y * offset, y: course.y * cos_cut - course.x * offset };
     out.extend([cos_cut, normal.x, normal.y]);
@@ -129,6 +131,46 @@ pub fn push_action_features(table: &Table, observation: &Observation, action: Ac
     }
     let DualVector { x, y } = heading;
     out.push(Dual::constant(free_path(table, observation.first, DVec2::new(x.value, y.value)) / table.length));
+    if asked.rails_first {
+        out.extend(by_rail);
+    }
+}
+
+/// What is asked of the features of a stroke.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked {
+    /// [`RAIL_FEATURES`] more, about the way by a cushion.
+    pub rails_first: bool,
+    /// The slopes.
+    pub slopes: bool,
+}
+
+/// How the cue ball comes to the first ball.
+struct Approach {
+    stroke: FirstContact,
+    /// Direction of its course on arrival.
+    course: DualVector,
+    /// What is told of the way by a cushion.
+    by_rail: [Dual; RAIL_FEATURES],
+}
+
+impl Approach {
+    fn of(table: &Table, observation: &Observation, action: &Meaning, slopes: bool) -> Self {
+        let line = observation.lines(table).to_first;
+        let stroke = FirstContact::of(table, action, line.distance);
+        if let Some(arrival) = ByRail::of(table, observation).and_then(|ways| ways.arrival(action, slopes)) {
+            let Arrival { speed, roll, side, masse, roll_on_arrival, speed_on_arrival, turn, course: [x, y], features } =
+                arrival;
+            let (speed_on_arrival, course) = (speed_on_arrival.at_least(0.05), DualVector { x, y });
+            let stroke = FirstContact { speed, roll, side, masse, roll_on_arrival, speed_on_arrival, turn, ..stroke };
+            return Self { stroke, course, by_rail: features };
+        }
+        // The course turns left of the line to the first ball. That the ball is aimed a little to the side where it swerves is left
+        // out here: typically less than a degree, 10 for the strongest massés.
+        let sin_turn = action.offset * (2.0 * table.radius / line.distance);
+        let course = DualVector { x: cosine(sin_turn), y: sin_turn + stroke.turn }.normalised();
+        Self { stroke, course: course.rotated(line.direction), by_rail: [Dual::constant(0.0); RAIL_FEATURES] }
+    }
 }
 
 /// Leaves of the action features those that tell the action itself; the others become nought.
@@ -176,15 +218,27 @@ fn cosine(sine: Dual) -> Dual {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{learning::ddpg::action::ACTIONS, table::Layout};
+    use crate::{
+        learning::ddpg::action::ACTIONS,
+        table::{Layout, Rail},
+    };
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
+    const ASKED: Asked = Asked { rails_first: true, slopes: true };
+
     fn features(table: &Table, observation: &Observation, action: Action) -> Vec<Dual> {
         let mut out = Vec::new();
-        push_action_features(table, observation, action, &mut out);
-        assert_eq!(out.len(), ACTION_FEATURES);
+        push_action_features(table, observation, action, ASKED, &mut out);
+        assert_eq!(out.len(), ACTION_FEATURES + RAIL_FEATURES);
         out
+    }
+
+    /// A straight one, and one by a cushion, in turn.
+    fn observation(table: &Table, case: usize, rng: &mut Xoshiro256PlusPlus) -> Observation {
+        let straight = Observation::new(&Layout::random(table, rng), case % 4);
+        let rail = (case % 2 == 1).then_some(Rail::ALL[case / 2 % 4]);
+        Observation { rail, ..straight }
     }
 
     fn random(rng: &mut Xoshiro256PlusPlus, limit: f32) -> Action {
@@ -196,8 +250,8 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(8);
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();
-            for case in 0..400 {
-                let observation = Observation::new(&Layout::random(&table, &mut rng), case % 4);
+            for case in 0..800 {
+                let observation = observation(&table, case, &mut rng);
                 let mut state = Vec::new();
                 push_state_features(&table, &observation, &mut state);
                 assert_eq!(state.len(), STATE_FEATURES);
@@ -247,8 +301,9 @@ mod tests {
     fn slopes_agree_with_finite_differences() {
         let table = Table::default();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
-        for case in 0..50 {
-            let observation = Observation::new(&Layout::random(&table, &mut rng), case % 4);
+        let mut by_rail = 0;
+        for case in 0..100 {
+            let observation = observation(&table, case, &mut rng);
             let action = random(&mut rng, 0.8);
             let here = features(&table, &observation, action);
             for along in 0..ACTIONS {
@@ -258,6 +313,14 @@ mod tests {
                     (features(&table, &observation, action), f64::from(action[along]))
                 };
                 let ((after, x1), (before, x0)) = (moved(1e-3), moved(-1e-3));
+                // Where one of the directions by a cushion is not found, there is nothing to compare.
+                if [&before, &after]
+                    .into_iter()
+                    .any(|there| there[ACTION_FEATURES].value != here[ACTION_FEATURES].value)
+                {
+                    continue;
+                }
+                by_rail += usize::from(here[ACTION_FEATURES].value == 1.0);
                 for index in (0..here.len()).filter(|index| !FREE_PATHS.contains(index)) {
                     let difference = (after[index].value - before[index].value) / (x1 - x0);
                     let slope = here[index].slope[along];
@@ -265,9 +328,10 @@ mod tests {
                     // Where the cue ball begins to roll just on arrival the slope jumps.
                     let kink =
                         (before[index].slope[along] - after[index].slope[along]).abs() > 1e-2 * (1.0 + slope.abs());
-                    assert!(close || kink, "{index} along {along}: {difference} {slope}");
+                    assert!(close || kink, "{case} {index} along {along}: {difference} {slope}");
                 }
             }
         }
+        assert!(by_rail > 20 * ACTIONS, "{by_rail}");
     }
 }

@@ -5,6 +5,7 @@ use super::{
     action::{Action, Meaning},
     dual::Dual,
     observation::Observation,
+    rail_first::ByRail,
 };
 use crate::{
     physics::{CueInputs, NoRoom, squirt, with_room},
@@ -78,11 +79,10 @@ impl FirstContact {
 /// The stroke that carries out `action` in `observation`.
 pub fn cue_inputs(table: &Table, observation: &Observation, action: Action) -> CueInputs {
     let meaning = Meaning::of(table, action);
-    let line = observation.lines(table).to_first;
-    let swerve = FirstContact::of(table, &meaning, line.distance).swerve.value;
-    let aside = 2.0 * table.radius * meaning.offset.value - swerve;
-    let turn = (aside / line.distance).clamp(-1.0, 1.0).asin();
-    let direction = glam::DVec2::from_angle(turn).rotate(line.direction);
+    let direction = ByRail::of(table, observation).map_or_else(
+        || observation.angle_on_table(straight(table, observation, &meaning)),
+        |ways| ways.direction(&meaning),
+    );
     let [left, up] = meaning.tip;
     let a = observation.side_on_table(left.value);
     CueInputs {
@@ -90,9 +90,18 @@ pub fn cue_inputs(table: &Table, observation: &Observation, action: Action) -> C
         a: a + 0.0,
         b: up.value,
         theta: meaning.theta.value,
-        phi: observation.angle_on_table(direction) - squirt(table, a),
+        phi: direction - squirt(table, a),
         speed: meaning.speed.value,
     }
+}
+
+/// The direction of the course, in the observation, that goes straight to the first ball and passes it at the action's offset.
+fn straight(table: &Table, observation: &Observation, action: &Meaning) -> glam::DVec2 {
+    let line = observation.lines(table).to_first;
+    let swerve = FirstContact::of(table, action, line.distance).swerve.value;
+    let aside = 2.0 * table.radius * action.offset.value - swerve;
+    let turn = (aside / line.distance).clamp(-1.0, 1.0).asin();
+    glam::DVec2::from_angle(turn).rotate(line.direction)
 }
 
 /// The stroke that carries out `action` in a `observation` of `layout`, with the cue raised as far as rails and balls make it.

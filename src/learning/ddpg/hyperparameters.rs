@@ -25,6 +25,8 @@ pub struct Hyperparameters {
     pub perfect: f64,
     /// Whether the critic is told what follows from an action in closed form, up to the first ball; without it, only the action.
     pub closed_form: bool,
+    /// Whether it also looks at ways to the first ball by a cushion.
+    pub rails_first: bool,
     /// Actions that the actor proposes for an observation. One alone averages between success windows and misses all; several,
     /// started apart, each climb their own window, and the critic chooses.
     pub heads: usize,
@@ -93,6 +95,7 @@ impl Default for Hyperparameters {
             context: false,
             perfect: 0.35,
             closed_form: true,
+            rails_first: false,
             heads: 6,
             head_speeds: Vec::new(),
             actor_layers: vec![256, 256, 256],
@@ -123,7 +126,8 @@ impl Default for Hyperparameters {
 impl Hyperparameters {
     /// What the networks' input is made of.
     pub const fn inputs(&self) -> Inputs {
-        Inputs { space: self.actions, context: self.context, closed_form: self.closed_form }
+        let Self { actions: space, context, closed_form, rails_first, .. } = *self;
+        Inputs { space, context, closed_form, rails_first }
     }
 
     /// Layer sizes of the actor and of the critic, inputs first.

@@ -9,6 +9,7 @@ use super::{
     hyperparameters::Hyperparameters,
     networks::Networks,
     policy::score,
+    rail_first::RAIL_FEATURES,
     snapshot,
     trainer::{Task, Trainer},
 };
@@ -20,8 +21,12 @@ use crate::{
     },
     physics::CueInputs,
     player::Skill,
-    table::{Layout, Table},
+    table::{Layout, Rail, Table},
 };
+
+/// Places of the networks among sizes.
+const ACTOR: usize = 0;
+const CRITIC: usize = 1;
 
 /// The line in the list of agents.
 pub const AGENT: Agent = Agent {
@@ -113,22 +118,30 @@ impl Learner for Trainer {
     /// The networks that play, from a checkpoint or a policy, become both the learning and the averaged ones.
     fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
         let prefix = if weights.has("target.actor.0.weight") { "target." } else { "" };
-        let blind = Hyperparameters { context: false, ..self.agent.hyper.clone() }.sizes();
-        let network = |name: &str, told: &[usize], blind: &[usize]| {
+        let network = |name: &str, which: usize| {
             let name = format!("{prefix}{name}");
-            weights.network(&name, told).or_else(|error| match weights.network(&name, blind) {
-                // What it has learnt without a context holds under any, until it learns better.
-                Ok(network) => Ok(network.with_more_inputs(STATE_FEATURES, CONTEXT_FEATURES)?),
-                Err(_) => Err(error),
+            let hyper = &self.agent.hyper;
+            let blind = Hyperparameters { context: false, rails_first: false, ..hyper.clone() };
+            let straight = Hyperparameters { rails_first: false, ..hyper.clone() };
+            weights.network(&name, &hyper.sizes()[which]).or_else(|error| {
+                // What it has learnt without being told so much holds, until it learns better.
+                if let Ok(network) = weights.network(&name, &straight.sizes()[which]) {
+                    let rails_seen = network.with_more_inputs(straight.inputs().actor(), Rail::ALL.len())?;
+                    let all = rails_seen.sizes()[0];
+                    let more = if which == CRITIC { RAIL_FEATURES } else { 0 };
+                    return Ok(rails_seen.with_more_inputs(all, more)?);
+                }
+                match weights.network(&name, &blind.sizes()[which]) {
+                    Ok(network) if !hyper.rails_first => {
+                        Ok(network.with_more_inputs(STATE_FEATURES, CONTEXT_FEATURES)?)
+                    }
+                    _ => Err(error),
+                }
             })
         };
         let own = &self.agent.online;
-        let actor = if self.agent.hyper.new_actor {
-            own.actor.duplicate()?
-        } else {
-            network("actor", own.actor.sizes(), &blind[0])?
-        };
-        let critic = network("critic", own.critic.sizes(), &blind[1])?;
+        let actor = if self.agent.hyper.new_actor { own.actor.duplicate()? } else { network("actor", ACTOR)? };
+        let critic = network("critic", CRITIC)?;
         let hyper = self.agent.hyper.clone();
         self.agent = Ddpg::starting_from(Networks::new(&hyper, actor, critic)?, hyper)?;
         Ok(())
@@ -140,7 +153,7 @@ mod tests {
     use super::*;
     use crate::{
         game::Rule,
-        learning::{Policy, ddpg::trainer::tests::small_task, evaluation::held_out_layouts, nn::mlp::Mlp},
+        learning::{Policy, Proposal, ddpg::trainer::tests::small_task, evaluation::held_out_layouts, nn::mlp::Mlp},
     };
 
     #[test]
@@ -213,6 +226,31 @@ mod tests {
         let [perfect, beginner] =
             [Skill::PERFECT, Skill::BEGINNER].map(|skill| told.proposals(&table, &layout, &skill));
         assert_ne!(perfect, beginner);
+    }
+
+    #[test]
+    fn an_agent_that_sees_ways_by_cushions_begins_with_what_was_learnt_of_straight_ones() {
+        let (table, skill) = (Table::default(), Skill::CLUB);
+        let old = Policy::bundled_for(&table, Rule::StraightRail, true).unwrap().unwrap();
+        let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-25").unwrap().unwrap();
+        let mut task = old_trainer(&old).task;
+        task.hyperparameters.rails_first = true;
+        let mut pupil = Trainer::new(task, table.clone()).unwrap();
+        pupil.load_weights(&Reader::new(&file).unwrap()).unwrap();
+        let seeing = pupil.policy(0.0, "").unwrap();
+        for layout in held_out_layouts(&table, 5, 1) {
+            let [old, seeing] = [&old, &seeing].map(|policy| policy.proposals(&table, &layout, &skill));
+            assert_eq!(seeing.len(), 5 * old.len());
+            let best = old[0];
+            let same = |other: &Proposal| {
+                (best.cue.phi - other.cue.phi).abs() < 1e-4 && (best.success - other.success).abs() < 1e-4
+            };
+            assert!(seeing.iter().any(same), "{best:?}");
+            for Proposal { cue, .. } in &seeing {
+                cue.validate().unwrap();
+                cue.validate_tip(table.miscue_limit).unwrap();
+            }
+        }
     }
 
     /// A trainer that has the networks of `policy`.

@@ -20,6 +20,7 @@ pub mod networks;
 pub mod observation;
 pub mod observation_batch;
 pub mod policy;
+mod rail_first;
 pub mod replay;
 mod rollout;
 pub mod snapshot;

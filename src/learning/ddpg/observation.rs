@@ -1,10 +1,12 @@
-//! The layout as an agent sees it: which object ball to meet first, on which side, mirrored so that all look alike.
+//! The layout as an agent sees it: which object ball to meet first, on which side and by which way, mirrored so that all look alike.
 
 use glam::DVec2;
+use rand::{Rng, RngExt};
 
-use crate::table::{Layout, Table};
+use crate::table::{Layout, Rail, Table};
 
-/// One way to look at a layout: a first object ball, and the side of it on which the cue ball shall pass.
+/// One way to look at a layout: a first object ball, the side of it on which the cue ball shall pass, and the cushion by which it shall
+/// come there, if any.
 ///
 /// A shot plays the same in a mirror that swaps the sides of its english, too. So the layout is mirrored until the cue ball always passes on
 /// the *left* of the first ball and lies in the right half of the table (x >= 0): an agent then learns one kind of
@@ -17,11 +19,13 @@ pub struct Observation {
     pub first: DVec2,
     /// Centre of the other object ball, m.
     pub second: DVec2,
+    /// The cushion that is met before the first ball, in the mirrored frame; none where the way to the ball is straight.
+    pub rail: Option<Rail>,
     /// Which axes were mirrored: -1 or 1 each.
     pub(super) mirror: DVec2,
 }
 
-/// Number of observations of a layout: either object ball first, passed on either side.
+/// Number of observations of a layout with a straight way to the first ball: either object ball first, passed on either side.
 pub const OBSERVATIONS: usize = 4;
 
 impl Observation {
@@ -32,12 +36,44 @@ impl Observation {
         let x = if cue.x < 0.0 { -1.0 } else { 1.0 };
         // Mirroring one axis swaps the sides; mirroring both, a half turn, does not.
         let mirror = if index & 2 == 0 { DVec2::new(x, x) } else { DVec2::new(x, -x) };
-        Self { cue: mirror * cue, first: mirror * first, second: mirror * second, mirror }
+        Self { cue: mirror * cue, first: mirror * first, second: mirror * second, rail: None, mirror }
     }
 
-    /// All observations of a layout.
+    /// All observations of a layout with a straight way to the first ball.
     pub fn all(layout: &Layout) -> [Self; OBSERVATIONS] {
         std::array::from_fn(|index| Self::new(layout, index))
+    }
+
+    /// How many observations [`Observation::every`] gives of any layout.
+    pub const fn count(rails_first: bool) -> usize {
+        OBSERVATIONS * if rails_first { 1 + Rail::ALL.len() } else { 1 }
+    }
+
+    /// All observations of a layout, those by a cushion too where `rails_first`.
+    pub fn every(layout: &Layout, rails_first: bool) -> Vec<Self> {
+        let rails = if rails_first { Rail::ALL.as_slice() } else { &[] };
+        let ways = std::iter::once(None).chain(rails.iter().copied().map(Some));
+        ways.flat_map(|rail| Self::all(layout).map(|straight| Self { rail, ..straight })).collect()
+    }
+
+    /// One of the observations by chance, half of them by a cushion where `rails_first`.
+    pub fn random(layout: &Layout, rails_first: bool, rng: &mut (impl Rng + ?Sized)) -> Self {
+        let straight = Self::new(layout, rng.random_range(0..OBSERVATIONS));
+        let by_rail = rails_first && rng.random_bool(0.5);
+        Self { rail: by_rail.then(|| Rail::ALL[rng.random_range(0..Rail::ALL.len())]), ..straight }
+    }
+
+    /// Where the cue ball's last straight way to the first ball begins: at itself, or at its image in the cushion.
+    pub fn start(&self, table: &Table) -> DVec2 {
+        self.rail.map_or(self.cue, |rail| {
+            let n = rail.normal();
+            self.cue - 2.0 * (n.dot(self.cue) + n.abs().dot(table.reach())) * n
+        })
+    }
+
+    /// The cushion on the table.
+    pub fn rail_on_table(&self) -> Option<Rail> {
+        self.rail.map(|rail| Rail::with_normal(self.mirror * rail.normal()))
     }
 
     /// A direction of this observation as an angle on the table, rad.
@@ -50,11 +86,12 @@ impl Observation {
         self.mirror.x * self.mirror.y * left
     }
 
-    /// The lines from ball to ball.
+    /// The lines from ball to ball, those of the cue ball from where its last straight way begins.
     pub fn lines(&self, table: &Table) -> Lines {
+        let start = self.start(table);
         Lines {
-            to_first: Line::between(self.cue, self.first, table),
-            to_second: Line::between(self.cue, self.second, table),
+            to_first: Line::between(start, self.first, table),
+            to_second: Line::between(start, self.second, table),
             onward: Line::between(self.first, self.second, table),
         }
     }

@@ -8,12 +8,12 @@ use super::{
     action::{ACTIONS, Action, ActionSpace},
     context::{Inputs, push_context},
     dual::Dual,
-    features::{ACTION_FEATURES, leave_chosen, push_action_features, push_state_features},
+    features::{Asked, leave_chosen, push_action_features, push_state_features},
     observation::Observation,
 };
 use crate::{
     learning::nn::tensors::{stored_values, values},
-    table::Table,
+    table::{Rail, Table},
 };
 
 /// An observation, and what the agent is told besides.
@@ -73,6 +73,9 @@ impl ObservationBatch {
             if inputs.context {
                 push_context(table, observation.mirror, *errors, &mut features);
             }
+            if inputs.rails_first {
+                features.extend(Rail::ALL.map(|rail| f32::from(u8::from(observation.rail == Some(rail)))));
+            }
         }
         let states = Tensor::from_vec(features, (seen.len(), inputs.actor()), &Device::Cpu)?;
         let tables = seen.iter().map(|seen| Arc::clone(&seen.table)).collect();
@@ -87,7 +90,7 @@ impl ObservationBatch {
     pub fn on(table: &Arc<Table>, space: ActionSpace, observations: Vec<Observation>) -> Result<Self> {
         let seen = |observation| Seen { observation, table: Arc::clone(table), errors: 0.0 };
         let seen: Vec<Seen> = observations.into_iter().map(seen).collect();
-        Self::new(Inputs { space, context: false, closed_form: true }, &seen)
+        Self::new(Inputs { space, context: false, closed_form: true, rails_first: false }, &seen)
     }
 
     /// The observations.
@@ -156,8 +159,8 @@ impl CustomOp1 for Join {
         let (state_storage, state_layout) = self.observed.states.storage_and_layout();
         let states = stored_values(&state_storage, state_layout)?;
         let mut out = Vec::with_capacity(rows * inputs.critic());
-        let mut slopes = Vec::with_capacity(if self.differentiate { rows * ACTION_FEATURES } else { 0 });
-        let mut features: Vec<Dual> = Vec::with_capacity(ACTION_FEATURES);
+        let mut slopes = Vec::with_capacity(if self.differentiate { rows * inputs.action() } else { 0 });
+        let mut features: Vec<Dual> = Vec::with_capacity(inputs.action());
         let actions = values(storage, layout)?.chunks_exact(columns);
         for (row, action) in actions.enumerate() {
             let observation = row / (rows / observations);
@@ -166,6 +169,7 @@ impl CustomOp1 for Join {
                 &self.observed.tables[observation],
                 &self.observed.observations[observation],
                 padded(action),
+                Asked { rails_first: inputs.rails_first, slopes: self.differentiate },
                 &mut features,
             );
             if !inputs.closed_form {
@@ -186,9 +190,9 @@ impl CustomOp1 for Join {
         let (storage, layout) = gradient.storage_and_layout();
         let gradient = stored_values(&storage, layout)?;
         let inputs = self.observed.inputs;
-        let (used, rows) = (inputs.space.actions(), slopes.len() / ACTION_FEATURES);
+        let (used, rows) = (inputs.space.actions(), slopes.len() / inputs.action());
         let mut out: Vec<f32> = Vec::with_capacity(rows * used);
-        for (slopes, row) in slopes.chunks_exact(ACTION_FEATURES).zip(gradient.chunks_exact(inputs.critic())) {
+        for (slopes, row) in slopes.chunks_exact(inputs.action()).zip(gradient.chunks_exact(inputs.critic())) {
             let mut sum = [0.0; ACTIONS];
             for (slope, error) in slopes.iter().zip(&row[inputs.actor()..]) {
                 for (sum, slope) in sum.iter_mut().zip(slope) {
@@ -229,7 +233,8 @@ mod tests {
             let gradients = inputs.sum_all().unwrap().backward().unwrap();
             let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();
             let mut features = Vec::new();
-            push_action_features(&table, &observed.observations()[1], values[2], &mut features);
+            let asked = Asked { rails_first: false, slopes: true };
+            push_action_features(&table, &observed.observations()[1], values[2], asked, &mut features);
             let expected = features.iter().map(|feature| feature.slope[0] as f32).sum::<f32>();
             assert!((gradient[2][0] - expected).abs() < 1e-4);
             assert!(observed.with_actions(&actions.narrow(0, 0, 3).unwrap()).is_err());

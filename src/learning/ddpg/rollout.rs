@@ -11,7 +11,7 @@ use super::{
     hindsight::relabel,
     hyperparameters::Hyperparameters,
     networks::Networks,
-    observation::{OBSERVATIONS, Observation},
+    observation::Observation,
     observation_batch::ObservationBatch,
     replay::Transition,
     trainer::Trainer,
@@ -45,6 +45,10 @@ impl Trainer {
         Ok(total / played.max(1) as f64)
     }
 
+    const fn rails_first(&self) -> bool {
+        self.task.hyperparameters.rails_first
+    }
+
     /// A fresh layout and its conditions.
     fn scene(&mut self) -> Scene {
         let conditions = self.venues.draw(self.task.hyperparameters.perfect, &mut self.rng);
@@ -74,7 +78,8 @@ impl Trainer {
             let proposals: Vec<_> =
                 proposals.into_iter().map(|(observation, action, _)| (observation, action)).collect();
             let (reward, space, conditions) = (self.task.plan.reward, self.space(), *conditions);
-            let expert = Expert { venues: &self.venues, reward, space, layout, conditions };
+            let expert =
+                Expert { venues: &self.venues, reward, space, rails_first: self.rails_first(), layout, conditions };
             let strokes = expert.search(&proposals, &mut self.rng);
             if let Some(best) = strokes.first() {
                 self.searched.push(*best);
@@ -93,14 +98,15 @@ impl Trainer {
             return Ok(Vec::new());
         }
         let sides = scenes.iter().flat_map(|(layout, conditions)| {
-            Observation::all(layout).map(|observation| self.venues.seen(observation, *conditions))
+            let all = Observation::every(layout, self.rails_first()).into_iter();
+            all.map(|observation| self.venues.seen(observation, *conditions))
         });
         let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &sides.collect::<Vec<_>>())?;
         let (actions, logits) = networks.judge(&observed)?;
         let heads = actions.len() / observed.observations().len();
         let all = actions.into_iter().zip(logits).enumerate();
         let all = all.map(|(row, (action, logit))| (observed.observations()[row / heads], action, logit));
-        Ok(all.collect::<Vec<_>>().chunks(OBSERVATIONS * heads).map(<[_]>::to_vec).collect())
+        Ok(all.collect::<Vec<_>>().chunks(Observation::count(self.rails_first()) * heads).map(<[_]>::to_vec).collect())
     }
 
     /// Plays the averaged networks' best proposals on every layout, as they are. Returns the rewards' sum.
@@ -133,7 +139,8 @@ impl Trainer {
             return Ok(0.0);
         }
         let seen = scenes.iter().map(|(layout, conditions)| {
-            self.venues.seen(Observation::new(layout, self.rng.random_range(0..OBSERVATIONS)), *conditions)
+            let rails_first = self.task.hyperparameters.rails_first;
+            self.venues.seen(Observation::random(layout, rails_first, &mut self.rng), *conditions)
         });
         let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &seen.collect::<Vec<_>>())?;
         let actions = self.agent.online.actions(&observed)?;

@@ -11,6 +11,7 @@ use serde_json::Value;
 use super::{
     action::ACTIONS,
     agent::Ddpg,
+    context::Inputs,
     networks::Networks,
     observation::Observation,
     replay::Transition,
@@ -23,7 +24,7 @@ use crate::{
         nn::weights::{Reader, WeightsError, Writer},
         replay::ReplayBuffer,
     },
-    table::Table,
+    table::{Rail, Table},
 };
 
 /// What a snapshot holds beside arrays.
@@ -46,6 +47,9 @@ struct TrainerState {
 /// Numbers of an observation in a snapshot.
 const OBSERVATION_NUMBERS: usize = 8;
 
+/// The number of a straight way among those of cushions in a snapshot.
+const STRAIGHT: f32 = -1.0;
+
 /// Adds the arrays of the trainer's state to a file and returns the rest, its note.
 ///
 /// # Errors
@@ -59,9 +63,9 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
     writer.add_optimiser("actor", &agent.actor_optimiser)?;
     writer.add_optimiser("critic", &agent.critic_optimiser)?;
     let inputs = trainer.task.hyperparameters.inputs();
-    add_shots(writer, "replay", &trainer.replay, inputs.context);
+    add_shots(writer, "replay", &trainer.replay, inputs);
     if trainer.task.hyperparameters.searched > 0 {
-        add_shots(writer, "searched", &trainer.searched, inputs.context);
+        add_shots(writer, "searched", &trainer.searched, inputs);
     }
     note_of(&TrainerState {
         task: trainer.task.clone(),
@@ -103,8 +107,8 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
         online,
         target,
     };
-    let replay = ReplayBuffer::restore(hyper.replay, transitions(reader, "replay", inputs.context)?, note.replay_next);
-    let searched = if hyper.searched > 0 { transitions(reader, "searched", inputs.context)? } else { Vec::new() };
+    let replay = ReplayBuffer::restore(hyper.replay, transitions(reader, "replay", inputs)?, note.replay_next);
+    let searched = if hyper.searched > 0 { transitions(reader, "searched", inputs)? } else { Vec::new() };
     let searched = ReplayBuffer::restore(hyper.replay, searched, note.searched_next);
     let TrainerState { task, table, rng, shots, updates, .. } = note;
     let table = Arc::new(table);
@@ -113,11 +117,16 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
 }
 
 fn view_numbers(observation: &Observation) -> [f64; OBSERVATION_NUMBERS] {
-    let Observation { cue, first, second, mirror } = *observation;
+    let Observation { cue, first, second, mirror, .. } = *observation;
     [cue.x, cue.y, first.x, first.y, second.x, second.y, mirror.x, mirror.y]
 }
 
-fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer<Transition>, context: bool) {
+/// The number that stands for a cushion in a snapshot.
+fn number_of(rail: Option<Rail>) -> f32 {
+    rail.and_then(|rail| Rail::ALL.iter().position(|own| *own == rail)).map_or(STRAIGHT, |index| index as f32)
+}
+
+fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer<Transition>, inputs: Inputs) {
     let held = shots.held();
     let observations: Vec<f64> = held.iter().flat_map(|held| view_numbers(&held.observation)).collect();
     let actions: Vec<f32> = held.iter().flat_map(|held| held.action).collect();
@@ -125,31 +134,37 @@ fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer<Transition>, 
     writer.add_f64(format!("{name}.views"), &[held.len(), OBSERVATION_NUMBERS], &observations);
     writer.add(format!("{name}.actions"), &[held.len(), ACTIONS], &actions);
     writer.add(format!("{name}.successes"), &[held.len()], &successes);
-    if context {
+    if inputs.rails_first {
+        let rails: Vec<f32> = held.iter().map(|held| number_of(held.observation.rail)).collect();
+        writer.add(format!("{name}.rails"), &[held.len()], &rails);
+    }
+    if inputs.context {
         let conditions: Vec<f32> =
             held.iter().flat_map(|held| [held.conditions.venue as f32, held.conditions.errors]).collect();
         writer.add(format!("{name}.conditions"), &[held.len(), 2], &conditions);
     }
 }
 
-fn transitions(reader: &Reader<'_>, name: &str, context: bool) -> Result<Vec<Transition>, WeightsError> {
-    let [views, actions, successes, conditions] =
-        ["views", "actions", "successes", "conditions"].map(|what| format!("{name}.{what}"));
+fn transitions(reader: &Reader<'_>, name: &str, inputs: Inputs) -> Result<Vec<Transition>, WeightsError> {
+    let [views, actions, successes, conditions, rails] =
+        ["views", "actions", "successes", "conditions", "rails"].map(|what| format!("{name}.{what}"));
     let observations = reader.array_f64(&views)?;
     let ((_, actions), (_, successes)) = (reader.array(&actions)?, reader.array(&successes)?);
     let (observations, actions) = (observations.as_chunks::<OBSERVATION_NUMBERS>().0, actions.as_chunks::<ACTIONS>().0);
     // Without a context all shots have the same conditions.
-    let conditions = if context { reader.array(&conditions)?.1 } else { vec![0.0; 2 * successes.len()] };
+    let conditions = if inputs.context { reader.array(&conditions)?.1 } else { vec![0.0; 2 * successes.len()] };
     let conditions = conditions.as_chunks::<2>().0;
-    if [observations.len(), actions.len(), conditions.len()] != [successes.len(); 3] {
+    let rails = if inputs.rails_first { reader.array(&rails)?.1 } else { vec![STRAIGHT; successes.len()] };
+    if [observations.len(), actions.len(), conditions.len(), rails.len()] != [successes.len(); 4] {
         let expected = format!("{} shots", successes.len());
         return Err(WeightsError::Array { name: views, expected });
     }
-    let shots = observations.iter().zip(actions).zip(conditions).zip(successes);
+    let shots = observations.iter().zip(actions).zip(conditions).zip(rails).zip(successes);
     Ok(shots
-        .map(|(((v, action), [venue, errors]), success)| {
+        .map(|((((v, action), [venue, errors]), rail), success)| {
             let pair = |index: usize| DVec2::new(v[index], v[index + 1]);
-            let observation = Observation { cue: pair(0), first: pair(2), second: pair(4), mirror: pair(6) };
+            let rail = Rail::ALL.into_iter().find(|own| number_of(Some(*own)) == rail);
+            let observation = Observation { cue: pair(0), first: pair(2), second: pair(4), rail, mirror: pair(6) };
             let conditions = Conditions { venue: *venue as u32, errors: *errors };
             Transition { observation, conditions, action: *action, success }
         })
@@ -175,7 +190,9 @@ mod tests {
         with_context.hyperparameters.saturation_penalty = 0.01;
         with_context.hyperparameters.searched = 1;
         with_context.hyperparameters.imitation = 0.5;
-        for task in [small_task(), with_context] {
+        let mut by_rails = with_context.clone();
+        by_rails.hyperparameters.rails_first = true;
+        for task in [small_task(), with_context, by_rails] {
             let [mut whole, mut parts] = [0; 2].map(|_| Trainer::new(task.clone(), Table::default()).unwrap());
             for _ in 0..5 {
                 whole.iterate().unwrap();

@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn with_a_context_there_are_many_tables_that_depend_on_the_seed_alone_and_without_there_is_one() {
         let table = Arc::new(Table::default());
-        let inputs = |context| Inputs { space: ActionSpace::Full, context, closed_form: true };
+        let inputs = |context| Inputs { space: ActionSpace::Full, context, closed_form: true, rails_first: false };
         let alone = Venues::new(&table, inputs(false), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         assert_eq!((alone.0.len(), alone.draw(0.35, &mut rng)), (1, Conditions::default()));
@@ -167,7 +167,11 @@ mod tests {
     #[test]
     fn who_errs_more_makes_fewer_points() {
         let table = Arc::new(Table::default());
-        let venues = Venues::new(&table, Inputs { space: ActionSpace::Full, context: true, closed_form: true }, 1);
+        let venues = Venues::new(
+            &table,
+            Inputs { space: ActionSpace::Full, context: true, closed_form: true, rails_first: false },
+            1,
+        );
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
         let made = [0.0_f32, 3.0, 30.0].map(|errors| {
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);

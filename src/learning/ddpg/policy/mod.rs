@@ -15,7 +15,7 @@ use crate::{
         context::knows,
         first_contact::{cue_inputs, playable},
         networks::Networks,
-        observation::{OBSERVATIONS, Observation},
+        observation::Observation,
         observation_batch::{ObservationBatch, Seen},
     },
     physics::CueInputs,
@@ -90,25 +90,27 @@ impl Policy {
         if layouts.is_empty() {
             return Ok(Vec::new());
         }
-        let known = Arc::new(table.clone());
+        let (known, inputs) = (Arc::new(table.clone()), self.origin.hyperparameters.inputs());
         let seen = |observation| Seen { observation, table: Arc::clone(&known), errors };
-        let seen: Vec<Seen> = layouts.iter().flat_map(Observation::all).map(seen).collect();
-        let observed = ObservationBatch::new(self.origin.hyperparameters.inputs(), &seen)?;
+        let seen: Vec<Seen> =
+            layouts.iter().flat_map(|layout| Observation::every(layout, inputs.rails_first)).map(seen).collect();
+        let observed = ObservationBatch::new(inputs, &seen)?;
         let (actions, logits) = self.networks.judge(&observed)?;
         let heads = actions.len() / observed.observations().len();
+        let each = actions.len() / layouts.len();
         let mut proposals = actions.iter().zip(&logits).enumerate().map(|(row, (action, logit))| {
             let success = 1.0 / (1.0 + (-f64::from(*logit)).exp());
             // What is not a number must neither win nor upset the order.
             let success = if success.is_nan() { 0.0 } else { success };
             let observation = &observed.observations()[row / heads];
-            match playable(table, &layouts[row / (OBSERVATIONS * heads)], observation, *action) {
+            match playable(table, &layouts[row / each], observation, *action) {
                 Ok(cue) => Proposal { cue, success },
                 Err(_) => Proposal { cue: cue_inputs(table, observation, *action), success: 0.0 },
             }
         });
         Ok((0..layouts.len())
             .map(|_| {
-                let mut own: Vec<Proposal> = proposals.by_ref().take(OBSERVATIONS * heads).collect();
+                let mut own: Vec<Proposal> = proposals.by_ref().take(each).collect();
                 own.sort_by(|a, b| b.success.total_cmp(&a.success));
                 own
             })
