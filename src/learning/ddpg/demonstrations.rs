@@ -5,7 +5,7 @@ use rand::{Rng, RngExt};
 
 use super::{
     action::{ACTIONS, Action, ActionSpace},
-    first_contact::playable,
+    approach::playable,
     observation::{OBSERVATIONS, Observation},
     replay::Transition,
     venues::Conditions,

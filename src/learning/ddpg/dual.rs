@@ -44,6 +44,11 @@ impl Dual {
         self.chain(inverse, -inverse * inverse)
     }
 
+    /// The cosine that belongs to this sine, kept off zero where its slope is infinite.
+    pub fn cosine(self) -> Self {
+        (-(self * self).at_most(0.998) + 1.0).sqrt()
+    }
+
     /// Sine and cosine.
     pub fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();

@@ -77,7 +77,8 @@ impl Expert<'_> {
         let mut runners: Vec<Runner> =
             proposals.iter().map(|&(observation, action)| Runner::new(observation, action)).collect();
         runners.extend((0..TRIED).map(|_| {
-            let observation = Observation::random(self.layout, self.rails_first, rng);
+            let table = self.venues.table(self.conditions);
+            let observation = Observation::random(table, self.layout, self.rails_first, rng);
             Runner::new(observation, self.stroke(rng))
         }));
         let mut seen = Vec::new();

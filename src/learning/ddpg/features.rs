@@ -6,10 +6,10 @@ use glam::DVec2;
 
 use super::{
     action::{Action, Meaning},
+    approach::{Approach, Ways},
     dual::{Dual, DualVector},
     first_contact::FirstContact,
     observation::{Line, Observation, free_path},
-    rail_first::{Arrival, ByRail, RAIL_FEATURES},
 };
 use crate::table::Table;
 
@@ -74,16 +74,10 @@ pub fn push_state_features(table: &Table, observation: &Observation, out: &mut V
 /// the second ball and its images are given in that frame, as seen from where the cue ball then stands: a network
 /// would need many units to find this rotation by itself, and points are missed by a degree. Where the spin takes the
 /// cue ball from there in the end, its final direction, is the second such frame.
-pub fn push_action_features(
-    table: &Table,
-    observation: &Observation,
-    action: Action,
-    asked: Asked,
-    out: &mut Vec<Dual>,
-) {
+pub fn push_action_features(ways: &Ways<'_>, action: Action, asked: Asked, out: &mut Vec<Dual>) {
+    let Ways { table, observation, lines, .. } = *ways;
     let meaning = Meaning::of(table, action);
-    let lines = observation.lines(table);
-    let Approach { stroke, course, by_rail } = Approach::of(table, observation, &meaning, asked.slopes);
+    let Approach { contact: stroke, course, by_rail } = ways.approach(&meaning, asked.slopes);
     let offset = meaning.offset;
     let speed = Dual::action(1, f64::from(action[1]));
     out.extend([offset, offset * offset]);
@@ -95,7 +89,7 @@ pub fn push_action_features(
 
     let diameter = 2.0 * table.radius;
     // The line of centres lies right of the course by the cut angle.
-    let cos_cut = cosine(offset);
+    let cos_cut = offset.cosine();
     let normal = DualVector { x: course.x * cos_cut + course.y * offset, y: course.y * cos_cut - course.x * offset };
     out.extend([cos_cut, normal.x, normal.y]);
     // Where the first ball goes, against where the second one lies: a kiss spoils the shot.
@@ -139,38 +133,10 @@ pub fn push_action_features(
 /// What is asked of the features of a stroke.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
-    /// [`RAIL_FEATURES`] more, about the way by a cushion.
+    /// Those about the way by a cushion, at the end.
     pub rails_first: bool,
     /// The slopes.
     pub slopes: bool,
-}
-
-/// How the cue ball comes to the first ball.
-struct Approach {
-    stroke: FirstContact,
-    /// Direction of its course on arrival.
-    course: DualVector,
-    /// What is told of the way by a cushion.
-    by_rail: [Dual; RAIL_FEATURES],
-}
-
-impl Approach {
-    fn of(table: &Table, observation: &Observation, action: &Meaning, slopes: bool) -> Self {
-        let line = observation.lines(table).to_first;
-        let stroke = FirstContact::of(table, action, line.distance);
-        if let Some(arrival) = ByRail::of(table, observation).and_then(|ways| ways.arrival(action, slopes)) {
-            let Arrival { speed, roll, side, masse, roll_on_arrival, speed_on_arrival, turn, course: [x, y], features } =
-                arrival;
-            let (speed_on_arrival, course) = (speed_on_arrival.at_least(0.05), DualVector { x, y });
-            let stroke = FirstContact { speed, roll, side, masse, roll_on_arrival, speed_on_arrival, turn, ..stroke };
-            return Self { stroke, course, by_rail: features };
-        }
-        // The course turns left of the line to the first ball. That the ball is aimed a little to the side where it swerves is left
-        // out here: typically less than a degree, 10 for the strongest massés.
-        let sin_turn = action.offset * (2.0 * table.radius / line.distance);
-        let course = DualVector { x: cosine(sin_turn), y: sin_turn + stroke.turn }.normalised();
-        Self { stroke, course: course.rotated(line.direction), by_rail: [Dual::constant(0.0); RAIL_FEATURES] }
-    }
 }
 
 /// Leaves of the action features those that tell the action itself; the others become nought.
@@ -210,16 +176,11 @@ fn final_course(
     }
 }
 
-/// The cosine that belongs to a sine, kept off zero where its slope is infinite.
-fn cosine(sine: Dual) -> Dual {
-    (-(sine * sine).at_most(0.998) + 1.0).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{
-        learning::ddpg::action::ACTIONS,
+        learning::ddpg::{action::ACTIONS, rail_first::RAIL_FEATURES},
         table::{Layout, Rail},
     };
     use rand::{RngExt, SeedableRng};
@@ -229,7 +190,7 @@ mod tests {
 
     fn features(table: &Table, observation: &Observation, action: Action) -> Vec<Dual> {
         let mut out = Vec::new();
-        push_action_features(table, observation, action, ASKED, &mut out);
+        push_action_features(&Ways::of(table, observation), action, ASKED, &mut out);
         assert_eq!(out.len(), ACTION_FEATURES + RAIL_FEATURES);
         out
     }

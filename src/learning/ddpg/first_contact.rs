@@ -1,16 +1,7 @@
-//! The stroke of an action: its cue inputs, and what it makes of the cue ball until that meets the first ball, in closed
-//! form and with slopes.
+//! What a stroke makes of the cue ball until that meets the first ball on a straight way, in closed form and with slopes.
 
-use super::{
-    action::{Action, Meaning},
-    dual::Dual,
-    observation::Observation,
-    rail_first::ByRail,
-};
-use crate::{
-    physics::{CueInputs, NoRoom, squirt, with_room},
-    table::{Layout, Table},
-};
+use super::{action::Meaning, dual::Dual};
+use crate::table::Table;
 
 /// The cue ball on its way to a ball at a known distance. Speeds along the line of aim, sideways to its left.
 #[derive(Clone, Copy, Debug)]
@@ -76,51 +67,15 @@ impl FirstContact {
     }
 }
 
-/// The stroke that carries out `action` in `observation`.
-pub fn cue_inputs(table: &Table, observation: &Observation, action: Action) -> CueInputs {
-    let meaning = Meaning::of(table, action);
-    let direction = ByRail::of(table, observation).map_or_else(
-        || observation.angle_on_table(straight(table, observation, &meaning)),
-        |ways| ways.direction(&meaning),
-    );
-    let [left, up] = meaning.tip;
-    let a = observation.side_on_table(left.value);
-    CueInputs {
-        // Adding nought makes a negative nought positive, which people read better.
-        a: a + 0.0,
-        b: up.value,
-        theta: meaning.theta.value,
-        phi: direction - squirt(table, a),
-        speed: meaning.speed.value,
-    }
-}
-
-/// The direction of the course, in the observation, that goes straight to the first ball and passes it at the action's offset.
-fn straight(table: &Table, observation: &Observation, action: &Meaning) -> glam::DVec2 {
-    let line = observation.lines(table).to_first;
-    let swerve = FirstContact::of(table, action, line.distance).swerve.value;
-    let aside = 2.0 * table.radius * action.offset.value - swerve;
-    let turn = (aside / line.distance).clamp(-1.0, 1.0).asin();
-    glam::DVec2::from_angle(turn).rotate(line.direction)
-}
-
-/// The stroke that carries out `action` in a `observation` of `layout`, with the cue raised as far as rails and balls make it.
-///
-/// # Errors
-/// Where the cue has no room at any elevation.
-pub fn playable(
-    table: &Table,
-    layout: &Layout,
-    observation: &Observation,
-    action: Action,
-) -> Result<CueInputs, NoRoom> {
-    with_room(table, layout, &cue_inputs(table, observation, action))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{learning::ddpg::action::ACTIONS, physics::strike, simulation::Recording, table::Layout};
+    use crate::{
+        learning::ddpg::{approach::cue_inputs, observation::Observation},
+        physics::strike,
+        simulation::Recording,
+        table::Layout,
+    };
     use glam::DVec2;
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
@@ -170,55 +125,5 @@ mod tests {
                 assert!(typical < limit, "{name}: the {what} is typically {typical} off");
             }
         }
-    }
-
-    #[test]
-    fn the_aiming_line_passes_the_first_ball_at_the_offset_on_the_side_of_the_view() {
-        // Where balls fly, the thesis' fixed elevation would make them hop.
-        let table = Table { flight: None, ..Table::default() };
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
-        for _ in 0..100 {
-            let layout = Layout::random(&table, &mut rng);
-            for (index, observation) in Observation::all(&layout).iter().enumerate() {
-                let action = [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), 0.0, 0.0, 0.0];
-                let cue = cue_inputs(&table, observation, action);
-                cue.validate().unwrap();
-                assert_eq!((cue.a, cue.b, cue.theta), (0.0, 0.0, 10_f64.to_radians()));
-                let to_ball = layout.balls[1 + (index & 1)] - layout.balls[0];
-                // Positive where the ball's centre lies on the right of the aiming line.
-                let passed = -DVec2::from_angle(cue.phi).perp_dot(to_ball) / (2.0 * table.radius);
-                let side = if index & 2 == 0 { 1.0 } else { -1.0 };
-                assert!((passed * side - Meaning::of(&table, action).offset.value).abs() < 1e-12);
-            }
-        }
-    }
-
-    #[test]
-    fn no_action_oversteps_the_miscue_limit_and_what_is_no_number_still_gives_a_stroke() {
-        for name in crate::table::PRESETS {
-            let table = Table::preset(name).unwrap();
-            let observation = Observation::new(&Layout::opening(&table), 0);
-            for input in [f32::NAN, f32::INFINITY, -7.0, 1.0, -1.0, 0.3] {
-                for action in [[input; ACTIONS], [0.0, 0.0, input, -input, 1.0], [0.0, 0.0, input, 0.0, 0.0]] {
-                    let cue = cue_inputs(&table, &observation, action);
-                    cue.validate().unwrap();
-                    cue.validate_tip(table.miscue_limit).unwrap();
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_mirrored_view_gets_the_mirrored_stroke() {
-        let table = Table::default();
-        let layout = Layout::new([DVec2::new(0.3, 0.1), DVec2::new(-0.5, 0.3), DVec2::new(0.2, -0.4)]);
-        let mirrored = Layout::new(layout.balls.map(|ball| DVec2::new(ball.x, -ball.y)));
-        let action = [0.2, 0.5, 0.6, -0.3, 0.4];
-        let [one, other] = [(layout, 0), (mirrored, 2)].map(|(layout, observation)| {
-            let cue = cue_inputs(&table, &Observation::new(&layout, observation), action);
-            (cue.a, cue.phi, cue.b, cue.theta, cue.speed)
-        });
-        assert!((one.1 + other.1).abs() < 1e-12 && one.0 > 0.2);
-        assert_eq!((one.0, one.2, one.3, one.4), (-other.0, other.2, other.3, other.4));
     }
 }

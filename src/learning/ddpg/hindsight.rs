@@ -6,9 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
-use super::{
-    action::Action, first_contact::playable, observation::Observation, replay::Transition, venues::Conditions,
-};
+use super::{action::Action, approach::playable, observation::Observation, replay::Transition, venues::Conditions};
 use crate::{
     game::Reward,
     learning::cue_way::CueWay,

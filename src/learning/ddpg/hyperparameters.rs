@@ -15,6 +15,7 @@ use crate::learning::{
 /// What can be tuned. The defaults trained the bundled policies, but for what the model card says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a setting of its own")]
 pub struct Hyperparameters {
     /// What the agent chooses: the thesis' phi and V, or all five cue inputs.
     pub actions: ActionSpace,

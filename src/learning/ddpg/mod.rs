@@ -6,6 +6,7 @@
 
 pub mod action;
 pub mod agent;
+mod approach;
 pub mod context;
 pub mod demonstrations;
 mod dual;

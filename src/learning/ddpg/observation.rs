@@ -28,6 +28,10 @@ pub struct Observation {
 /// Number of observations of a layout with a straight way to the first ball: either object ball first, passed on either side.
 pub const OBSERVATIONS: usize = 4;
 
+/// Cushions by which each of them is looked at, too: those by which the way is shortest. Four of five of the strokes by a cushion that a
+/// search finds best go by one of these.
+const RAILS: usize = 2;
+
 impl Observation {
     /// The observation number `index` (below [`OBSERVATIONS`]) of a layout.
     pub fn new(layout: &Layout, index: usize) -> Self {
@@ -46,21 +50,29 @@ impl Observation {
 
     /// How many observations [`Observation::every`] gives of any layout.
     pub const fn count(rails_first: bool) -> usize {
-        OBSERVATIONS * if rails_first { 1 + Rail::ALL.len() } else { 1 }
+        OBSERVATIONS * if rails_first { 1 + RAILS } else { 1 }
     }
 
     /// All observations of a layout, those by a cushion too where `rails_first`.
-    pub fn every(layout: &Layout, rails_first: bool) -> Vec<Self> {
-        let rails = if rails_first { Rail::ALL.as_slice() } else { &[] };
-        let ways = std::iter::once(None).chain(rails.iter().copied().map(Some));
-        ways.flat_map(|rail| Self::all(layout).map(|straight| Self { rail, ..straight })).collect()
+    pub fn every(table: &Table, layout: &Layout, rails_first: bool) -> Vec<Self> {
+        let straight = Self::all(layout);
+        let by_rail = straight.iter().filter(|_| rails_first).flat_map(|view| view.by_nearest_rails(table));
+        straight.into_iter().chain(by_rail).collect()
     }
 
     /// One of the observations by chance, half of them by a cushion where `rails_first`.
-    pub fn random(layout: &Layout, rails_first: bool, rng: &mut (impl Rng + ?Sized)) -> Self {
+    pub fn random(table: &Table, layout: &Layout, rails_first: bool, rng: &mut (impl Rng + ?Sized)) -> Self {
         let straight = Self::new(layout, rng.random_range(0..OBSERVATIONS));
         let by_rail = rails_first && rng.random_bool(0.5);
-        Self { rail: by_rail.then(|| Rail::ALL[rng.random_range(0..Rail::ALL.len())]), ..straight }
+        if by_rail { straight.by_nearest_rails(table)[rng.random_range(0..RAILS)] } else { straight }
+    }
+
+    /// The same ball and side by the cushions by which the way is shortest.
+    fn by_nearest_rails(&self, table: &Table) -> [Self; RAILS] {
+        let mut ways = Rail::ALL.map(|rail| Self { rail: Some(rail), ..*self });
+        let length = |way: &Self| way.start(table).distance_squared(self.first);
+        ways.sort_by(|a, b| length(a).total_cmp(&length(b)));
+        std::array::from_fn(|index| ways[index])
     }
 
     /// Where the cue ball's last straight way to the first ball begins: at itself, or at its image in the cushion.

@@ -6,6 +6,7 @@ use candle_core::{CpuStorage, CustomOp1, Device, Layout, Result, Shape, Tensor, 
 
 use super::{
     action::{ACTIONS, Action, ActionSpace},
+    approach::Ways,
     context::{Inputs, push_context},
     dual::Dual,
     features::{Asked, leave_chosen, push_action_features, push_state_features},
@@ -161,24 +162,22 @@ impl CustomOp1 for Join {
         let mut out = Vec::with_capacity(rows * inputs.critic());
         let mut slopes = Vec::with_capacity(if self.differentiate { rows * inputs.action() } else { 0 });
         let mut features: Vec<Dual> = Vec::with_capacity(inputs.action());
-        let actions = values(storage, layout)?.chunks_exact(columns);
-        for (row, action) in actions.enumerate() {
-            let observation = row / (rows / observations);
-            features.clear();
-            push_action_features(
-                &self.observed.tables[observation],
-                &self.observed.observations[observation],
-                padded(action),
-                Asked { rails_first: inputs.rails_first, slopes: self.differentiate },
-                &mut features,
-            );
-            if !inputs.closed_form {
-                leave_chosen(&mut features);
-            }
-            out.extend_from_slice(&states[observation * state..][..state]);
-            out.extend(features.iter().map(|feature| feature.value as f32));
-            if self.differentiate {
-                slopes.extend(features.iter().map(|feature| feature.slope.map(|slope| slope as f32)));
+        let asked = Asked { rails_first: inputs.rails_first, slopes: self.differentiate };
+        let each = (rows / observations * columns).max(1);
+        let seen = self.observed.tables.iter().zip(&*self.observed.observations).zip(states.chunks_exact(state));
+        for (((table, observation), state), actions) in seen.zip(values(storage, layout)?.chunks_exact(each)) {
+            let ways = Ways::of(table, observation);
+            for action in actions.chunks_exact(columns) {
+                features.clear();
+                push_action_features(&ways, padded(action), asked, &mut features);
+                if !inputs.closed_form {
+                    leave_chosen(&mut features);
+                }
+                out.extend_from_slice(state);
+                out.extend(features.iter().map(|feature| feature.value as f32));
+                if self.differentiate {
+                    slopes.extend(features.iter().map(|feature| feature.slope.map(|slope| slope as f32)));
+                }
             }
         }
         self.slopes.get_or_init(|| slopes);
@@ -234,7 +233,7 @@ mod tests {
             let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();
             let mut features = Vec::new();
             let asked = Asked { rails_first: false, slopes: true };
-            push_action_features(&table, &observed.observations()[1], values[2], asked, &mut features);
+            push_action_features(&Ways::of(&table, &observed.observations()[1]), values[2], asked, &mut features);
             let expected = features.iter().map(|feature| feature.slope[0] as f32).sum::<f32>();
             assert!((gradient[2][0] - expected).abs() < 1e-4);
             assert!(observed.with_actions(&actions.narrow(0, 0, 3).unwrap()).is_err());

@@ -3,7 +3,13 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{action::Meaning, dual::Dual, observation::Observation};
+use super::{
+    action::Meaning,
+    approach::Approach,
+    dual::{Dual, DualVector},
+    first_contact::FirstContact,
+    observation::Observation,
+};
 use crate::{
     physics::{BallState, CueInputs, Cushions, Impulse, Motion, squirt, strike},
     simulation::{Constants, Segment},
@@ -16,8 +22,9 @@ pub const RAIL_FEATURES: usize = 8;
 /// Stretches between changes of motion after which a way is given up: more than any has.
 const MOST_STRETCHES: usize = 64;
 
-/// Turns of the aim that are tried at most, and how near the course must pass, m.
+/// Turns of the aim that are tried at most, how far one may go, rad, and how near the course must pass, m.
 const MOST_TURNS: usize = 6;
+const FURTHEST_TURN: f64 = 1.0;
 const NEAR_ENOUGH: f64 = 1e-6;
 
 /// What a way depends on: the direction in which the ball leaves the cue, rad on the table; cue speed, m/s; tip to the left and up in
@@ -37,13 +44,11 @@ struct Way {
     passed: f64,
     /// Speed, roll, side and massé spin just after the cushion as those just after a stroke in [`FirstContact`], roll and speed on
     /// arrival, direction of the course on arrival, its turn since the cushion; then the features of the way by a cushion but the first.
-    ///
-    /// [`FirstContact`]: super::first_contact::FirstContact
     numbers: [f64; NUMBERS],
 }
 
 /// Ways by a cushion in an observation.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct ByRail<'a> {
     table: &'a Table,
     observation: &'a Observation,
@@ -52,29 +57,6 @@ pub struct ByRail<'a> {
     rail: Rail,
     /// The cue ball and the first ball on the table, m.
     balls: [DVec2; 2],
-}
-
-/// A way with its slopes along an action.
-#[derive(Clone, Copy, Debug)]
-pub struct Arrival {
-    /// As in [`FirstContact`](super::first_contact::FirstContact), where the cushion takes the place of the stroke.
-    pub speed: Dual,
-    /// The same.
-    pub roll: Dual,
-    /// The same.
-    pub side: Dual,
-    /// The same.
-    pub masse: Dual,
-    /// The same.
-    pub roll_on_arrival: Dual,
-    /// The same.
-    pub speed_on_arrival: Dual,
-    /// Direction of the course on arrival, a unit vector of the observation's frame.
-    pub course: [Dual; 2],
-    /// By how much the course has turned since the cushion, the sine.
-    pub turn: Dual,
-    /// What is told of the way besides.
-    pub features: [Dual; RAIL_FEATURES],
 }
 
 impl<'a> ByRail<'a> {
@@ -97,7 +79,7 @@ impl<'a> ByRail<'a> {
     }
 
     /// How the cue ball arrives, with slopes only where they are asked for; `None` where no direction is found.
-    pub fn arrival(&self, action: &Meaning, slopes: bool) -> Option<Arrival> {
+    pub fn approach(&self, action: &Meaning, slopes: bool) -> Option<Approach> {
         let (chosen, way) = self.aim(action)?;
         let Meaning { speed, tip: [left, up], theta, offset } = *action;
         let numbers = if slopes {
@@ -126,10 +108,11 @@ impl<'a> ByRail<'a> {
             way.numbers.map(Dual::constant)
         };
         let [speed, roll, side, masse, roll_on_arrival, speed_on_arrival, x, y, turn, told @ ..] = numbers;
-        let mut features = [Dual::constant(1.0); RAIL_FEATURES];
-        features[1..].copy_from_slice(&told);
-        let course = [x, y];
-        Some(Arrival { speed, roll, side, masse, roll_on_arrival, speed_on_arrival, course, turn, features })
+        let (swerve, speed_on_arrival) = (Dual::constant(0.0), speed_on_arrival.at_least(0.05));
+        let contact = FirstContact { speed, roll, roll_on_arrival, side, masse, swerve, turn, speed_on_arrival };
+        let mut by_rail = [Dual::constant(1.0); RAIL_FEATURES];
+        by_rail[1..].copy_from_slice(&told);
+        Some(Approach { contact, course: DualVector { x, y }, by_rail })
     }
 
     /// The direction to the first ball's image in the cushion.
@@ -161,7 +144,7 @@ impl<'a> ByRail<'a> {
             };
             last = Some((direction, off));
             let turn = off / slope;
-            if !(turn.abs() < 1.0) {
+            if turn.is_nan() || turn.abs() > FURTHEST_TURN {
                 return None;
             }
             direction -= turn;
@@ -305,7 +288,7 @@ fn squashed(number: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        learning::ddpg::{action::ACTIONS, first_contact::cue_inputs},
+        learning::ddpg::{action::ACTIONS, approach::cue_inputs},
         simulation::{EventKind, Recording},
         table::Layout,
     };
@@ -322,10 +305,10 @@ mod tests {
     /// `None` where no way is told, or another ball or cushion is met.
     fn errors(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Option<[f64; 3]> {
         let layout = Layout::random(table, rng);
-        let observation = Observation::random(&layout, true, rng);
+        let observation = Observation::random(table, &layout, true, rng);
         let (ways, action) = (ByRail::of(table, &observation)?, action(rng));
         let meaning = Meaning::of(table, action);
-        let arrival = ways.arrival(&meaning, false)?;
+        let Approach { contact, course, .. } = ways.approach(&meaning, false)?;
         // The cue ball runs on where the first ball would lie, the others are out of its way.
         let [cue_ball, first] = ways.balls;
         let corners = [DVec2::ONE, DVec2::new(-1.0, 1.0)].map(|corner| corner * table.reach());
@@ -349,11 +332,11 @@ mod tests {
         let ball = recording.state(0, time);
         let handed = observation.side_on_table(1.0);
         let passed = handed * ball.velocity.normalize().perp_dot(ball.position - first) / (2.0 * table.radius);
-        let [x, y] = arrival.course.map(|part| part.value);
+        let course = DVec2::new(course.x.value, course.y.value);
         Some([
             (passed - meaning.offset.value).abs(),
-            (ball.velocity.length() / arrival.speed_on_arrival.value - 1.0).abs(),
-            (observation.mirror * DVec2::new(x, y)).angle_to(ball.velocity).abs(),
+            (ball.velocity.length() / contact.speed_on_arrival.value - 1.0).abs(),
+            (observation.mirror * course).angle_to(ball.velocity).abs(),
         ])
     }
 
@@ -384,19 +367,17 @@ mod tests {
         for rail in Rail::ALL {
             let [one, other] = [(layout, 0), (mirrored, 2)].map(|(layout, index)| {
                 let observation = Observation { rail: Some(rail), ..Observation::new(&layout, index) };
-                let arrival = ByRail::of(&table, &observation)?.arrival(&Meaning::of(&table, action), false)?;
-                Some((
-                    arrival.course.map(|part| part.value),
-                    arrival.side.value,
-                    cue_inputs(&table, &observation, action).phi,
-                ))
+                let ways = ByRail::of(&table, &observation)?;
+                let Approach { contact, course, .. } = ways.approach(&Meaning::of(&table, action), false)?;
+                let phi = cue_inputs(&table, &observation, action).phi;
+                Some([phi, contact.side.value, course.x.value, course.y.value])
             });
             let (Some(one), Some(other)) = (one, other) else {
                 assert!(one.is_none() && other.is_none());
                 continue;
             };
-            assert!((one.2 + other.2).abs() < 1e-9 && (one.1 - other.1).abs() < 1e-9, "{one:?} {other:?}");
-            assert!(one.0.iter().zip(other.0).all(|(one, other)| (one - other).abs() < 1e-9), "{one:?} {other:?}");
+            let apart = [one[0] + other[0], one[1] - other[1], one[2] - other[2], one[3] - other[3]];
+            assert!(apart.iter().all(|apart| apart.abs() < 1e-9), "{one:?} {other:?}");
         }
     }
 }

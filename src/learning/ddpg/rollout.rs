@@ -98,7 +98,8 @@ impl Trainer {
             return Ok(Vec::new());
         }
         let sides = scenes.iter().flat_map(|(layout, conditions)| {
-            let all = Observation::every(layout, self.rails_first()).into_iter();
+            let table = self.venues.table(*conditions);
+            let all = Observation::every(table, layout, self.rails_first()).into_iter();
             all.map(|observation| self.venues.seen(observation, *conditions))
         });
         let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &sides.collect::<Vec<_>>())?;
@@ -139,8 +140,8 @@ impl Trainer {
             return Ok(0.0);
         }
         let seen = scenes.iter().map(|(layout, conditions)| {
-            let rails_first = self.task.hyperparameters.rails_first;
-            self.venues.seen(Observation::random(layout, rails_first, &mut self.rng), *conditions)
+            let (table, rails_first) = (self.venues.table(*conditions), self.task.hyperparameters.rails_first);
+            self.venues.seen(Observation::random(table, layout, rails_first, &mut self.rng), *conditions)
         });
         let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &seen.collect::<Vec<_>>())?;
         let actions = self.agent.online.actions(&observed)?;

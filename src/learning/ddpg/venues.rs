@@ -5,9 +5,7 @@ use std::sync::Arc;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{
-    action::Action, context::Inputs, first_contact::playable, observation::Observation, observation_batch::Seen,
-};
+use super::{action::Action, approach::playable, context::Inputs, observation::Observation, observation_batch::Seen};
 use crate::{
     game::Reward,
     learning::evaluation::CONTACT_STEPS,

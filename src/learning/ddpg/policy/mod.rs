@@ -12,8 +12,8 @@ use self::file::Origin;
 pub use self::score::score;
 use crate::{
     learning::ddpg::{
+        approach::{cue_inputs, playable},
         context::knows,
-        first_contact::{cue_inputs, playable},
         networks::Networks,
         observation::Observation,
         observation_batch::{ObservationBatch, Seen},
@@ -22,6 +22,9 @@ use crate::{
     player::Skill,
     table::{Layout, Table},
 };
+
+/// Proposals for a layout at most, the best ones: as many as nine heads make for the straight ways to a ball.
+const MOST_PROPOSALS: usize = 36;
 
 /// A shot that a policy proposes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,8 +71,8 @@ impl Policy {
         self.proposals(table, layout, skill)[0].cue
     }
 
-    /// Every head's stroke for either object ball on either side, the critic's favourite first. There is at least one. The
-    /// cue is raised where it has to be; strokes for which it has no room at all have no chance, and come last.
+    /// Every head's stroke for either object ball on either side, or the likeliest of those that go by a cushion, too; the critic's
+    /// favourite first. There is at least one. The cue is raised where it has to be; strokes for which it has no room at all have no chance, and come last.
     ///
     /// # Panics
     /// Never, as [`Policy::propose`].
@@ -93,28 +96,32 @@ impl Policy {
         let (known, inputs) = (Arc::new(table.clone()), self.origin.hyperparameters.inputs());
         let seen = |observation| Seen { observation, table: Arc::clone(&known), errors };
         let seen: Vec<Seen> =
-            layouts.iter().flat_map(|layout| Observation::every(layout, inputs.rails_first)).map(seen).collect();
+            layouts.iter().flat_map(|layout| Observation::every(table, layout, inputs.rails_first)).map(seen).collect();
         let observed = ObservationBatch::new(inputs, &seen)?;
         let (actions, logits) = self.networks.judge(&observed)?;
         let heads = actions.len() / observed.observations().len();
         let each = actions.len() / layouts.len();
-        let mut proposals = actions.iter().zip(&logits).enumerate().map(|(row, (action, logit))| {
+        let propose = |layout: &Layout, (row, success): (usize, f64)| {
+            let observation = &observed.observations()[row / heads];
+            match playable(table, layout, observation, actions[row]) {
+                Ok(cue) => Proposal { cue, success },
+                Err(_) => Proposal { cue: cue_inputs(table, observation, actions[row]), success: 0.0 },
+            }
+        };
+        let mut rows = logits.iter().enumerate().map(|(row, logit)| {
             let success = 1.0 / (1.0 + (-f64::from(*logit)).exp());
             // What is not a number must neither win nor upset the order.
-            let success = if success.is_nan() { 0.0 } else { success };
-            let observation = &observed.observations()[row / heads];
-            match playable(table, &layouts[row / each], observation, *action) {
-                Ok(cue) => Proposal { cue, success },
-                Err(_) => Proposal { cue: cue_inputs(table, observation, *action), success: 0.0 },
-            }
+            (row, if success.is_nan() { 0.0 } else { success })
         });
-        Ok((0..layouts.len())
-            .map(|_| {
-                let mut own: Vec<Proposal> = proposals.by_ref().take(each).collect();
-                own.sort_by(|a, b| b.success.total_cmp(&a.success));
-                own
-            })
-            .collect())
+        let best = |layout| {
+            let mut own: Vec<(usize, f64)> = rows.by_ref().take(each).collect();
+            own.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+            own.truncate(MOST_PROPOSALS);
+            let mut own: Vec<Proposal> = own.into_iter().map(|row| propose(layout, row)).collect();
+            own.sort_by(|a, b| b.success.total_cmp(&a.success));
+            own
+        };
+        Ok(layouts.iter().map(best).collect())
     }
 }
 
