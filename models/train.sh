@@ -33,7 +33,7 @@ train match-three-cushion-second --from "$folder/match-three-cushion-first" --se
 train match-three-cushion-third --from "$folder/match-three-cushion-second" --seed 43 --steps 4000000
 train match-three-cushion-fourth --from "$folder/match-three-cushion-third" --seed 53 --steps 7000000
 train match-three-cushion-fifth --from "$folder/match-three-cushion-fourth" --seed 63 --steps 12000000
-train thesis-r3 --table thesis --reward r3 --seed 1 --steps 4000000
+train thesis-r3-first --table thesis --reward r3 --seed 3 --steps 4000000 --set "critic_layers=[256, 256, 256]"
 train thesis-one-cushion --table thesis --reward one-cushion --seed 1 --steps 3000000
 train thesis-three-cushion-first --table thesis --reward three-cushion --seed 1 --steps 2500000
 # Last rounds, but for two files for thesis: some of the shots are the networks' own best proposals, and no output goes on to where the
@@ -52,6 +52,7 @@ train match-three-cushion-sixth --from "$folder/match-three-cushion-fifth" --see
 train match-three-cushion-seventh --from "$folder/match-three-cushion-sixth" --seed 95 --steps 5000000 $lower
 train match-three-cushion-eighth --from "$folder/match-three-cushion-seventh" --seed 97 --steps 4000000 $lowest
 train match-three-cushion-ninth --from "$folder/match-three-cushion-eighth" --seed 99 --steps 4000000 $lowest
+train thesis-r3 --from "$folder/thesis-r3-first" --seed 5 --steps 3000000 $lowest
 train thesis-three-cushion-second --from "$folder/thesis-three-cushion-first" --seed 92 --steps 30000000 $thesis
 train thesis-three-cushion-third --from "$folder/thesis-three-cushion-second" --seed 94 --steps 5500000 $lower
 train thesis-three-cushion --from "$folder/thesis-three-cushion-third" --seed 96 --steps 4000000 $lowest
