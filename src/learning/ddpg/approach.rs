@@ -6,9 +6,9 @@ use glam::DVec2;
 use super::{
     action::{Action, Meaning},
     dual::{Dual, DualVector},
-    first_contact::FirstContact,
+    first_contact::{Approach, FirstContact, RAIL_FEATURES},
     observation::{Lines, Observation},
-    rail_first::{ByRail, RAIL_FEATURES},
+    rail_first::ByRail,
 };
 use crate::{
     physics::{CueInputs, NoRoom, squirt, with_room},
@@ -25,17 +25,6 @@ pub struct Ways<'a> {
     /// Its lines from ball to ball.
     pub lines: Lines,
     by_rail: Option<ByRail<'a>>,
-}
-
-/// How the cue ball comes to the first ball.
-#[derive(Clone, Copy, Debug)]
-pub struct Approach {
-    /// What it does since the stroke, or since the cushion.
-    pub contact: FirstContact,
-    /// Direction of its course on arrival, a unit vector of the observation's frame.
-    pub course: DualVector,
-    /// What is told of a way by a cushion.
-    pub by_rail: [Dual; RAIL_FEATURES],
 }
 
 impl<'a> Ways<'a> {

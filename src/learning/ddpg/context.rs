@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{
     action::ActionSpace,
     features::{ACTION_FEATURES, FEATURE_VERSION, STATE_FEATURES},
-    rail_first::RAIL_FEATURES,
+    first_contact::RAIL_FEATURES,
 };
 use crate::table::{Rail, RailModel, Rails, Table};
 

@@ -6,9 +6,9 @@ use glam::DVec2;
 
 use super::{
     action::{Action, Meaning},
-    approach::{Approach, Ways},
+    approach::Ways,
     dual::{Dual, DualVector},
-    first_contact::FirstContact,
+    first_contact::{Approach, FirstContact},
     observation::{Line, Observation, free_path},
 };
 use crate::table::Table;
@@ -180,7 +180,7 @@ fn final_course(
 mod tests {
     use super::*;
     use crate::{
-        learning::ddpg::{action::ACTIONS, rail_first::RAIL_FEATURES},
+        learning::ddpg::{action::ACTIONS, first_contact::RAIL_FEATURES},
         table::{Layout, Rail},
     };
     use rand::{RngExt, SeedableRng};

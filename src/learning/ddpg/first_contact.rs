@@ -1,7 +1,14 @@
-//! What a stroke makes of the cue ball until that meets the first ball on a straight way, in closed form and with slopes.
+//! What a stroke makes of the cue ball until that meets the first ball: how it arrives, and on a straight way in closed form and with
+//! slopes.
 
-use super::{action::Meaning, dual::Dual};
+use super::{
+    action::Meaning,
+    dual::{Dual, DualVector},
+};
 use crate::table::Table;
+
+/// Numbers about a way to the first ball by a cushion; all are nought where the way is straight.
+pub const RAIL_FEATURES: usize = 8;
 
 /// The cue ball on its way to a ball at a known distance. Speeds along the line of aim, sideways to its left.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +30,17 @@ pub struct FirstContact {
     pub turn: Dual,
     /// Speed on arrival, m/s.
     pub speed_on_arrival: Dual,
+}
+
+/// How the cue ball comes to the first ball.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach {
+    /// What it does since the stroke, or since the cushion.
+    pub contact: FirstContact,
+    /// Direction of its course on arrival, a unit vector of the observation's frame.
+    pub course: DualVector,
+    /// What is told of a way by a cushion.
+    pub by_rail: [Dual; RAIL_FEATURES],
 }
 
 impl FirstContact {

@@ -6,10 +6,10 @@ use super::{
     agent::Ddpg,
     context::CONTEXT_FEATURES,
     features::STATE_FEATURES,
+    first_contact::RAIL_FEATURES,
     hyperparameters::Hyperparameters,
     networks::Networks,
     policy::score,
-    rail_first::RAIL_FEATURES,
     snapshot,
     trainer::{Task, Trainer},
 };

@@ -5,9 +5,8 @@ use glam::{DVec2, DVec3};
 
 use super::{
     action::Meaning,
-    approach::Approach,
     dual::{Dual, DualVector},
-    first_contact::FirstContact,
+    first_contact::{Approach, FirstContact, RAIL_FEATURES},
     observation::Observation,
 };
 use crate::{
@@ -15,9 +14,6 @@ use crate::{
     simulation::{Constants, Segment},
     table::{Rail, Table},
 };
-
-/// Numbers about the way by a cushion; all are nought where the way is straight.
-pub const RAIL_FEATURES: usize = 8;
 
 /// Stretches between changes of motion after which a way is given up: more than any has.
 const MOST_STRETCHES: usize = 64;
