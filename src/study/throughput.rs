@@ -225,6 +225,6 @@ fn coach_updates(time: Duration, table: &Table, operations: Operations) -> candl
     let actions: Vec<Action> = (0..rows).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();
     let successes: Vec<f32> = (0..rows).map(|_| f32::from(u8::from(rng.random_bool(0.1)))).collect();
     let mut agent = Ddpg::new(settings, &mut rng)?.with(operations);
-    let lessons = ShotBatch { observed, actions, successes }.into();
-    updates_a_second(time, || agent.update(&lessons, 1.0))
+    let played = ShotBatch { observed, actions, successes };
+    updates_a_second(time, || agent.update(&played, None, 1.0))
 }

@@ -5,10 +5,7 @@
 //! that play, are evaluated and are shipped.
 
 use candle_core::{DType, Device, Result, Tensor, bail};
-use candle_nn::{
-    Module, Optimizer,
-    ops::{log_softmax, sigmoid},
-};
+use candle_nn::{Module, Optimizer, ops::sigmoid};
 use rand::Rng;
 
 use super::{
@@ -16,7 +13,6 @@ use super::{
     hyperparameters::Hyperparameters,
     networks::Networks,
     observation_batch::{ObservationBatch, action_rows},
-    replay::RANKED,
 };
 use crate::learning::nn::{
     adam::{Adam, soft_update},
@@ -54,23 +50,6 @@ impl ShotBatch {
             bail!("{count} observations, {actions} actions and {successes} successes are no batch");
         }
         Ok(())
-    }
-}
-
-/// What an agent learns from in one update.
-#[derive(Clone, Debug)]
-pub struct Lessons {
-    /// Shots that were played.
-    pub played: ShotBatch,
-    /// Shots that are ranked, [`RANKED`] of a layout one after the other.
-    pub ranked: Option<ShotBatch>,
-    /// The best strokes that searches have found.
-    pub searched: Option<ShotBatch>,
-}
-
-impl From<ShotBatch> for Lessons {
-    fn from(played: ShotBatch) -> Self {
-        Self { played, ranked: None, searched: None }
     }
 }
 
@@ -122,18 +101,18 @@ impl Ddpg {
         Self { online: self.online.with(operations), target: self.target.with(operations), ..self }
     }
 
-    /// Learns; `lr_factor` scales both learning rates.
+    /// Learns from a batch of shots that were played, and the actor besides from the best strokes that searches have found.
+    /// `lr_factor` scales both learning rates.
     ///
     /// # Errors
     /// Where sizes differ, or where the networks no longer give finite numbers.
-    pub fn update(&mut self, lessons: &Lessons, lr_factor: f64) -> Result<UpdateStats> {
-        let Lessons { played, ranked, searched } = lessons;
-        for batch in [Some(played), ranked.as_ref(), searched.as_ref()].into_iter().flatten() {
+    pub fn update(&mut self, played: &ShotBatch, searched: Option<&ShotBatch>, lr_factor: f64) -> Result<UpdateStats> {
+        for batch in [Some(played), searched].into_iter().flatten() {
             batch.check()?;
         }
-        let (goal, loss) = self.critic_goal(played, ranked.as_ref())?;
+        let loss = self.critic_loss(played)?;
         self.critic_optimiser.set_learning_rate(lr_factor * self.hyper.critic_learning_rate);
-        self.critic_optimiser.backward_step(&goal)?;
+        self.critic_optimiser.backward_step(&loss)?;
 
         let (mut climbed, probability) = self.actor_goal(&played.observed.first(self.hyper.actor_batch)?)?;
         if let Some(searched) = searched {
@@ -148,23 +127,12 @@ impl Ddpg {
         Ok(UpdateStats { critic: number(&loss)?, actor: -number(&probability)? })
     }
 
-    /// What the critic descends, and the part of it that is the mean cross entropy between its probabilities and what happened.
-    fn critic_goal(&self, played: &ShotBatch, ranked: Option<&ShotBatch>) -> Result<(Tensor, Tensor)> {
-        let (logits, successes) = self.judged(played)?;
-        let loss = mean_cross_entropy(&logits, &successes)?;
-        let Some(ranked) = ranked else { return Ok((loss.clone(), loss)) };
-        let (logits, successes) = self.judged(ranked)?;
-        let share = ranked.actions.len() as f64 / (ranked.actions.len() + played.actions.len()) as f64;
-        let loss = ((loss * (1.0 - share))? + (mean_cross_entropy(&logits, &successes)? * share)?)?;
-        let lists = listwise_cross_entropy(&logits, &successes)?;
-        Ok(((&loss + (lists * self.hyper.listwise)?)?, loss))
-    }
-
-    /// The critic's logits for shots, and what these had, as columns.
-    fn judged(&self, ShotBatch { observed, actions, successes }: &ShotBatch) -> Result<(Tensor, Tensor)> {
+    /// The mean cross entropy between the critic's probabilities and what happened.
+    fn critic_loss(&self, ShotBatch { observed, actions, successes }: &ShotBatch) -> Result<Tensor> {
         let taken = action_rows(observed.space(), actions)?;
         let successes = Tensor::from_slice(successes, (actions.len(), 1), &Device::Cpu)?;
-        Ok((self.online.critic.forward(&observed.with_actions(&taken)?)?, successes))
+        let logits = self.online.critic.forward(&observed.with_actions(&taken)?)?;
+        mean_cross_entropy(&logits, &successes)
     }
 
     /// The mean square of the way from searched strokes to the nearest head's, where the critic does not think the head's to be better
@@ -207,23 +175,8 @@ impl Ddpg {
 /// Mean cross entropy of success probabilities, given as logits, against what happened. candle-nn's own gives NaN once
 /// a probability rounds to 0 or 1.
 fn mean_cross_entropy(logits: &Tensor, successes: &Tensor) -> Result<Tensor> {
-    (softplus(logits)? - (logits * successes)?)?.mean_all()
-}
-
-/// Mean cross entropy within lists of [`RANKED`] shots (Cao et al. 2007): between the shares that the shots have of a list's
-/// successes and the shares that their probabilities have of the sum of these. It is least where the probabilities are right, as the
-/// other, but feels nothing of an error that they have in common.
-fn listwise_cross_entropy(logits: &Tensor, successes: &Tensor) -> Result<Tensor> {
-    let [logits, successes] = [logits, successes].map(|column| column.reshape(((), RANKED)));
-    let shares = log_softmax(&softplus(&logits?.neg()?)?.neg()?, 1)?;
-    let successes = successes?;
-    let of_all = successes.broadcast_div(&(successes.sum_keepdim(1)? + 1e-6)?)?;
-    (of_all * shares)?.sum(1)?.mean_all()?.neg()
-}
-
-/// The logarithm of one more than the exponential.
-fn softplus(logits: &Tensor) -> Result<Tensor> {
-    logits.relu()? + (logits.abs()?.neg()?.exp()? + 1.0)?.log()?
+    let softplus = (logits.relu()? + (logits.abs()?.neg()?.exp()? + 1.0)?.log()?)?;
+    (softplus - (logits * successes)?)?.mean_all()
 }
 
 #[cfg(test)]
@@ -253,7 +206,7 @@ mod tests {
             agent.online.actor = agent.online.actor.duplicate().unwrap().with_output_bias(&bias).unwrap();
             agent = Ddpg::starting_from(agent.online, agent.hyper).unwrap();
             for _ in 0..40 {
-                agent.update(&batch.clone().into(), 1.0).unwrap();
+                agent.update(&batch, None, 1.0).unwrap();
             }
             let outputs = agent.online.actor.forward(batch.observed.states()).unwrap();
             outputs.mean_all().unwrap().to_scalar::<f32>().unwrap()
@@ -288,9 +241,9 @@ mod tests {
         critic.parameters().set(&Tensor::new(values, &Device::Cpu).unwrap()).unwrap();
         let table = Arc::new(Table::default());
         let observations =
-            (0..3 * RANKED).map(|index| Observation::new(&Layout::random(&table, &mut rng), index % 4)).collect();
-        let actions = (0..3 * RANKED).map(|_| std::array::from_fn(|_| rng.random_range(-0.9..0.9))).collect();
-        let successes = (0..3 * RANKED).map(|_| f32::from(u8::from(rng.random_bool(0.5)))).collect();
+            (0..20).map(|index| Observation::new(&Layout::random(&table, &mut rng), index % 4)).collect();
+        let actions = (0..20).map(|_| std::array::from_fn(|_| rng.random_range(-0.9..0.9))).collect();
+        let successes = (0..20).map(|_| f32::from(u8::from(rng.random_bool(0.5)))).collect();
         let observed = ObservationBatch::on(&table, space, observations).unwrap();
         (agent, ShotBatch { observed, actions, successes })
     }
@@ -316,18 +269,16 @@ mod tests {
     fn both_gradients_are_slopes_of_what_is_learnt() {
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
             let errors = (21..26).map(|seed| {
-                let (mut agent, batch) = agent_and_batch(space, seed);
-                agent.hyper.listwise = 0.5;
+                let (agent, batch) = agent_and_batch(space, seed);
                 let Networks { actor, critic, .. } = &agent.online;
                 [
-                    error_of_gradient(critic, || agent.critic_goal(&batch, None).unwrap().0),
-                    error_of_gradient(critic, || agent.critic_goal(&batch, Some(&batch)).unwrap().0),
+                    error_of_gradient(critic, || agent.critic_loss(&batch).unwrap()),
                     error_of_gradient(actor, || agent.actor_goal(&batch.observed).unwrap().0),
                     error_of_gradient(actor, || agent.imitation_loss(&batch).unwrap()),
                 ]
             });
             let errors: Vec<_> = errors.collect();
-            for which in 0..4 {
+            for which in 0..3 {
                 // Where a rectified unit happens to be at its kink, the slope is the mean of two.
                 let close = errors.iter().filter(|errors| errors[which] < 0.005).count();
                 assert!(close >= 3 && errors.iter().all(|errors| errors[which] < 0.05), "{space:?}: {errors:?}");
@@ -380,7 +331,7 @@ mod tests {
             let actions: Vec<Action> = (0..128).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();
             let miss = |action: &Action| (0..2).map(|k| (action[k] - BEST[k]).powi(2)).sum::<f32>();
             let successes: Vec<f32> = actions.iter().map(|action| (-4.0 * miss(action)).exp()).collect();
-            agent.update(&ShotBatch { observed, actions, successes }.into(), 1.0).unwrap();
+            agent.update(&ShotBatch { observed, actions, successes }, None, 1.0).unwrap();
         }
         let observed = observed(&mut rng);
         let (actions, logits) = agent.target.judge(&observed).unwrap();
@@ -402,8 +353,7 @@ mod tests {
             let hyper = Hyperparameters { imitation, ..start.hyper.clone() };
             let mut agent = Ddpg::starting_from(start.online.duplicate().unwrap(), hyper).unwrap();
             for _ in 0..100 {
-                let lessons = Lessons { searched: Some(sure.clone()), ..batch.clone().into() };
-                agent.update(&lessons, 1.0).unwrap();
+                agent.update(&batch, Some(&sure), 1.0).unwrap();
             }
             way(&agent, &sure)
         };
@@ -412,30 +362,9 @@ mod tests {
     }
 
     #[test]
-    fn lists_teach_what_is_better_and_nothing_of_how_hard_the_layout_is() {
-        let loss = |logits: [f32; RANKED], successes: [f32; RANKED]| {
-            let [logits, successes] =
-                [logits, successes].map(|column| Tensor::from_slice(&column, (RANKED, 1), &Device::Cpu).unwrap());
-            listwise_cross_entropy(&logits, &successes).unwrap().to_scalar::<f32>().unwrap()
-        };
-        let logit = |share: f32| (share / (1.0 - share)).ln();
-        let made = [0.4, 0.2, 0.1, 0.1, 0.05, 0.05, 0.05, 0.05];
-        let right = loss(made.map(logit), made);
-        // Half of everything is as good, another order is not.
-        assert!((loss(made.map(|share| logit(0.5 * share)), made) - right).abs() < 1e-5);
-        let mut swapped = made;
-        swapped.swap(0, 1);
-        assert!(loss(swapped.map(logit), made) > right + 0.1);
-        assert!(loss(made.map(|share| logit(0.9 * share + 0.05)), made) > right + 1e-3);
-        assert_eq!(loss([0.0; RANKED], [0.0; RANKED]), 0.0);
-        assert!(loss([-200.0; RANKED], made).is_finite());
-    }
-
-    #[test]
     fn a_batch_of_unequal_parts_is_refused() {
         let (mut agent, batch) = agent_and_batch(ActionSpace::PhiV, 21);
         let unequal = ShotBatch { actions: batch.actions[1..].to_vec(), ..batch.clone() };
-        let searched = Lessons { searched: Some(unequal.clone()), ..batch.into() };
-        assert!(agent.update(&unequal.into(), 1.0).is_err() && agent.update(&searched, 1.0).is_err());
+        assert!(agent.update(&unequal, None, 1.0).is_err() && agent.update(&batch, Some(&unequal), 1.0).is_err());
     }
 }

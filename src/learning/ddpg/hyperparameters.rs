@@ -58,9 +58,6 @@ pub struct Hyperparameters {
     /// Share of them that are the averaged networks' own best proposals for a layout, several of each, played as they are: these
     /// are the shots between which they will have to choose.
     pub ranking: f64,
-    /// Weight of the listwise cross entropy within the proposals of a layout that are ranked, beside the critic's own: how well they are
-    /// told apart, however hard the layout is. Half of a critic update's experiences are then such lists.
-    pub listwise: f64,
     /// Attempts of whose success a remembered shot is the mean, where the player errs: one attempt tells little of a stroke that is
     /// made one time in six.
     pub attempts: usize,
@@ -113,7 +110,6 @@ impl Default for Hyperparameters {
             shots_per_update: 192,
             critic_chooses: 0.3,
             ranking: 0.0,
-            listwise: 0.0,
             attempts: 1,
             replay: 1 << 17,
             hindsight: 0.0,
@@ -180,7 +176,6 @@ impl Hyperparameters {
         check_share("critic_chooses", self.critic_chooses)?;
         check_share("perfect", self.perfect)?;
         check_share("ranking", self.ranking)?;
-        check_share("listwise", self.listwise)?;
         check_share("hindsight", self.hindsight)?;
         check_share("demonstrations", self.demonstrations)?;
         check("searched", self.searched as f64, self.searched <= 1 << 12, "0 to 4096")?;

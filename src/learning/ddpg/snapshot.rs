@@ -14,7 +14,7 @@ use super::{
     context::Inputs,
     networks::Networks,
     observation::Observation,
-    replay::{RANKED, Transition},
+    replay::Transition,
     trainer::{Task, Trainer},
     venues::{Conditions, Venues},
 };
@@ -42,8 +42,6 @@ struct TrainerState {
     replay_next: usize,
     #[serde(default)]
     searched_next: usize,
-    #[serde(default)]
-    rankings_next: usize,
 }
 
 /// Numbers of an observation in a snapshot.
@@ -65,12 +63,9 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
     writer.add_optimiser("actor", &agent.actor_optimiser)?;
     writer.add_optimiser("critic", &agent.critic_optimiser)?;
     let inputs = trainer.task.hyperparameters.inputs();
-    add_shots(writer, "replay", trainer.replay.held(), inputs);
-    if trainer.task.hyperparameters.listwise > 0.0 {
-        add_shots(writer, "rankings", trainer.rankings.held().as_flattened(), inputs);
-    }
+    add_shots(writer, "replay", &trainer.replay, inputs);
     if trainer.task.hyperparameters.searched > 0 {
-        add_shots(writer, "searched", trainer.searched.held(), inputs);
+        add_shots(writer, "searched", &trainer.searched, inputs);
     }
     note_of(&TrainerState {
         task: trainer.task.clone(),
@@ -84,7 +79,6 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
         critic_steps: agent.critic_optimiser.steps(),
         replay_next: trainer.replay.next(),
         searched_next: trainer.searched.next(),
-        rankings_next: trainer.rankings.next(),
     })
 }
 
@@ -116,12 +110,10 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     let replay = ReplayBuffer::restore(hyper.replay, transitions(reader, "replay", inputs)?, note.replay_next);
     let searched = if hyper.searched > 0 { transitions(reader, "searched", inputs)? } else { Vec::new() };
     let searched = ReplayBuffer::restore(hyper.replay, searched, note.searched_next);
-    let ranked = if hyper.listwise > 0.0 { transitions(reader, "rankings", inputs)? } else { Vec::new() };
-    let rankings = ReplayBuffer::restore(hyper.replay / RANKED, ranked.as_chunks().0.to_vec(), note.rankings_next);
     let TrainerState { task, table, rng, shots, updates, .. } = note;
     let table = Arc::new(table);
     let venues = Venues::new(&table, inputs, task.plan.seed);
-    Ok(Trainer { task, table, venues, agent, replay, rankings, searched, rng, shots, updates })
+    Ok(Trainer { task, table, venues, agent, replay, searched, rng, shots, updates })
 }
 
 fn view_numbers(observation: &Observation) -> [f64; OBSERVATION_NUMBERS] {
@@ -134,7 +126,8 @@ fn number_of(rail: Option<Rail>) -> f32 {
     rail.and_then(|rail| Rail::ALL.iter().position(|own| *own == rail)).map_or(STRAIGHT, |index| index as f32)
 }
 
-fn add_shots(writer: &mut Writer, name: &str, held: &[Transition], inputs: Inputs) {
+fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer<Transition>, inputs: Inputs) {
+    let held = shots.held();
     let observations: Vec<f64> = held.iter().flat_map(|held| view_numbers(&held.observation)).collect();
     let actions: Vec<f32> = held.iter().flat_map(|held| held.action).collect();
     let successes: Vec<f32> = held.iter().map(|held| held.success).collect();
@@ -199,7 +192,6 @@ mod tests {
         with_context.hyperparameters.imitation = 0.5;
         let mut by_rails = with_context.clone();
         by_rails.hyperparameters.rails_first = true;
-        by_rails.hyperparameters.listwise = 0.5;
         for task in [small_task(), with_context, by_rails] {
             let [mut whole, mut parts] = [0; 2].map(|_| Trainer::new(task.clone(), Table::default()).unwrap());
             for _ in 0..5 {

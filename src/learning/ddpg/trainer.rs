@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     action::ActionSpace,
-    agent::{Ddpg, Lessons, ShotBatch},
+    agent::{Ddpg, ShotBatch},
     hyperparameters::Hyperparameters,
     observation_batch::ObservationBatch,
     policy::{Policy, file::Origin},
-    replay::{RANKED, Ranking, Transition},
+    replay::Transition,
     venues::Venues,
 };
 use crate::{
@@ -43,8 +43,6 @@ pub struct Trainer {
     pub(super) venues: Venues,
     pub(super) agent: Ddpg,
     pub(super) replay: ReplayBuffer<Transition>,
-    /// The best proposals of the last layouts on which they were ranked.
-    pub(super) rankings: ReplayBuffer<Ranking>,
     /// The best strokes that searches have found.
     pub(super) searched: ReplayBuffer<Transition>,
     pub(super) rng: Xoshiro256PlusPlus,
@@ -61,10 +59,9 @@ impl Trainer {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(task.plan.seed);
         let agent = Ddpg::new(task.hyperparameters.clone(), &mut rng)?;
         let [replay, searched] = [(); 2].map(|()| ReplayBuffer::new(task.hyperparameters.replay));
-        let rankings = ReplayBuffer::new(task.hyperparameters.replay / RANKED);
         let table = Arc::new(table);
         let venues = Venues::new(&table, task.hyperparameters.inputs(), task.plan.seed);
-        Ok(Self { task, table, venues, agent, replay, rankings, searched, rng, shots: 0, updates: 0 })
+        Ok(Self { task, table, venues, agent, replay, searched, rng, shots: 0, updates: 0 })
     }
 
     /// A policy that plays with the averaged networks as they are now. `held_out_reward` is what they have been
@@ -104,18 +101,11 @@ impl Trainer {
             return Ok(Iteration { mean_reward, ..Iteration::default() });
         }
         let hyper = &self.task.hyperparameters;
-        let imitated = if hyper.imitation > 0.0 { hyper.actor_batch } else { 0 };
-        let lists = if hyper.listwise > 0.0 { hyper.batch / 2 / RANKED } else { 0 };
-        let ranked = self.rankings.sample(lists, &mut self.rng);
-        let ranked = ranked.as_flattened();
-        let played = self.replay.sample(hyper.batch - ranked.len(), &mut self.rng);
+        let (batch, imitated) = (hyper.batch, if hyper.imitation > 0.0 { hyper.actor_batch } else { 0 });
+        let played = self.replay.sample(batch, &mut self.rng);
         let searched = self.searched.sample(imitated, &mut self.rng);
-        let lessons = Lessons {
-            played: self.batch(&played)?,
-            ranked: Some(self.batch(ranked)?).filter(|shots| !shots.is_empty()),
-            searched: Some(self.batch(&searched)?).filter(|shots| !shots.is_empty()),
-        };
-        let losses = self.agent.update(&lessons, lr_factor)?;
+        let [played, searched] = [played, searched].map(|shots| self.batch(&shots));
+        let losses = self.agent.update(&played?, Some(&searched?).filter(|shots| !shots.is_empty()), lr_factor)?;
         self.updates += 1;
         // What the actor climbs is the critic's mean value of its actions.
         let q_value = -losses.actor;
