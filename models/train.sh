@@ -126,7 +126,14 @@ context context-three-cushion-eleventh --from "$folder/context-three-cushion-ten
 context context-three-cushion-twelfth --from "$folder/context-three-cushion-eleventh" --seed 371 --steps 6000000 $heads $choice $fine --set "$speeds"
 context context-three-cushion-thirteenth --from "$folder/context-three-cushion-twelfth" --seed 331 --steps 5000000 $heads $expert $again --set "$speeds"
 context context-three-cushion-fourteenth --from "$folder/context-three-cushion-thirteenth" --seed 381 --steps 6000000 $heads $choice $critic --set "$speeds"
-context context-three-cushion --from "$folder/context-three-cushion-fourteenth" --seed 391 --steps 6000000 $heads $choice $fine --set "$speeds"
+context context-three-cushion-fifteenth --from "$folder/context-three-cushion-fourteenth" --seed 391 --steps 6000000 $heads $choice $fine --set "$speeds"
+# With ways to the first ball by a cushion. The sixteenth was played with a version that looked at all four cushions, and stopped by hand after
+# 760,320 shots.
+rails="--set rails_first=true"
+context context-three-cushion-sixteenth --from "$folder/context-three-cushion-fifteenth" --seed 601 --steps 3600000 $heads $expert $again --set "$speeds" $rails
+context context-three-cushion-seventeenth --from "$folder/context-three-cushion-sixteenth" --seed 611 --steps 3200000 $heads $expert $again --set "$speeds" $rails
+context context-three-cushion-eighteenth --from "$folder/context-three-cushion-seventeenth" --seed 621 --steps 9000000 $heads $choice $critic --set "$speeds" $rails
+context context-three-cushion --from "$folder/context-three-cushion-eighteenth" --seed 631 --steps 2500000 $heads $choice $fine --set "$speeds" $rails
 speeds="head_speeds=[[0.5, 2.0], [1.4, 3.6], [2.8, 6.0]]"
 context context-one-cushion --from "$folder/context-one-cushion-fifth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
 context context-r3 --from "$folder/context-r3-sixth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"

@@ -131,6 +131,7 @@ mod tests {
     use crate::{
         game::{Reward, Rule},
         learning::evaluation::held_out_layouts,
+        simulation::{EventKind, Recording},
     };
     use glam::DVec2;
     use rand::SeedableRng;
@@ -187,5 +188,23 @@ mod tests {
         let (cue, other) =
             (policy.propose(&table, &layout, &Skill::PERFECT), policy.propose(&table, &mirrored, &Skill::PERFECT));
         assert!((cue.phi + other.phi).abs() < 1e-9 && cue.speed == other.speed);
+    }
+
+    #[test]
+    fn some_strokes_for_players_who_err_meet_a_cushion_first() {
+        let table = Table::default();
+        let policy = Policy::bundled_for(&table, Rule::ThreeCushion, true).unwrap().unwrap();
+        let meets_rail_first = |layout: &Layout, cue: &CueInputs| {
+            let recording = Recording::new(&table, layout, cue).unwrap();
+            let mut met = recording.events().iter().map(|event| event.kind);
+            matches!(met.find(|kind| !matches!(kind, EventKind::SlidingRolling(_))), Some(EventKind::BallRail(0, _)))
+        };
+        let proposed = held_out_layouts(&table, 40, 9).into_iter().map(|layout| {
+            let proposals = policy.proposals(&table, &layout, &Skill::CLUB);
+            proposals.iter().filter(|proposal| meets_rail_first(&layout, &proposal.cue)).count()
+        });
+        let proposed: Vec<usize> = proposed.collect();
+        let (layouts, strokes) = (proposed.iter().filter(|count| **count > 0).count(), proposed.iter().sum::<usize>());
+        assert!(layouts >= 10 && strokes >= 40, "{strokes} strokes on {layouts} of 40 layouts");
     }
 }
