@@ -1,6 +1,6 @@
 #!/bin/sh
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about thirty hours of a shared core. The bundled files for match began from networks that a
+# with the same version. All of it takes about thirty-two hours of a shared core. The bundled files for match began from networks that a
 # version before this one had trained; their first rounds were played without the cue's room, and those up to match-r3-third,
 # match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth.
 set -eu
