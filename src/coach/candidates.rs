@@ -14,7 +14,7 @@ use crate::{
     game::Rule,
     physics::{CueInputs, has_room, squirt, with_room},
     player::errors::{Errors, normal},
-    table::{Layout, Table},
+    table::{Layout, Rail, Table},
 };
 
 /// Fastest stroke that is recommended, m/s: the thesis' limit (its 4.1.3).
@@ -82,14 +82,9 @@ pub fn stratified(
         0..8 if is_usual => beside(table, cue_ball, target, usual_offset(rng)),
         0..8 => at(table, cue_ball, target, rng),
         8 => {
-            let reach = table.reach();
             let target = if rng.random() { first } else { second };
-            let image = match rng.random_range(0..4) {
-                0 => DVec2::new(2.0 * reach.x - target.x, target.y),
-                1 => DVec2::new(-2.0 * reach.x - target.x, target.y),
-                2 => DVec2::new(target.x, 2.0 * reach.y - target.y),
-                _ => DVec2::new(target.x, -2.0 * reach.y - target.y),
-            };
+            let rail = [Rail::Right, Rail::Left, Rail::Top, Rail::Bottom][rng.random_range(0..4)];
+            let image = rail.image(table.reach(), target);
             // Side spin and the cushion's friction turn the rebound: a wider window than the ball's own.
             (image - cue_ball).to_angle() + rng.random_range(-0.15..=0.15)
         }

@@ -87,6 +87,22 @@ mod tests {
 
     const SLIDING: f64 = 2.0;
 
+    #[test]
+    fn the_last_stretch_is_the_one_that_ends_at_rest() {
+        for growth in [0.0, 0.03] {
+            let (rolling, mut last) = (Rolling { least: 0.06, growth }, 0);
+            for tilt in [DVec2::ZERO, DVec2::new(0.003, -0.002)] {
+                for speed in (1..200).map(|step| 0.02 * f64::from(step)) {
+                    let velocity = speed * DVec2::from_angle(speed);
+                    let is_last = is_last_on_slope(&rolling, tilt, velocity);
+                    assert_eq!(is_last, roll_on_slope(&rolling, tilt, velocity).velocity == DVec2::ZERO);
+                    last += u32::from(is_last);
+                }
+            }
+            assert!(last > 0, "{growth}");
+        }
+    }
+
     /// Where a ball comes to rest by the exact equations, in steps of Runge and Kutta, and when, and its place on the way as
     /// `(time, place)`. What is integrated is place, velocity and slip; the slip is zero where the ball rolls.
     fn integrated(rolling: &Rolling, tilt: DVec2, start: [DVec2; 3]) -> Vec<(f64, DVec2)> {

@@ -41,8 +41,28 @@ impl Rail {
         }
     }
 
+    /// The image of a place in this cushion, as in a mirror: towards it aims who would meet what lies there by the cushion. `reach` is how
+    /// far a ball's centre gets from the table's, m.
+    pub fn image(self, reach: DVec2, place: DVec2) -> DVec2 {
+        let n = self.normal();
+        place - 2.0 * n.dot(place) * n - 2.0 * n.abs().dot(reach) * n
+    }
+
     /// The cushion whose normal into the table is `n`, one of the four.
     pub fn with_normal(n: DVec2) -> Self {
         Self::ALL.into_iter().find(|rail| rail.normal() == n).unwrap_or(Self::Left)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_image_lies_as_far_behind_the_cushion() {
+        let (reach, place) = (DVec2::new(1.4, 0.7), DVec2::new(0.3, -0.2));
+        let images = Rail::ALL.map(|rail| rail.image(reach, place));
+        let expected = [(-2.8 - 0.3, -0.2), (2.8 - 0.3, -0.2), (0.3, -1.4 + 0.2), (0.3, 1.4 + 0.2)];
+        assert_eq!(images, expected.map(DVec2::from));
     }
 }

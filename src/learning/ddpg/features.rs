@@ -8,16 +8,13 @@ use super::{
     action::{Action, Meaning},
     approach::Ways,
     dual::{Dual, DualVector},
-    first_contact::{Approach, FirstContact},
+    first_contact::{Approach, FirstContact, TYPICAL_SPEED},
     observation::{Line, Observation, free_path},
 };
 use crate::table::Table;
 
 /// Numbers about an observation.
 pub const STATE_FEATURES: usize = 38;
-
-/// A speed of the order of those in play, m/s: features are of the order of one.
-const TYPICAL_SPEED: f64 = 6.0;
 
 /// Numbers about an observation and an action.
 pub const ACTION_FEATURES: usize = 58;
@@ -68,7 +65,8 @@ pub fn push_state_features(table: &Table, observation: &Observation, out: &mut V
     }
 }
 
-/// Numbers about a shot, with their slopes along the action: [`ACTION_FEATURES`] of them.
+/// Numbers about a shot, with their slopes along the action: [`ACTION_FEATURES`] of them, and those about a way by a cushion where they
+/// are asked for.
 ///
 /// At the moment of contact the line of centres and the tangent at the first ball decide where the cue ball goes. So
 /// the second ball and its images are given in that frame, as seen from where the cue ball then stands: a network

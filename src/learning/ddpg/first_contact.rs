@@ -1,5 +1,4 @@
-//! What a stroke makes of the cue ball until that meets the first ball: how it arrives, and on a straight way in closed form and with
-//! slopes.
+//! How the cue ball arrives at the first ball after a stroke: on a straight way in closed form, with slopes.
 
 use super::{
     action::Meaning,
@@ -9,6 +8,9 @@ use crate::table::Table;
 
 /// Numbers about a way to the first ball by a cushion; all are nought where the way is straight.
 pub const RAIL_FEATURES: usize = 8;
+
+/// A speed of the order of those in play, m/s: features are of the order of one.
+pub const TYPICAL_SPEED: f64 = 6.0;
 
 /// The cue ball on its way to a ball at a known distance. Speeds along the line of aim, sideways to its left.
 #[derive(Clone, Copy, Debug)]

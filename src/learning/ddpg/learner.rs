@@ -118,31 +118,32 @@ impl Learner for Trainer {
     /// The networks that play, from a checkpoint or a policy, become both the learning and the averaged ones.
     fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
         let prefix = if weights.has("target.actor.0.weight") { "target." } else { "" };
+        let hyper = self.agent.hyper.clone();
+        let told = hyper.inputs();
         let network = |name: &str, which: usize| {
             let name = format!("{prefix}{name}");
-            let hyper = &self.agent.hyper;
-            let blind = Hyperparameters { context: false, rails_first: false, ..hyper.clone() };
-            let straight = Hyperparameters { rails_first: false, ..hyper.clone() };
             weights.network(&name, &hyper.sizes()[which]).or_else(|error| {
                 // What it has learnt without being told so much holds, until it learns better.
-                if let Ok(network) = weights.network(&name, &straight.sizes()[which]) {
-                    let rails_seen = network.with_more_inputs(straight.inputs().actor(), Rail::ALL.len())?;
-                    let all = rails_seen.sizes()[0];
-                    let more = if which == CRITIC { RAIL_FEATURES } else { 0 };
-                    return Ok(rails_seen.with_more_inputs(all, more)?);
+                let less = [(told.context, false), (false, told.rails_first), (false, false)];
+                let less = less.map(|(context, rails_first)| Hyperparameters { context, rails_first, ..hyper.clone() });
+                let known = |less: &Hyperparameters| {
+                    weights.network(&name, &less.sizes()[which]).ok().map(|network| (network, less.inputs()))
+                };
+                let Some((mut network, less)) = less.iter().find_map(known) else { return Err(error) };
+                if told.context && !less.context {
+                    network = network.with_more_inputs(STATE_FEATURES, CONTEXT_FEATURES)?;
                 }
-                match weights.network(&name, &blind.sizes()[which]) {
-                    Ok(network) if !hyper.rails_first => {
-                        Ok(network.with_more_inputs(STATE_FEATURES, CONTEXT_FEATURES)?)
-                    }
-                    _ => Err(error),
+                if told.rails_first && !less.rails_first {
+                    network = network.with_more_inputs(told.actor() - Rail::ALL.len(), Rail::ALL.len())?;
+                    let end = network.sizes()[0];
+                    network = network.with_more_inputs(end, if which == CRITIC { RAIL_FEATURES } else { 0 })?;
                 }
+                Ok(network)
             })
         };
         let own = &self.agent.online;
         let actor = if self.agent.hyper.new_actor { own.actor.duplicate()? } else { network("actor", ACTOR)? };
         let critic = network("critic", CRITIC)?;
-        let hyper = self.agent.hyper.clone();
         self.agent = Ddpg::starting_from(Networks::new(&hyper, actor, critic)?, hyper)?;
         Ok(())
     }
@@ -198,8 +199,7 @@ mod tests {
         let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-22").unwrap().unwrap();
         let mut task = old_trainer(&old).task;
         task.hyperparameters.context = true;
-        let mut pupil = Trainer::new(task, table.clone()).unwrap();
-        pupil.load_weights(&Reader::new(&file).unwrap()).unwrap();
+        let mut pupil = taught(task, &file);
         let told = pupil.policy(0.0, "").unwrap();
         assert!(told.has_context() && !old.has_context());
         for layout in held_out_layouts(&table, 5, 1) {
@@ -211,8 +211,7 @@ mod tests {
         // Asked to, it takes the critic alone.
         let mut task = pupil.task.clone();
         task.hyperparameters.new_actor = true;
-        let mut fresh = Trainer::new(task.clone(), table.clone()).unwrap();
-        fresh.load_weights(&Reader::new(&file).unwrap()).unwrap();
+        let fresh = taught(task.clone(), &file);
         let parameters = |network: &Mlp| network.parameters().to_vec1::<f32>().unwrap();
         let begun = Trainer::new(task, table.clone()).unwrap();
         assert_eq!(parameters(&fresh.agent.target.actor), parameters(&begun.agent.target.actor));
@@ -231,26 +230,34 @@ mod tests {
     #[test]
     fn an_agent_that_sees_ways_by_cushions_begins_with_what_was_learnt_of_straight_ones() {
         let (table, skill) = (Table::default(), Skill::CLUB);
-        let old = Policy::bundled_for(&table, Rule::StraightRail, true).unwrap().unwrap();
-        let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-25").unwrap().unwrap();
-        let mut task = old_trainer(&old).task;
-        task.hyperparameters.rails_first = true;
-        let mut pupil = Trainer::new(task, table.clone()).unwrap();
-        pupil.load_weights(&Reader::new(&file).unwrap()).unwrap();
-        let seeing = pupil.policy(0.0, "").unwrap();
-        for layout in held_out_layouts(&table, 5, 1) {
-            let [old, seeing] = [&old, &seeing].map(|policy| policy.proposals(&table, &layout, &skill));
-            assert_eq!(seeing.len(), old.len());
-            let best = old[0];
-            let same = |other: &Proposal| {
-                (best.cue.phi - other.cue.phi).abs() < 1e-4 && (best.success - other.success).abs() < 1e-4
-            };
-            assert!(seeing.iter().any(same), "{best:?}");
-            for Proposal { cue, .. } in &seeing {
-                cue.validate().unwrap();
-                cue.validate_tip(table.miscue_limit).unwrap();
+        let with_context = Policy::bundled_for(&table, Rule::StraightRail, true).unwrap().unwrap();
+        let blind = Policy::bundled(&table, Rule::OneCushion).unwrap().unwrap();
+        assert!(with_context.has_context() && !blind.has_context());
+        for old in [with_context, blind] {
+            let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-25").unwrap().unwrap();
+            let mut task = old_trainer(&old).task;
+            (task.hyperparameters.rails_first, task.hyperparameters.context) = (true, true);
+            let seeing = taught(task, &file).policy(0.0, "").unwrap();
+            for layout in held_out_layouts(&table, 5, 1) {
+                let [old, seeing] = [&old, &seeing].map(|policy| policy.proposals(&table, &layout, &skill));
+                let best = old[0];
+                let same = |other: &Proposal| {
+                    (best.cue.phi - other.cue.phi).abs() < 1e-4 && (best.success - other.success).abs() < 1e-4
+                };
+                assert!(seeing.len() >= old.len() && seeing.iter().any(same), "{best:?}");
+                for Proposal { cue, .. } in &seeing {
+                    cue.validate().unwrap();
+                    cue.validate_tip(table.miscue_limit).unwrap();
+                }
             }
         }
+    }
+
+    /// A trainer for `task` that begins with the weights in `file`.
+    fn taught(task: Task, file: &[u8]) -> Trainer {
+        let mut trainer = Trainer::new(task, Table::default()).unwrap();
+        trainer.load_weights(&Reader::new(file).unwrap()).unwrap();
+        trainer
     }
 
     /// A trainer that has the networks of `policy`.

@@ -48,11 +48,6 @@ impl Observation {
         std::array::from_fn(|index| Self::new(layout, index))
     }
 
-    /// How many observations [`Observation::every`] gives of any layout.
-    pub const fn count(rails_first: bool) -> usize {
-        OBSERVATIONS * if rails_first { 1 + RAILS } else { 1 }
-    }
-
     /// All observations of a layout, those by a cushion too where `rails_first`.
     pub fn every(table: &Table, layout: &Layout, rails_first: bool) -> Vec<Self> {
         let straight = Self::all(layout);
@@ -77,10 +72,7 @@ impl Observation {
 
     /// Where the cue ball's last straight way to the first ball begins: at itself, or at its image in the cushion.
     pub fn start(&self, table: &Table) -> DVec2 {
-        self.rail.map_or(self.cue, |rail| {
-            let n = rail.normal();
-            self.cue - 2.0 * (n.dot(self.cue) + n.abs().dot(table.reach())) * n
-        })
+        self.rail.map_or(self.cue, |rail| rail.image(table.reach(), self.cue))
     }
 
     /// The cushion on the table.
@@ -111,9 +103,7 @@ impl Observation {
     /// Images of the second ball in the four cushions: where a ball that rebounds from a cushion like light from a
     /// mirror must aim to meet it.
     pub fn images(&self, table: &Table) -> [DVec2; 4] {
-        let DVec2 { x, y } = self.second;
-        let edge = 2.0 * table.reach();
-        [DVec2::new(edge.x - x, y), DVec2::new(-edge.x - x, y), DVec2::new(x, edge.y - y), DVec2::new(x, -edge.y - y)]
+        [Rail::Right, Rail::Left, Rail::Top, Rail::Bottom].map(|rail| rail.image(table.reach(), self.second))
     }
 }
 

@@ -1,12 +1,12 @@
 //! The cue ball's way to the first ball by a cushion, in closed form: it slides and rolls to the cushion, the cushion's law gives it
 //! another course and spin, and it slides and rolls on.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::{
     action::Meaning,
     dual::{Dual, DualVector},
-    first_contact::{Approach, FirstContact, RAIL_FEATURES},
+    first_contact::{Approach, FirstContact, RAIL_FEATURES, TYPICAL_SPEED},
     observation::Observation,
 };
 use crate::{
@@ -22,6 +22,9 @@ const MOST_STRETCHES: usize = 64;
 const MOST_TURNS: usize = 6;
 const FURTHEST_TURN: f64 = 1.0;
 const NEAR_ENOUGH: f64 = 1e-6;
+
+/// Speed below which shares of it are those of this one, m/s, as in [`FirstContact`].
+const SLOWEST: f64 = 0.05;
 
 /// What a way depends on: the direction in which the ball leaves the cue, rad on the table; cue speed, m/s; tip to the left and up in
 /// the observation's frame, units of R; elevation, rad.
@@ -58,12 +61,14 @@ pub struct ByRail<'a> {
 impl<'a> ByRail<'a> {
     /// Ways by the cushion of an observation, if it has one.
     pub fn of(table: &'a Table, observation: &'a Observation) -> Option<Self> {
+        // Most observations have none: nothing is worked out for them.
+        let rail = observation.rail_on_table()?;
         Some(Self {
             table,
             observation,
             constants: Constants::of(table),
             cushions: Cushions::of(table),
-            rail: observation.rail_on_table()?,
+            rail,
             balls: [observation.mirror * observation.cue, observation.mirror * observation.first],
         })
     }
@@ -104,7 +109,7 @@ impl<'a> ByRail<'a> {
             way.numbers.map(Dual::constant)
         };
         let [speed, roll, side, masse, roll_on_arrival, speed_on_arrival, x, y, turn, told @ ..] = numbers;
-        let (swerve, speed_on_arrival) = (Dual::constant(0.0), speed_on_arrival.at_least(0.05));
+        let (swerve, speed_on_arrival) = (Dual::constant(0.0), speed_on_arrival.at_least(SLOWEST));
         let contact = FirstContact { speed, roll, roll_on_arrival, side, masse, swerve, turn, speed_on_arrival };
         let mut by_rail = [Dual::constant(1.0); RAIL_FEATURES];
         by_rail[1..].copy_from_slice(&told);
@@ -113,10 +118,8 @@ impl<'a> ByRail<'a> {
 
     /// The direction to the first ball's image in the cushion.
     fn mirrored(&self) -> f64 {
-        let n = self.rail.normal();
         let [cue, first] = self.balls;
-        let image = first - 2.0 * (n.dot(first) + n.abs().dot(self.constants.reach)) * n;
-        (image - cue).to_angle()
+        (self.rail.image(self.constants.reach, first) - cue).to_angle()
     }
 
     /// The stroke that passes the first ball at the action's offset, and its way, by the secant method from the mirror's direction.
@@ -171,9 +174,9 @@ impl<'a> ByRail<'a> {
             return None;
         }
         self.cushions.at(self.rail).resolve(constants.radius, n, &mut ball);
-        let leaving = Rolling::of(constants.radius, &ball)?;
+        let leaving = Moving::of(constants.radius, &ball)?;
         let ball = self.until(&ball, |segment, lasts| comes_by(segment, lasts, *first))?;
-        let arriving = Rolling::of(constants.radius, &ball)?;
+        let arriving = Moving::of(constants.radius, &ball)?;
 
         let mirror = |vector: DVec2| observation.mirror * vector;
         let handed = observation.side_on_table(1.0);
@@ -195,7 +198,7 @@ impl<'a> ByRail<'a> {
                 course.y,
                 handed * leaving.along.perp_dot(arriving.along),
                 handed * n.perp().dot(incoming.normalize_or_zero()),
-                incoming.length() / 6.0,
+                incoming.length() / TYPICAL_SPEED,
                 place.x,
                 place.y,
                 free(*cue, point, *first),
@@ -249,7 +252,7 @@ fn comes_by(segment: &Segment, lasts: f64, place: DVec2) -> Option<f64> {
 }
 
 /// A moving ball's speeds, those of its spin as shares of its own.
-struct Rolling {
+struct Moving {
     along: DVec2,
     speed: f64,
     roll: f64,
@@ -257,14 +260,13 @@ struct Rolling {
     masse: f64,
 }
 
-impl Rolling {
+impl Moving {
     fn of(radius: f64, ball: &BallState) -> Option<Self> {
         let speed = ball.velocity.length();
         let along = ball.velocity.try_normalize()?;
-        let DVec3 { z, .. } = ball.spin;
-        let share = radius / speed.max(0.05);
-        let flat = share * ball.spin.truncate();
-        Some(Self { along, speed, roll: along.perp().dot(flat), side: share * z, masse: along.dot(flat) })
+        let spin = radius / speed.max(SLOWEST) * ball.spin;
+        let level = spin.truncate();
+        Some(Self { along, speed, roll: along.perp().dot(level), side: spin.z, masse: along.dot(level) })
     }
 }
 

@@ -45,10 +45,6 @@ impl Trainer {
         Ok(total / played.max(1) as f64)
     }
 
-    const fn rails_first(&self) -> bool {
-        self.task.hyperparameters.rails_first
-    }
-
     /// A fresh layout and its conditions.
     fn scene(&mut self) -> Scene {
         let conditions = self.venues.draw(self.task.hyperparameters.perfect, &mut self.rng);
@@ -78,8 +74,8 @@ impl Trainer {
             let proposals: Vec<_> =
                 proposals.into_iter().map(|(observation, action, _)| (observation, action)).collect();
             let (reward, space, conditions) = (self.task.plan.reward, self.space(), *conditions);
-            let expert =
-                Expert { venues: &self.venues, reward, space, rails_first: self.rails_first(), layout, conditions };
+            let rails_first = self.task.hyperparameters.rails_first;
+            let expert = Expert { venues: &self.venues, reward, space, rails_first, layout, conditions };
             let strokes = expert.search(&proposals, &mut self.rng);
             if let Some(best) = strokes.first() {
                 self.searched.push(*best);
@@ -97,17 +93,18 @@ impl Trainer {
         if scenes.is_empty() {
             return Ok(Vec::new());
         }
+        let rails_first = self.task.hyperparameters.rails_first;
         let sides = scenes.iter().flat_map(|(layout, conditions)| {
-            let table = self.venues.table(*conditions);
-            let all = Observation::every(table, layout, self.rails_first()).into_iter();
+            let all = Observation::every(self.venues.table(*conditions), layout, rails_first).into_iter();
             all.map(|observation| self.venues.seen(observation, *conditions))
         });
         let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &sides.collect::<Vec<_>>())?;
         let (actions, logits) = networks.judge(&observed)?;
         let heads = actions.len() / observed.observations().len();
+        let each = actions.len() / scenes.len();
         let all = actions.into_iter().zip(logits).enumerate();
         let all = all.map(|(row, (action, logit))| (observed.observations()[row / heads], action, logit));
-        Ok(all.collect::<Vec<_>>().chunks(Observation::count(self.rails_first()) * heads).map(<[_]>::to_vec).collect())
+        Ok(all.collect::<Vec<_>>().chunks(each).map(<[_]>::to_vec).collect())
     }
 
     /// Plays the averaged networks' best proposals on every layout, as they are. Returns the rewards' sum.
