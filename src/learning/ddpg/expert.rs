@@ -67,12 +67,36 @@ impl Runner {
     fn mean(&self) -> f64 {
         self.earned / self.attempts.max(1) as f64
     }
+
+    const fn goes_by_rail(&self) -> bool {
+        self.observation.rail.is_some()
+    }
+}
+
+/// What a search found.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    /// The winner, and the best stroke of the other way to the first ball, straight or by a cushion; the best one first.
+    pub best: Vec<Transition>,
+    /// Others that went far.
+    pub others: Vec<Transition>,
+}
+
+/// Leaves the first `left` of runners that stand in their order, the last of which makes room for the best of a way to the first ball,
+/// straight or by a cushion, that would be lost; returns the others. So what heads are shown holds strokes of either way, though
+/// one of them wins three searches of four.
+fn leave(runners: &mut Vec<Runner>, left: usize) -> Vec<Runner> {
+    let other = runners.iter().position(|runner| runner.goes_by_rail() != runners[0].goes_by_rail());
+    if let Some(lost) = other.filter(|&lost| lost >= left) {
+        runners.swap(left - 1, lost);
+    }
+    runners.split_off(left.min(runners.len()))
 }
 
 impl Expert<'_> {
-    /// Strokes that went far in the race that began with `proposals`, the first one won it. Each has the share of attempts in which it
-    /// was made, attempts that did not decide the race: what wins has had luck. None where no stroke ever earned anything.
-    pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Vec<Transition> {
+    /// Strokes that went far in the race that began with `proposals`. Each has the share of attempts in which it was made, attempts
+    /// that did not decide the race: what wins has had luck. None where no stroke ever earned anything.
+    pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Found {
         let seed = rng.random();
         let mut runners: Vec<Runner> =
             proposals.iter().map(|&(observation, action)| Runner::new(observation, action)).collect();
@@ -84,8 +108,8 @@ impl Expert<'_> {
         let mut seen = Vec::new();
         for (attempts, left) in ROUNDS {
             self.race(&mut runners, attempts, seed);
-            seen.extend(runners.iter().skip(left).filter(|runner| runner.attempts >= ROUNDS[1].0));
-            runners.truncate(left);
+            let out = leave(&mut runners, left);
+            seen.extend(out.into_iter().filter(|runner| runner.attempts >= ROUNDS[1].0));
         }
         for step in STEPS {
             let parents = runners.clone();
@@ -95,20 +119,29 @@ impl Expert<'_> {
                 .map(|parent| Runner::new(parent.observation, self.beside(parent.action, step, rng)))
                 .collect();
             self.race(&mut children, ROUNDS[1].0, seed);
-            children.truncate(ROUNDS[1].1);
+            leave(&mut children, ROUNDS[1].1);
             runners.extend(children);
             self.race(&mut runners, ROUNDS[2].0, seed);
-            seen.extend(runners.iter().skip(ROUNDS[2].1));
-            runners.truncate(ROUNDS[2].1);
+            seen.extend(leave(&mut runners, ROUNDS[2].1));
         }
-        let Some(winner) = runners.first().filter(|winner| winner.earned > 0.0) else { return Vec::new() };
         let again = |runner: &Runner, attempts| {
             let mut again = [Runner::new(runner.observation, runner.action)];
             self.race(&mut again, attempts, !seed);
             self.transition(&again[0])
         };
-        let others = runners[1..].iter().chain(&seen).map(|runner| again(runner, AGAIN));
-        std::iter::once(again(winner, ROUNDS[2].0)).chain(others).collect()
+        if runners.first().is_none_or(|winner| winner.earned == 0.0) {
+            return Found::default();
+        }
+        let (mut best, mut others) = (Vec::<Runner>::new(), Vec::new());
+        for runner in runners {
+            let is_new_way = best.iter().all(|better| better.goes_by_rail() != runner.goes_by_rail());
+            let strokes = if is_new_way && runner.earned > 0.0 { &mut best } else { &mut others };
+            strokes.push(runner);
+        }
+        others.extend(seen);
+        let [best, others] = [(best, ROUNDS[2].0), (others, AGAIN)]
+            .map(|(strokes, attempts)| strokes.iter().map(|stroke| again(stroke, attempts)).collect());
+        Found { best, others }
     }
 
     /// Makes attempts at every stroke until each has so many, with the same errors for all, and puts the best first.
@@ -178,7 +211,7 @@ mod tests {
             let expert = Expert { venues: &venues, reward, space, rails_first: false, layout: &layout, conditions };
             let proposal = Runner::new(Observation::new(&layout, 0), expert.stroke(&mut rng));
             let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng);
-            let winner = strokes.first().unwrap();
+            let winner = strokes.best.first().unwrap();
             let mut again = [proposal, Runner::new(winner.observation, winner.action)];
             expert.race(&mut again[..1], 100, 7);
             expert.race(&mut again[1..], 100, 7);
@@ -188,5 +221,26 @@ mod tests {
             assert!((again[1].mean() - f64::from(winner.success)).abs() < 0.35, "{winner:?} {:?}", again[1]);
         }
         assert!(found > 5.0 && found > proposed + 3.0, "{found} found, {proposed} proposed, of 12");
+    }
+
+    #[test]
+    fn the_best_of_either_way_stays_in_the_race() {
+        let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
+        let ways = Observation::every(&table, &Layout::random(&table, &mut rng), true);
+        let [straight, by_rail] =
+            [false, true].map(|by_rail| *ways.iter().find(|way| way.rail.is_some() == by_rail).unwrap());
+        let race = |ways: &[Observation]| {
+            let mut runners: Vec<Runner> = (ways.iter().zip(0..))
+                .map(|(way, earned)| Runner { earned: -f64::from(earned), ..Runner::new(*way, [0.0; ACTIONS]) })
+                .collect();
+            let out = leave(&mut runners, 2);
+            assert_eq!(runners.len() + out.len(), ways.len());
+            runners.iter().map(|runner| (runner.goes_by_rail(), -runner.earned)).collect::<Vec<_>>()
+        };
+        assert_eq!(race(&[straight; 4]), [(false, 0.0), (false, 1.0)]);
+        assert_eq!(race(&[straight, by_rail, straight]), [(false, 0.0), (true, 1.0)]);
+        assert_eq!(race(&[straight, straight, straight, by_rail, by_rail]), [(false, 0.0), (true, 3.0)]);
+        assert_eq!(race(&[by_rail, by_rail, straight]), [(true, 0.0), (false, 2.0)]);
+        assert_eq!(race(&[straight]), [(false, 0.0)]);
     }
 }

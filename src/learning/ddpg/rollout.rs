@@ -7,7 +7,7 @@ use rand::RngExt;
 use super::{
     action::Action,
     demonstrations::demonstrate,
-    expert::Expert,
+    expert::{Expert, Found},
     hindsight::relabel,
     hyperparameters::Hyperparameters,
     networks::Networks,
@@ -61,7 +61,7 @@ impl Trainer {
         }
     }
 
-    /// Looks for the best stroke of a player who errs, on some layouts. It remembers the strokes that went far, and the best among those
+    /// Looks for the best strokes of a player who errs, on some layouts. It remembers the strokes that went far, and the best among those
     /// that the actor imitates.
     fn search(&mut self) -> Result<()> {
         let scenes: Vec<Scene> = (0..self.task.hyperparameters.searched)
@@ -76,11 +76,11 @@ impl Trainer {
             let (reward, space, conditions) = (self.task.plan.reward, self.space(), *conditions);
             let rails_first = self.task.hyperparameters.rails_first;
             let expert = Expert { venues: &self.venues, reward, space, rails_first, layout, conditions };
-            let strokes = expert.search(&proposals, &mut self.rng);
-            if let Some(best) = strokes.first() {
-                self.searched.push(*best);
+            let Found { best, others } = expert.search(&proposals, &mut self.rng);
+            for stroke in &best {
+                self.searched.push(*stroke);
             }
-            for stroke in strokes {
+            for stroke in best.into_iter().chain(others) {
                 self.replay.push(stroke);
             }
         }
