@@ -46,6 +46,9 @@ const SINGULAR: f64 = 1e-6;
 /// Rounds of refinement that take the effect of [`PROXIMITY`] out again.
 const MAX_REFINEMENTS: usize = 8;
 
+/// A residual of which a round of refinement leaves so much or more is no effect of [`PROXIMITY`]: not everything can be held.
+const TORN: f64 = 0.95;
+
 /// Residuals below this share of the largest number are rounding.
 const ROUNDING: f64 = 4096.0 * f64::EPSILON;
 
@@ -120,6 +123,8 @@ struct Held<const ROOM: usize> {
     sizes: [Triple; ROOM],
     /// Whether they are known not to be unique: something is held more often than needed.
     redundant: bool,
+    /// By how much bends tear apart what is held so often, m/s².
+    torn: f64,
 }
 
 impl<const ROOM: usize> Held<ROOM> {
@@ -144,6 +149,7 @@ impl<const ROOM: usize> Held<ROOM> {
             members: std::array::from_fn(|ball| contacts.iter().any(|contact| contact.has(ball))),
             sizes: [[0.0; 3]; ROOM],
             redundant: false,
+            torn: 0.0,
         };
         for (index, place) in system.joints[..system.contacts].iter_mut().enumerate() {
             *place = Joint { at: system.unknowns, ..joint(index) };
@@ -186,7 +192,8 @@ impl<const ROOM: usize> Held<ROOM> {
     }
 
     /// Finds the sizes for which all rates vanish if the balls would move like `free` without the contacts; `bends` says
-    /// whether the courses' bends count. Returns the movement that is left; none where the rates cannot vanish together.
+    /// whether the courses' bends count. Returns the movement that is left, also where bends tear apart what is held, and none where
+    /// anything else keeps the rates from vanishing together.
     #[inline(always)]
     fn solve(&mut self, free: &Movement, bends: bool) -> Option<Movement> {
         // Numbers that the compiler knows make most of the systems cheaper: a contact that slips, one that sticks, and both.
@@ -242,8 +249,12 @@ impl<const ROOM: usize> Held<ROOM> {
                 }
             }
             // Once rounding is reached, more rounds would only stir it. What is next to nothing beside a spin may yet carry a ball on.
-            let is_rounding = residual <= ROUNDING * scale && round > 0 && (unique || residual >= 0.5 * smallest);
-            if residual <= 16.0 * f64::EPSILON * scale || is_rounding {
+            let stays = round > 0 && (unique || residual >= 0.5 * smallest);
+            if residual <= 16.0 * f64::EPSILON * scale || stays && residual <= ROUNDING * scale {
+                return Some(moved);
+            }
+            if bends && round > 0 && !unique && residual >= TORN * smallest {
+                self.torn = residual;
                 return Some(moved);
             }
             smallest = smallest.min(residual);
@@ -357,7 +368,7 @@ impl<const ROOM: usize> Solved<ROOM> {
         let unheld = system.unheld(free);
         let [sliding, rolling, boring] = frictions(table);
         let mut forces = Forces::NONE;
-        forces.slack = *within;
+        forces.slack = if system.torn > 0.0 { -system.torn } else { *within };
         forces.redundant = system.redundant;
         let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
         for ball in (0..BALLS).filter(|&ball| system.members[ball]) {

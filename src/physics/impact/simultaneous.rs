@@ -69,38 +69,49 @@ pub fn collide_together(
     balls: &mut [BallState; BALLS],
     contacts: &[Contact],
 ) -> [ImpactImpulse; MAX_CONTACTS] {
-    // A contact whose law is the same in both cases stays with the others.
-    let is_alone = |contact: &Contact| {
-        let shares = |other: &Contact| other != contact && other.shares_a_ball(contact);
-        contacts.len() == 1 || !law.is_plain(contact) && !contacts.iter().any(shares)
-    };
     let mut impulses = [ImpactImpulse::default(); MAX_CONTACTS];
-    let (alone, together): (Vec<_>, Vec<_>) = (0..contacts.len()).partition(|&index| is_alone(&contacts[index]));
-    for index in alone {
-        impulses[index] = collide_alone(radius, law, balls, &contacts[index]);
+    let mut taking_part: Vec<usize> = (0..contacts.len()).collect();
+    loop {
+        // A contact whose law is the same in both cases stays with the others.
+        let is_alone = |&index: &usize| {
+            let shares = |&other: &usize| other != index && contacts[other].shares_a_ball(&contacts[index]);
+            taking_part.len() == 1 || !law.is_plain(&contacts[index]) && !taking_part.iter().any(shares)
+        };
+        let (alone, together): (Vec<_>, Vec<_>) = taking_part.iter().copied().partition(is_alone);
+        let joined: Vec<Contact> = together.iter().map(|&index| contacts[index]).collect();
+        let normal = normal_impulses(law, balls, &joined);
+        // What the others relieve takes no part: one that is left alone by that has a single impact's law.
+        if joined.iter().any(|contact| !law.is_plain(contact)) && normal[..joined.len()].contains(&0.0) {
+            let is_relieved =
+                |index: usize| together.iter().zip(normal).any(|(&other, push)| other == index && push == 0.0);
+            taking_part.retain(|&index| !is_relieved(index));
+            continue;
+        }
+        for index in alone {
+            impulses[index] = collide_alone(radius, law, balls, &contacts[index]);
+        }
+        push_and_rub(radius, law, balls, &joined, &normal);
+        for (index, normal) in together.into_iter().zip(normal) {
+            impulses[index].normal = normal;
+        }
+        return impulses;
     }
-    let joined: Vec<Contact> = together.iter().map(|&index| contacts[index]).collect();
-    for (index, normal) in together.into_iter().zip(collide_joined(radius, law, balls, &joined)) {
-        impulses[index].normal = normal;
-    }
-    impulses
 }
 
-/// Impacts at the height of the balls' centres that are solved together. Returns the normal impulse of each, per mass, m/s.
-fn collide_joined(
+/// Gives the normal impulses at the height of the balls' centres, per mass, m/s, and the frictions that follow from them.
+fn push_and_rub(
     radius: f64,
     law: &ImpactLaw,
     balls: &mut [BallState; BALLS],
     contacts: &[Contact],
-) -> [f64; MAX_CONTACTS] {
-    let mut impulses = [0.0; MAX_CONTACTS];
+    impulses: &[f64; MAX_CONTACTS],
+) {
     let normals: Vec<DVec2> = contacts.iter().map(|contact| contact.normal(balls)).collect();
     let slips: Vec<DVec2> = contacts.iter().map(|contact| contact.slip(radius, balls)).collect();
-    normal_impulses(law, balls, contacts, &normals, &mut impulses);
     for (contact, (n, impulse)) in contacts.iter().zip(normals.iter().zip(impulses)) {
-        balls[contact.first].velocity += impulse * n;
+        balls[contact.first].velocity += *impulse * *n;
         if let Some(second) = contact.second {
-            balls[second].velocity -= impulse * n;
+            balls[second].velocity -= *impulse * *n;
         }
     }
     let rubbed = |share: f64| {
@@ -134,7 +145,6 @@ fn collide_joined(
     let bend = 2.0 * (whole + before - 2.0 * half);
     let fall = whole - before - bend;
     *balls = rubbed(if whole <= before { 1.0 } else { (-fall / bend).clamp(0.0, 1.0) });
-    impulses
 }
 
 /// A single impact.
@@ -150,15 +160,11 @@ fn collide_alone(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], c
     }
 }
 
-/// Moreau's law for the normal impulses, by projected Gauss-Seidel sweeps: the matrix is symmetric and not negative, for
+/// Moreau's law for the normal impulses per mass, m/s, by projected Gauss-Seidel sweeps: the matrix is symmetric and not negative, for
 /// which they converge from anywhere.
-fn normal_impulses(
-    law: &ImpactLaw,
-    balls: &[BallState; BALLS],
-    contacts: &[Contact],
-    normals: &[DVec2],
-    impulses: &mut [f64; MAX_CONTACTS],
-) {
+fn normal_impulses(law: &ImpactLaw, balls: &[BallState; BALLS], contacts: &[Contact]) -> [f64; MAX_CONTACTS] {
+    let mut impulses = [0.0; MAX_CONTACTS];
+    let normals: Vec<DVec2> = contacts.iter().map(|contact| contact.normal(balls)).collect();
     let sense = |contact: &Contact, ball: usize| {
         f64::from(u8::from(contact.first == ball)) - f64::from(u8::from(contact.second == Some(ball)))
     };
@@ -176,7 +182,7 @@ fn normal_impulses(
     for _ in 0..MAX_SWEEPS {
         let mut change = 0.0_f64;
         for i in 0..contacts.len() {
-            let given: f64 = responses[i].iter().zip(&*impulses).map(|(response, impulse)| response * impulse).sum();
+            let given: f64 = responses[i].iter().zip(&impulses).map(|(response, impulse)| response * impulse).sum();
             let impulse = (impulses[i] + (wanted[i] - given) / responses[i][i]).max(0.0);
             change = change.max((impulse - impulses[i]).abs());
             impulses[i] = impulse;
@@ -185,6 +191,7 @@ fn normal_impulses(
             break;
         }
     }
+    impulses
 }
 
 #[cfg(test)]
@@ -279,6 +286,23 @@ mod tests {
         assert_eq!((together[0], together[1]), (one[0], other[0]));
         assert_eq!(balls, [pair[0], pair[1], alone[2]]);
         assert!(balls[2].velocity.x < 0.0 && balls[1].velocity.x > 1.8);
+    }
+
+    /// A ball that a blow drives away from another one, which comes up to it slowly: only two of the three meet.
+    #[test]
+    fn what_is_relieved_leaves_the_others_their_own_law() {
+        let law = ImpactLaw::of(&Table::preset("match").unwrap());
+        let mut balls = in_line(0.0);
+        balls[2].velocity = DVec2::new(-3.0, 0.4);
+        let behind = DVec2::new(0.6, 0.8);
+        balls[0] =
+            BallState { velocity: -0.1 * behind, ..BallState::at_rest(balls[1].position + 2.0 * RADIUS * behind) };
+        let mut alone = balls;
+        let contacts = [Contact::of_balls(0, 1), LINE[1]];
+        let together = collide_together(RADIUS, &law, &mut balls, &contacts);
+        let single = collide_together(RADIUS, &law, &mut alone, &contacts[1..]);
+        assert_eq!((together[0].normal, together[1]), (0.0, single[0]));
+        assert_eq!(balls, alone);
     }
 
     #[test]

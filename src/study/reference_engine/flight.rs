@@ -175,11 +175,14 @@ pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Ball
     Met { events, work, is_slow: approach <= slow }
 }
 
-/// Takes what rounding has left of a gap out of the place of a ball in the air; one that is just being lifted is still on the cloth.
+/// Takes what rounding has left of a gap out of the place of a ball in the air, which does not come down by that; one that is just being
+/// lifted is still on the cloth.
 fn shift<R: Real>(ball: &mut Ball<R>, by: Vector<R>) {
-    let lies = ball.position.z <= R::zero();
+    let height = ball.position.z.max(R::zero());
     ball.position = ball.position + by;
-    ball.position.z = if lies { R::zero() } else { ball.position.z.max(R::zero()) };
+    if height == R::zero() || ball.position.z <= R::zero() {
+        ball.position.z = height;
+    }
 }
 
 /// Relative velocity after an impact with restitution, which was `across - approach n`, but for its friction, which takes `rub`

@@ -57,8 +57,8 @@ pub fn collide<R: Real>(
     Ok((met, work))
 }
 
-/// The `contacts` collide that close at one moment: those that share balls together, any other by the table's own law; the
-/// contacts in `inelastic` have no restitution. Adds those who push each other to the ones that have met, and returns the energy over
+/// The `contacts` collide that close at one moment: those that share balls together, any other by the table's own law, also where
+/// those that it shares balls with are relieved by others; the contacts in `inelastic` have no restitution. Adds those who push each other to the ones that have met, and returns the energy over
 /// mass that it takes.
 ///
 /// # Errors
@@ -90,7 +90,16 @@ pub fn at_once<R: Real>(
                     let numbers = if inelastic.contains(&contact) { &numbers.inelastic() } else { numbers };
                     alone(numbers, balls, contact)
                 }
-                _ => one_round(numbers, balls, &joined, restitution, met)?,
+                _ => {
+                    let pushes = pushes(numbers, balls, &joined, restitution)?;
+                    let is_pushed = |(contact, push): (&Contact, &R)| (*push > R::zero()).then_some(*contact);
+                    let pushing: Vec<Contact> = joined.iter().zip(&pushes).filter_map(is_pushed).collect();
+                    if pushing.len() < joined.len() {
+                        at_once(numbers, balls, &pushing, inelastic, met)?
+                    } else {
+                        one_round(numbers, balls, &joined, restitution, met)?
+                    }
+                }
             };
     }
     Ok(work)
@@ -126,13 +135,7 @@ pub fn one_round<R: Real>(
     let half = R::of(0.5);
     let before = movement(balls);
     let normals: Vec<Row<R>> = contacts.iter().map(|contact| Row::opening(*contact, contact.normal(balls))).collect();
-    let speeds =
-        contacts.iter().zip(&normals).map(|(contact, row)| (R::of(1.0) + restitution(contact)) * row.speed(&before));
-    let matrix: Vec<Vec<R>> =
-        normals.iter().map(|of| normals.iter().map(|by| of.response(numbers, by)).collect()).collect();
-    let blocks: Vec<Block<R>> = (0..contacts.len()).map(|at| Block { at, axes: 1, law: Law::Push }).collect();
-    let rates: Vec<R> = speeds.collect();
-    let pushes = Problem { matrix: &matrix, rates: &rates, blocks: &blocks }.solve().ok_or(Unjudged::Unsolved)?;
+    let pushes = pushes(numbers, balls, contacts, restitution)?;
     let mut pushed = before;
     for (row, push) in normals.iter().zip(&pushes) {
         row.push(numbers, *push, &mut pushed);
@@ -165,6 +168,24 @@ pub fn one_round<R: Real>(
         (ball.velocity, ball.spin) = (velocity, spin);
     }
     Ok(work)
+}
+
+/// The normal impulses over mass of a round, none where others relieve a contact of its own.
+fn pushes<R: Real>(
+    numbers: &Numbers<R>,
+    balls: &Balls<R>,
+    contacts: &[Contact],
+    restitution: impl Fn(&Contact) -> R,
+) -> Result<Vec<R>, Unjudged> {
+    let before = movement(balls);
+    let normals: Vec<Row<R>> = contacts.iter().map(|contact| Row::opening(*contact, contact.normal(balls))).collect();
+    let speeds =
+        contacts.iter().zip(&normals).map(|(contact, row)| (R::of(1.0) + restitution(contact)) * row.speed(&before));
+    let matrix: Vec<Vec<R>> =
+        normals.iter().map(|of| normals.iter().map(|by| of.response(numbers, by)).collect()).collect();
+    let blocks: Vec<Block<R>> = (0..contacts.len()).map(|at| Block { at, axes: 1, law: Law::Push }).collect();
+    let rates: Vec<R> = speeds.collect();
+    Problem { matrix: &matrix, rates: &rates, blocks: &blocks }.solve().ok_or(Unjudged::Unsolved)
 }
 
 /// The largest share, up to one, of a change that adds no energy.

@@ -56,26 +56,56 @@ pub struct Impacts {
     pub bounces: Option<Bounces>,
 }
 
+/// What rounding may have decided at a moment.
+#[derive(Clone, Copy, Debug)]
+pub struct Supposed {
+    /// Whether what closes no faster than rounding counts as closing.
+    pub grazes: bool,
+    /// What closes so fast at most does so by rounding, m/s.
+    pub none: f64,
+    /// Which of the impacts on the cloth close at once with those before them, a bit for each.
+    pub joins: u32,
+    /// Whether balls that have been thrown up so slowly that they do not hop lie on the cloth already.
+    pub lies: bool,
+}
+
+impl Supposed {
+    /// Nothing.
+    pub const NOTHING: Self = Self { grazes: false, none: 0.0, joins: u32::MAX, lies: false };
+}
+
 /// What the impacts do that are told of a `group` of balls: in the air one after another, on the cloth together where they close at
-/// once. `flew` are those balls that have been in the air until now, of which those that have come down land first; between two that
-/// rest from now on, or one and a cushion, there is no restitution. What closes no faster than rounding, or at `none` m/s, counts as
-/// closing only where it does not `graze`.
+/// once. `flew` are those balls that have been in the air until now, of which those that have come down are thrown up by the cloth first,
+/// or lie on it, and others land last if that is told; between two that rest from now on, or one and a cushion, there is no restitution.
 pub fn impacts(
     table: &Table,
     [before, after]: [&[SpatialState; BALLS]; 2],
     [flew, group, rested, rests]: [[bool; BALLS]; 4],
     told: &[Event],
-    (graze, none): (bool, f64),
+    supposed: Supposed,
 ) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
+    let slowest = numbers.flight.filter(|_| supposed.lies).map_or(0.0, |flight| flight.slowest);
+    let meets_before_it_lands = |ball: usize| {
+        let meets = |event: &Event| match event.kind {
+            EventKind::Lands(other) if other == ball => Some(false),
+            EventKind::BallBall(first, second) if [first, second].contains(&ball) => Some(true),
+            EventKind::BallRail(other, _) if other == ball => Some(true),
+            _ => None,
+        };
+        told.iter().find_map(meets).unwrap_or(false)
+    };
     let mut lost = 0.0;
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let SpatialState { position, velocity, spin } = before[ball];
         let [position, velocity, spin] = [position, velocity, spin].map(|v| Vector::new(v.x, v.y, v.z));
         let mut state = Ball { velocity, spin, ..Ball::still(position) };
         state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
-        if group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= 0.0 {
+        if group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= slowest {
             lost += settle(&numbers, &mut state);
+            if supposed.lies && meets_before_it_lands(ball) {
+                state.motion = Motion::Flying;
+            }
         }
         state
     });
@@ -100,29 +130,34 @@ pub fn impacts(
     let mut contacts = contacts
         .iter()
         .enumerate()
-        .map(|(index, contact)| (*contact, rests(contact) && !contacts[index + 1..].contains(contact)))
+        .map(|(index, contact)| {
+            let stays = rests(contact) && !contacts[index + 1..].contains(contact);
+            (*contact, stays, supposed.joins.checked_shr(index as u32).is_none_or(|joins| joins & 1 == 1))
+        })
         .peekable();
     let mut bounces: Option<Bounces> = None;
     let rounding = |contact: &Contact, balls: &[Ball<f64>; BALLS]| {
         let (first, second) = contact.balls();
         let speed = |ball: usize| balls[ball].velocity.length();
         let held = if rested[first] && second.is_none_or(|second| rested[second]) { RESTING_SPEED } else { 0.0 };
-        held.max(none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
+        held.max(supposed.none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
     };
-    while let Some((contact, stays)) = contacts.next() {
+    while let Some((contact, stays, _)) = contacts.next() {
         if contact.is_aloft(&balls) {
             let rounding = rounding(&contact, &balls);
-            if opening_aloft(&numbers, contact, &balls) > if graze { -rounding } else { rounding } {
+            if opening_aloft(&numbers, contact, &balls) > if supposed.grazes { -rounding } else { rounding } {
                 continue;
             }
             lost += collide_aloft(&numbers, contact, &mut balls).work;
         } else {
             let closes = |contact: &Contact| {
-                let least = if graze { 0.0 } else { rounding(contact, &balls) };
+                let least = if supposed.grazes { 0.0 } else { rounding(contact, &balls) };
                 !contact.is_aloft(&balls) && contact.opening(&balls) < -least
             };
             let (mut round, mut staying) = (vec![contact], Vec::from_iter(stays.then_some(contact)));
-            while let Some((other, stays)) = contacts.next_if(|(other, _)| closes(other) && !round.contains(other)) {
+            while let Some((other, stays, _)) =
+                contacts.next_if(|(other, _, joins)| *joins && closes(other) && !round.contains(other))
+            {
                 round.push(other);
                 staying.extend(stays.then_some(other));
             }
@@ -137,6 +172,15 @@ pub fn impacts(
         }
         for ball in balls.iter_mut().filter(|ball| ball.velocity.z > 0.0) {
             ball.motion = Motion::Flying;
+        }
+    }
+    for event in told {
+        if let EventKind::Lands(ball) = event.kind
+            && group[ball]
+            && balls[ball].motion == Motion::Flying
+        {
+            balls[ball].position.z = 0.0;
+            lost += settle(&numbers, &mut balls[ball]);
         }
     }
     let moved = balls.iter().zip(before).map(|(ball, before)| {

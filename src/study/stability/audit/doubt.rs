@@ -27,6 +27,10 @@ pub const STOPPED_SPEED: f64 = 1e-7;
 /// balls move besides.
 const STOPPED_ENERGY: f64 = 0.7 * STOPPED_SPEED * STOPPED_SPEED;
 
+/// How much what an impact takes changes with its normal, in shares of the energy over radians: of the approach `(1 - e²) v_n v_t` at
+/// most, and of a slip `u`, which is 4 √E at most, `μ (1 + e) v u` and `2/7 u v`.
+const TURNED: f64 = 5.0;
+
 /// What has a doubtful energy.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Doubt {
@@ -70,7 +74,7 @@ impl Doubt {
     /// For what is lost at a change, m²/s².
     pub fn at_a_change(&self, table: &Table) -> f64 {
         let stopped = if self.stops { STOPPED_SPEED * (2.0 * self.energy).sqrt() } else { 0.0 };
-        let turned = self.moved / (2.0 * table.radius) * self.energy;
+        let turned = TURNED * self.moved / (2.0 * table.radius) * self.energy;
         self.of_a_gain(table)
             + self.of_a_place(table)
             + self.of_an_impulse()

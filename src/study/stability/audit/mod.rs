@@ -24,6 +24,7 @@ use super::{
     figures::{Figures, Limits},
     trace::{Piece, Trace},
 };
+use aloft::Supposed;
 use course::Course;
 use doubt::Doubt;
 use laws::free_loss;
@@ -47,6 +48,9 @@ pub struct Account {
 
 /// A moment is known to so much of itself: four roundings of its sum with the start of a course.
 const TIME_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// So many impacts of a moment are tried in all ways to have closed at once or one after another.
+const MOST_JOINING: usize = 8;
 
 struct Audit<'a> {
     table: &'a Table,
@@ -180,8 +184,8 @@ impl Audit<'_> {
     }
 
     /// The told impacts of a group one after another, by the laws of the reference engine, in the way that comes nearest to what is
-    /// `lost`: whether rounding has left a height is told by the engine's answer; so is the side of a landing on which an impact lies,
-    /// whether what closes no faster than rounding closes, and which contacts bounce no more.
+    /// `lost`: whether rounding has left a height is told by the engine's answer; so is the side of a landing on which an impact lies, what
+    /// else rounding may decide, and which contacts bounce no more.
     fn impacts(
         &self,
         (now, told): (f64, &[Event]),
@@ -195,21 +199,29 @@ impl Audit<'_> {
             (0..BALLS).filter(|&ball| group[ball]).map(|ball| aloft::energy(self.table, &balls[ball])).sum()
         };
         let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &before[ball]));
-        let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], grazes: (bool, f64)| {
-            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], told, grazes);
+        let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], supposed| {
+            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], told, supposed);
             impacts.lost += energy(&at_impact) - energy(balls);
             impacts
         };
-        let mut nearest = explained(&at_impact, [false; BALLS], (false, 0.0));
+        let mut nearest = explained(&at_impact, [false; BALLS], Supposed::NOTHING);
         // A ball that is moved on to what it hits turns the normals of its other contacts.
         let moved = |ball: usize| before[ball].position.distance(after[ball].position) / (2.0 * self.table.radius);
         let turned = (0..BALLS).filter(|&ball| group[ball]).map(|ball| moved(ball) * before[ball].velocity.length());
         let none = self.trace.constants.tolerance.opening + turned.fold(0.0, f64::max);
+        let several = if told.len() > MOST_JOINING { 0 } else { told.len() };
+        // The first impact joins nothing.
+        let ways = (0..1_u32 << several).step_by(2).flat_map(|apart| {
+            let joins = !apart;
+            [(false, 0.0), (true, 0.0), (false, none)]
+                .into_iter()
+                .flat_map(move |(grazes, none)| [false, true].map(|lies| Supposed { grazes, none, joins, lies }))
+        });
         for by in [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now] {
             let balls = std::array::from_fn(|ball| here(ball, &earlier[ball].beside(&self.trace.constants, by)));
             for rests in [[false; BALLS], rests] {
-                for grazes in [(false, 0.0), (true, 0.0), (false, none)] {
-                    let other = explained(&balls, rests, grazes);
+                for supposed in ways.clone() {
+                    let other = explained(&balls, rests, supposed);
                     if (lost - other.lost).abs() < (lost - nearest.lost).abs() {
                         nearest = other;
                     }
