@@ -24,6 +24,9 @@ use crate::{
     table::{Layout, Rail, Table},
 };
 
+/// An actor with a lower learning rate stays as it is.
+const STANDING_STILL: f64 = 1e-6;
+
 /// Places of the networks among sizes.
 const ACTOR: usize = 0;
 const CRITIC: usize = 1;
@@ -49,6 +52,14 @@ pub const AGENT: Agent = Agent {
         }
         if hyperparameters.searched > 0 && !hyperparameters.context {
             return Err(refuse(&"searches are for players who err: use searched with context = true"));
+        }
+        let Hyperparameters { imitation, actor_learning_rate, .. } = hyperparameters;
+        if imitation > 0.0 && actor_learning_rate < STANDING_STILL {
+            let reason = format!(
+                "an actor_learning_rate of {actor_learning_rate:e}, as --from may bring along, leaves nothing to imitation = {imitation}: \
+                 accepted is {STANDING_STILL:e} and more, or no imitation"
+            );
+            return Err(refuse(&reason));
         }
         Ok(Box::new(Trainer::new(Task { plan, hyperparameters }, table)?))
     },
@@ -280,6 +291,10 @@ mod tests {
         assert!(start(serde_json::json!({ "head": 2 })).unwrap_err().to_string().contains("head"));
         assert!(start(serde_json::json!({ "hindsight": 0.5 })).unwrap_err().to_string().contains("hindsight"));
         assert!(start(serde_json::json!({ "searched": 1 })).unwrap_err().to_string().contains("context = true"));
+        // Expert iteration that began from a round in which the critic alone learnt went on so for ten rounds unnoticed.
+        let frozen =
+            serde_json::json!({ "context": true, "searched": 1, "imitation": 0.3, "actor_learning_rate": 1e-9 });
+        assert!(start(frozen).unwrap_err().to_string().contains("actor_learning_rate of 1e-9"));
         assert!(start(serde_json::json!({ "heads": 0 })).unwrap_err().to_string().contains("heads = 0"));
     }
 }

@@ -1,4 +1,4 @@
-//! Impulses that stop what is to stand still.
+//! Impulses that stop what is to stand still, and contacts that cannot all be held.
 
 use super::*;
 
@@ -38,4 +38,28 @@ fn a_speed_that_is_rounding_beside_a_spin_is_stopped() {
 #[test]
 fn a_push_that_was_too_large_is_taken_back_with_its_friction() {
     assert!(stopped(1e-9, 1e-6) > 1e-11);
+}
+
+/// A ball between a cushion and one that lies still, along which it slides: its course would have to bend to touch both. It was held by
+/// the forces of the moment in which it had hardly moved, and gained energy.
+#[test]
+fn a_ball_cannot_both_stay_on_a_cushion_and_go_round_another() {
+    let table = Table::preset("textbook").unwrap();
+    let slack = |speed: f64| {
+        let mut balls =
+            [0.0, 2.0 * table.radius, 0.5].map(|y| BallState::at_rest(DVec2::new(0.0, y - table.half_width())));
+        balls[0].velocity.x = speed;
+        balls[0].spin = DVec3::new(7.0, 4.0, 0.0);
+        let contacts = [Contact::with_cushion(0, DVec2::Y), Contact::of_balls(0, 1)];
+        let set = ActiveSet::of(&table, &balls, &contacts, 1e-9);
+        let mut pressed = Forces::NONE;
+        // The cushion takes what the cloth's friction pushes, the other ball no more than it can without being moved.
+        pressed.normal[..2].copy_from_slice(&[1.75, 0.04]);
+        forces(&table, &balls, &contacts, &set, Some(&pressed)).expect("forces").slack
+    };
+    assert!(slack(0.0) > 0.0, "{}", slack(0.0));
+    for speed in [1e-3, 0.1, 1.0] {
+        let bend = speed * speed / (2.0 * table.radius);
+        assert!(slack(speed) < -0.3 * bend, "{speed} m/s: {:e} of {bend:e}", slack(speed));
+    }
 }
