@@ -123,7 +123,7 @@ struct Held<const ROOM: usize> {
     sizes: [Triple; ROOM],
     /// Whether they are known not to be unique: something is held more often than needed.
     redundant: bool,
-    /// By how much bends tear apart what is held so often, m/s².
+    /// At which rate a contact opens, m/s², since bends tear apart what is held so often.
     torn: f64,
 }
 
@@ -237,7 +237,7 @@ impl<const ROOM: usize> Held<ROOM> {
         for round in 0..MAX_REFINEMENTS {
             let mut side = [[0.0; 3]; ROOM];
             let side = side.as_flattened_mut();
-            let (mut residual, mut scale) = (0.0_f64, scale);
+            let (mut residual, mut opens, mut scale) = (0.0_f64, 0.0_f64, scale);
             for (joint, sizes) in self.joints().iter().zip(&self.sizes) {
                 let rates = joint.rates(&moved);
                 for unknown in 0..joint.unknowns {
@@ -245,6 +245,7 @@ impl<const ROOM: usize> Held<ROOM> {
                     let rate = rates[unknown] + bias;
                     side[joint.at + unknown] = -rate;
                     residual = residual.max(rate.abs());
+                    opens = if unknown == 0 { opens.max(rate) } else { opens };
                     scale = scale.max(sizes[unknown].abs()).max(bias.abs());
                 }
             }
@@ -253,8 +254,8 @@ impl<const ROOM: usize> Held<ROOM> {
             if residual <= 16.0 * f64::EPSILON * scale || stays && residual <= ROUNDING * scale {
                 return Some(moved);
             }
-            if bends && round > 0 && !unique && residual >= TORN * smallest {
-                self.torn = residual;
+            if bends && round > 0 && !unique && residual >= TORN * smallest && opens >= TORN * residual {
+                self.torn = opens;
                 return Some(moved);
             }
             smallest = smallest.min(residual);
