@@ -1,6 +1,6 @@
 #!/bin/sh
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about thirty-two hours of a shared core. The bundled files for match began from networks that a
+# with the same version. All of it takes about thirty-four hours of a shared core. The bundled files for match began from networks that a
 # version before this one had trained; their first rounds were played without the cue's room, and those up to match-r3-third,
 # match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth.
 set -eu
@@ -90,7 +90,7 @@ perfect match-three-cushion --from "$folder/match-three-cushion-fourteenth" --se
 # search, so that the critic learns to choose: at three cushions it alone, for there the actor went back to harder strokes.
 heads="$rate --set heads=9 --set actor_batch=64"
 expert="--set ranking=0.4 --set searched=2 --set imitation=0.3"
-# The same with an actor that stands still: its rate of 1e-9 came along with the weights, which was seen only after the eighteenth round at
+# The same with an actor that stands still: its rate of 1e-9 came along with the weights, which was seen only after the 22nd round at
 # three cushions. In those rounds the searches taught the critic alone; they were played with imitation, which has no effect then and is
 # refused by now.
 still="--set ranking=0.4 --set searched=2 --set imitation=0"
@@ -137,7 +137,15 @@ rails="--set rails_first=true"
 context context-three-cushion-sixteenth --from "$folder/context-three-cushion-fifteenth" --seed 601 --steps 3600000 $heads $still $again --set "$speeds" $rails
 context context-three-cushion-seventeenth --from "$folder/context-three-cushion-sixteenth" --seed 611 --steps 3200000 $heads $still $again --set "$speeds" $rails
 context context-three-cushion-eighteenth --from "$folder/context-three-cushion-seventeenth" --seed 621 --steps 9000000 $heads $choice $critic --set "$speeds" $rails
-context context-three-cushion --from "$folder/context-three-cushion-eighteenth" --seed 631 --steps 2500000 $heads $choice $fine --set "$speeds" $rails
+context context-three-cushion-nineteenth --from "$folder/context-three-cushion-eighteenth" --seed 631 --steps 2500000 $heads $choice $fine --set "$speeds" $rails
+context context-three-cushion-twentieth --from "$folder/context-three-cushion-nineteenth" --seed 641 --steps 6000000 $heads $still $again --set "$speeds" $rails
+context context-three-cushion-21st --from "$folder/context-three-cushion-twentieth" --seed 651 --steps 8000000 $heads $choice $critic --set "$speeds" $rails
+context context-three-cushion-22nd --from "$folder/context-three-cushion-21st" --seed 661 --steps 2500000 $heads $choice $fine --set "$speeds" $rails
+# The first at three cushions since the fourth in which the actor learns.
+awake="--set actor_learning_rate=0.0005"
+context context-three-cushion-23rd --from "$folder/context-three-cushion-22nd" --seed 671 --steps 2300000 $heads $expert $awake $again --set "$speeds" $rails
+context context-three-cushion-24th --from "$folder/context-three-cushion-23rd" --seed 681 --steps 5000000 $heads $choice $critic --set "$speeds" $rails
+context context-three-cushion --from "$folder/context-three-cushion-24th" --seed 691 --steps 2000000 $heads $choice $fine --set "$speeds" $rails
 speeds="head_speeds=[[0.5, 2.0], [1.4, 3.6], [2.8, 6.0]]"
 context context-one-cushion --from "$folder/context-one-cushion-fifth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
 context context-r3 --from "$folder/context-r3-sixth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
