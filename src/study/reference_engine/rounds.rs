@@ -57,9 +57,9 @@ pub fn collide<R: Real>(
     Ok((met, work))
 }
 
-/// The `contacts` collide that close at one moment: those that share balls together, any other by the table's own law, also where
-/// those that it shares balls with are relieved by others; the contacts in `inelastic` have no restitution. Adds those who push each other to the ones that have met, and returns the energy over
-/// mass that it takes.
+/// The `contacts` collide that close at one moment: those that share balls together, any other by the table's own law, also one that is
+/// left alone where others are relieved; the contacts in `inelastic` have no restitution. Adds those who push each other to the ones that
+/// have met, and returns the energy over mass that it takes.
 ///
 /// # Errors
 /// [`Unjudged::Unsolved`], where no pushes are found.
@@ -83,24 +83,21 @@ pub fn at_once<R: Real>(
             joined.extend(sharing);
             left = others;
         }
-        work = work
-            + match joined[..] {
-                [contact] => {
-                    met.push(contact);
-                    let numbers = if inelastic.contains(&contact) { &numbers.inelastic() } else { numbers };
-                    alone(numbers, balls, contact)
-                }
-                _ => {
-                    let pushes = pushes(numbers, balls, &joined, restitution)?;
-                    let is_pushed = |(contact, push): (&Contact, &R)| (*push > R::zero()).then_some(*contact);
-                    let pushing: Vec<Contact> = joined.iter().zip(&pushes).filter_map(is_pushed).collect();
-                    if pushing.len() < joined.len() {
-                        at_once(numbers, balls, &pushing, inelastic, met)?
-                    } else {
-                        one_round(numbers, balls, &joined, restitution, met)?
-                    }
-                }
-            };
+        let taken = if let [contact] = joined[..] {
+            met.push(contact);
+            let numbers = if inelastic.contains(&contact) { &numbers.inelastic() } else { numbers };
+            alone(numbers, balls, contact)
+        } else {
+            let pushes = pushes(numbers, balls, &joined, restitution)?;
+            let is_pushed = |(contact, push): (&Contact, &R)| (*push > R::zero()).then_some(*contact);
+            let pushing: Vec<Contact> = joined.iter().zip(&pushes).filter_map(is_pushed).collect();
+            if pushing.len() < joined.len() {
+                at_once(numbers, balls, &pushing, inelastic, met)?
+            } else {
+                one_round(numbers, balls, &joined, restitution, met)?
+            }
+        };
+        work = work + taken;
     }
     Ok(work)
 }

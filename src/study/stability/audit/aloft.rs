@@ -74,6 +74,17 @@ impl Supposed {
     pub const NOTHING: Self = Self { grazes: false, none: 0.0, joins: u32::MAX, lies: false };
 }
 
+/// Whether an impact of a ball is told before its landing.
+fn meets_before_it_lands(told: &[Event], ball: usize) -> bool {
+    let meets = |event: &Event| match event.kind {
+        EventKind::Lands(other) if other == ball => Some(false),
+        EventKind::BallBall(first, second) if [first, second].contains(&ball) => Some(true),
+        EventKind::BallRail(other, _) if other == ball => Some(true),
+        _ => None,
+    };
+    told.iter().find_map(meets).unwrap_or(false)
+}
+
 /// What the impacts do that are told of a `group` of balls: in the air one after another, on the cloth together where they close at
 /// once. `flew` are those balls that have been in the air until now, of which those that have come down are thrown up by the cloth first,
 /// or lie on it, and others land last if that is told; between two that rest from now on, or one and a cushion, there is no restitution.
@@ -86,15 +97,6 @@ pub fn impacts(
 ) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
     let slowest = numbers.flight.filter(|_| supposed.lies).map_or(0.0, |flight| flight.slowest);
-    let meets_before_it_lands = |ball: usize| {
-        let meets = |event: &Event| match event.kind {
-            EventKind::Lands(other) if other == ball => Some(false),
-            EventKind::BallBall(first, second) if [first, second].contains(&ball) => Some(true),
-            EventKind::BallRail(other, _) if other == ball => Some(true),
-            _ => None,
-        };
-        told.iter().find_map(meets).unwrap_or(false)
-    };
     let mut lost = 0.0;
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let SpatialState { position, velocity, spin } = before[ball];
@@ -103,7 +105,7 @@ pub fn impacts(
         state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
         if group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= slowest {
             lost += settle(&numbers, &mut state);
-            if supposed.lies && meets_before_it_lands(ball) {
+            if supposed.lies && meets_before_it_lands(told, ball) {
                 state.motion = Motion::Flying;
             }
         }
