@@ -49,7 +49,10 @@ pub fn collide<R: Real>(
         }
         work = work
             + if is_last {
-                one_round(numbers, balls, &closing, |_| R::zero(), &mut met)?
+                {
+                    let pushes = pushes(numbers, balls, &closing, |_| R::zero())?;
+                    one_round(numbers, balls, &closing, &pushes, &mut met)
+                }
             } else {
                 at_once(numbers, balls, &closing, inelastic, &mut met)?
             };
@@ -94,7 +97,7 @@ pub fn at_once<R: Real>(
             if pushing.len() < joined.len() {
                 at_once(numbers, balls, &pushing, inelastic, met)?
             } else {
-                one_round(numbers, balls, &joined, restitution, met)?
+                one_round(numbers, balls, &joined, &pushes, met)
             }
         };
         work = work + taken;
@@ -117,32 +120,28 @@ pub fn alone<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, contact: Conta
     }
 }
 
-/// Impacts that share balls at one moment, at the height of the balls' centres and with the friction and restitution of slow ones. Adds those who push
-/// each other to the ones that have met, and returns the energy over mass that is taken.
-///
-/// # Errors
-/// [`Unjudged::Unsolved`], where no pushes are found.
-pub fn one_round<R: Real>(
+/// Impacts that share balls at one moment, with these normal impulses, at the height of the balls' centres and with the friction of slow
+/// ones. Adds those who push each other to the ones that have met, and returns the energy over mass that is taken.
+fn one_round<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
     contacts: &[Contact],
-    restitution: impl Fn(&Contact) -> R,
+    pushes: &[R],
     met: &mut Vec<Contact>,
-) -> Result<R, Unjudged> {
+) -> R {
     let half = R::of(0.5);
     let before = movement(balls);
     let normals: Vec<Row<R>> = contacts.iter().map(|contact| Row::opening(*contact, contact.normal(balls))).collect();
-    let pushes = pushes(numbers, balls, contacts, restitution)?;
     let mut pushed = before;
-    for (row, push) in normals.iter().zip(&pushes) {
+    for (row, push) in normals.iter().zip(pushes) {
         row.push(numbers, *push, &mut pushed);
     }
     let mut work = normals
         .iter()
-        .zip(&pushes)
+        .zip(pushes)
         .fold(R::zero(), |work, (row, push)| work - half * *push * (row.speed(&before) + row.speed(&pushed)));
     let mut frictions: Vec<(Row<R>, R)> = Vec::with_capacity(contacts.len());
-    for (contact, push) in contacts.iter().zip(&pushes).filter(|(_, push)| **push > R::zero()) {
+    for (contact, push) in contacts.iter().zip(pushes).filter(|(_, push)| **push > R::zero()) {
         met.push(*contact);
         let slip = contact.slip(numbers, balls);
         let stops = if contact.balls().1.is_some() { R::ratio(1.0, 7.0) } else { R::ratio(2.0, 7.0) };
@@ -164,7 +163,7 @@ pub fn one_round<R: Real>(
     for (ball, (velocity, spin)) in balls.iter_mut().zip(after) {
         (ball.velocity, ball.spin) = (velocity, spin);
     }
-    Ok(work)
+    work
 }
 
 /// The normal impulses over mass of a round, none where others relieve a contact of its own.
@@ -228,9 +227,10 @@ mod tests {
             ];
             let round = |balls: &mut Balls<D>, contact: Contact| {
                 let mut met = Vec::new();
-                let work = one_round(&numbers, balls, &[contact], |contact| contact.restitution(&numbers), &mut met);
+                let pushes = pushes(&numbers, balls, &[contact], |contact| contact.restitution(&numbers)).unwrap();
+                let work = one_round(&numbers, balls, &[contact], &pushes, &mut met);
                 assert_eq!(met, [contact]);
-                work.unwrap()
+                work
             };
             let mut both = balls;
             let work = round(&mut both, Contact::Balls(0, 1));
