@@ -86,6 +86,7 @@ perfect match-three-cushion-thirteenth --from "$folder/match-three-cushion-twelf
 alone="--set ranking=0.7 --set actor_learning_rate=0.000000001 --set actor_batch=1"
 perfect match-three-cushion-fourteenth --from "$folder/match-three-cushion-thirteenth" --seed 505 --steps 14000000 $alone --set critic_learning_rate=0.0013
 perfect match-three-cushion --from "$folder/match-three-cushion-fourteenth" --seed 506 --steps 6000000 $alone --set critic_learning_rate=0.0003
+# All searches below raced 96 strokes of their own and the proposals, as versions before 2026-11-26 did.
 # Heads with speeds of their own; then expert iteration, in which a search shows what players who err make most often; then without a
 # search, so that the critic learns to choose: at three cushions it alone, for there the actor went back to harder strokes.
 heads="$rate --set heads=9 --set actor_batch=64"

@@ -166,7 +166,7 @@ impl Coach {
 /// choice, and the heads of the other kinds.
 fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
     let best = pool[0];
-    keep_one_of_each(&mut pool);
+    keep_one_of_each(&mut pool, task.skill, task.table.radius);
     pool.truncate(1 + ALTERNATIVES);
     // Another stream than that of the search, whatever its seed.
     let seed = request.seed ^ 0x6a75_6467_6521_u64.rotate_left(17);
@@ -236,16 +236,26 @@ fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Ri
     Some(Risk { hand: hand?, table: table?, placing: placing? })
 }
 
-/// The best first, in the order that they have, and after it the best of each other kind.
-fn keep_one_of_each(pool: &mut Vec<Candidate>) {
-    let mut seen: Vec<Kind> = Vec::new();
-    pool.retain(|candidate| {
-        let is_new = !seen.contains(&candidate.kind);
-        if is_new {
-            seen.push(candidate.kind);
+/// The best first, in the order that they have, and after it the best of each other kind, but none that who means one of those may as
+/// well play: no input is further off than its standard error. A stroke that makes the point in two ways, whichever happens, is one.
+fn keep_one_of_each(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
+    let mut kept: Vec<Candidate> = Vec::new();
+    for candidate in pool.drain(..) {
+        let is_new = |other: &Candidate| {
+            let (one, cue) = (&other.shot.cue, &candidate.shot.cue);
+            let Skill { a, b, theta, phi, speed, .. } = skill.at(one);
+            let is_the_same = (one.a - cue.a).abs() <= a / radius
+                && (one.b - cue.b).abs() <= b / radius
+                && (one.theta - cue.theta).abs() <= theta
+                && (one.phi - cue.phi).abs() <= phi
+                && (one.speed - cue.speed).abs() <= speed;
+            other.kind != candidate.kind && !is_the_same
+        };
+        if kept.iter().all(is_new) {
+            kept.push(candidate);
         }
-        is_new
-    });
+    }
+    *pool = kept;
 }
 
 /// The answer for a player without errors, or where no shot was found.
@@ -315,4 +325,40 @@ pub fn make_probability(
     let draws = Draws::independent(attempts, &worlds, seed);
     let attempts = task.attempts(cue, draws.iter());
     SuccessRate::new(attempts.made, attempts.tried)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coach::{Pace, Source, Suggestion, Way};
+
+    #[test]
+    fn a_stroke_that_makes_the_point_in_two_ways_is_no_alternative_to_itself() {
+        let meant = CueInputs { a: 0.0, b: 0.3, theta: 0.01, phi: 1.0, speed: 3.0 };
+        let candidate = |way, phi: f64| {
+            let cue = CueInputs { phi: meant.phi + phi * Skill::EXPERT.at(&meant).phi, ..meant };
+            let kind = Kind { first_ball: 1, cushion_first: false, way, pace: Pace::Hard, raised: false };
+            let shot = Suggestion { cue, source: Source::Search };
+            Candidate {
+                shot,
+                kind,
+                tried: 0,
+                made: 0,
+                wide: 0,
+                drift: Default::default(),
+                next: NextValue::Supposed(1.0),
+                effort_penalty: 0.0,
+            }
+        };
+        let kept = |ways: &[(Way, f64)]| {
+            let mut pool: Vec<_> = ways.iter().map(|&(way, phi)| candidate(way, phi)).collect();
+            keep_one_of_each(&mut pool, Skill::EXPERT, Table::default().radius);
+            pool.iter().map(|candidate| candidate.kind.way).collect::<Vec<_>>()
+        };
+        assert_eq!(kept(&[(Way::OffCushion, 0.0), (Way::AroundTheTable, 0.5)]), [Way::OffCushion]);
+        assert_eq!(
+            kept(&[(Way::OffCushion, 0.0), (Way::AroundTheTable, 2.0), (Way::Direct, 1.5), (Way::OffCushion, 9.0)]),
+            [Way::OffCushion, Way::AroundTheTable]
+        );
+    }
 }

@@ -8,7 +8,7 @@ use std::{
 
 use super::{
     Failure,
-    input::{seed, table_named},
+    input::{seed, table_named, whole},
     output::tell,
 };
 use crate::{
@@ -28,7 +28,7 @@ pub struct Args {
     #[arg(long)]
     quick: bool,
     /// Number of random shots on each table. Default: 1000, or 96 with --quick; with --stability 100000, or 10000
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
+    #[arg(long, value_parser = whole(1..=1_000_000_000_u32))]
     shots: Option<u32>,
     /// Seed of the shots.
     #[arg(long, default_value_t = 2026, value_parser = seed)]

@@ -2,10 +2,12 @@
 
 use std::{
     collections::HashMap,
+    fmt::Display,
     fs::File,
     io::{self, BufRead, BufReader, Read, Write},
     ops::RangeInclusive,
     path::Path,
+    str::FromStr,
     time::Duration,
 };
 
@@ -73,18 +75,28 @@ impl PositionArgs {
 
 /// What reads a whole number in a range. Whatever else is given is refused by that range: clap tells of none where a number that
 /// has no sign would be negative.
-pub fn whole(range: RangeInclusive<u64>) -> impl Fn(&str) -> Result<u64, String> + Clone {
+pub fn whole<T: FromStr + PartialOrd + Display + Clone>(
+    range: RangeInclusive<T>,
+) -> impl Fn(&str) -> Result<T, String> + Clone {
     move |text| {
-        text.parse().ok().filter(|number| range.contains(number)).ok_or_else(|| match (range.start(), range.end()) {
-            (least, &u64::MAX) => format!("accepted is a whole number from {least} on"),
-            (least, most) => format!("accepted is a whole number from {least} to {most}"),
-        })
+        text.parse()
+            .ok()
+            .filter(|number| range.contains(number))
+            .ok_or_else(|| format!("accepted is a whole number from {} to {}", range.start(), range.end()))
+    }
+}
+
+/// The same with no upper end.
+pub fn whole_from<T: FromStr + PartialOrd + Display + Clone>(least: T) -> impl Fn(&str) -> Result<T, String> + Clone {
+    move |text| {
+        let number = text.parse().ok().filter(|number| *number >= least);
+        number.ok_or_else(|| format!("accepted is a whole number from {least} on"))
     }
 }
 
 /// A seed, as [`whole`] reads it.
 pub fn seed(text: &str) -> Result<u64, String> {
-    whole(0..=u64::MAX)(text)
+    whole_from(0)(text)
 }
 
 /// The time that `--minutes` gives, fractions of a minute too.

@@ -3,6 +3,7 @@
 use super::{
     Failure,
     drill::{PlayOptions, Strokes, Workspace, play, strokes},
+    input::whole,
 };
 use crate::{
     drills::{Exercise, Goal},
@@ -24,10 +25,10 @@ pub struct Args {
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
     /// Innings.
-    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, default_value_t = 10, value_parser = whole(1..=10_000_u32))]
     innings: u32,
     /// Strokes after which it ends in any case.
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, default_value_t = 1000, value_parser = whole(1..=10_000_u32))]
     strokes: u32,
     /// Where the balls lie at first, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower
     /// left corner ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.

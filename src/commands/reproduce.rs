@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{
     Failure,
-    input::{seed, table_named, whole},
+    input::{seed, table_named, whole, whole_from},
     output::tell,
 };
 use crate::{
@@ -25,7 +25,7 @@ pub struct Args {
     #[arg(long = "figure", value_name = "NAME")]
     figures: Vec<String>,
     /// Shots of every training. Default: 50,000 for q-learning, 200,000 to 400,000 for the others
-    #[arg(long, value_name = "SHOTS", value_parser = whole(1..=u64::MAX))]
+    #[arg(long, value_name = "SHOTS", value_parser = whole_from(1_u64))]
     episodes: Option<u64>,
     /// Seed of everything random: the same seed gives the same curves.
     #[arg(long, default_value_t = 1, value_parser = seed)]
@@ -34,7 +34,7 @@ pub struct Args {
     #[arg(long, default_value = "thesis")]
     table: String,
     /// Trainings at a time. The curves do not depend on it. Default: one on each processor
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_parser = whole(1..=1024_u16))]
     jobs: Option<u16>,
     /// Folder for a CSV and an SVG file of each figure.
     #[arg(long, value_name = "DIR", default_value = ".")]

@@ -87,8 +87,8 @@ fn openings(low: f64, high: f64) -> [bool; 2] {
 pub enum NoEstimate {
     /// Too few attempts.
     #[error(
-        "there are {attempts} attempts at a real table whose shot is known; an estimate needs {FEWEST}, at exercises that teach \
-         a shot or with the coach's hint shown, and none of games"
+        "the skill cannot be estimated yet: {attempts} of {FEWEST} attempts. What counts are makes and misses at a real table, of exercises \
+         with a model shot or with the coach's hint shown, and no games"
     )]
     TooFew {
         /// Attempts there are.

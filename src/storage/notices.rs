@@ -19,7 +19,10 @@ pub fn notice(places: &Places, settings: &Path) -> Option<&'static str> {
     }
     let Places { sessions, positions, last, .. } = places;
     let holds_any = |folder: &Path| fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
-    let has_saved = holds_any(sessions) || holds_any(positions) || last.exists() || settings.exists();
+    // Settings alone may be a newcomer's first step, if they name no table.
+    let names_table =
+        || read_text(settings, SMALL).is_ok_and(|text| text.lines().any(|line| line.starts_with("table")));
+    let has_saved = holds_any(sessions) || holds_any(positions) || last.exists() || names_table();
     let folder = places.notices.parent();
     folder.map(fs::create_dir_all);
     // Where it fails, the sentence comes again: better twice than never.
@@ -47,6 +50,8 @@ mod tests {
             assert_eq!(notice(&places, &settings).is_some(), !is_newcomer);
             assert_eq!(notice(&places, &settings), None);
         }
+        fs::write(&settings, "theme = \"light\"\n").unwrap();
+        assert_eq!(notice(&Places::under(&folder.path().join("themed")), &settings), None);
         fs::write(&settings, "table = \"match\"\n").unwrap();
         assert!(
             notice(&Places::under(&folder.path().join("third")), &settings).is_some_and(|it| it.contains("textbook"))

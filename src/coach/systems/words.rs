@@ -87,7 +87,7 @@ impl fmt::Display for Shift {
         let (first, last) = (first.name(), last.name());
         write!(
             formatter,
-            "Parallel shift: {first} {diamond:.0} to {last} {arrival:.1}; {:.1} {} to {third:.1}",
+            "Parallel shift: {first} {diamond:.0} to {last} {arrival:.1}; aimed {:.1} {} it, to {third:.1}",
             by.abs(),
             if *by < 0.0 { "before" } else { "beyond" },
         )?;

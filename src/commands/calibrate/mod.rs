@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::{
     Failure,
-    input::{seed, table_named},
+    input::{seed, table_named, whole},
     output::{line, tell},
 };
 use crate::{
@@ -53,7 +53,7 @@ pub struct Args {
     /// Measure the calibration: draw so many tables, have a club player play all tests on each, and tell how often the 95 %
     /// intervals hold the truth.
     #[arg(long, value_name = "TABLES", conflicts_with_all = ["file", "out"],
-        value_parser = clap::value_parser!(u32).range(1..=100_000))]
+        value_parser = whole(1..=100_000_u32))]
     simulate: Option<u32>,
     /// With --simulate, the seed of tables and player.
     #[arg(long, requires = "simulate", default_value_t = 1, value_parser = seed)]

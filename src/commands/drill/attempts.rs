@@ -6,7 +6,7 @@ use super::{
     strokes::{Strokes, play},
 };
 use crate::{
-    commands::Failure,
+    commands::{Failure, input::whole},
     drills::{
         Goal,
         exam::{HIGHEST_LEVEL, LENGTH, draw},
@@ -24,7 +24,7 @@ pub struct TryArgs {
     #[arg(long, allow_hyphen_values = true)]
     shot: String,
     /// Attempts at it.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000))]
+    #[arg(long, default_value_t = 1, value_parser = whole(1..=1_000_u32))]
     repeat: u32,
     /// Shift the balls by half a ball at every repetition but the first.
     #[arg(long)]
@@ -41,7 +41,7 @@ pub struct RunArgs {
     /// The exercise: its name, its title, or the beginning of either.
     name: String,
     /// Points in a row that end the session.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_parser = whole(1..=10_000_u32))]
     goal: u32,
     /// Shift the balls by half a ball at every repetition but the first.
     #[arg(long)]
@@ -50,7 +50,7 @@ pub struct RunArgs {
     #[arg(long)]
     coach: bool,
     /// Attempts after which it ends in any case.
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, default_value_t = 1000, value_parser = whole(1..=10_000_u32))]
     strokes: u32,
     #[command(flatten)]
     options: PlayOptions,
@@ -62,7 +62,7 @@ pub struct RunArgs {
 #[derive(Debug, clap::Args)]
 pub struct ExamArgs {
     /// How hard: 1, 2 or 3.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=i64::from(HIGHEST_LEVEL)))]
+    #[arg(long, default_value_t = 1, value_parser = whole(1..=HIGHEST_LEVEL))]
     level: u8,
     /// Have the coach play.
     #[arg(long)]

@@ -9,6 +9,7 @@ use super::{
 use crate::{
     commands::{
         Failure,
+        input::whole,
         output::{columns, json_line, line},
     },
     drills::{Category, Exercise, Filter, Record, encode},
@@ -22,7 +23,7 @@ pub struct ListArgs {
     #[arg(long, value_parser = category_called)]
     category: Option<Category>,
     /// Only this grade, 1 (easy) to 5; 0 for exercises without a grade.
-    #[arg(long, value_parser = clap::value_parser!(u8).range(0..=5))]
+    #[arg(long, value_parser = whole(0..=5_u8))]
     grade: Option<u8>,
     /// Only those with this tag.
     #[arg(long)]

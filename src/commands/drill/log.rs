@@ -12,6 +12,7 @@ use super::{
 use crate::{
     commands::{
         Failure,
+        input::whole,
         output::{json_line, line, plural, prompt, tell},
     },
     drills::{Goal, Session, Venue},
@@ -31,7 +32,7 @@ pub struct Args {
     #[arg(long, requires = "of")]
     made: Option<u32>,
     /// Attempts, points included.
-    #[arg(long, requires = "made", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, requires = "made", value_parser = whole(1..=100_000_u32))]
     of: Option<u32>,
     /// Print JSON.
     #[arg(long)]

@@ -26,7 +26,7 @@ pub struct PlayOptions {
     #[arg(long, value_parser = seed)]
     seed: Option<u64>,
     /// Time that the coach has for a shot, ms.
-    #[arg(long, default_value_t = 300, value_parser = whole(0..=3_600_000))]
+    #[arg(long, default_value_t = 300, value_parser = whole(0..=3_600_000_u64))]
     pub(super) budget_ms: u64,
     /// The coach advises neither jumps over a ball nor massés, as most clubs have it.
     #[arg(long)]

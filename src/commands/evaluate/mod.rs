@@ -15,7 +15,7 @@ use self::{
 };
 use super::{
     Failure,
-    input::{minutes, note_doubts, seed, table_named, whole},
+    input::{minutes, note_doubts, seed, table_named, whole, whole_from},
     lookup::{policy_called, skill_called},
     output::json_line,
     recommend::coach_for,
@@ -33,7 +33,7 @@ use crate::{
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
     /// Number of layouts.
-    #[arg(long, default_value_t = 2_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, default_value_t = 2_000, value_parser = whole(1..=10_000_000_u32))]
     layouts: u32,
     /// Seed of the layouts.
     #[arg(long, default_value_t = EVALUATION_SEED, value_parser = seed)]
@@ -60,7 +60,7 @@ pub struct Args {
     reward: Option<Reward>,
     /// Measure a search of so many shots of random phi and V, which the simulator checks: the first that succeeds counts.
     #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"],
-        value_parser = clap::value_parser!(u32).range(1..))]
+        value_parser = whole_from(1_u32))]
     random_search: Option<u32>,
     /// Who plays the shots: perfect, expert, world-class, national, club, beginner, own (what `carom drill skill --keep` kept), or a player's own standard errors in mm, degrees and m/s like
     /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The make probability is measured too, on independent errors.
@@ -78,7 +78,7 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["policy_only", "random_search", "reward"])]
     self_play: bool,
     /// With --self-play, points after which an inning is broken off.
-    #[arg(long, requires = "self_play", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, requires = "self_play", default_value_t = 1000, value_parser = whole_from(1_u32))]
     most_points: u32,
     /// With --self-play, minutes after which play is broken off; fractions are accepted.
     #[arg(long, requires = "self_play")]
@@ -90,12 +90,12 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
     no_jumps: bool,
     /// Time that the recommender has for a layout, ms.
-    #[arg(long, default_value_t = 500, conflicts_with = "policy_only", value_parser = whole(0..=u64::MAX))]
+    #[arg(long, default_value_t = 500, conflicts_with = "policy_only", value_parser = whole_from(0_u64))]
     budget_ms: u64,
     /// Simulations after which the recommender begins nothing new on a layout, in place of a time: the answer is then the same
     /// on any machine. As for `carom recommend`, what has to be done in any case comes on top.
     #[arg(long, value_name = "COUNT", conflicts_with_all = ["policy_only", "random_search", "budget_ms"],
-        value_parser = whole(1..=u64::MAX))]
+        value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
     /// Measure part K of N of the layouts only, and print what was measured as JSON for --merge.
     #[arg(long, value_name = "K/N", conflicts_with = "json")]

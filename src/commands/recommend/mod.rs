@@ -19,7 +19,7 @@ use self::{
 };
 use super::{
     Failure,
-    input::{ByTable, Keys, PositionArgs, answer_lines, note_doubts, seed, whole},
+    input::{ByTable, Keys, PositionArgs, answer_lines, note_doubts, seed, whole, whole_from},
     lookup::{policy_called, skill_called},
     output::{impulse_words, units},
 };
@@ -62,11 +62,11 @@ pub struct Args {
     #[arg(long)]
     margins: bool,
     /// Time to look for a shot, ms.
-    #[arg(long, default_value_t = 500, value_parser = whole(0..=3_600_000))]
+    #[arg(long, default_value_t = 500, value_parser = whole(0..=3_600_000_u64))]
     budget_ms: u64,
     /// Simulations after which the search begins nothing new, if time has not ended it: then the answer is the same on every
     /// machine. It is no limit: a least search and judging the shots that were found come on top, thousands of simulations.
-    #[arg(long, value_parser = whole(1..=u64::MAX))]
+    #[arg(long, value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
     /// Give the networks' own shot, without any simulation.
     #[arg(long)]

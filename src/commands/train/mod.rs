@@ -12,13 +12,11 @@ use std::{
     time::Duration,
 };
 
-use clap::value_parser;
-
 use self::progress::Progress;
 pub(super) use self::{listing::print as print_runs, progress::line};
 use super::{
     Failure,
-    input::{minutes, seed, whole},
+    input::{minutes, seed, whole, whole_from},
     lookup::existing_run,
     output::tell,
 };
@@ -52,7 +50,7 @@ pub struct Args {
     seed: u64,
     /// Shots to play. The learning rates fall to nothing over them. The agent ddpg plays in whole rounds, of 192 shots by
     /// default: its run ends with the first round at or beyond this number.
-    #[arg(long, value_name = "SHOTS", default_value_t = 5_000_000, value_parser = whole(1..=u64::MAX))]
+    #[arg(long, value_name = "SHOTS", default_value_t = 5_000_000, value_parser = whole_from(1_u64))]
     steps: u64,
     /// Settings of the agent that differ from its defaults, or from those of --from, as a TOML file.
     #[arg(long, value_name = "FILE")]
@@ -65,10 +63,10 @@ pub struct Args {
     #[arg(long, value_name = "RUN|FILE")]
     from: Option<PathBuf>,
     /// Shots between two measurements on held-out layouts; by default a fiftieth of the shots, or 10,000 where that is more.
-    #[arg(long, value_name = "SHOTS", value_parser = whole(1..=u64::MAX))]
+    #[arg(long, value_name = "SHOTS", value_parser = whole_from(1_u64))]
     evaluate_every: Option<u64>,
     /// Held-out layouts of a measurement.
-    #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = whole(1..=10_000_000_u32))]
     evaluation_layouts: u32,
     /// The run's folder; by default a new one among the user's runs, called after the moment of its start and what is
     /// trained, with -2, -3 and so on behind where that name is taken.
@@ -79,7 +77,7 @@ pub struct Args {
     #[arg(long, requires = "run")]
     r#continue: bool,
     /// Train so many seeds, from --seed on, each in a folder of the run's folder, and write the spread to seeds.csv.
-    #[arg(long, value_name = "N", value_parser = whole(1..=1000))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=1000_u64))]
     seeds: Option<u64>,
     /// Go on with this run or these seeds (a folder, a name among the user's runs, or "latest"), with the settings they
     /// started with.
@@ -89,7 +87,7 @@ pub struct Args {
     ])]
     resume: Option<PathBuf>,
     /// Seeds that are trained at the same time, a thread each.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=256))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(1..=256_u32))]
     jobs: u32,
     /// Stop after this many minutes, finished or not.
     #[arg(long)]

@@ -1,29 +1,44 @@
 //! The expert of expert iteration (Anthony et al. 2017): from the networks' proposals and strokes here and there, a race on the
-//! simulator finds strokes that the player makes more often than any that was proposed.
+//! simulator finds strokes that the player makes more often than any that was proposed. The critic says which take part in it.
 
+use candle_core::Result;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
-    action::{ACTIONS, Action, ActionSpace, aim_at, speed_of},
+    action::{ACTIONS, Action, aim_at, speed_of},
+    context::Inputs,
+    networks::Networks,
     observation::Observation,
+    observation_batch::{ObservationBatch, action_rows},
     replay::Transition,
     venues::{Conditions, Venues},
 };
 use crate::{game::Reward, statistics::normal_pair, table::Layout};
 
-/// Strokes of its own that the expert tries beside the networks' proposals.
-const TRIED: usize = 96;
+/// Strokes of its own that the expert tries beside the networks' proposals, once each and as they are meant.
+const TRIED: usize = 2048;
 
-/// Attempts at each stroke in the rounds of the race, and how many strokes stay for the next.
-const ROUNDS: [(usize, usize); 3] = [(4, 24), (16, 6), (48, 4)];
+/// Of those that make the point then, the critic's favourites take part in the race: so many, and so many of one way to look at the layout.
+const SCREENED: usize = 64;
+const SCREENED_OF_ONE_WAY: usize = 12;
+
+/// Attempts at each stroke in the rounds of the race, and how many strokes stay for the next, so many of one way.
+const ROUNDS: [(usize, usize); 3] = [(16, 24), (32, 8), (64, 6)];
+const LEFT_OF_ONE_WAY: usize = 2;
 
 /// Attempts by which the strokes that did not win are remembered.
 const AGAIN: usize = 8;
 
-/// Strokes beside each that is left, and how far from it they are: standard deviations in halves of an action's range.
-const NEIGHBOURS: usize = 6;
+/// Strokes beside each that is left, the critic's favourites among all of them, which are raced, and how far they are from where they
+/// began: standard deviations in halves of an action's range. Of strokes about which it errs, a race is not misled as a choice by the
+/// critic alone would be.
+const NEIGHBOURS: usize = 24;
+const FAVOURITES: usize = 24;
 const STEPS: [f32; 3] = [0.12, 0.06, 0.03];
+
+/// Part of the winner's points that the best stroke of another way must make to be shown, too.
+const WORTH_SHOWING: f64 = 0.5;
 
 /// Mean and standard deviation of the offset in diameters and of the logarithm of the speed in m/s: so are the strokes that players
 /// make most often.
@@ -40,10 +55,10 @@ pub struct Expert<'a> {
     pub venues: &'a Venues,
     /// What earns a reward.
     pub reward: Reward,
-    /// What the actions mean.
-    pub space: ActionSpace,
-    /// Whether ways to the first ball by a cushion are tried, too.
-    pub rails_first: bool,
+    /// What the networks' input is made of.
+    pub inputs: Inputs,
+    /// The critic that chooses between strokes before any attempt is made.
+    pub networks: &'a Networks,
     /// The balls.
     pub layout: &'a Layout,
     /// Who plays on which table.
@@ -67,49 +82,55 @@ impl Runner {
     fn mean(&self) -> f64 {
         self.earned / self.attempts.max(1) as f64
     }
-
-    const fn goes_by_rail(&self) -> bool {
-        self.observation.rail.is_some()
-    }
 }
 
 /// What a search found.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
-    /// The winner, and the best stroke of the other way to the first ball, straight or by a cushion; the best one first.
+    /// The winner, and the best strokes of other ways to look at the layout that come near to it; the best one first.
     pub best: Vec<Transition>,
     /// Others that went far.
     pub others: Vec<Transition>,
 }
 
-/// Leaves the first `left` of runners that stand in their order, the last of which makes room for the best of a way to the first ball,
-/// straight or by a cushion, that would be lost; returns the others. So what heads are shown holds strokes of either way, though
-/// one of them wins three searches of four.
-fn leave(runners: &mut Vec<Runner>, left: usize) -> Vec<Runner> {
-    let other = runners.iter().position(|runner| runner.goes_by_rail() != runners[0].goes_by_rail());
-    if let Some(lost) = other.filter(|&lost| lost >= left) {
-        runners.swap(left - 1, lost);
+/// Leaves the first `left` of runners that stand in their order, but no more than `of_one_way` that look at the layout alike; returns the
+/// others. So the race does not end between strokes that are nearly the same, and heads are shown strokes of several ways.
+fn leave(runners: &mut Vec<Runner>, left: usize, of_one_way: usize) -> Vec<Runner> {
+    let (mut stay, mut out) = (Vec::<Runner>::with_capacity(left), Vec::new());
+    for runner in runners.drain(..) {
+        let alike = stay.iter().filter(|other| other.observation == runner.observation).count();
+        let side = if stay.len() < left && alike < of_one_way { &mut stay } else { &mut out };
+        side.push(runner);
     }
-    runners.split_off(left.min(runners.len()))
+    *runners = stay;
+    out
 }
 
 impl Expert<'_> {
     /// Strokes that went far in the race that began with `proposals`. Each has the share of attempts in which it was made, attempts
     /// that did not decide the race: what wins has had luck. None where no stroke ever earned anything.
-    pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Found {
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Result<Found> {
         let seed = rng.random();
-        let mut runners: Vec<Runner> =
-            proposals.iter().map(|&(observation, action)| Runner::new(observation, action)).collect();
-        runners.extend((0..TRIED).map(|_| {
+        let tried = (0..TRIED).map(|_| {
             let table = self.venues.table(self.conditions);
-            let observation = Observation::random(table, self.layout, self.rails_first, rng);
-            Runner::new(observation, self.stroke(rng))
-        }));
+            (Observation::random(table, self.layout, self.inputs.rails_first, rng), self.stroke(rng))
+        });
+        let all: Vec<_> = proposals.iter().copied().chain(tried).collect();
+        let mut runners: Vec<Runner> = all
+            .into_iter()
+            .filter(|(observation, action)| self.scores_as_meant(observation, *action, rng))
+            .map(|(observation, action)| Runner::new(observation, action))
+            .collect();
+        self.judge(&mut runners)?;
+        leave(&mut runners, SCREENED, SCREENED_OF_ONE_WAY);
         let mut seen = Vec::new();
         for (attempts, left) in ROUNDS {
             self.race(&mut runners, attempts, seed);
-            let out = leave(&mut runners, left);
-            seen.extend(out.into_iter().filter(|runner| runner.attempts >= ROUNDS[1].0));
+            let out = leave(&mut runners, left, LEFT_OF_ONE_WAY);
+            seen.extend(out.into_iter().filter(|runner| runner.attempts >= ROUNDS[0].0));
         }
         for step in STEPS {
             let parents = runners.clone();
@@ -118,30 +139,56 @@ impl Expert<'_> {
                 .flat_map(|parent| [parent; NEIGHBOURS])
                 .map(|parent| Runner::new(parent.observation, self.beside(parent.action, step, rng)))
                 .collect();
+            self.judge(&mut children)?;
+            children.truncate(FAVOURITES);
             self.race(&mut children, ROUNDS[1].0, seed);
-            leave(&mut children, ROUNDS[1].1);
+            // Those that the critic liked in vain it has to know better.
+            seen.extend(children.split_off(ROUNDS[1].1.min(children.len())));
             runners.extend(children);
             self.race(&mut runners, ROUNDS[2].0, seed);
-            seen.extend(leave(&mut runners, ROUNDS[2].1));
+            seen.extend(leave(&mut runners, ROUNDS[2].1, LEFT_OF_ONE_WAY));
         }
         let again = |runner: &Runner, attempts| {
             let mut again = [Runner::new(runner.observation, runner.action)];
             self.race(&mut again, attempts, !seed);
             self.transition(&again[0])
         };
-        if runners.first().is_none_or(|winner| winner.earned == 0.0) {
-            return Found::default();
-        }
-        let (mut best, mut others) = (Vec::<Runner>::new(), Vec::new());
+        let Some(winner) = runners.first().copied().filter(|winner| winner.earned > 0.0) else {
+            return Ok(Found::default());
+        };
+        let (mut best, mut others) = (Vec::<Runner>::new(), seen);
         for runner in runners {
-            let is_new_way = best.iter().all(|better| better.goes_by_rail() != runner.goes_by_rail());
-            let strokes = if is_new_way && runner.earned > 0.0 { &mut best } else { &mut others };
+            let is_new_way = best.iter().all(|better| better.observation != runner.observation);
+            let is_shown = is_new_way && runner.mean() >= WORTH_SHOWING * winner.mean();
+            let strokes = if is_shown { &mut best } else { &mut others };
             strokes.push(runner);
         }
-        others.extend(seen);
         let [best, others] = [(best, ROUNDS[2].0), (others, AGAIN)]
             .map(|(strokes, attempts)| strokes.iter().map(|stroke| again(stroke, attempts)).collect());
-        Found { best, others }
+        Ok(Found { best, others })
+    }
+
+    /// Whether a stroke makes the point where nobody errs.
+    fn scores_as_meant(&self, observation: &Observation, action: Action, rng: &mut (impl Rng + ?Sized)) -> bool {
+        let steady = Conditions { errors: 0.0, ..self.conditions };
+        self.venues.attempt(self.reward, self.layout, (observation, action), steady, rng) >= 1.0
+    }
+
+    /// Puts the critic's favourites first.
+    fn judge(&self, runners: &mut Vec<Runner>) -> Result<()> {
+        if runners.is_empty() {
+            return Ok(());
+        }
+        let seen: Vec<_> = runners.iter().map(|runner| self.venues.seen(runner.observation, self.conditions)).collect();
+        let actions: Vec<Action> = runners.iter().map(|runner| runner.action).collect();
+        let observed = ObservationBatch::new(self.inputs, &seen)?;
+        let rows = action_rows(self.inputs.space, &actions)?;
+        let logits =
+            self.networks.critic.forward_frozen(&observed.with_actions(&rows)?)?.flatten_all()?.to_vec1::<f32>()?;
+        let mut liked: Vec<(Runner, f32)> = runners.drain(..).zip(logits).collect();
+        liked.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+        runners.extend(liked.into_iter().map(|(runner, _)| runner));
+        Ok(())
     }
 
     /// Makes attempts at every stroke until each has so many, with the same errors for all, and puts the best first.
@@ -181,7 +228,7 @@ impl Expert<'_> {
 
     /// The numbers that the space uses, the others nought.
     fn used(&self, mut action: Action) -> Action {
-        action[self.space.actions()..ACTIONS].fill(0.0);
+        action[self.inputs.space.actions()..ACTIONS].fill(0.0);
         action
     }
 
@@ -194,23 +241,26 @@ impl Expert<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{learning::ddpg::context::Inputs, table::Table};
+    use crate::{
+        learning::ddpg::{action::ActionSpace, hyperparameters::Hyperparameters},
+        table::Table,
+    };
     use std::sync::Arc;
 
     #[test]
     fn what_the_expert_finds_is_made_more_often_than_what_was_proposed() {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
-        let inputs = Inputs { space: ActionSpace::Full, context: true, closed_form: true, rails_first: false };
+        let hyper = Hyperparameters { actions: ActionSpace::Full, context: true, ..Hyperparameters::default() };
+        let (inputs, networks) = (hyper.inputs(), &Networks::random(&hyper, &mut rng).unwrap());
         let venues = Venues::new(&table, inputs, 1);
         let reward = Reward::R3;
         let [mut proposed, mut found] = [0.0; 2];
         for _ in 0..12 {
             let layout = Layout::random(&table, &mut rng);
             let conditions = Conditions { venue: 0, errors: 3.7 };
-            let space = ActionSpace::Full;
-            let expert = Expert { venues: &venues, reward, space, rails_first: false, layout: &layout, conditions };
+            let expert = Expert { venues: &venues, reward, inputs, networks, layout: &layout, conditions };
             let proposal = Runner::new(Observation::new(&layout, 0), expert.stroke(&mut rng));
-            let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng);
+            let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng).unwrap();
             let winner = strokes.best.first().unwrap();
             let mut again = [proposal, Runner::new(winner.observation, winner.action)];
             expert.race(&mut again[..1], 100, 7);
@@ -224,23 +274,19 @@ mod tests {
     }
 
     #[test]
-    fn the_best_of_either_way_stays_in_the_race() {
+    fn strokes_of_several_ways_stay_in_the_race() {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
         let ways = Observation::every(&table, &Layout::random(&table, &mut rng), true);
-        let [straight, by_rail] =
-            [false, true].map(|by_rail| *ways.iter().find(|way| way.rail.is_some() == by_rail).unwrap());
-        let race = |ways: &[Observation]| {
-            let mut runners: Vec<Runner> = (ways.iter().zip(0..))
-                .map(|(way, earned)| Runner { earned: -f64::from(earned), ..Runner::new(*way, [0.0; ACTIONS]) })
-                .collect();
-            let out = leave(&mut runners, 2);
-            assert_eq!(runners.len() + out.len(), ways.len());
-            runners.iter().map(|runner| (runner.goes_by_rail(), -runner.earned)).collect::<Vec<_>>()
+        let race = |numbers: &[usize], left| {
+            let mut runners: Vec<Runner> =
+                numbers.iter().map(|&number| Runner::new(ways[number], [0.0; ACTIONS])).collect();
+            let out = leave(&mut runners, left, 2);
+            let number = |runner: &Runner| ways.iter().position(|way| *way == runner.observation).unwrap();
+            [runners, out].map(|runners| runners.iter().map(number).collect::<Vec<_>>())
         };
-        assert_eq!(race(&[straight; 4]), [(false, 0.0), (false, 1.0)]);
-        assert_eq!(race(&[straight, by_rail, straight]), [(false, 0.0), (true, 1.0)]);
-        assert_eq!(race(&[straight, straight, straight, by_rail, by_rail]), [(false, 0.0), (true, 3.0)]);
-        assert_eq!(race(&[by_rail, by_rail, straight]), [(true, 0.0), (false, 2.0)]);
-        assert_eq!(race(&[straight]), [(false, 0.0)]);
+        assert_eq!(race(&[0, 1, 2], 2), [vec![0, 1], vec![2]]);
+        assert_eq!(race(&[5, 5, 5, 5, 1, 5, 0], 3), [vec![5, 5, 1], vec![5, 5, 5, 0]]);
+        assert_eq!(race(&[7, 7, 7], 3), [vec![7, 7], vec![7]]);
+        assert_eq!(race(&[], 3), [vec![], vec![]]);
     }
 }

@@ -2,7 +2,8 @@
 //! misses seen in hindsight.
 
 use candle_core::Result;
-use rand::RngExt;
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     action::Action,
@@ -17,7 +18,7 @@ use super::{
     trainer::Trainer,
     venues::{Conditions, Venues},
 };
-use crate::{learning::evaluation::CONTACT_STEPS, table::Layout};
+use crate::{learning::evaluation::CONTACT_STEPS, platform, table::Layout};
 
 /// Proposals of a layout that are played where the critic learns to rank them: the best of the 24 that six heads give. Among the
 /// others it hardly ever chooses wrongly.
@@ -70,13 +71,18 @@ impl Trainer {
                 (layout, Conditions { errors: Venues::errors(&mut self.rng), ..conditions })
             })
             .collect();
-        for ((layout, conditions), proposals) in scenes.iter().zip(self.judged(&self.agent.target, &scenes)?) {
-            let proposals: Vec<_> =
-                proposals.into_iter().map(|(observation, action, _)| (observation, action)).collect();
-            let (reward, space, conditions) = (self.task.plan.reward, self.space(), *conditions);
-            let rails_first = self.task.hyperparameters.rails_first;
-            let expert = Expert { venues: &self.venues, reward, space, rails_first, layout, conditions };
-            let Found { best, others } = expert.search(&proposals, &mut self.rng);
+        let proposals = self.judged(&self.agent.target, &scenes)?;
+        let tasks: Vec<_> = scenes.into_iter().zip(proposals).map(|task| (task, self.rng.random())).collect();
+        let (reward, inputs) = (self.task.plan.reward, self.task.hyperparameters.inputs());
+        let (venues, networks) = (&self.venues, &self.agent.target);
+        let found =
+            platform::parallel::try_map(platform::threads(), &tasks, |(((layout, conditions), proposals), seed)| {
+                let proposals: Vec<_> =
+                    proposals.iter().map(|&(observation, action, _)| (observation, action)).collect();
+                let expert = Expert { venues, reward, inputs, networks, layout, conditions: *conditions };
+                expert.search(&proposals, &mut Xoshiro256PlusPlus::seed_from_u64(*seed))
+            })?;
+        for Found { best, others } in found {
             for stroke in &best {
                 self.searched.push(*stroke);
             }

@@ -75,29 +75,10 @@ impl Contact {
         self.relative_velocity(balls).dot(self.normal(balls))
     }
 
-    /// Rate at which the opening speed grows under the accelerations of all balls, m/s²: two balls that pass each other
-    /// part, too.
-    pub fn opening_acceleration(&self, balls: &[BallState; BALLS], linear: &[DVec2; BALLS]) -> f64 {
-        let n = self.normal(balls);
-        match self.second {
-            None => linear[self.first].dot(n),
-            Some(second) => {
-                let apart = balls[self.first].position.distance(balls[second].position);
-                let across = self.relative_velocity(balls).perp_dot(n);
-                (linear[self.first] - linear[second]).dot(n) + across * across / apart
-            }
-        }
-    }
-
     /// Velocity of the first ball's surface over the other at the contact, along `t = z×n` and along z, m/s (thesis
     /// equation 21).
     pub fn slip(&self, radius: f64, balls: &[BallState; BALLS]) -> DVec2 {
         self.normal_and_slip(radius, balls).1
-    }
-
-    /// Speed of the first ball's centre relative to the other, m/s.
-    pub fn relative_speed(&self, balls: &[BallState; BALLS]) -> f64 {
-        self.relative_velocity(balls).length()
     }
 
     fn relative_velocity(&self, balls: &[BallState; BALLS]) -> DVec2 {

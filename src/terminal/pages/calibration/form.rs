@@ -120,7 +120,7 @@ impl Form {
             Unit::Diamonds => "diamonds by eye, 725 mm by tape".to_owned(),
             Unit::Seconds => "seconds".to_owned(),
         });
-        let empty = if field.text().is_empty() { "; nothing where it is not known" } else { "" };
+        let empty = if field.text().is_empty() { "; empty if not known" } else { "" };
         format!("{name}: {} ({how}{empty}) = ", mark.words)
     }
 

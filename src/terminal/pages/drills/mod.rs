@@ -205,9 +205,10 @@ impl DrillsPage {
         Effect::Drill(tasks)
     }
 
-    /// The session that is practised, as long as it is not over.
+    /// The session that is practised, as long as it is not over. An exam has not begun before its first stroke.
     pub fn unfinished(&self) -> Option<&Session> {
-        self.turn.as_ref().map(|turn| &turn.session).filter(|session| !session.is_over())
+        let turn = self.turn.as_ref().filter(|turn| !turn.is_exam() || !turn.session.attempts.is_empty());
+        turn.map(|turn| &turn.session).filter(|session| !session.is_over())
     }
 
     /// Whether one has gone back to the coach from the first page.

@@ -41,3 +41,11 @@ fn an_exam_that_was_left_is_there_at_the_next_start_too() {
     let practice = left.app.last().and_then(|last| last.practice.map(|session| session.attempts.len()));
     assert_eq!(practice, Some(1));
 }
+
+#[test]
+fn an_exam_of_which_only_the_first_page_was_seen_has_not_begun() {
+    for keys in ["e", "e Enter"] {
+        let seen = Player::at_library(TRUE_COLOUR, &[], &[]).press(keys);
+        assert!(seen.app.last().is_none_or(|last| last.practice.is_none()), "{keys}");
+    }
+}

@@ -263,7 +263,7 @@ fn standing(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
         Some(shot) if coach.playback.time == 0.0 => aim_words(coach, shot, room, ui),
         Some(shot) => {
             let (events, time) = (coach.events(shot), coach.playback.readout);
-            events.get(passed(&events, time)).map_or("nothing more of it is listed".to_owned(), |next| {
+            events.get(passed(&events, time)).map_or("no more contacts: the balls roll out".to_owned(), |next| {
                 format!("next: {} in {} s", event_words(next.kind, coach.cue_ball()), fixed(next.time - time, 1))
             })
         }
