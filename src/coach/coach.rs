@@ -330,7 +330,10 @@ pub fn make_probability(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::coach::{Pace, Source, Suggestion, Way};
+    use crate::{
+        coach::{Pace, Source, Suggestion, Way},
+        player::errors::Errors,
+    };
 
     #[test]
     fn a_stroke_that_makes_the_point_in_two_ways_is_no_alternative_to_itself() {
@@ -345,7 +348,7 @@ mod tests {
                 tried: 0,
                 made: 0,
                 wide: 0,
-                drift: Default::default(),
+                drift: Errors::default(),
                 next: NextValue::Supposed(1.0),
                 effort_penalty: 0.0,
             }

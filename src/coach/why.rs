@@ -236,15 +236,13 @@ impl Why {
         let mut parts = Vec::new();
         let second = self.second.as_ref();
         let other = second.and_then(|second| second.make_probability);
-        parts.extend(self.make_probability.zip(other).map(|(rate, other)| match rate - other {
-            more if more > TOLD_APART => {
-                format!("made {} of the time, the second-best shot {}", percent(rate), percent(other))
+        parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
+            let [own, its] = [rate, other].map(percent);
+            if rate - other > TOLD_APART {
+                format!("made {own} of the time, the second-best shot {its}")
+            } else {
+                format!("made {own} of the time, about as often as the second-best shot ({its})")
             }
-            _ => format!(
-                "made {} of the time, about as often as the second-best shot ({})",
-                percent(rate),
-                percent(other)
-            ),
         }));
         parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
             Some(other) => {
