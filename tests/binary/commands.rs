@@ -216,9 +216,9 @@ fn a_negative_number_is_refused_by_the_range_and_not_as_an_option() {
         (&["recommend", "--budget-ms", "-5"][..], &["from 0 to 3600000", "--budget-ms"][..]),
         (&["recommend", "--seed", "-1"], &["from 0 on", "--seed"]),
         (&["simulate", "--shot", SHOT, "--method", "steps", "--dt", "-1"], &["dt = -1", "accepted"]),
-        (&["drill", "list", "--grade", "-1"], &["-1 is not in 0..=5"]),
+        (&["drill", "list", "--grade", "-1"], &["from 0 to 5", "--grade"]),
         (&["bench", "--seconds", "-1"], &["-1"]),
-        (&["evaluate", "--layouts", "-2"], &["-2 is not in 1..=10000000"]),
+        (&["evaluate", "--layouts", "-2"], &["from 1 to 10000000", "--layouts"]),
     ] {
         let (code, said) = refusal(&mut carom(args));
         assert_eq!(code, 2, "{args:?}: {said}");
