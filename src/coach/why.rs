@@ -273,7 +273,8 @@ impl Why {
     }
 
     /// The same in few words beside the chance that it is made, for who plays with `cue_ball`: how the second-best shot differs first.
-    pub fn brief(&self, cue_ball: CueBall) -> String {
+    /// What comes first says all; every further sentence is a fact shorter.
+    pub fn brief(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let names = cue_ball.names();
         let second = self.second.as_ref().map_or_else(
             || "nothing else makes the point".to_owned(),
@@ -283,7 +284,7 @@ impl Why {
             },
         );
         let parts: Vec<String> = std::iter::once(second).chain(self.facts(cue_ball)).collect();
-        format!("{}.", parts.join("; "))
+        (1..=parts.len()).rev().map(move |many| format!("{}.", parts[..many].join("; ")))
     }
 
     /// The part of it that a list of the shots with their chances does not say; `None` where there is nothing.
@@ -361,8 +362,10 @@ mod tests {
         let why = why(request.shooter(), request.rule, &table, &layout, &advice, 1).unwrap();
         assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));
         assert_eq!(why.second.is_some(), !advice.alternatives.is_empty());
-        let brief = why.brief(CueBall::White);
+        let sentences: Vec<String> = why.brief(CueBall::White).collect();
+        let [brief, .., least] = &sentences[..] else { panic!("{sentences:?}") };
         assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
+        assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("off in all"), "{least}");
         let said = why.words(CueBall::White, Units::default());
         assert!(
             said.ends_with('.') && said.contains(if why.second.is_some() { "the second-best" } else { "." }),

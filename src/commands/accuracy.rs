@@ -18,9 +18,10 @@ use crate::{
     table::{JUDGED, Table},
 };
 
-/// Measure how exact the simulator is and what that costs: the engine, other root finders, single precision and fixed
-/// time steps against the same shots in double-double, and all against reference shots of 50 digits. Takes minutes;
-/// --quick takes seconds.
+/// Measure how exact the simulator is and what that costs.
+///
+/// The engine, other root finders, single precision and fixed time steps are set against the same shots in double-double, and
+/// all against reference shots of 50 digits. It takes minutes; with --quick it takes seconds.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {

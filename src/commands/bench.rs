@@ -11,7 +11,9 @@ use crate::{
     study::throughput::{Figure, Machine, measure},
 };
 
-/// Measure this machine: shots, recommendations and network updates a second. Takes about ten seconds.
+/// Measure the speed of this machine.
+///
+/// Measured are shots, recommendations and network updates a second. It takes about ten seconds.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Seconds for each figure.

@@ -11,8 +11,10 @@ use crate::{
     terminal::{self, Seat, Settings, ShownTable, Sight, TerminalError, all_shown, follow_in_lines},
 };
 
-/// Follow the table of another player of this account, live, as long as they allow it (F on their screen): the same picture on a
-/// terminal, elsewhere a line for whatever is new.
+/// Follow the table of another player of this account, live.
+///
+/// They have to allow it (F on their screen). On a terminal it is the same picture as theirs; elsewhere a line is printed for
+/// whatever is new.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The player. Left out: who shows their table now.

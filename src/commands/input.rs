@@ -53,9 +53,10 @@ pub struct PositionArgs {
     /// The table: "match", "textbook", "thesis" or the path of a TOML file.
     #[arg(long, default_value = "match", conflicts_with = "batch")]
     table: String,
-    /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
-    /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position. In what is printed white is the cue ball, yellow the opponent's
-    /// ball, and red the third: 0, 1 and 2 in JSON.
+    /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre. Default: the opening position
+    ///
+    /// Diamonds from the lower left corner are accepted too: "2d,2d 6d,2d 2d,2.5d". In what is printed white is the cue ball,
+    /// yellow the opponent's ball, and red the third: 0, 1 and 2 in JSON.
     #[arg(long, allow_hyphen_values = true, conflicts_with = "batch")]
     layout: Option<String>,
 }

@@ -16,9 +16,11 @@ use crate::{
     study::reproduction::{Drawn, FIGURES, Figure, Measure, Session, SessionError, csv, picture, summary},
 };
 
-/// Train the thesis' agents again and draw its learning curves: figures 21 to 25 and 28 to 30, Q-learning, and DDPG with
-/// r2. Each is drawn for three readings of the word "episode": one shot, 20 shots, or until a miss. Two figures more have three
-/// seeds: DDPG by its noise, and the thesis' future work, hindsight and demonstrations.
+/// Train the thesis' agents again and draw its learning curves.
+///
+/// These are figures 21 to 25 and 28 to 30, Q-learning, and DDPG with r2. Each is drawn for three readings of the word
+/// "episode": one shot, 20 shots, or until a miss. Two figures more have three seeds: DDPG by its noise, and the thesis' future
+/// work, hindsight and demonstrations.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Only this figure: q-learning, 21, 22, 23, 24, 25, 28, r2, 29, 30, noise or future-work. May be given several times.

@@ -32,8 +32,10 @@ const INTERVAL: Duration = Duration::from_millis(200);
 /// Time for which a run has to be over before that is believed.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// Watch a run, live while it trains and also after its end: the training screen on a terminal, elsewhere a line for every
-/// measurement until the run has ended. Watching only reads the run's files; leaving never disturbs it.
+/// Watch a run, live while it trains and also after its end.
+///
+/// On a terminal the training screen opens; elsewhere a line is printed for every measurement until the run has ended. Watching
+/// only reads the run's files; leaving never disturbs it.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The run: its folder, its name among the user's runs, or "latest". Left out, or a folder of several runs: a list to

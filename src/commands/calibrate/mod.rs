@@ -21,10 +21,10 @@ use report::Report;
 /// What a calibrated table is called where nothing else is said.
 const NAME: &str = "own";
 
-/// Find the constants of a real table, and how sure they are, from a few short tests that a player plays and marks there.
+/// Find the constants of a real table, and how sure they are, from a few short tests.
 ///
-/// With a FILE of entries it says what follows from them. Without one it asks for the tests one by one and keeps every entry
-/// at once; the next call goes on where this one has ended.
+/// The player plays the tests at the table and marks what comes of them. With a FILE of entries it says what follows from them.
+/// Without one it asks for the tests one by one and keeps every entry at once; the next call goes on where this one has ended.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {

@@ -20,7 +20,9 @@ use crate::{
     terminal::Settings,
 };
 
-/// Check this installation: version, folders, terminal, settings, tables, runs, and a second of computing. Changes nothing.
+/// Check this installation, changing nothing.
+///
+/// Checked are the version, folders, terminal, settings, tables and runs, and a second is spent on computing.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Print one JSON object.

@@ -23,7 +23,7 @@ pub use self::{
 };
 use super::Failure;
 
-/// Practise: exercises to play here or to log from a real table, exams, scores, positions of one's own.
+/// Practise: exercises, to play here or to note from a real table, exams and scores.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(subcommand)]

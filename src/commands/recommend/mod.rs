@@ -43,13 +43,17 @@ pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
-    /// Who plays the shot: perfect, expert, world-class, national, club, beginner, own (what `carom drill skill --keep` kept), or a player's own standard errors in mm, degrees and m/s like
-    /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The shot that this player makes most often is recommended; to a perfect one
-    /// the first that makes the point.
+    /// Who plays the shot: perfect, expert, world-class, national, club, beginner or own.
+    ///
+    /// "own" is what `carom drill skill --keep` kept. Standard errors are accepted too, in mm, degrees and m/s, like
+    /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The shot that this player makes most often is recommended; to a perfect one the
+    /// first that makes the point.
     #[arg(long, default_value_t = Skill::EXPERT, value_parser = skill_called)]
     skill: Skill,
-    /// What is not known besides the hand's errors: full (the table as well as it is known, the balls within 3 mm), none, or
-    /// a multiple of the first and the second in mm like "table=1,placing=3". A perfect player has no doubts.
+    /// What is not known besides the hand's errors: full or none.
+    ///
+    /// With "full" the table is known as well as it was measured, and where the balls lie within 3 mm. A multiple of the first
+    /// and the second in mm is accepted too, like "table=1,placing=3". A perfect player has no doubts.
     #[arg(long, default_value_t = Doubt::FULL)]
     doubt: Doubt,
     /// Rank shots by the probability of this point and the next, so that the balls stay easy to play.
@@ -64,8 +68,10 @@ pub struct Args {
     /// Time to look for a shot, ms.
     #[arg(long, default_value_t = 500, value_parser = whole(0..=3_600_000_u64))]
     budget_ms: u64,
-    /// Simulations after which the search begins nothing new, if time has not ended it: then the answer is the same on every
-    /// machine. It is no limit: a least search and judging the shots that were found come on top, thousands of simulations.
+    /// Simulations after which the search begins nothing new, if time has not ended it.
+    ///
+    /// The answer is the same on every machine then. It is no limit: a least search and judging the shots that were found come
+    /// on top, thousands of simulations.
     #[arg(long, value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
     /// Give the networks' own shot, without any simulation.

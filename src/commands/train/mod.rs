@@ -32,9 +32,11 @@ use crate::{
     printing,
 };
 
-/// Train an agent without a screen. The run's folder holds its configuration (config.json), its metrics as JSON Lines
-/// (metrics.jsonl), the last two checkpoints and the policy. Ctrl-C saves and stops, twice it stops at once; --resume
-/// goes on as if nothing had happened, after a crash too: to the same weights, bit for bit.
+/// Train an agent without a screen.
+///
+/// The run's folder holds its configuration (config.json), its metrics as JSON Lines (metrics.jsonl), the last two checkpoints
+/// and the policy. Ctrl-C saves and stops, twice it stops at once; --resume goes on as if nothing had happened, after a crash
+/// too: to the same weights, bit for bit.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::option_option, reason = "clap's way to tell a flag that is missing from one without a value")]
 pub struct Args {

@@ -157,7 +157,7 @@ fn the_plan_and_where_it_goes_on() {
     let player = player.press("v v v").studied();
     check("plan", &player);
     let large = player.text(200, 60);
-    assert!(large.contains("Plan · the point after it 97 %") && large.contains("next 100 % very hard"), "{large}");
+    assert!(large.contains("Plan · next point on average 97 %") && large.contains("next 100 % very hard"), "{large}");
     assert_eq!(player.app.coach().view, View::Plan);
     // Ends of the balls are drawn around the places where they are meant to stop.
     let yellow = Color::Rgb(0xf6, 0xc3, 0x24);
@@ -168,7 +168,7 @@ fn the_plan_and_where_it_goes_on() {
     assert_eq!(*player.app.layout(), end);
     assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(NEXT).unwrap(), "the next shot is there at once");
     player.shows(&[
-        "Plan · the point after it 97 %",
+        "Plan · next point on average 97 %",
         "now  100 % very hard",
         "stop being tried",
         "next being looked for",

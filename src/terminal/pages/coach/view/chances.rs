@@ -86,10 +86,18 @@ fn write_lines(words: &str, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// Why the first shot leads, once that is known.
-pub fn why_words(advised: &AdviceState, ui: &Ui) -> Option<String> {
-    let words = spell(&advised.why.as_ref()?.brief(ui.theme.cue_ball), ui.caps);
-    Some(if advised.chosen() == 0 { format!("Why: {words}") } else { format!("Why shot 1 leads: {words}") })
+/// Why the first shot leads, once that is known: as much as `rows` hold of such width.
+pub fn why_lines(advised: &AdviceState, width: usize, rows: usize, ui: &Ui) -> Option<Vec<String>> {
+    let name = if advised.chosen() == 0 { "Why" } else { "Why shot 1 leads" };
+    let sentences = advised.why.as_ref()?.brief(ui.theme.cue_ball);
+    let mut tries = sentences.map(|words| wrap(&spell(&format!("{name}: {words}"), ui.caps), width));
+    let mut lines = tries.next()?;
+    while lines.len() > rows
+        && let Some(shorter) = tries.next()
+    {
+        lines = shorter;
+    }
+    Some(cut(lines, rows, width, ui.caps))
 }
 
 /// The place of the shot that the panel in `area` tells in this row of the screen.

@@ -29,7 +29,7 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, ui: &mut Ui) 
     let mut title = vec![Span::styled("Plan", ui.theme.text())];
     if let Some(next) = choice.and_then(|choice| choice.proposal.next) {
         title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
-        title.push(Span::styled(format!("the point after it {} %", percent(next)), ui.theme.text()));
+        title.push(Span::styled(format!("next point on average {} %", percent(next)), ui.theme.text()));
     }
     let inner = draw_title(title, area, ui);
     let Some(choice) = choice else { return draw_nothing(&[empty], inner, ui) };

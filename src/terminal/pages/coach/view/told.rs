@@ -9,12 +9,12 @@ use ratatui::{
 use crate::{
     coach::words::PlaceUnit,
     terminal::{
-        AdviceState, Proposal,
+        Proposal,
         pages::coach::{
             CoachPage,
-            view::{card::chance_span, chances::why_words},
+            view::{card::chance_span, chances::why_lines},
         },
-        ui::{Ui, columns, cut, draw_title, spell, wrap},
+        ui::{Ui, columns, draw_title, spell, wrap},
         words::{fixed, rail_word},
     },
 };
@@ -37,13 +37,10 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
         [Some(sentence), Some(part(course, ui.theme.accent())), aim.clone()].into_iter().flatten().collect()
     });
     let mut lines = lay_out(&tries, width, rows, ui.caps.pick(" …", " ..."));
-    let why = coach.shown().and_then(|advised: &AdviceState| why_words(advised, ui));
-    let why = why.filter(|_| lines.len() < rows);
+    let left = rows - lines.len();
+    let why = coach.shown().filter(|_| left > 0).and_then(|advised| why_lines(advised, width, left, ui));
     let says_why = why.is_some();
-    if let Some(why) = why {
-        let lines_of_why = cut(wrap(&why, width), rows - lines.len(), width, ui.caps);
-        lines.extend(lines_of_why.into_iter().map(|line| Line::styled(line, ui.theme.faint())));
-    }
+    lines.extend(why.into_iter().flatten().map(|line| Line::styled(line, ui.theme.faint())));
     let inner = draw_title(title.unwrap_or(bare), area, ui);
     for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
         ui.buffer.set_line(inner.x + 1, row, line, inner.width.saturating_sub(2));
