@@ -39,11 +39,9 @@ fn shots(criterion: &mut Criterion) {
             bencher.iter(|| shots.iter().map(|(layout, cue)| Reward::R3.of(&table, layout, cue)).sum::<f64>());
         });
         group.bench_function("recorded", |bencher| {
-            let (layout, cue) = &shots[0];
-            let mut recording = Recording::new(&table, layout, cue).expect("random shots are possible");
             bencher.iter(|| {
                 for (layout, cue) in &shots {
-                    recording.play_next(&table, layout, cue).expect("random shots are possible");
+                    let recording = Recording::new(&table, layout, cue).expect("random shots are possible");
                     black_box(recording.duration());
                 }
             });

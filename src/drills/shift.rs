@@ -6,7 +6,7 @@ use glam::DVec2;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use crate::table::{BALLS, Layout, Table};
+use crate::table::{BALLS, Layout, PAIRS, Table};
 
 /// Balls that are no further apart than this touch, m: what a player places as touching.
 const TOUCHING_GAP: f64 = 1e-4;
@@ -38,7 +38,7 @@ pub fn shifted(layout: &Layout, table: &Table, seed: u64, repetition: u32) -> La
 /// The ball with which each ball is moved: of those that touch, the first.
 fn leaders(layout: &Layout, radius: f64) -> [usize; BALLS] {
     let mut leaders: [usize; BALLS] = std::array::from_fn(|ball| ball);
-    for (first, second) in [(0, 1), (0, 2), (1, 2)] {
+    for (first, second) in PAIRS {
         if layout.balls[first].distance(layout.balls[second]) <= 2.0 * radius + TOUCHING_GAP {
             let (keep, join) = (leaders[first].min(leaders[second]), leaders[first].max(leaders[second]));
             leaders = leaders.map(|leader| if leader == join { keep } else { leader });

@@ -10,11 +10,11 @@
 
 use super::{
     Constants,
-    contacts::{PAIRS, PAIRS_OF, contacts_where, nearly_touching},
+    contacts::{PAIRS_OF, contacts_where, nearly_touching},
 };
 use crate::{
     physics::{ActiveSet, BallState, Contact, Contacts, ImpactLaw, resolve, slip},
-    table::{BALLS, Table},
+    table::{BALLS, PAIRS, Table},
 };
 
 /// A bounce of two balls makes a slip of this many times its speed at most, and so does one against a cushion.

@@ -5,11 +5,8 @@ use glam::DVec2;
 use super::{Constants, Rail, extrapolation::State};
 use crate::{
     physics::{Contact, Contacts},
-    table::BALLS,
+    table::{BALLS, PAIRS},
 };
-
-/// Pairs of balls, in the order used everywhere.
-pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 /// The pairs that each ball is part of, as indices of [`PAIRS`], with the other ball.
 pub const PAIRS_OF: [[(usize, usize); 2]; BALLS] = [[(0, 1), (1, 2)], [(0, 0), (2, 2)], [(1, 0), (2, 1)]];

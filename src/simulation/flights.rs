@@ -7,7 +7,7 @@ use super::{
     aloft::Nose,
     chatter::Chatters,
     contact_mode::ContactMode,
-    contacts::{PAIRS, PAIRS_OF},
+    contacts::PAIRS_OF,
     engine::{Ball, Engine, Meeting, either, only},
     hops::Hops,
     savings::Savings,
@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     physics::{BallState, Contact, Motion, SpatialState},
-    table::BALLS,
+    table::{BALLS, PAIRS},
 };
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {

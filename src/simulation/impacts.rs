@@ -6,7 +6,7 @@ use super::{
     Event, EventKind, Observer, Rail,
     chatter::{Chatters, settles},
     contact_mode::ContactMode,
-    contacts::{PAIRS, close, is_in_corner, touching},
+    contacts::{close, is_in_corner, touching},
     engine::{Ball, Engine, MOMENT, Meeting, either, only},
     savings::Savings,
 };
@@ -15,7 +15,7 @@ use crate::{
         ActiveSet, BallState, Contact, Contacts, ImpactImpulse, MAX_CONTACTS, Motion, collide_together,
         stop_by_impulses,
     },
-    table::BALLS,
+    table::{BALLS, PAIRS},
 };
 
 /// Impacts at one moment after which those that go on are solved without restitution: three touching balls against a

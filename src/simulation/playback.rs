@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::{All, Constants, End, Event, Observer, Segment, simulate_with};
 use crate::{
@@ -41,9 +41,7 @@ impl Recording {
     pub fn new(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
         layout.validate(table)?;
         cue.validate()?;
-        let mut recording = Self::empty(table);
-        recording.play(table, layout, strike(table, cue));
-        Ok(recording)
+        Ok(Self::simulated(table, layout, strike(table, cue)))
     }
 
     /// Checks and plays a shot in which the cue ball has this motion just after the stroke, as a film shows it, whatever
@@ -54,36 +52,20 @@ impl Recording {
     pub fn with_impulse(table: &Table, layout: &Layout, impulse: &Impulse) -> Result<Self, ShotError> {
         layout.validate(table)?;
         impulse.validate()?;
-        let mut recording = Self::empty(table);
-        recording.play(table, layout, *impulse);
-        Ok(recording)
+        Ok(Self::simulated(table, layout, *impulse))
+    }
+
+    /// The shot of what was found possible.
+    fn simulated(table: &Table, layout: &Layout, impulse: Impulse) -> Self {
+        let mut recording = Self::before(table, impulse);
+        let end = simulate_with::<All, _>(table, layout, &impulse, &mut recording.kept);
+        recording.end_with(&end);
+        recording
     }
 
     /// Before anything is played.
-    fn empty(table: &Table) -> Self {
-        let impulse = Impulse::on_cloth(DVec2::ZERO, DVec3::ZERO);
+    fn before(table: &Table, impulse: Impulse) -> Self {
         Self { constants: Constants::of(table), impulse, kept: Recorder::with_room(), duration: 0.0 }
-    }
-
-    /// Checks and plays another shot in the place of this one. It takes the memory that this one has: whoever plays many
-    /// shots spares most of what recording costs. After an error the recording is what it was.
-    ///
-    /// # Errors
-    /// What is wrong with the layout or the stroke.
-    pub fn play_next(&mut self, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<(), ShotError> {
-        layout.validate(table)?;
-        cue.validate()?;
-        self.play(table, layout, strike(table, cue));
-        Ok(())
-    }
-
-    /// Plays what was found possible.
-    fn play(&mut self, table: &Table, layout: &Layout, impulse: Impulse) {
-        self.kept.clear();
-        self.constants = Constants::of(table);
-        self.impulse = impulse;
-        let end = simulate_with::<All, _>(table, layout, &impulse, &mut self.kept);
-        self.end_with(&end);
     }
 
     /// Checks a shot and lets `play` play it, by whatever method: it gets what the stroke gives the cue ball, tells the
@@ -100,7 +82,7 @@ impl Recording {
         layout.validate(table)?;
         cue.validate()?;
         let impulse = strike(table, cue);
-        let mut recording = Self { impulse, ..Self::empty(table) };
+        let mut recording = Self::before(table, impulse);
         let (end, more) = play(&impulse, &mut recording.kept);
         recording.end_with(&end);
         Ok((recording, more))
@@ -200,11 +182,6 @@ impl Recorder {
     fn with_room() -> Self {
         Self { events: Vec::with_capacity(16), segments: [16, 4, 4].map(Vec::with_capacity) }
     }
-
-    fn clear(&mut self) {
-        self.events.clear();
-        self.segments.iter_mut().for_each(Vec::clear);
-    }
 }
 
 impl Observer for Recorder {
@@ -229,6 +206,7 @@ impl Observer for Recorder {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
 
     #[test]
     fn the_motion_that_a_stroke_gives_plays_as_the_stroke_does_bit_for_bit() {

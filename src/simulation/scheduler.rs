@@ -7,13 +7,16 @@ use super::{
     aloft::nose_ahead,
     ball_ball::{Triangle, balls_ahead},
     contact_mode::ContactMode,
-    contacts::{PAIRS, PAIRS_OF},
+    contacts::PAIRS_OF,
     cushions::cushion_ahead,
     engine::{Ball, Engine, Meeting},
     predict::{Ahead, curved_cushion_ahead},
     savings::Savings,
 };
-use crate::{physics::Motion, table::BALLS};
+use crate::{
+    physics::Motion,
+    table::{BALLS, PAIRS},
+};
 
 /// A horizon beyond which nobody looks, s: no ball moves for so long.
 const LONGEST: f64 = 1e9;

@@ -9,6 +9,9 @@ use super::{Opening, Side, Table};
 /// Number of balls in carom billiards.
 pub const BALLS: usize = 3;
 
+/// Pairs of balls, in the order used everywhere.
+pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
 /// Their names by their index where white is the cue ball; [`super::CueBall`] knows those of either player.
 pub const BALL_NAMES: [&str; BALLS] = ["white", "yellow", "red"];
 
@@ -170,7 +173,7 @@ impl Layout {
                 return Err(LayoutError::Outside { ball, x, y, max_x, max_y });
             }
         }
-        for (first, second) in [(0, 1), (0, 2), (1, 2)] {
+        for (first, second) in PAIRS {
             let distance = self.balls[first].distance(self.balls[second]);
             let least = 2.0 * table.radius;
             if distance < least - TOUCHING_TOLERANCE {

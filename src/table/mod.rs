@@ -16,7 +16,7 @@ mod sampler;
 pub use cue_ball::{CueBall, UnknownCueBall};
 pub use doubt::{DoubtError, OtherLaw, TableDoubt};
 pub use flight::Flight;
-pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
+pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, PAIRS, TOUCHING_TOLERANCE};
 pub(crate) use models::is_zero;
 pub use models::{Fade, OneRail, RailModel, Rails, SlipFriction};
 pub use opening::{Opening, Side, UnknownSide};

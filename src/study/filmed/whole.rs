@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     statistics::fit,
-    table::{Layout, Table},
+    table::{Layout, PAIRS, Table},
 };
 
 /// How much of the cue ball's course is fitted, s.
@@ -38,7 +38,7 @@ impl FilmedShot {
     /// Where the balls lay before the stroke; the noise of the film is taken off balls that it makes overlap.
     pub fn layout(&self, table: &Table) -> Layout {
         let mut balls = [0, 1, 2].map(|ball: usize| self.balls[ball][0].place.clamp(-table.reach(), table.reach()));
-        for (one, other) in [(0, 1), (0, 2), (1, 2)] {
+        for (one, other) in PAIRS {
             let apart = balls[one] - balls[other];
             let missing = 2.0 * table.radius - apart.length();
             if missing > 0.0 && missing < 0.01 {

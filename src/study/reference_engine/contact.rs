@@ -3,7 +3,7 @@
 use super::{Ball, Motion, Numbers, Real, Vector, table::normal};
 use crate::{
     simulation::{EventKind, Rail},
-    table::BALLS,
+    table::{BALLS, PAIRS},
 };
 
 /// All balls at one moment.
@@ -22,7 +22,7 @@ impl Contact {
     /// Every ball with every cushion, then all pairs of balls.
     pub fn all() -> impl Iterator<Item = Self> {
         let rails = (0..BALLS).flat_map(|ball| Rail::ALL.into_iter().map(move |rail| Self::Rail(ball, rail)));
-        rails.chain([(0, 1), (0, 2), (1, 2)].into_iter().map(|(first, second)| Self::Balls(first, second)))
+        rails.chain(PAIRS.into_iter().map(|(first, second)| Self::Balls(first, second)))
     }
 
     /// The ball towards which the normal points, and the other one.

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::{
     figures::Figures,
-    invariants::{PAIRS, PRECISION},
+    invariants::PRECISION,
     polynomial::{MAX_DEGREE, least},
     shot::Shot,
     trace::{Piece, Trace},
@@ -14,7 +14,7 @@ use super::{
 use crate::{
     physics::{Cushions, Motion},
     simulation::{Constants, EventKind, Rail},
-    table::{BALLS, Table},
+    table::{BALLS, PAIRS, Table},
 };
 
 /// Landings of one course that are looked at: after so many the hops of the liveliest cloth are lower than an atom.

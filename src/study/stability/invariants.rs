@@ -8,7 +8,7 @@ use glam::DVec2;
 use crate::{
     physics::Motion,
     simulation::{Constants, EventKind, Segment},
-    table::{BALLS, Table},
+    table::{BALLS, PAIRS, Table},
 };
 
 use super::{
@@ -19,9 +19,6 @@ use super::{
     shot::Shot,
     trace::{Piece, Trace},
 };
-
-/// Pairs of balls.
-pub(super) const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 /// To which the least distance is worked out, m: a thousandth of what counts.
 pub(super) const PRECISION: f64 = 1e-12;

@@ -13,11 +13,8 @@ use crate::{
         BallState, Cloth, CueInputs, ImpactLaw, Impulse, Motion, SpatialState, rolling_deceleration, rolling_spin,
     },
     simulation::{Constants, End, Event, EventKind, Observer, Rail, Recording, Segment, ShotError},
-    table::{BALLS, Layout, Table},
+    table::{BALLS, Layout, PAIRS, Table},
 };
-
-/// Pairs of balls.
-const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 /// Events that are located within one step; what is left of a chatter is seen at the step's end.
 const MOST_LOCATED: usize = 64;

@@ -7,13 +7,14 @@
 use glam::DVec2;
 
 use super::least_squares::{Column, SIZE, dot};
-use crate::{physics::BallState, simulation::Rail, table::BALLS};
+use crate::{
+    physics::BallState,
+    simulation::Rail,
+    table::{BALLS, PAIRS},
+};
 
 /// `√(2/5)`.
 const LEVER: f64 = 0.632_455_532_033_675_9;
-
-/// Pairs of balls.
-const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 /// Velocities and spins of all balls as one vector, m/s.
 pub fn motion(radius: f64, balls: &[BallState; BALLS]) -> Column {

@@ -11,7 +11,7 @@ use ratatui::{layout::Rect, style::Color};
 
 use crate::{
     simulation::TOLD_HEIGHT,
-    table::{BALLS, Layout, Table},
+    table::{BALLS, Layout, PAIRS, Table},
     terminal::{
         Capabilities, Glyphs, Mapping, Shot,
         ui::{
@@ -142,7 +142,7 @@ fn is_gone(shot: &Shot, ball: usize, time: f64, mapping: &Mapping) -> bool {
 /// that touch are to touch as well, and not to hide each other.
 fn apart(mut balls: [DVec2; BALLS], least: f64) -> [DVec2; BALLS] {
     // Twice, since moving one pair may bring another together; a third time would not be seen.
-    for (one, other) in [(0, 1), (0, 2), (1, 2), (0, 1), (0, 2), (1, 2)] {
+    for (one, other) in PAIRS.into_iter().chain(PAIRS) {
         let way = balls[other] - balls[one];
         let push = 0.5 * (least - way.length());
         if push > 0.0 {
