@@ -69,6 +69,16 @@ pub fn guide(table: &Table, recording: &Recording) -> Option<Guide> {
     system.or_else(|| Shift::of(table, &leg).map(Guide::Shift))
 }
 
+impl Guide {
+    /// The way of a ball that is played so, on this table, to the third cushion: the middles of the ball at the cushions, m.
+    pub fn path(&self, table: &Table) -> Vec<DVec2> {
+        match self {
+            Self::System(applied) => applied.path(table),
+            Self::Shift(shift) => shift.path.iter().map(|place| metres(table, *place)).collect(),
+        }
+    }
+}
+
 impl Applied {
     /// `system` for the three cushions of a shot; `None` where it does not describe them.
     fn of(system: System, table: &Table, leg: &Leg) -> Option<Self> {

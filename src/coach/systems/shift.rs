@@ -3,6 +3,7 @@
 //! Where the third cushion lies along the first, a ball that is aimed so much further along the first arrives as much further
 //! along the third; further the other way where the cushion between them lies across.
 
+use glam::DVec2;
 use serde::Serialize;
 
 use super::{
@@ -32,9 +33,28 @@ pub struct Shift {
     pub third: f64,
     /// Where it arrives on this table.
     pub table_third: f64,
+    /// The parallel line: where the middle of a ball comes from that goes on as the shot's does, and where it is at the three
+    /// cushions, in diamonds.
+    #[serde(skip)]
+    pub path: [DVec2; 4],
 }
 
 impl Shift {
+    /// What players know of it.
+    pub fn rule(&self) -> &'static str {
+        if self.by * (self.third - self.arrival) < 0.0 {
+            "Aimed further along the first cushion, the ball comes as much less far along the third."
+        } else {
+            "Aimed further along the first cushion, the ball comes as much further along the third."
+        }
+    }
+
+    /// The diamonds of the first cushion and of the third between which the parallel line runs, as places on the table's edge.
+    pub fn ends(&self) -> [DVec2; 2] {
+        let [first, third] = self.rails;
+        [edge(first, self.diamond), edge(third, self.arrival)]
+    }
+
     /// The shift from the nearest line that leads to a diamond and takes the same cushions; `None` where there is none, it
     /// is too far off, or the third cushion does not lie along the first.
     pub(super) fn of(table: &Table, leg: &Leg) -> Option<Self> {
@@ -50,7 +70,8 @@ impl Shift {
         let table_third = along(leg.hits[2].1, third);
         beside.into_iter().find_map(|diamond| {
             let by = aimed - diamond;
-            let arrival = arrival(table, leg, -by)?;
+            let path = beside_it(table, leg, -by)?;
+            let arrival = along(path[3], third);
             let third = arrival + turned * by;
             ((third - table_third).abs() <= NEAR).then_some(Self {
                 name: "parallel-shift",
@@ -60,17 +81,19 @@ impl Shift {
                 by,
                 third,
                 table_third,
+                path,
             })
         })
     }
 }
 
-/// Where the shot's ball arrives if it comes to the first cushion `by` diamonds further along it; `None` where it takes other
-/// cushions.
-fn arrival(table: &Table, leg: &Leg, by: f64) -> Option<f64> {
+/// The way of the shot's ball from where it comes from if it comes to the first cushion `by` diamonds further along it; `None` where
+/// it takes other cushions.
+fn beside_it(table: &Table, leg: &Leg, by: f64) -> Option<[DVec2; 4]> {
     let (place, motion) = &leg.motion;
     let first = leg.hits[0].0;
-    let further = if is_long(first) { glam::DVec2::X } else { glam::DVec2::Y } * by;
+    let further = if is_long(first) { DVec2::X } else { DVec2::Y } * by;
+    let from = leg.from + further;
     let place = diamonds(table, *place) + further;
     // Just before the cushion, so that it is met.
     let back = 0.01 * motion.velocity.normalize_or_zero();
@@ -81,7 +104,7 @@ fn arrival(table: &Table, leg: &Leg, by: f64) -> Option<f64> {
     }
     let hits = hits(table, place, motion);
     let same = hits.get(..3)?.iter().zip(leg.rails()).all(|((rail, _), other)| *rail == other);
-    same.then(|| along(hits[2].1, hits[2].0))
+    same.then(|| [from, hits[0].1, hits[1].1, hits[2].1])
 }
 
 /// Where a line of aim meets the diamonds of a cushion.
@@ -94,11 +117,21 @@ fn aimed_at(line: &Line, rail: Rail) -> Option<f64> {
     }
 }
 
+/// The place so far along a cushion at which its diamonds stand.
+const fn edge(rail: Rail, along: f64) -> DVec2 {
+    match rail {
+        Rail::Top => DVec2::new(along, 4.0 + BEHIND),
+        Rail::Bottom => DVec2::new(along, -BEHIND),
+        Rail::Left => DVec2::new(-BEHIND, along),
+        Rail::Right => DVec2::new(8.0 + BEHIND, along),
+    }
+}
+
 const fn is_long(rail: Rail) -> bool {
     matches!(rail, Rail::Top | Rail::Bottom)
 }
 
 /// How far along a cushion a place is, in diamonds.
-const fn along(place: glam::DVec2, rail: Rail) -> f64 {
+const fn along(place: DVec2, rail: Rail) -> f64 {
     if is_long(rail) { place.x } else { place.y }
 }

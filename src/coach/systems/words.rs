@@ -81,21 +81,24 @@ impl fmt::Display for Applied {
     }
 }
 
-impl fmt::Display for Shift {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Shift {
+    /// The parallel line, and where the shot arrives by it: `top 3 to top 5.1; aimed 0.4 beyond it, to 4.7`.
+    pub fn counted(&self) -> String {
         let Self { rails: [first, last], diamond, arrival, by, third, table_third, .. } = self;
         let (first, last) = (first.name(), last.name());
-        write!(
-            formatter,
-            "Parallel shift: {first} {diamond:.0} to {last} {arrival:.1}; aimed {:.1} {} it, to {third:.1}",
-            by.abs(),
-            if *by < 0.0 { "before" } else { "beyond" },
-        )?;
-        if tenth(*third) == tenth(*table_third) {
-            Ok(())
+        let side = if *by < 0.0 { "before" } else { "beyond" };
+        let on_table = if tenth(*third) == tenth(*table_third) {
+            String::new()
         } else {
-            write!(formatter, ", on your table {table_third:.1}")
-        }
+            format!(", on your table {table_third:.1}")
+        };
+        format!("{first} {diamond:.0} to {last} {arrival:.1}; aimed {:.1} {side} it, to {third:.1}{on_table}", by.abs())
+    }
+}
+
+impl fmt::Display for Shift {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "Parallel shift: {}", self.counted())
     }
 }
 

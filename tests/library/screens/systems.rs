@@ -7,19 +7,25 @@ use carom::{
 
 use super::player::{ASCII, Player, proposal};
 
-/// A player whose coach has answered with the shot of a bundled exercise on its own balls.
-fn advised(player: Player, name: &str) -> Player {
-    let library = Library::bundled().unwrap();
-    let exercise = library.get(name).unwrap();
+/// A player whose coach has answered with this shot.
+fn advised(player: Player, balls: &str, words: &str) -> Player {
     let mut player = player.press("p");
-    let [white, yellow, red] = exercise.layout.balls;
-    player.app.paste(&format!("{},{} {},{} {},{}", white.x, white.y, yellow.x, yellow.y, red.x, red.y));
+    player.app.paste(balls);
     let mut player = player.press("Enter R R Enter");
     let job = player.asked.take().expect("the coach was asked");
+    let best = proposal(&job.table, &job.layout, words, carom::coach::Way::AroundTheTable, 900);
+    player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![best], effort: None, found: None })).studied()
+}
+
+/// The same with the shot of a bundled exercise on its own balls.
+fn taught(player: Player, name: &str) -> Player {
+    let library = Library::bundled().unwrap();
+    let exercise = library.get(name).unwrap();
+    let [white, yellow, red] = exercise.layout.balls;
+    let balls = format!("{},{} {},{} {},{}", white.x, white.y, yellow.x, yellow.y, red.x, red.y);
     let cue = exercise.shot.unwrap();
     let words = format!("{},{},{},{},{}", cue.a, cue.b, cue.theta.to_degrees(), cue.phi.to_degrees(), cue.speed);
-    let best = proposal(&job.table, &job.layout, &words, carom::coach::Way::AroundTheTable, 900);
-    player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![best], effort: None, found: None })).studied()
+    advised(player, &balls, &words)
 }
 
 #[test]
@@ -44,7 +50,7 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
     for (name, system) in
         [("corner-5-from-the-corner", "Corner-5"), ("plus-from-three", "Plus"), ("seven-from-four", "Seven")]
     {
-        let player = advised(Player::with(ASCII), name).press("Esc");
+        let player = taught(Player::with(ASCII), name).press("Esc");
         let player = player.press("y");
         player.shows(&[&format!("System - {system} for this shot")]);
         // Where the shot is gone, its numbers go too.
@@ -55,4 +61,18 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
         player.app.paste("2d,0.5d 6d,2d 4d,3.5d");
         player.shows(&[&format!("System - {system} example")]);
     }
+}
+
+#[test]
+fn a_parallel_shift_is_drawn_before_the_systems_and_is_of_its_shot_alone() {
+    let player = advised(Player::with(ASCII), "-0.6035,-0.355 0.165,0.42 0,0.3", "0,0.2,2,75,4").press("Esc y");
+    player.shows(&["- Parallel shift for this shot -", "top 3 to top 4.1; aimed 0.2"]);
+    let large = player.text(120, 40);
+    assert!(large.contains("No system has numbers for this line") && large.contains("4.1"), "{large}");
+    let next = player.press("y");
+    next.shows(&["System - Corner-5 example"]);
+    let mut shift = next.press("y y y y");
+    shift.shows(&["Parallel shift for this shot"]);
+    shift.app.paste("2d,0.5d 6d,2d 4d,3.5d");
+    shift.is_silent_on("- Parallel shift");
 }

@@ -11,17 +11,25 @@ use crate::{
     terminal::{AdviceState, pages::coach::CoachPage},
 };
 
-/// A system as it is shown.
+/// A system, or a parallel shift, as it is shown.
 #[derive(Clone, Debug)]
 pub struct Lesson {
-    /// The numbers and the line.
-    pub applied: Applied,
+    /// What is counted.
+    pub guide: Guide,
     /// Whether they are those of the shot that is shown.
     pub is_of_shot: bool,
     /// The way of a ball that is played so, m.
     pub path: Vec<DVec2>,
     /// The table on which it is.
     pub table: Arc<Table>,
+}
+
+/// The system of which a guide is; `None` for a parallel shift.
+const fn system_of(guide: &Guide) -> Option<System> {
+    match guide {
+        Guide::System(applied) => Some(applied.system),
+        Guide::Shift(_) => None,
+    }
 }
 
 impl CoachPage {
@@ -35,17 +43,17 @@ impl CoachPage {
         self.shown().map(AdviceState::choice)?.study.as_ref()?.system.as_ref()
     }
 
-    /// Opens the lesson at the system of the shot, goes on to the next one, and closes it after the last.
+    /// Opens the lesson at what is counted for the shot, goes on to the next system, and closes it after the last.
     pub(super) fn next_lesson(&mut self) {
-        let mut order: Vec<System> = System::ALL.to_vec();
-        if let Some(Guide::System(applied)) = self.guide() {
-            order.retain(|system| *system != applied.system);
-            order.insert(0, applied.system);
+        let mut order: Vec<Option<System>> = System::ALL.map(Some).to_vec();
+        if let Some(own) = self.guide().map(system_of) {
+            order.retain(|system| *system != own);
+            order.insert(0, own);
         }
         let next = match &self.lesson {
             None => order.first(),
             Some(lesson) => {
-                let shown = order.iter().position(|system| *system == lesson.applied.system);
+                let shown = order.iter().position(|system| *system == system_of(&lesson.guide));
                 order.get(shown.map_or(order.len(), |place| place + 1))
             }
         };
@@ -55,28 +63,26 @@ impl CoachPage {
     /// Keeps the lesson's numbers those of the shot that is shown, on the table that is played on.
     pub(super) fn renew_lesson(&mut self) {
         let Some(lesson) = &self.lesson else { return };
-        let current = self.of_shot(lesson.applied.system);
+        let current = self.of_shot(system_of(&lesson.guide));
         let is_other = !Arc::ptr_eq(&lesson.table, &self.balls.present().table)
             || lesson.is_of_shot != current.is_some()
-            || current.is_some_and(|applied| *applied != lesson.applied);
+            || current.is_some_and(|guide| *guide != lesson.guide);
         if is_other {
-            self.lesson = self.lesson_on(lesson.applied.system);
+            self.lesson = self.lesson_on(system_of(&lesson.guide));
         }
     }
 
-    fn of_shot(&self, system: System) -> Option<&Applied> {
-        match self.guide()? {
-            Guide::System(applied) if applied.system == system => Some(applied),
-            _ => None,
-        }
+    fn of_shot(&self, system: Option<System>) -> Option<&Guide> {
+        self.guide().filter(|guide| system_of(guide) == system)
     }
 
-    fn lesson_on(&self, system: System) -> Option<Lesson> {
+    /// A shift is always the shot's; a system has an example besides.
+    fn lesson_on(&self, system: Option<System>) -> Option<Lesson> {
         let own = self.of_shot(system).cloned();
         let is_of_shot = own.is_some();
-        let applied = own.or_else(|| Applied::example(system, self.table()))?;
+        let guide = own.or_else(|| Applied::example(system?, self.table()).map(Guide::System))?;
         let table = Arc::clone(&self.balls.present().table);
-        Some(Lesson { path: applied.path(&table), applied, is_of_shot, table })
+        Some(Lesson { path: guide.path(&table), guide, is_of_shot, table })
     }
 }
 

@@ -1,4 +1,4 @@
-//! The lesson on a diamond system: its numbers at the rails of the table, the ball's way, and the arithmetic.
+//! The lesson on a diamond system or a parallel shift: the numbers at the rails of the table, the ball's way, and the arithmetic.
 
 use glam::DVec2;
 use ratatui::{
@@ -8,12 +8,13 @@ use ratatui::{
 };
 
 use crate::{
-    coach::systems::{BEHIND, metres, number},
+    coach::systems::{Applied, BEHIND, Guide, metres, number},
     table::Table,
     terminal::{
         Glyphs, Mapping,
         pages::coach::{CoachPage, lesson::Lesson},
         ui::{Spot, Theme, Ui, columns, draw_title, wrap},
+        words::fixed,
     },
 };
 
@@ -32,18 +33,31 @@ pub fn lesson_spots(lesson: &Lesson, theme: &Theme) -> Vec<Spot> {
     legs.chain(lesson.path.last().copied()).map(dot).collect()
 }
 
-/// Writes the system's numbers: starts and first cushion on the rails, the third cushion on the cloth before it.
+/// Writes the numbers: starts and first cushion on the rails, the third cushion on the cloth before it.
 pub fn draw_numbers(lesson: &Lesson, table: &Table, mapping: &Mapping, ui: &mut Ui) {
-    let (system, labels) = (lesson.applied.system, lesson.applied.system.labels());
     let back = if ui.caps.glyphs == Glyphs::Letters { ui.theme.background } else { ui.theme.wood };
     let on_rail = ui.theme.text().bg(back).add_modifier(Modifier::BOLD);
     let on_cloth = ui.theme.accent().bg(ui.theme.cloth).add_modifier(Modifier::BOLD);
     let on_cloth = if ui.caps.glyphs == Glyphs::Letters { ui.theme.accent() } else { on_cloth };
-    for (value, place) in labels.start.iter().chain(&labels.first) {
-        write_at(&number(system, *value), lesson.applied.mirror.place(*place), false, table, mapping, on_rail, ui);
+    for (text, place, is_inside) in labels(&lesson.guide) {
+        let style = if is_inside { on_cloth } else { on_rail };
+        write_at(&text, place, is_inside, table, mapping, style, ui);
     }
-    for (value, place) in &labels.third {
-        write_at(&number(system, *value), lesson.applied.mirror.place(*place), true, table, mapping, on_cloth, ui);
+}
+
+/// Numbers with their places on the edge, in diamonds, and whether they stand on the cloth.
+fn labels(guide: &Guide) -> Vec<(String, DVec2, bool)> {
+    match guide {
+        Guide::System(Applied { system, mirror, .. }) => {
+            let labels = system.labels();
+            let on_rails = labels.start.iter().chain(&labels.first).map(|label| (label, false));
+            let all = on_rails.chain(labels.third.iter().map(|label| (label, true)));
+            all.map(|((value, place), inside)| (number(*system, *value), mirror.place(*place), inside)).collect()
+        }
+        Guide::Shift(shift) => {
+            let [first, third] = shift.ends();
+            vec![(fixed(shift.diamond, 0), first, false), (fixed(shift.arrival, 1), third, true)]
+        }
     }
 }
 
@@ -90,24 +104,49 @@ fn write_at(
     ui.buffer.set_string(x, y, text, style);
 }
 
-/// Draws the panel: the arithmetic, then what the system is, as far as there is room.
+/// Draws the panel: the arithmetic, then what it is, as far as there is room.
 pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
-    let system = lesson.applied.system;
-    let dash = ui.caps.pick(" · ", " - ");
-    let title = vec![
-        Span::styled("System", ui.theme.text()),
-        Span::styled(dash, ui.theme.faint()),
-        Span::styled(system.name(), ui.theme.good()),
-        Span::styled(if lesson.is_of_shot { " for this shot" } else { " example" }, ui.theme.faint()),
-    ];
+    let mut title = match &lesson.guide {
+        Guide::System(applied) => vec![
+            Span::styled("System", ui.theme.text()),
+            Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()),
+            Span::styled(applied.system.name(), ui.theme.good()),
+        ],
+        Guide::Shift(_) => vec![Span::styled("Parallel shift", ui.theme.good())],
+    };
+    title.push(Span::styled(if lesson.is_of_shot { " for this shot" } else { " example" }, ui.theme.faint()));
     let inner = draw_title(title, area, ui);
     let width = usize::from(inner.width.saturating_sub(2));
+    let lines =
+        sentences(&lesson.guide).into_iter().filter(|(words, _)| !words.is_empty()).flat_map(|(words, is_main)| {
+            let style = if is_main { ui.theme.text() } else { ui.theme.faint() };
+            wrap(&words, width).into_iter().map(move |words| Line::styled(format!(" {words}"), style))
+        });
+    for (line, row) in lines.collect::<Vec<_>>().into_iter().zip(inner.y..inner.bottom()) {
+        ui.buffer.set_line(inner.x, row, &line, inner.width);
+    }
+}
+
+/// The sentences of the panel, and whether each is part of the arithmetic.
+fn sentences(guide: &Guide) -> Vec<(String, bool)> {
+    let applied = match guide {
+        Guide::System(applied) => applied,
+        Guide::Shift(shift) => {
+            let why = "No system has numbers for this line. The dots lead beside it, to a diamond.";
+            return vec![
+                (shift.counted(), true),
+                (why.to_owned(), false),
+                (shift.rule().to_owned(), false),
+                ("On the rail: the diamond. On the cloth: where the dots come to the third cushion.".to_owned(), false),
+            ];
+        }
+    };
+    let system = applied.system;
     let side = if system.is_running() { "running side" } else { "no side" };
-    let own =
-        lesson.applied.shot_first.map(|first| format!("the shot itself, with its side, at {}", number(system, first)));
-    let sentences = [
-        (format!("{}: aim at {}", lesson.applied.arithmetic(), lesson.applied.aim()), true),
-        (lesson.applied.correction(), true),
+    let own = applied.shot_first.map(|first| format!("the shot itself, with its side, at {}", number(system, first)));
+    vec![
+        (format!("{}: aim at {}", applied.arithmetic(), applied.aim()), true),
+        (applied.correction(), true),
         (own.unwrap_or_default(), true),
         (format!("{}; {side}", system.track()), false),
         (system.rule().to_owned(), false),
@@ -117,14 +156,7 @@ pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
             false,
         ),
         ("On the cloth: where the ball comes to the third cushion.".to_owned(), false),
-    ];
-    let lines = sentences.into_iter().filter(|(words, _)| !words.is_empty()).flat_map(|(words, is_main)| {
-        let style = if is_main { ui.theme.text() } else { ui.theme.faint() };
-        wrap(&words, width).into_iter().map(move |words| Line::styled(format!(" {words}"), style))
-    });
-    for (line, row) in lines.collect::<Vec<_>>().into_iter().zip(inner.y..inner.bottom()) {
-        ui.buffer.set_line(inner.x, row, &line, inner.width);
-    }
+    ]
 }
 
 /// What a player counts for the shot that is shown, in a line; `None` where no system applies.
@@ -141,8 +173,8 @@ mod tests {
     fn the_way_begins_at_the_diamond_behind_and_ends_at_the_third_cushion() {
         let table = Table::default();
         let applied = crate::coach::systems::Applied::example(System::Corner5, &table).unwrap();
-        let path = applied.path(&table);
-        let lesson = Lesson { path, applied, is_of_shot: false, table: table.clone().into() };
+        let guide = Guide::System(applied);
+        let lesson = Lesson { path: guide.path(&table), guide, is_of_shot: false, table: table.clone().into() };
         let spots = lesson_spots(&lesson, &Theme::new(crate::terminal::Depth::Mono));
         let [first, last] = [spots[0].place, spots[spots.len() - 1].place].map(|place| diamonds(&table, place));
         assert!(first.distance(DVec2::new(8.225, -0.225)) < 0.01, "{first}");
