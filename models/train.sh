@@ -1,6 +1,6 @@
 #!/bin/sh
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about thirty-four hours of a shared core. The bundled files for match began from networks that a
+# with the same version. All of it takes about thirty-eight hours of a shared core. The bundled files for match began from networks that a
 # version before this one had trained; their first rounds were played without the cue's room, and those up to match-r3-third,
 # match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth.
 set -eu
@@ -86,7 +86,7 @@ perfect match-three-cushion-thirteenth --from "$folder/match-three-cushion-twelf
 alone="--set ranking=0.7 --set actor_learning_rate=0.000000001 --set actor_batch=1"
 perfect match-three-cushion-fourteenth --from "$folder/match-three-cushion-thirteenth" --seed 505 --steps 14000000 $alone --set critic_learning_rate=0.0013
 perfect match-three-cushion --from "$folder/match-three-cushion-fourteenth" --seed 506 --steps 6000000 $alone --set critic_learning_rate=0.0003
-# All searches below raced 96 strokes of their own and the proposals, as versions before 2026-11-26 did.
+# Searches up to the 26th round at three cushions raced 96 strokes of their own and the proposals, as versions before 2026-11-26 did.
 # Heads with speeds of their own; then expert iteration, in which a search shows what players who err make most often; then without a
 # search, so that the critic learns to choose: at three cushions it alone, for there the actor went back to harder strokes.
 heads="$rate --set heads=9 --set actor_batch=64"
@@ -146,7 +146,18 @@ context context-three-cushion-22nd --from "$folder/context-three-cushion-21st" -
 awake="--set actor_learning_rate=0.0005"
 context context-three-cushion-23rd --from "$folder/context-three-cushion-22nd" --seed 671 --steps 2300000 $heads $expert $awake $again --set "$speeds" $rails
 context context-three-cushion-24th --from "$folder/context-three-cushion-23rd" --seed 681 --steps 5000000 $heads $choice $critic --set "$speeds" $rails
-context context-three-cushion --from "$folder/context-three-cushion-24th" --seed 691 --steps 2000000 $heads $choice $fine --set "$speeds" $rails
+context context-three-cushion-25th --from "$folder/context-three-cushion-24th" --seed 691 --steps 2000000 $heads $choice $fine --set "$speeds" $rails
+# Stopped by hand after 4,023,936 shots.
+context context-three-cushion-26th --from "$folder/context-three-cushion-25th" --seed 701 --steps 14000000 $heads $expert $awake $again --set "$speeds" $rails
+# From here on searches try 2,048 strokes and race those of them that score as meant and that the critic likes best. The first 450,000
+# shots of the 27th did not yet remember neighbours that the critic liked in vain; the 30th was stopped by hand after 1,340,544 shots.
+taught="--set ranking=0.4 --set searched=4 --set imitation=0.6"
+context context-three-cushion-27th --from "$folder/context-three-cushion-26th" --seed 711 --steps 3800000 $heads $taught $awake $again --set "$speeds" $rails
+context context-three-cushion-28th --from "$folder/context-three-cushion-27th" --seed 721 --steps 6000000 $heads $choice $critic --set "$speeds" $rails
+context context-three-cushion-29th --from "$folder/context-three-cushion-28th" --seed 731 --steps 2500000 $heads $choice $fine --set "$speeds" $rails
+context context-three-cushion-30th --from "$folder/context-three-cushion-29th" --seed 741 --steps 3800000 $heads $taught $awake $again --set "$speeds" $rails
+# The mean of four times as many attempts for every shot.
+context context-three-cushion --from "$folder/context-three-cushion-30th" --seed 751 --steps 8000000 $heads $choice $critic --set attempts=32 --set shots_per_update=96 --set "$speeds" $rails
 speeds="head_speeds=[[0.5, 2.0], [1.4, 3.6], [2.8, 6.0]]"
 context context-one-cushion --from "$folder/context-one-cushion-fifth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
 context context-r3 --from "$folder/context-r3-sixth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
