@@ -10,7 +10,7 @@ rm -rf "$folder"
 mkdir -p "$folder/man" "$folder/completions"
 "$program" man > "$folder/man/carom.1"
 # The commands stand in the help between "Commands:" and the next empty line.
-commands=$("$program" --help | sed -n '/^Commands:/,/^$/p' | awk 'NR > 1 && $1 != "help" && NF { print $1 }')
+commands=$("$program" --help | sed -n '/^Commands:/,/^$/p' | awk '/^  [a-z]/ && $1 != "help" { print $1 }')
 for command in $commands; do
     "$program" man "$command" > "$folder/man/carom-$command.1"
 done

@@ -27,9 +27,10 @@ use crate::{
     table::Table,
 };
 
-/// Measure the recommender, or with --policy-only the networks alone, on layouts that nobody has practised.
+/// Measure the recommender, or with --policy-only the networks alone.
 ///
-/// What is printed is the share on which the shot succeeds, with the 95 % confidence interval.
+/// They play layouts that nobody has practised. What is printed is the share on which the shot succeeds, with the 95 % confidence
+/// interval.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {

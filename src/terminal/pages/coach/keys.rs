@@ -217,7 +217,7 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Shot, &[letter('w', A::WhatIf)], Some(("what if", 1)),
         "take the shot over into a stroke of your own, to change it and see what comes of it").known_as("adopt compare try own"),
     bind(Shot, W::Anytime, &[letter('y', A::NextSystem)], None,
-        "diamond systems on the table: the shot's own or its parallel shift, then the others, then none")
+        "diamond systems on the table: the shot's own, then the others, then none")
         .known_as("corner-5 corner five and a half plus seven count numbers learn teach"),
     bind(Shot, W::Shot, &[letter('N', A::TurnNumbers)], Some(("numbers", 1)),
         "the shot in the thesis' numbers, or in words again").known_as("a b theta phi V impulse angle millimetres"),
