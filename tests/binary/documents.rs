@@ -139,8 +139,9 @@ fn the_page_of_the_settings_has_the_table_that_the_program_prints() {
 /// The subcommands of the program or of one of them, each with the first sentence of what it does.
 fn subcommands(help: &str) -> Vec<(&str, &str)> {
     let list = help.split_once("Commands:\n").unwrap().1.split_once("\n\n").unwrap().0;
+    // A line that goes on stands further to the right.
     list.lines()
-        .map(|line| line.trim().split_once(' ').unwrap())
+        .filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' '))?.split_once(' '))
         .map(|(name, about)| (name, about.trim().split(". ").next().unwrap()))
         .filter(|&(name, _)| name != "help")
         .collect()
