@@ -17,19 +17,19 @@ pub struct Shown<W: Write> {
 }
 
 /// The standard output.
-#[allow(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
+#[expect(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
 pub fn stdout() -> Shown<StdoutLock<'static>> {
     Shown::new(io::stdout().lock())
 }
 
 /// The standard error.
-#[allow(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
+#[expect(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
 pub fn stderr() -> Shown<StderrLock<'static>> {
     Shown::new(io::stderr().lock())
 }
 
 /// Whether somebody watches the standard error.
-#[allow(clippy::disallowed_methods, reason = "nothing is written")]
+#[expect(clippy::disallowed_methods, reason = "nothing is written")]
 pub fn is_watched() -> bool {
     io::stderr().is_terminal()
 }

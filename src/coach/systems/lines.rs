@@ -10,7 +10,7 @@ use crate::{simulation::Rail, table::Table};
 pub const BEHIND: f64 = 0.225;
 
 /// Diamonds along the length and along the width.
-const SIZE: DVec2 = DVec2::new(8.0, 4.0);
+pub const SIZE: DVec2 = DVec2::new(8.0, 4.0);
 
 /// A place in metres, from the middle of `table`, in diamonds.
 pub fn diamonds(table: &Table, place: DVec2) -> DVec2 {

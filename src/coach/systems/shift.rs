@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::{
     leg::Leg,
-    lines::{BEHIND, Line, diamonds, metres},
+    lines::{BEHIND, Line, SIZE, diamonds, metres},
     natural::hits,
 };
 use crate::{simulation::Rail, table::Table};
@@ -33,14 +33,14 @@ pub struct Shift {
     pub third: f64,
     /// Where it arrives on this table.
     pub table_third: f64,
-    /// The parallel line: where the middle of a ball comes from that goes on as the shot's does, and where it is at the three
-    /// cushions, in diamonds.
+    /// The way of a ball on the parallel line that moves as the shot's ball: where it begins, and its middle at the three cushions,
+    /// in diamonds.
     #[serde(skip)]
     pub path: [DVec2; 4],
 }
 
 impl Shift {
-    /// What players know of it.
+    /// The rule by which the shot is counted, as a sentence.
     pub fn rule(&self) -> &'static str {
         if self.by * (self.third - self.arrival) < 0.0 {
             "Aimed further along the first cushion, the ball comes as much less far along the third."
@@ -70,7 +70,7 @@ impl Shift {
         let table_third = along(leg.hits[2].1, third);
         beside.into_iter().find_map(|diamond| {
             let by = aimed - diamond;
-            let path = beside_it(table, leg, -by)?;
+            let path = path_beside(table, leg, -by)?;
             let arrival = along(path[3], third);
             let third = arrival + turned * by;
             ((third - table_third).abs() <= NEAR).then_some(Self {
@@ -87,13 +87,12 @@ impl Shift {
     }
 }
 
-/// The way of the shot's ball from where it comes from if it comes to the first cushion `by` diamonds further along it; `None` where
-/// it takes other cushions.
-fn beside_it(table: &Table, leg: &Leg, by: f64) -> Option<[DVec2; 4]> {
+/// The way of the shot's ball, from its beginning to the third cushion, if it came to the first one `by` diamonds further along;
+/// `None` where it takes other cushions.
+fn path_beside(table: &Table, leg: &Leg, by: f64) -> Option<[DVec2; 4]> {
     let (place, motion) = &leg.motion;
     let first = leg.hits[0].0;
     let further = if is_long(first) { DVec2::X } else { DVec2::Y } * by;
-    let from = leg.from + further;
     let place = diamonds(table, *place) + further;
     // Just before the cushion, so that it is met.
     let back = 0.01 * motion.velocity.normalize_or_zero();
@@ -104,7 +103,14 @@ fn beside_it(table: &Table, leg: &Leg, by: f64) -> Option<[DVec2; 4]> {
     }
     let hits = hits(table, place, motion);
     let same = hits.get(..3)?.iter().zip(leg.rails()).all(|((rail, _), other)| *rail == other);
-    same.then(|| [from, hits[0].1, hits[1].1, hits[2].1])
+    same.then(|| [entry(leg.from + further, hits[0].1), hits[0].1, hits[1].1, hits[2].1])
+}
+
+/// Where the line from one place to another, which is on the table, comes onto the table.
+fn entry(from: DVec2, to: DVec2) -> DVec2 {
+    let share = (from.clamp(DVec2::ZERO, SIZE) - to) / (from - to);
+    // Along an axis one share is not a number, which `min` passes over.
+    to + (from - to) * 1_f64.min(share.x).min(share.y)
 }
 
 /// Where a line of aim meets the diamonds of a cushion.
@@ -134,4 +140,17 @@ const fn is_long(rail: Rail) -> bool {
 /// How far along a cushion a place is, in diamonds.
 const fn along(place: DVec2, rail: Rail) -> f64 {
     if is_long(rail) { place.x } else { place.y }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_begins_on_the_table() {
+        let to = DVec2::new(2.0, 4.0);
+        assert_eq!(entry(DVec2::new(1.0, 1.0), to), DVec2::new(1.0, 1.0));
+        assert_eq!(entry(DVec2::new(-1.0, 1.0), to), DVec2::new(0.0, 2.0));
+        assert_eq!(entry(DVec2::new(2.0, -1.0), to), DVec2::new(2.0, 0.0));
+    }
 }

@@ -32,7 +32,7 @@ pub struct Screen {
 
 impl Screen {
     /// The terminal on the standard input and output, with the user's settings.
-    #[allow(clippy::disallowed_methods, reason = "nothing is written")]
+    #[expect(clippy::disallowed_methods, reason = "nothing is written")]
     pub fn detect(settings: &Settings) -> Self {
         let set = |name: &str| env::var(name).ok().filter(|value| !value.is_empty());
         let caps = terminal::detect(settings);

@@ -60,14 +60,14 @@ impl Input {
 ///
 /// # Errors
 /// Where the process has no room for another file.
-#[allow(clippy::disallowed_methods, reason = "a screen is control characters; text goes through the painter")]
+#[expect(clippy::disallowed_methods, reason = "a screen is control characters; text goes through the painter")]
 pub fn terminal_output() -> io::Result<File> {
     Ok(File::from(io::stdout().as_fd().try_clone_to_owned()?))
 }
 
 /// Lets a screen end that waits for a terminal which takes nothing any more, as over a link that stands still: what has
 /// not been taken is thrown away, as often as that is in the way. The process ends meanwhile, and this thread with it.
-#[allow(clippy::disallowed_methods, reason = "nothing is written")]
+#[expect(clippy::disallowed_methods, reason = "nothing is written")]
 pub fn free_the_screen() -> ! {
     let output = io::stdout();
     loop {

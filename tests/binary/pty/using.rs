@@ -53,7 +53,12 @@ fn playback_stays_small_enough_for_a_slow_link() {
     session.wait_for(OPENING);
     session.send("\r");
     session.wait_for_advice();
-    // The coach has looked at the shot more closely, too.
+    // What a picture costs depends on the shot, and which the coach finds depends on how busy the machine is: a stroke of one's own,
+    // full at the first ball, level and in the middle, brought down to 0.1 m/s and up to 4.1.
+    session.send("w\t0");
+    session.send(&"-".repeat(80));
+    session.send(&"\x1b[1;2B".repeat(12));
+    session.send(&"\x1b[1;2A".repeat(8));
     session.settle(Duration::from_millis(1500));
     session.send(" ");
     // The first three seconds: the balls are never faster, nor more of them under way.
@@ -65,8 +70,8 @@ fn playback_stays_small_enough_for_a_slow_link() {
         frames = shot.windows(FRAME.len()).filter(|window| *window == FRAME).count();
     }
     let frame = shot.len() / frames;
-    // 190 to 340 were measured, by the shot that the coach finds in its time; 540 with crossterm's backend.
-    assert!((20..=400).contains(&frame), "{frame} bytes a frame");
+    // 179 were measured, 190 to 340 for shots that the coach finds; the same with crossterm's backend took over twice as many.
+    assert!((20..=300).contains(&frame), "{frame} bytes a frame");
 }
 
 #[test]
