@@ -132,7 +132,7 @@ fn sentences(guide: &Guide) -> Vec<(String, bool)> {
     let applied = match guide {
         Guide::System(applied) => applied,
         Guide::Shift(shift) => {
-            let why = "No system has numbers for this line. The dots lead beside it, to a diamond.";
+            let why = "No system has this line; the dots lead to a diamond beside it.";
             return vec![
                 (shift.counted(), true),
                 (why.to_owned(), false),
