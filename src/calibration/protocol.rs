@@ -81,7 +81,7 @@ impl Mark {
         }
     }
 
-    /// The largest value that it can have: the table's sides, and two minutes.
+    /// The largest value that it can have, in its own unit: the table's sides, and one minute.
     pub const fn most(&self) -> f64 {
         match self.quantity {
             Quantity::StopAlong(_) | Quantity::RailAlong(..) => 8.0,

@@ -31,9 +31,9 @@ pub struct Args {
     /// Number of random shots on each table. Default: 1000, or 96 with --quick; with --stability 100000, or 10000
     #[arg(long, value_parser = whole(1..=1_000_000_000_u32))]
     shots: Option<u32>,
-    /// Seed of the shots.
-    #[arg(long, default_value_t = 2026, value_parser = seed)]
-    seed: u64,
+    /// Seed of the shots. Default: 2026; of the stability table 1.
+    #[arg(long, value_parser = seed)]
+    seed: Option<u64>,
     /// The table: "match", "textbook", "thesis" or the path of a TOML file; where balls leave its cloth, strokes of up to 60
     /// degrees are studied too. Default: textbook and thesis, and such strokes on match
     #[arg(long, value_name = "NAME")]
@@ -48,13 +48,17 @@ pub struct Args {
     /// With --filmed, fit the constants of cloth and rails to the film, and to each half of it to judge them on the other.
     #[arg(long, requires = "filmed")]
     fit: bool,
-    /// Write accuracy.csv, error-vs-time.svg and error-vs-condition.svg into this folder.
+    /// Write files into this folder: accuracy.csv, error-vs-time.svg, error-vs-condition.svg and stability.md; with --filmed
+    /// filmed.csv and filmed.svg.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print one JSON object for each reference file, each table and each method instead of the text.
     #[arg(long)]
     json: bool,
 }
+
+/// Seed of the shots that are studied where none is given.
+const SEED: u64 = 2026;
 
 /// Most shots whose every method is studied: all of them are kept.
 const MOST_STUDIED: u32 = 1_000_000;
@@ -92,9 +96,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let tables = args.table.as_ref().map_or_else(judged, |name| table_named(name).map(with_flights))?;
     let references = study::check_references();
-    let size = Size::of(args);
+    let (size, seed) = (Size::of(args), args.seed.unwrap_or(SEED));
     let studies: Vec<Study> =
-        tables.into_iter().map(|(table, steepest)| measure(table, steepest, &size, args.seed)).collect();
+        tables.into_iter().map(|(table, steepest)| measure(table, steepest, &size, seed)).collect();
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
     }
@@ -173,7 +177,7 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
 
 /// The stability table, which tells of each stiff or extreme case how many shots fail and why.
 fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
-    let plan = stability::Plan { seed: args.seed, ..*plan };
+    let plan = stability::Plan { seed: args.seed.unwrap_or(plan.seed), ..*plan };
     let rows = stability::rows_with_progress(&plan, &AtomicBool::new(false));
     if let Some(folder) = &args.out {
         write_file(folder, "stability.md", &stability::page(&plan, &rows))?;

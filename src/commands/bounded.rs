@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::Failure;
 use crate::{
     physics::{CueInputs, Impulse, strike},
-    simulation::{Bounded, End, Recorder, Recording, simulate},
+    simulation::{Bounded, End, Recorder, Recording, within_bounds},
     study::{Stepped, Steps},
     table::{Layout, Table},
 };
@@ -21,21 +21,20 @@ const MOST_STEPS: f64 = 4e6;
 /// # Errors
 /// What is wrong with the layout or the stroke; and where it takes too long or its numbers get out of hand.
 pub fn play(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Recording, Failure> {
-    let (recording, is_over) = Recording::played_by(table, layout, cue, |impulse, recorder| {
-        let mut bounded = Bounded::new(recorder, LONGEST, u32::MAX);
-        let end = simulate(table, layout, impulse, &mut bounded);
-        (end, bounded.is_over())
-    })
-    .map_err(Failure::wrong_input)?;
-    finite(table, recording, is_over)
+    let play = within_bounds(table, layout, LONGEST, u32::MAX);
+    let (recording, is_over) = Recording::played_by(table, layout, cue, play).map_err(Failure::wrong_input)?;
+    finite(table, recording, is_over, "")
 }
 
 /// Plays a shot in which the cue ball has this motion just after the stroke.
 ///
 /// # Errors
-/// What is wrong with the layout or the motion; and where its numbers get out of hand.
+/// What is wrong with the layout or the motion; and as [`play`].
 pub fn play_impulse(table: &Table, layout: &Layout, impulse: &Impulse) -> Result<Recording, Failure> {
-    finite(table, Recording::with_impulse(table, layout, impulse).map_err(Failure::wrong_input)?, false)
+    let play = within_bounds(table, layout, LONGEST, u32::MAX);
+    let (recording, is_over) =
+        Recording::played_by_impulse(table, layout, impulse, play).map_err(Failure::wrong_input)?;
+    finite(table, recording, is_over, "")
 }
 
 /// Plays a shot in fixed steps.
@@ -64,15 +63,16 @@ pub fn play_in_steps(
     };
     let (recording, (stepped, is_over)) =
         Recording::played_by(table, layout, cue, play).map_err(Failure::wrong_input)?;
-    Ok((finite(table, recording, is_over)?, stepped))
+    Ok((finite(table, recording, is_over, "larger time steps or ")?, stepped))
 }
 
-fn finite(table: &Table, recording: Recording, is_over: bool) -> Result<Recording, Failure> {
+/// The recording, if it is a whole one with finite numbers; `else_would` names what else but a table that is less stiff would help.
+fn finite(table: &Table, recording: Recording, is_over: bool, else_would: &str) -> Result<Recording, Failure> {
     let name = &table.name;
     if is_over {
         return Err(Failure::failed(format_args!(
-            "the shot takes more than {} s to compute on \"{name}\" and is given up; larger time steps or a table \
-             that is less stiff would do",
+            "the shot takes more than {} s to compute on \"{name}\" and is given up; {else_would}a table that is less stiff \
+             would do",
             LONGEST.as_secs()
         )));
     }

@@ -35,6 +35,23 @@ pub enum Goal {
     },
 }
 
+impl Goal {
+    /// What it is, in a few words.
+    pub fn words(self) -> String {
+        match self {
+            Self::Free => "free repetition".to_owned(),
+            Self::Run(points) => format!("run of {points}"),
+            Self::Exam => "exam".to_owned(),
+            Self::Game { innings: 0 } => "game".to_owned(),
+            Self::Game { innings: 1 } => "game, 1 inning".to_owned(),
+            Self::Game { innings } => format!("game, {innings} innings"),
+            Self::Match { innings: 0 } => "match".to_owned(),
+            Self::Match { innings: 1 } => "match, 1 inning".to_owned(),
+            Self::Match { innings } => format!("match, {innings} innings"),
+        }
+    }
+}
+
 /// Where the strokes are played.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

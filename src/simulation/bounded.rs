@@ -5,8 +5,11 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{Event, Observer, Recorder, Recording, Segment};
-use crate::table::BALLS;
+use super::{End, Event, Observer, Recorder, Recording, Segment, simulate};
+use crate::{
+    physics::Impulse,
+    table::{BALLS, Layout, Table},
+};
 
 /// Records until it has taken too long, or too much has happened.
 #[derive(Debug)]
@@ -57,6 +60,20 @@ impl Observer for Bounded<'_> {
 
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
         self.recorder.segment(ball, segment, end);
+    }
+}
+
+/// Plays from event to event for [`Recording::played_by`], within the bounds of [`Bounded::new`]; tells also whether the shot was given up.
+pub fn within_bounds(
+    table: &Table,
+    layout: &Layout,
+    longest: Duration,
+    most: u32,
+) -> impl FnOnce(&Impulse, &mut Recorder) -> (End, bool) {
+    move |impulse, recorder| {
+        let mut bounded = Bounded::new(recorder, longest, most);
+        let end = simulate(table, layout, impulse, &mut bounded);
+        (end, bounded.is_over())
     }
 }
 

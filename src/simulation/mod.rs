@@ -32,7 +32,7 @@ mod tests;
 
 pub use crate::table::Rail;
 pub use aloft::Nose;
-pub use bounded::Bounded;
+pub use bounded::{Bounded, within_bounds};
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
 pub use events::{Event, EventKind, Observer, StepBudget};

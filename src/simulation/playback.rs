@@ -81,9 +81,23 @@ impl Recording {
     ) -> Result<(Self, T), ShotError> {
         layout.validate(table)?;
         cue.validate()?;
-        let impulse = strike(table, cue);
-        let mut recording = Self::before(table, impulse);
-        let (end, more) = play(&impulse, &mut recording.kept);
+        Self::played_by_impulse(table, layout, &strike(table, cue), play)
+    }
+
+    /// The same for a shot in which the cue ball has this motion just after the stroke.
+    ///
+    /// # Errors
+    /// What is wrong with the layout or the motion.
+    pub fn played_by_impulse<T>(
+        table: &Table,
+        layout: &Layout,
+        impulse: &Impulse,
+        play: impl FnOnce(&Impulse, &mut Recorder) -> (End, T),
+    ) -> Result<(Self, T), ShotError> {
+        layout.validate(table)?;
+        impulse.validate()?;
+        let mut recording = Self::before(table, *impulse);
+        let (end, more) = play(impulse, &mut recording.kept);
         recording.end_with(&end);
         Ok((recording, more))
     }

@@ -86,6 +86,7 @@ mod tests {
         assert_eq!(read_text(&path, 4).unwrap(), "four");
         assert!(read(&path, 3).unwrap_err().to_string().contains("more than 3 bytes"));
         assert!(read(folder.path(), 9).unwrap_err().to_string().contains("a folder"));
+        #[cfg(unix)]
         assert!(read(Path::new("/dev/zero"), 9).unwrap_err().to_string().contains("a device"));
         fs::write(&path, [0xff]).unwrap();
         assert!(read_text(&path, 4).unwrap_err().to_string().contains("UTF-8"));

@@ -45,12 +45,13 @@ fn what_is_wrong_is_named_and_the_exit_code_says_so() {
     put("carom/tables/bad.toml", "length = 2");
     put("carom/sessions/broken.json", "{");
     put("carom/positions/broken.json", "{");
+    put("carom/player.json", "{");
     put("state", "a file in the way");
     let said = carom(home.path(), &["doctor"]);
     assert_eq!(said.code, Some(1), "{}", said.out);
     assert!(said.err.contains("things are wrong"), "{}", said.err);
     let wrong: Vec<&str> = said.out.lines().filter_map(|line| line.strip_prefix("wrong: ")).collect();
-    for part in ["speed = 80", "bad.toml", "sessions/broken", "positions/broken", "state"] {
+    for part in ["speed = 80", "bad.toml", "sessions/broken", "positions/broken", "player.json", "state"] {
         assert!(wrong.iter().any(|line| line.contains(part)), "{part}: {wrong:#?}");
     }
     assert!(said.out.contains("2000 shots, hash") && said.out.contains("as on other machines"), "{}", said.out);

@@ -188,6 +188,45 @@ fn the_page_of_the_command_line_has_every_command_and_option_and_no_other() {
 }
 
 #[test]
+fn the_page_of_the_command_line_names_every_field_of_an_answer() {
+    let home = tempfile::tempdir().unwrap();
+    let page = include_str!("../../docs/command-line.md");
+    for line in [
+        "simulate --rule straight --shot 0,0.3,0,1,4",
+        "simulate --shot 0,0.3,0,1,4 --method steps --dt 0.01",
+        "recommend --skill club --plan --margins --simulations 100",
+        "recommend --policy-only",
+        "evaluate --policy-only --layouts 5 --skill club",
+        "evaluate --random-search 5 --layouts 5",
+        "evaluate --self-play --layouts 1 --simulations 100 --skill beginner",
+        "drill list",
+        "drill show half-ball",
+        "play --coach --against-coach --innings 1 --strokes 2 --budget-ms 50",
+        "doctor",
+    ] {
+        let name = line.split(' ').next().unwrap();
+        let section =
+            page.split_once(&format!("\n## carom {}\n", if name == "play" { "drill" } else { name })).unwrap().1;
+        let section = section.split("\n## ").next().unwrap();
+        let mut command = carom(&line.split(' ').chain(["--json"]).collect::<Vec<_>>());
+        let said = command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path()).assert().success();
+        let said = String::from_utf8(said.get_output().stdout.clone()).unwrap();
+        for answer in said.lines() {
+            let answer: serde_json::Value = serde_json::from_str(answer).unwrap();
+            for field in answer.as_object().unwrap().keys().filter(|field| !is_of_an_exercise(field)) {
+                assert!(section.contains(&format!("`{field}`")), "carom {line}: {field}");
+            }
+        }
+        assert!(!said.is_empty(), "carom {line}");
+    }
+}
+
+/// Fields of an exercise, which stand where library files are described.
+fn is_of_an_exercise(field: &str) -> bool {
+    ["name", "category", "grade", "point", "tags", "shot"].contains(&field)
+}
+
+#[test]
 fn the_examples_of_the_pages_work() {
     let pages = [
         include_str!("../../README.md"),

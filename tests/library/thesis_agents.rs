@@ -131,10 +131,12 @@ fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped(
         (Line::named("thesis-ddpg").unwrap().start)(plan, Table::preset("thesis").unwrap(), settings.clone()).unwrap()
     };
     let (mut whole, mut parts) = (start(), start());
+    let first_rate = whole.learning_rate();
     while !whole.is_finished() {
         parts = taken_up("thesis-ddpg", &put_aside(parts.as_ref()));
         assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap());
     }
+    assert!((whole.learning_rate() / first_rate - 0.5).abs() < 1e-12, "{} of {first_rate}", whole.learning_rate());
     let bytes = put_aside(whole.as_ref());
     assert!(bytes == put_aside(parts.as_ref()));
     for name in ["hindsight", "demonstrations"] {

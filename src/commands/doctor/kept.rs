@@ -67,6 +67,8 @@ pub struct Kept {
     pub runs: Found,
     pub sessions: Found,
     pub positions: Found,
+    /// The skill that the player has kept as their own.
+    pub player: Found,
 }
 
 /// How much there is of something, and what of it cannot be used.
@@ -81,7 +83,7 @@ impl Kept {
     /// Looks at everything.
     pub fn find(places: &Places, complaints: &[Complaint]) -> Self {
         let store = Store::new(places);
-        let (sessions, positions) = (store.sessions(), store.positions());
+        let (sessions, positions, own) = (store.sessions(), store.positions(), store.own_skill());
         Self {
             settings: Found {
                 path: places.settings.clone(),
@@ -92,13 +94,18 @@ impl Kept {
             runs: runs(&places.runs),
             sessions: Found { path: places.sessions.clone(), count: sessions.items.len(), wrong: sessions.notes },
             positions: Found { path: places.positions.clone(), count: positions.items.len(), wrong: positions.notes },
+            player: Found {
+                path: places.player.clone(),
+                count: usize::from(own.as_ref().is_ok_and(Option::is_some)),
+                wrong: own.err().iter().map(ToString::to_string).collect(),
+            },
         }
     }
 
     /// A sentence for each thing that is wrong.
     pub fn problems(&self) -> impl Iterator<Item = String> {
-        let Self { settings, tables, runs, sessions, positions } = self;
-        [settings, tables, runs, sessions, positions].into_iter().flat_map(|found| found.wrong.iter().cloned())
+        let Self { settings, tables, runs, sessions, positions, player } = self;
+        [settings, tables, runs, sessions, positions, player].into_iter().flat_map(|found| found.wrong.iter().cloned())
     }
 }
 

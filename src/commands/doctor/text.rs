@@ -35,9 +35,14 @@ fn rows(report: &Report) -> Vec<[String; 2]> {
     rows.push(("environment", environment.collect::<Vec<_>>().join(" ")));
     let file = if kept.settings.count == 0 { "no file, all as by default" } else { "as in the file" };
     rows.push(("settings", format!("{file}, {} mistakes", kept.settings.wrong.len())));
-    for (name, found) in
-        [("tables", &kept.tables), ("runs", &kept.runs), ("sessions", &kept.sessions), ("positions", &kept.positions)]
-    {
+    let kinds = [
+        ("tables", &kept.tables),
+        ("runs", &kept.runs),
+        ("sessions", &kept.sessions),
+        ("positions", &kept.positions),
+        ("skills", &kept.player),
+    ];
+    for (name, found) in kinds {
         rows.push((name, format!("{} of your own, {} cannot be read", found.count, found.wrong.len())));
     }
     if let Some(engine) = &self_test.engine {

@@ -160,12 +160,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
                 Venue::Program => "here".to_owned(),
                 Venue::Table => "table".to_owned(),
             },
-            match session.goal {
-                Goal::Free => "-".to_owned(),
-                Goal::Run(points) => format!("run of {points}"),
-                Goal::Exam => "exam".to_owned(),
-                Goal::Game { innings } | Goal::Match { innings } => format!("{innings} innings"),
-            },
+            session.goal.words(),
             record.made.to_string(),
             record.tried.to_string(),
             share(record),

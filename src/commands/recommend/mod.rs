@@ -225,7 +225,8 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Rec
         answer.margins = in_time("the margins", move || Margins::of(rule, &table, &layout, &cue, doubt))?;
     }
     if answer.solved == Some(true) {
-        answer.system = system::of(coach.table(), layout, &answer.cue);
+        let (table, layout, cue) = (coach.table().clone(), *layout, answer.cue);
+        answer.system = in_time("the diamond systems", move || system::of(&table, &layout, &cue))?.flatten();
     }
     Ok(answer)
 }

@@ -50,9 +50,6 @@ pub trait Settings: Clone + std::fmt::Debug + Default + Serialize + DeserializeO
     /// When an episode is over.
     fn episode(&self) -> Episode;
 
-    /// Learning rate.
-    fn learning_rate(&self) -> f64;
-
     /// Whether they are about points: of no use with a reward that says anything else.
     fn are_about_points(&self) -> bool {
         false
@@ -87,6 +84,9 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
 
     /// Updates made so far.
     fn updates(&self) -> u64;
+
+    /// Learning rate now.
+    fn learning_rate(&self) -> f64;
 
     /// How strongly it explores now, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
     fn exploration(&self) -> f64;

@@ -119,10 +119,6 @@ impl Settings for PlainDdpgSettings {
         self.episode
     }
 
-    fn learning_rate(&self) -> f64 {
-        self.learning_rate
-    }
-
     fn are_about_points(&self) -> bool {
         self.hindsight > 0.0 || self.demonstrations > 0.0
     }
@@ -258,6 +254,11 @@ impl Agent for PlainDdpg {
 
     fn updates(&self) -> u64 {
         u64::from(self.networks.updates())
+    }
+
+    fn learning_rate(&self) -> f64 {
+        let left = self.settings.left(self.settings.learning_rate_falls_to, self.shots);
+        left * self.settings.learning_rate
     }
 
     fn exploration(&self) -> f64 {

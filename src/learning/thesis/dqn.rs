@@ -72,10 +72,6 @@ impl Settings for DqnSettings {
         self.episode
     }
 
-    fn learning_rate(&self) -> f64 {
-        self.learning_rate
-    }
-
     fn validate(&self) -> Result<(), SettingError> {
         check_episode(self.episode)?;
         check_layers("layers", &self.layers)?;
@@ -163,6 +159,10 @@ impl Agent for Dqn {
 
     fn updates(&self) -> u64 {
         u64::from(self.updates)
+    }
+
+    fn learning_rate(&self) -> f64 {
+        self.settings.learning_rate
     }
 
     fn exploration(&self) -> f64 {

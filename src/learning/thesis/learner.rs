@@ -112,7 +112,7 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn learning_rate(&self) -> f64 {
-        self.agent.settings().learning_rate()
+        self.agent.learning_rate()
     }
 
     fn exploration(&self) -> f64 {

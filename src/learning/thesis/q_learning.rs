@@ -50,10 +50,6 @@ impl Settings for QLearningSettings {
         self.episode
     }
 
-    fn learning_rate(&self) -> f64 {
-        self.learning_rate
-    }
-
     fn validate(&self) -> Result<(), SettingError> {
         check_episode(self.episode)?;
         check_positive("learning_rate", self.learning_rate)?;
@@ -126,6 +122,10 @@ impl Agent for QLearning {
 
     fn updates(&self) -> u64 {
         self.shots
+    }
+
+    fn learning_rate(&self) -> f64 {
+        self.settings.learning_rate
     }
 
     fn exploration(&self) -> f64 {

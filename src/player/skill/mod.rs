@@ -173,7 +173,7 @@ mod tests {
         let stroke = Skill::EXPERT.stroke(0.03, &cue, &[3.0, 0.0, -2.0, 1.0, -1.0]);
         assert!((stroke.a - 0.15).abs() < 1e-12, "1.5 mm on a radius of 30 mm");
         assert_eq!((stroke.b, stroke.theta), (0.0, 0.0), "a cue is not held below the cloth");
-        assert!((stroke.phi - 1.0).to_degrees() - 0.125 < 1e-12 && (stroke.speed - 1.925).abs() < 1e-12);
+        assert!(((stroke.phi - 1.0).to_degrees() - 0.125).abs() < 1e-12 && (stroke.speed - 1.925).abs() < 1e-12);
     }
 
     #[test]

@@ -88,7 +88,7 @@ impl SavedSession {
     /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
     /// the player need not know.
     pub fn load(path: &Path) -> Option<Self> {
-        let mut last: Self = serde_json::from_slice(&storage::read(path, storage::SMALL).ok()?).ok()?;
+        let mut last: Self = serde_json::from_slice(&storage::read(path, storage::PRACTICE).ok()?).ok()?;
         last.table = renewed(last.table);
         (last.version == VERSION && last.layout.validate(&last.table).is_ok()).then_some(last)
     }
@@ -124,6 +124,11 @@ mod tests {
         let table = Table::default();
         let last = SavedSession::new(table.clone(), Layout::opening(&table), Rule::OneCushion, Skill::CLUB, false);
         last.save(&path).unwrap();
+        assert_eq!(SavedSession::load(&path), Some(last.clone()));
+        // After some thousand attempts a session has more than a mebibyte.
+        let mut long = std::fs::read(&path).unwrap();
+        long.resize(2 << 20, b' ');
+        std::fs::write(&path, long).unwrap();
         assert_eq!(SavedSession::load(&path), Some(last.clone()));
         let newer = SavedSession { version: VERSION + 1, ..last.clone() };
         newer.save(&path).unwrap();

@@ -4,7 +4,7 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use crate::{
     physics::CueInputs,
-    simulation::{Bounded, Recording, simulate},
+    simulation::{Recording, within_bounds},
     table::{Layout, Table},
     terminal::{
         Shot,
@@ -106,12 +106,8 @@ impl Onlooker {
 
 /// The shot, if it can be played within bounds.
 fn recorded(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Recording> {
-    let (recording, is_over) = Recording::played_by(table, layout, cue, |impulse, recorder| {
-        let mut bounded = Bounded::new(recorder, LONGEST, MOST);
-        let end = simulate(table, layout, impulse, &mut bounded);
-        (end, bounded.is_over())
-    })
-    .ok()?;
+    let play = within_bounds(table, layout, LONGEST, MOST);
+    let (recording, is_over) = Recording::played_by(table, layout, cue, play).ok()?;
     (!is_over && recording.is_finite() && recording.duration() <= LONGEST_SHOT).then_some(recording)
 }
 

@@ -99,6 +99,18 @@ fn top_level_modules_import_only_those_that_stand_before_them() {
 }
 
 #[test]
+fn the_guide_lists_the_top_level_modules_in_their_order() {
+    let guide = include_str!("../../../CONTRIBUTING.md");
+    let (_, table) = guide.split_once("| folder | what is in it |\n|---|---|\n").unwrap();
+    let (table, _) = table.split_once("\n\n").unwrap();
+    let folders = table
+        .lines()
+        .flat_map(|row| row.split('|').nth(1).unwrap().split(','))
+        .map(|name| name.trim_matches([' ', '`']));
+    assert_eq!(folders.collect::<Vec<_>>(), ORDER);
+}
+
+#[test]
 fn no_folders_import_each_other_in_a_circle() {
     let (mut new, mut known) = (Vec::new(), KNOWN.to_vec());
     for circle in circles(&imports(&sources())) {

@@ -167,13 +167,7 @@ fn started(session: &Session) -> String {
 /// What was practised, and where.
 fn what(session: &Session, scope: Option<&str>) -> String {
     let title = session.exercises.first().map_or("", |exercise| exercise.title.as_str());
-    let goal = match session.goal {
-        Goal::Free => "free".to_owned(),
-        Goal::Run(points) => format!("run of {points}"),
-        Goal::Exam => "exam".to_owned(),
-        Goal::Game { .. } => "game".to_owned(),
-        Goal::Match { .. } => "match".to_owned(),
-    };
+    let goal = session.goal.words();
     let place = if session.venue == Venue::Table { ", real table" } else { "" };
     if scope.is_some() || session.goal == Goal::Exam {
         format!("{goal}{place}")

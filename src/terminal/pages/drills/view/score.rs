@@ -22,7 +22,7 @@ use crate::{
 pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) {
     let session = turn.told();
     let place = if session.venue == Venue::Table { "Real table: " } else { "Score: " };
-    let inner = draw_title(format!("{place}{}", goal_words(session.goal)), area, ui);
+    let inner = draw_title(format!("{place}{}", session.goal.words()), area, ui);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let top = draw_marks(&session, text, ui);
     let text = Rect { y: top, height: text.bottom() - top, ..text };
@@ -38,19 +38,6 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) {
         }
     }
     write_paragraphs(&paragraphs, text, ui);
-}
-
-fn goal_words(goal: Goal) -> String {
-    match goal {
-        Goal::Free => "free repetition".to_owned(),
-        Goal::Run(points) => format!("run of {points}"),
-        Goal::Exam => "exam".to_owned(),
-        Goal::Game { innings: 0 } => "game".to_owned(),
-        Goal::Game { innings: 1 } => "game, 1 inning".to_owned(),
-        Goal::Game { innings } => format!("game, {innings} innings"),
-        Goal::Match { innings: 0 } => "match".to_owned(),
-        Goal::Match { innings } => format!("match, {innings} innings"),
-    }
 }
 
 /// The attempts of an exam or the points of a run, a sign each; gives the first row that is left.
