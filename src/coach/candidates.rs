@@ -1,4 +1,4 @@
-//! Shots to try: variations of a good one, and a wide net over all that a player could do.
+//! Shots to try: variations of a good one, and samples of all that a player could do.
 
 use std::f64::consts::{PI, TAU};
 
@@ -61,7 +61,7 @@ pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) ->
     CueInputs { a, b, theta: rng.random_range(0.0..0.2), phi, speed: rng.random_range(MIN_SPEED..MAX_SPEED) }
 }
 
-/// The wide net: the `n`th of a series of shots in which every ten are eight at an object ball, four at either; one at an object
+/// Stratified sampling: the `n`th of a series of shots in which every ten are eight at an object ball, four at either; one at an object
 /// ball's image in a cushion, which comes off that cushion to it; and one anywhere. Of fifty the first twenty are of any kind:
 /// their thicknesses are all alike, their tips fill the disc, and their speeds, from `softest` on, are alike in their logarithm, as errors
 /// of the speed are a share of it. The others are spread as usual strokes are. The cue is level, for a player lifts it only with a

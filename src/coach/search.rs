@@ -13,8 +13,8 @@ use super::{
 };
 use crate::{physics::CueInputs, platform::parallel};
 
-/// Errors at which shots are tried, each time only those that are still among the better ones: two looks at what the net
-/// has caught, then the stages of the refinement.
+/// Errors at which shots are tried, each time only those that are still among the better ones: two looks at what was
+/// sampled, then the stages of the refinement.
 const LOOKS: [usize; 5] = [8, 32, 96, 256, 768];
 const FIRST_LOOK: usize = LOOKS[0];
 const SECOND_LOOK: usize = LOOKS[1];
@@ -38,7 +38,7 @@ const REFINEMENT_ENDS: f64 = 0.88;
 const FIRST_BATCH: usize = 256;
 const LARGEST_BATCH: usize = 4096;
 
-/// How much softer than the softest shot that has made the point the net's strokes may be, and the speed from which on all are
+/// How much softer than the softest shot that has made the point sampled strokes may be, and the speed from which on all are
 /// tried in any case, m/s.
 const SOFTER: f64 = 0.7;
 const SOFT: f64 = 1.0;
@@ -174,7 +174,7 @@ impl<'a> Search<'a> {
         if self.plan { EFFORT_PENALTY_IN_A_PLAN } else { EFFORT_PENALTY }
     }
 
-    /// Judges the net's catch.
+    /// Judges a batch of sampled strokes.
     fn sample_batch(&mut self, shots: &[Suggestion]) {
         // Who does not come near those who stay in is not looked at twice.
         let bar = self.pool.get(SHORTLIST / 2).map_or(0.0, |candidate| candidate.score() - 0.2);

@@ -361,15 +361,14 @@ mod tests {
         let advice = coach.recommend(&layout, &request).unwrap();
         let why = why(request.shooter(), request.rule, &table, &layout, &advice, 1).unwrap();
         assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));
-        assert_eq!(why.second.is_some(), !advice.alternatives.is_empty());
+        assert!(why.second.is_some() && !advice.alternatives.is_empty());
         let sentences: Vec<String> = why.brief(CueBall::White).collect();
         let [brief, .., least] = &sentences[..] else { panic!("{sentences:?}") };
         assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
         assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("off in all"), "{least}");
         let said = why.words(CueBall::White, Units::default());
-        assert!(
-            said.ends_with('.') && said.contains(if why.second.is_some() { "the second-best" } else { "." }),
-            "{said}"
-        );
+        assert!(said.ends_with('.') && said.contains("the second-best"), "{said}");
+        let alone = Why { second: None, ..why }.words(CueBall::White, Units::default());
+        assert!(alone.ends_with('.') && !alone.contains("second-best"), "{alone}");
     }
 }

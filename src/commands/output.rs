@@ -35,6 +35,18 @@ pub fn line(text: impl Display) -> Result<(), Failure> {
     Ok(writeln!(printing::stdout(), "{}", OneLine(text))?)
 }
 
+/// The end of a command that has refused so many lines of its input. A person at a terminal has seen why and has typed others; a
+/// program that pipes them in is told by the exit code.
+///
+/// # Errors
+/// Where lines of a pipe or a file were refused.
+pub fn of_refused_lines(refused: usize) -> Result<(), Failure> {
+    if refused == 0 || io::stdin().is_terminal() {
+        return Ok(());
+    }
+    Err(Failure::wrong_input(format_args!("{} refused; each was told why", plural(refused, "line"))))
+}
+
 /// A number of things.
 pub fn plural(count: usize, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })

@@ -174,13 +174,25 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_shot_at_two_balls_in_line_earns_every_reward() {
+    fn a_straight_shot_at_two_balls_in_line_earns_what_asks_for_no_cushion() {
         let table = Table::default();
         let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(0.0, 0.0), DVec2::new(0.5, 0.03)]);
         let cue = CueInputs::parse("0,0.3,0,1,4").unwrap();
         assert_eq!(Reward::R1.of(&table, &layout, &cue), 1.0);
         assert_eq!(Reward::R1Difficulty.of(&table, &layout, &cue), 1.0);
-        assert!(Reward::R2.of(&table, &layout, &cue) > 1.0);
+        assert!(Reward::R2.of(&table, &layout, &cue) > 1.0 && Reward::R4.of(&table, &layout, &cue) > 1.0);
+        assert_eq!(Reward::R3.of(&table, &layout, &cue), 1.0);
+        assert_eq!([Reward::OneCushion, Reward::ThreeCushion].map(|reward| reward.of(&table, &layout, &cue)), [0.0; 2]);
+    }
+
+    #[test]
+    fn a_point_by_cushions_needs_as_many_before_the_second_ball() {
+        let layout = Layout::opening(&Table::default());
+        let earned = |cushions| {
+            let tally = Tally { met: [true; 2], cushions, cushions_before_second: cushions, ..Tally::default() };
+            [Reward::OneCushion, Reward::ThreeCushion].map(|reward| reward.value(&Table::default(), &tally, &layout))
+        };
+        assert_eq!([0, 1, 2, 3].map(earned), [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::{
     calibration::{DAILY, Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, kept_entries},
     commands::{
         Failure,
-        output::{prompt, tell},
+        output::{of_refused_lines, prompt, tell},
     },
     storage::Places,
     table::{Table, TableDoubt},
@@ -29,7 +29,7 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
     tell(HELP);
     tell(format_args!("entries are kept in {}", session.path.display()));
     let mut input = io::stdin().lock().split(b'\n');
-    let mut shown = None;
+    let (mut shown, mut refused) = (None, 0);
     while let Some(test) = session.next() {
         if shown != Some((test.name, session.entries.trials.len())) {
             let number = 1 + PROTOCOL.iter().position(|one| one.name == test.name).unwrap_or_default();
@@ -50,15 +50,19 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             "help" | "?" => tell(HELP),
             marks => match entry(table, test, marks) {
                 Ok(entry) => session.add(entry)?,
-                Err(what) => tell(format_args!("{}: {what}; nothing was kept", test.name)),
+                Err(what) => {
+                    refused += 1;
+                    tell(format_args!("{}: {what}; nothing was kept", test.name));
+                }
             },
         }
     }
     if session.entries.trials.is_empty() {
         tell("nothing is entered yet");
-        return Ok(());
+    } else {
+        tell_of(args, table, doubt, &session.entries)?;
     }
-    tell_of(args, table, doubt, &session.entries)
+    of_refused_lines(refused)
 }
 
 /// What was typed as an entry.

@@ -1,6 +1,6 @@
 //! `carom drill log`: makes and misses at a real table.
 
-use std::io::{self, BufRead, IsTerminal};
+use std::io::{self, BufRead};
 
 use serde::Serialize;
 
@@ -13,7 +13,7 @@ use crate::{
     commands::{
         Failure,
         input::whole,
-        output::{json_line, line, plural, prompt, tell},
+        output::{json_line, line, of_refused_lines, prompt, tell},
     },
     drills::{Goal, Session, Venue},
     storage::Lock,
@@ -170,9 +170,6 @@ impl Log {
                 }
             }
         }
-        if refused > 0 && !io::stdin().is_terminal() {
-            return Err(Failure::wrong_input(format_args!("{} refused; each was told why", plural(refused, "line"))));
-        }
-        Ok(())
+        of_refused_lines(refused)
     }
 }

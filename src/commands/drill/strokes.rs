@@ -1,6 +1,6 @@
 //! Strokes, one after the other: from the standard input or by the coach, each played, judged, saved and answered at once.
 
-use std::io::{self, BufRead, IsTerminal};
+use std::io::{self, BufRead};
 
 use super::{
     options::{PlayOptions, StrokeInput},
@@ -9,7 +9,7 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{plural, prompt},
+        output::{of_refused_lines, prompt},
     },
     drills::{Session, Store},
 };
@@ -80,8 +80,5 @@ pub fn play(
         game.refuse(lines, &failure)?;
     }
     game.finish()?;
-    if refused > 0 && !io::stdin().is_terminal() {
-        return Err(Failure::wrong_input(format_args!("{} refused; each was told why", plural(refused, "line"))));
-    }
-    Ok(())
+    of_refused_lines(refused)
 }

@@ -1,17 +1,17 @@
 //! `carom evaluate`: measure the recommender or a policy on held-out layouts.
 
 mod drawn_tables;
-mod order;
 mod robustness;
 mod self_play;
 mod shots;
+mod spec;
 
 use std::{path::PathBuf, time::Duration};
 
 use self::{
     drawn_tables::DrawnTables,
-    order::{Order, Part, Records, Shard, merged},
     shots::Player,
+    spec::{Part, Records, Shard, Spec, merged},
 };
 use super::{
     Failure,
@@ -114,24 +114,24 @@ pub struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let (order, records) = if args.merge.is_empty() {
-        let (order, records) = measure(args)?;
+    let (spec, records) = if args.merge.is_empty() {
+        let (spec, records) = measure(args)?;
         if let Some(shard) = args.shard {
-            return Ok(json_line(&Part { order, shard, records })?);
+            return Ok(json_line(&Part { spec, shard, records })?);
         }
-        (order, records)
+        (spec, records)
     } else {
         merged(&args.merge).map_err(Failure::failed)?
     };
     match records {
-        Records::Shots(records) => shots::print(&order, &records, args.json)?,
-        Records::Innings(records) => self_play::print(&order, &records, args.json)?,
+        Records::Shots(records) => shots::print(&spec, &records, args.json)?,
+        Records::Innings(records) => self_play::print(&spec, &records, args.json)?,
     }
     Ok(())
 }
 
 /// Measures the layouts of one part, or all.
-fn measure(args: &Args) -> Result<(Order, Records), Failure> {
+fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     let table = table_named(&args.table)?;
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     let reward = args.reward.unwrap_or_else(|| Reward::for_rule(args.rule));
@@ -149,7 +149,7 @@ fn measure(args: &Args) -> Result<(Order, Records), Failure> {
         let coach = coach_for(table.clone(), &args.policy)?;
         Player::Recommender(Box::new(coach), request(args, skill.unwrap_or(Skill::PERFECT)))
     };
-    let order = Order {
+    let spec = Spec {
         player: player.name().to_owned(),
         policy: args.random_search.is_none().then(|| args.policy.clone()),
         table,
@@ -172,11 +172,11 @@ fn measure(args: &Args) -> Result<(Order, Records), Failure> {
     let records = match &player {
         Player::Recommender(coach, request) if args.self_play => {
             let limit = args.minutes.map(minutes).transpose()?;
-            Records::Innings(self_play::play(&order, shard, coach, request, limit)?)
+            Records::Innings(self_play::play(&spec, shard, coach, request, limit)?)
         }
-        player => Records::Shots(shots::measure(&order, shard, player, args.rule, reward)),
+        player => Records::Shots(shots::measure(&spec, shard, player, args.rule, reward)),
     };
-    Ok((order, records))
+    Ok((spec, records))
 }
 
 /// What the recommender is asked for.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::order::Order;
+use super::spec::Spec;
 use crate::{
     coach::{Doubt, Shooter, Skill, make_probability},
     commands::output::plural,
@@ -91,10 +91,10 @@ struct Tenth {
 }
 
 /// The make probability of a shot.
-pub fn chance(order: &Order, rule: Rule, table: &Table, layout: &Layout, skill: Skill, cue: &CueInputs) -> f64 {
+pub fn chance(spec: &Spec, rule: Rule, table: &Table, layout: &Layout, skill: Skill, cue: &CueInputs) -> f64 {
     // Another stream than the recommender's, which has this seed too.
-    let shooter = Shooter { skill, doubt: order.doubt };
-    make_probability(shooter, rule, table, layout, cue, ATTEMPTS, !order.seed).rate
+    let shooter = Shooter { skill, doubt: spec.doubt };
+    make_probability(shooter, rule, table, layout, cue, ATTEMPTS, !spec.seed).rate
 }
 
 impl Robustness {

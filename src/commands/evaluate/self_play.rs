@@ -9,7 +9,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
-use super::order::{Order, Shard};
+use super::spec::{Shard, Spec};
 use crate::{
     coach::{Coach, Doubt, Inning, Request, Skill, inning},
     commands::{
@@ -76,16 +76,16 @@ struct SelfPlayReport<'a> {
 
 /// Plays an inning from every layout of the part; no further ones after the `limit` of time.
 pub fn play(
-    order: &Order,
+    spec: &Spec,
     shard: Shard,
     coach: &Coach,
     request: &Request,
     limit: Option<Duration>,
 ) -> Result<Vec<InningRecord>, Failure> {
     let until = Instant::now() + limit.unwrap_or(NO_LIMIT).min(NO_LIMIT);
-    let most = order.most_points.unwrap_or(u32::MAX);
+    let most = spec.most_points.unwrap_or(u32::MAX);
     let mut records = Vec::new();
-    let layouts = held_out_layouts(&order.table, order.layouts as usize, order.seed);
+    let layouts = held_out_layouts(&spec.table, spec.layouts as usize, spec.seed);
     for (index, layout) in (0..).zip(&layouts).filter(|(index, _)| shard.holds(*index)) {
         let start = Instant::now();
         if start >= until {
@@ -98,7 +98,7 @@ pub fn play(
             }
         };
         // Numbers of its own for each inning: parts play what the whole plays.
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(!order.seed ^ (u64::from(index) << 32));
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(!spec.seed ^ (u64::from(index) << 32));
         let Inning { points, missed, simulations, slowest } =
             inning(coach, layout, request, most, until, &mut rng, &mut say).map_err(Failure::wrong_input)?;
         tell(format_args!("inning {number}: {points} points{}", if missed { "" } else { ", broken off" }));
@@ -115,27 +115,27 @@ pub fn play(
 }
 
 /// Prints the report over all innings.
-pub fn print(order: &Order, records: &[InningRecord], json: bool) -> std::io::Result<()> {
-    let report = report(order, records);
+pub fn print(spec: &Spec, records: &[InningRecord], json: bool) -> std::io::Result<()> {
+    let report = report(spec, records);
     if json { json_line(&report) } else { print_text(&mut printing::stdout(), &report) }
 }
 
-fn report<'a>(order: &'a Order, records: &[InningRecord]) -> SelfPlayReport<'a> {
+fn report<'a>(spec: &'a Spec, records: &[InningRecord]) -> SelfPlayReport<'a> {
     let points: u32 = records.iter().map(|inning| inning.points).sum();
     let misses = records.iter().filter(|inning| inning.missed).count() as u32;
     let turns = f64::from((points + misses).max(1));
     let missed = SuccessRate::new(misses as usize, (points + misses) as usize);
     let average = |miss: f64| (miss > 0.0).then(|| (1.0 - miss) / miss);
     SelfPlayReport {
-        player: &order.player,
-        table: &order.table.name,
-        rule: &order.measure,
-        skill: order.skill,
-        doubt: order.doubt,
-        seed: order.seed,
-        budget_ms: order.budget_ms,
-        simulations: order.simulations,
-        plan: order.plan,
+        player: &spec.player,
+        table: &spec.table.name,
+        rule: &spec.measure,
+        skill: spec.skill,
+        doubt: spec.doubt,
+        seed: spec.seed,
+        budget_ms: spec.budget_ms,
+        simulations: spec.simulations,
+        plan: spec.plan,
         innings: records.len(),
         broken_off: records.len() - misses as usize,
         points,

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     drawn_tables::DrawnTables,
-    order::{Order, Shard},
     robustness::{self, Robustness, Said},
+    spec::{Shard, Spec},
 };
 use crate::{
     coach::{Coach, Request, Skill},
@@ -76,15 +76,15 @@ pub struct ShotRecord {
 }
 
 /// Lets `player` decide on every layout of the part and plays what it decides.
-pub fn measure(order: &Order, shard: Shard, player: &Player, rule: Rule, reward: Reward) -> Vec<ShotRecord> {
-    let layouts = held_out_layouts(&order.table, order.layouts as usize, order.seed);
+pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: Reward) -> Vec<ShotRecord> {
+    let layouts = held_out_layouts(&spec.table, spec.layouts as usize, spec.seed);
     let mine = (0..).zip(&layouts).filter(|(index, _)| shard.holds(*index));
-    let drawn = order.drawn_tables.then(|| DrawnTables::around(&order.table, order.seed));
+    let drawn = spec.drawn_tables.then(|| DrawnTables::around(&spec.table, spec.seed));
     mine.map(|(index, layout)| {
         let own = drawn.as_ref().map(|tables| tables.of(index));
-        let table = own.as_ref().unwrap_or(&order.table);
+        let table = own.as_ref().unwrap_or(&spec.table);
         let start = Instant::now();
-        let decision = decide(order, player, rule, table, layout, index);
+        let decision = decide(spec, player, rule, table, layout, index);
         let seconds = start.elapsed().as_secs_f64();
         let cue = decision.cue;
         ShotRecord {
@@ -94,13 +94,13 @@ pub fn measure(order: &Order, shard: Shard, player: &Player, rule: Rule, reward:
             seconds,
             simulations: decision.simulations,
             claimed: decision.claimed,
-            chance: order.skill.map(|skill| robustness::chance(order, rule, table, layout, skill, &cue)),
+            chance: spec.skill.map(|skill| robustness::chance(spec, rule, table, layout, skill, &cue)),
         }
     })
     .collect()
 }
 
-fn decide(order: &Order, player: &Player, rule: Rule, table: &Table, layout: &Layout, index: u32) -> Decision {
+fn decide(spec: &Spec, player: &Player, rule: Rule, table: &Table, layout: &Layout, index: u32) -> Decision {
     let shot = |cue| Decision { cue, simulations: None, claimed: None };
     match player {
         Player::Recommender(coach, request) => {
@@ -111,13 +111,13 @@ fn decide(order: &Order, player: &Player, rule: Rule, table: &Table, layout: &La
             })
         }
         Player::Policy(policy) => {
-            let skill = order.skill.unwrap_or(Skill::PERFECT);
+            let skill = spec.skill.unwrap_or(Skill::PERFECT);
             let Proposal { cue, success } = policy.proposals(table, layout, &skill)[0];
             Decision { cue, simulations: None, claimed: Some(success) }
         }
         Player::RandomSearch(shots) => {
             // Numbers of its own for each layout: parts find what the whole finds.
-            let mut rng = Xoshiro256PlusPlus::seed_from_u64(order.seed ^ (u64::from(index) << 32));
+            let mut rng = Xoshiro256PlusPlus::seed_from_u64(spec.seed ^ (u64::from(index) << 32));
             shot(random_search(table, layout, rule, *shots, &mut rng))
         }
     }
@@ -168,12 +168,12 @@ struct EvaluationReport<'a> {
 }
 
 /// Prints the report over all layouts.
-pub fn print(order: &Order, records: &[ShotRecord], json: bool) -> std::io::Result<()> {
-    let report = report(order, records);
+pub fn print(spec: &Spec, records: &[ShotRecord], json: bool) -> std::io::Result<()> {
+    let report = report(spec, records);
     if json { json_line(&report) } else { print_text(&mut printing::stdout(), &report, records.len()) }
 }
 
-fn report<'a>(order: &'a Order, records: &[ShotRecord]) -> EvaluationReport<'a> {
+fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
     let count = records.len();
     let mean = |of: &dyn Fn(&ShotRecord) -> f64| records.iter().map(of).sum::<f64>() / count as f64;
     let seconds: f64 = records.iter().map(|record| record.seconds).sum();
@@ -183,9 +183,9 @@ fn report<'a>(order: &'a Order, records: &[ShotRecord]) -> EvaluationReport<'a> 
     let claimed: Vec<_> = records.iter().map(|record| record.claimed).collect();
     let earned: Vec<_> = records.iter().map(|record| record.earned).collect();
     // Of the player's attempts, or else of the shot itself where that is a point or none.
-    let said = order.player == "policy" && order.skill.is_none() && order.is_yes_or_no;
-    let robustness = order.skill.zip(chances).map(|(skill, chances)| {
-        let mut robustness = Robustness::new(skill, order.doubt, chances);
+    let said = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no;
+    let robustness = spec.skill.zip(chances).map(|(skill, chances)| {
+        let mut robustness = Robustness::new(skill, spec.doubt, chances);
         if has_said {
             robustness.claim(&claimed);
         }
@@ -193,13 +193,13 @@ fn report<'a>(order: &'a Order, records: &[ShotRecord]) -> EvaluationReport<'a> 
     });
     let successes = records.iter().filter(|record| record.earned >= 1.0).count();
     EvaluationReport {
-        player: &order.player,
-        policy: order.policy.as_deref(),
-        table: if order.drawn_tables { format!("tables like {}", order.table.name) } else { order.table.name.clone() },
-        measure: &order.measure,
-        seed: order.seed,
+        player: &spec.player,
+        policy: spec.policy.as_deref(),
+        table: if spec.drawn_tables { format!("tables like {}", spec.table.name) } else { spec.table.name.clone() },
+        measure: &spec.measure,
+        seed: spec.seed,
         mean_reward: mean(&|record| record.earned),
-        success: order.is_yes_or_no.then(|| SuccessRate::new(successes, count)),
+        success: spec.is_yes_or_no.then(|| SuccessRate::new(successes, count)),
         layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
         slowest_ms: 1e3 * records.iter().map(|record| record.seconds).fold(0.0, f64::max),
         hard_share: mean(&|record| f64::from(record.speed > HARD)),
@@ -240,8 +240,8 @@ mod tests {
     use super::*;
     use crate::coach::Doubt;
 
-    fn order(layouts: u32) -> Order {
-        Order {
+    fn spec(layouts: u32) -> Spec {
+        Spec {
             player: "random search".to_owned(),
             policy: None,
             table: Table::default(),
@@ -264,10 +264,10 @@ mod tests {
 
     #[test]
     fn parts_measure_what_the_whole_does() {
-        let order = order(40);
+        let spec = spec(40);
         let player = Player::RandomSearch(30);
         let measured = |shard: &str| {
-            let records = measure(&order, shard.parse().unwrap(), &player, Rule::StraightRail, Reward::R3);
+            let records = measure(&spec, shard.parse().unwrap(), &player, Rule::StraightRail, Reward::R3);
             records.into_iter().map(|record| (record.layout, record.earned, record.speed)).collect::<Vec<_>>()
         };
         let mut parts = [measured("2/3"), measured("1/3"), measured("3/3")].concat();
@@ -277,7 +277,7 @@ mod tests {
 
     #[test]
     fn a_report_counts_what_the_records_say() {
-        let order = order(4);
+        let spec = spec(4);
         let record = |layout, earned, speed| ShotRecord {
             layout,
             earned,
@@ -288,7 +288,7 @@ mod tests {
             chance: None,
         };
         let records = [record(0, 1.0, 2.0), record(1, 0.0, 6.0), record(2, 1.0, 5.5), record(3, 1.0, 1.0)];
-        let report = report(&order, &records);
+        let report = report(&spec, &records);
         let success = report.success.unwrap();
         assert_eq!((report.mean_reward, success.successes, success.trials), (0.75, 3, 4));
         assert_eq!((report.hard_share, report.layouts_per_second, report.slowest_ms), (0.5, 2.0, 500.0));

@@ -28,7 +28,7 @@ const RANKED: usize = 8;
 type Scene = (Layout, Conditions);
 
 impl Trainer {
-    /// Plays the shots of one turn, each on a fresh layout but for those that are ranked, and returns their mean reward.
+    /// Plays the shots of one iteration, each on a fresh layout but for those that are ranked, and returns their mean reward.
     pub(super) fn play(&mut self) -> Result<f64> {
         let Hyperparameters { shots_per_update, critic_chooses, demonstrations, ranking, .. } =
             self.task.hyperparameters;

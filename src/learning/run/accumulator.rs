@@ -15,7 +15,7 @@ pub struct Accumulator {
 }
 
 impl Accumulator {
-    /// Adds a iteration. `false` where it has numbers that are not finite.
+    /// Adds an iteration. `false` where it has numbers that are not finite.
     #[must_use]
     pub fn add(&mut self, iteration: &Iteration) -> bool {
         self.turns += 1;

@@ -1,13 +1,13 @@
 //! A checksum within the file that it guards: any changed byte is noticed, wherever it stands.
 
-/// What a file that is to be sealed has at one place: the checksum is the first field of a JSON note, which stands as a
+/// What a file that is to have a checksum has at one place: it is the first field of a JSON note, which stands as a
 /// text in the JSON of the header.
 const MARK: &[u8] = br#"{\"checksum\":\""#;
 
 /// Hexadecimal digits of a checksum.
 const DIGITS: usize = 16;
 
-/// What stands in the note until the file is sealed.
+/// What stands in the note until the checksum is written.
 pub const NO_CHECKSUM: &str = "0000000000000000";
 
 /// Puts the checksum in its place. `false` where there is no place for it.

@@ -55,11 +55,11 @@ impl Clock {
             critic_loss: means.critic_loss,
             actor_loss: means.actor_loss,
             q_value: means.q_value,
-            practice_reward: means.mean_reward,
+            rollout_reward: means.mean_reward,
             exploration: Some(learner.exploration()),
-            memory: learner.replay_fill(),
+            replay_fill: learner.replay_fill(),
             held_out_reward: score.map(|score| score.mean_reward),
-            held_out_reach: score.map(|score| score.best_of_k),
+            best_of_k: score.map(|score| score.best_of_k),
         };
         self.last = (seconds, shots);
         record

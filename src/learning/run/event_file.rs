@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn a_file_is_a_version_and_an_event_a_line() {
         let folder = tempfile::tempdir().unwrap();
-        let record = Record { shots: 300, critic_loss: f64::NAN, practice_reward: 0.25, ..Record::default() };
+        let record = Record { shots: 300, critic_loss: f64::NAN, rollout_reward: 0.25, ..Record::default() };
         let mut file = EventFile::create(folder.path(), std::slice::from_ref(&record)).unwrap();
         file.push(&record).unwrap();
         let bytes = std::fs::read(folder.path().join(FILE)).unwrap();

@@ -96,7 +96,7 @@ impl Heartbeat {
         }
         self.status.phase = phase;
         (self.status.shots, self.status.updates, self.status.seconds) = (shots, updates, seconds);
-        (self.status.exploration, self.status.memory) = (learner.exploration(), learner.replay_fill());
+        (self.status.exploration, self.status.replay_fill) = (learner.exploration(), learner.replay_fill());
         // Nobody has to watch: a full disk stops checkpoints, and says so, but not this.
         let _ = self.status.write(&self.folder);
         self.beaten = Some(Instant::now());
@@ -144,7 +144,7 @@ mod tests {
         run.train(&FOREVER, &mut Told::default()).unwrap();
         let status = RunStatus::read(folder.path()).unwrap();
         assert_eq!((status.phase, status.shots, status.process), (Phase::Finished, 160, std::process::id()));
-        assert!(status.updates > 0 && status.memory == Some(1.0) && status.exploration > 0.0, "{status:?}");
+        assert!(status.updates > 0 && status.replay_fill == Some(1.0) && status.exploration > 0.0, "{status:?}");
         let Examples { after, shots } = Examples::read(folder.path()).unwrap();
         assert_eq!((after, shots.len()), (160, examples::COUNT));
         let (reward, table) = (run.learner().plan().reward, run.learner().table());

@@ -162,10 +162,10 @@ impl RunsFolder {
     fn summary(&mut self, folder: &Path, name: String, config: Config) -> Summary {
         let Config { agent, plan, started, table, .. } = config;
         let rewards = self.rewards(folder);
-        let standing = RunStatus::read(folder).ok();
-        let told = |of: fn(&RunStatus) -> Option<f64>| standing.as_ref().and_then(of);
-        let last = told(|standing| standing.held_out_reward).or(rewards.last);
-        let shots = standing.as_ref().map_or(0, |standing| standing.shots).max(rewards.shots);
+        let status = RunStatus::read(folder).ok();
+        let told = |of: fn(&RunStatus) -> Option<f64>| status.as_ref().and_then(of);
+        let last = told(|status| status.held_out_reward).or(rewards.last);
+        let shots = status.as_ref().map_or(0, |status| status.shots).max(rewards.shots);
         let shots = if shots == 0 { shots_in(folder).unwrap_or(0) } else { shots };
         let signs = Signs { shots: Some(shots), planned: Some(plan.shots), ..Signs::of(folder) };
         Summary {

@@ -43,7 +43,7 @@ pub struct Record {
     pub q_value: f64,
     /// Mean reward of the shots played, exploration included.
     #[serde(rename = "rollout/ep_rew_mean", with = "number")]
-    pub practice_reward: f64,
+    pub rollout_reward: f64,
     /// How strongly the agent explores, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
     #[serde(
         rename = "rollout/exploration_rate",
@@ -52,20 +52,20 @@ pub struct Record {
         skip_serializing_if = "Option::is_none"
     )]
     pub exploration: Option<f64>,
-    /// Share of the memory of shots that is filled, for agents that have one.
+    /// Share of the replay buffer that is filled, for agents that have one.
     #[serde(
         rename = "train/replay_buffer_fill",
         with = "number::option",
         default,
         skip_serializing_if = "Option::is_none"
     )]
-    pub memory: Option<f64>,
+    pub replay_fill: Option<f64>,
     /// Mean reward of the averaged networks' first choice on held-out layouts, without exploration.
     #[serde(rename = "eval/mean_reward", with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub held_out_reward: Option<f64>,
     /// Share of those layouts in which any head earns at least 1: what a perfect choice among them would reach.
     #[serde(rename = "eval/any_head", with = "number::option", default, skip_serializing_if = "Option::is_none")]
-    pub held_out_reach: Option<f64>,
+    pub best_of_k: Option<f64>,
 }
 
 /// All whole lines in a file; those that are no records are left out.
@@ -172,7 +172,7 @@ mod tests {
     use super::*;
 
     fn record(shots: u64) -> Record {
-        Record { shots, actor_loss: Some(-0.5), practice_reward: 0.25, ..Record::default() }
+        Record { shots, actor_loss: Some(-0.5), rollout_reward: 0.25, ..Record::default() }
     }
 
     #[test]

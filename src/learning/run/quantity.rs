@@ -16,7 +16,7 @@ pub enum Quantity {
     /// Loss of the actor.
     ActorLoss,
     /// Share of the held-out layouts in which any proposal earns at least 1.
-    Reach,
+    BestOfK,
     /// Shots a second, measurements left out.
     ShotSpeed,
     /// Updates a second, measurements left out.
@@ -36,7 +36,7 @@ impl Quantity {
         Self::CriticLoss,
         Self::HeldOut,
         Self::ActorLoss,
-        Self::Reach,
+        Self::BestOfK,
         Self::ShotSpeed,
         Self::UpdateSpeed,
         Self::Exploration,
@@ -50,7 +50,7 @@ impl Quantity {
             Self::CriticLoss => "critic loss",
             Self::HeldOut => "held-out success",
             Self::ActorLoss => "actor loss",
-            Self::Reach => "any proposal scores",
+            Self::BestOfK => "any proposal scores",
             Self::ShotSpeed => "shots a second",
             Self::UpdateSpeed => "updates a second",
             Self::Exploration => "exploration",
@@ -61,12 +61,12 @@ impl Quantity {
     /// it, which is something else than a value that is not a number.
     pub fn of(self, record: &Record, before: Option<&Record>) -> Option<f64> {
         match self {
-            Self::Reward => Some(record.practice_reward),
+            Self::Reward => Some(record.rollout_reward),
             Self::QValue => Some(record.q_value),
             Self::CriticLoss => Some(record.critic_loss),
             Self::HeldOut => record.held_out_reward,
             Self::ActorLoss => record.actor_loss,
-            Self::Reach => record.held_out_reach,
+            Self::BestOfK => record.best_of_k,
             Self::ShotSpeed => Some(record.shots_per_second),
             Self::UpdateSpeed => {
                 let (updates, shots) = before.map_or((0, 0), |before| (before.updates, before.shots));

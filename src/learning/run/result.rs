@@ -32,7 +32,8 @@ pub struct RunResult {
     /// Mean reward on the held-out layouts, without exploration: what is to be made large.
     pub held_out_reward: f64,
     /// Share of those layouts in which any proposal earns at least 1.
-    pub held_out_reach: f64,
+    #[serde(rename = "held_out_reach")]
+    pub best_of_k: f64,
     /// Version of carom.
     pub version: String,
 }
@@ -46,7 +47,7 @@ impl RunResult {
             table: learner.table().name.clone(),
             updates: learner.updates(),
             held_out_reward: score.mean_reward,
-            held_out_reach: score.best_of_k,
+            best_of_k: score.best_of_k,
             version: VERSION.to_owned(),
         }
     }

@@ -66,8 +66,9 @@ pub struct RunStatus {
     pub updates_per_second: f64,
     /// How strongly the agent explores, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
     pub exploration: f64,
-    /// Share of the memory of shots that is filled, for agents that have one.
-    pub memory: Option<f64>,
+    /// Share of the replay buffer that is filled, for agents that have one.
+    #[serde(rename = "memory")]
+    pub replay_fill: Option<f64>,
     /// What it earned at its last measurement on held-out layouts in this session.
     #[serde(default)]
     pub held_out_reward: Option<f64>,

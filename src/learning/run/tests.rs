@@ -161,8 +161,8 @@ fn a_run_that_breaks_down_says_so_shows_what_was_odd_and_goes_on_from_before() {
     assert!(error.contains("after 16 shots"), "{error}");
     let lines = metrics::read(&folder.path().join(METRICS)).unwrap();
     assert!(lines[0].critic_loss.is_nan() && lines[0].actor_loss == Some(f64::NEG_INFINITY), "{lines:?}");
-    let standing = status::RunStatus::read(folder.path()).unwrap();
-    assert_eq!((standing.phase, standing.reason), (status::Phase::Failed, Some(error)));
+    let status = status::RunStatus::read(folder.path()).unwrap();
+    assert_eq!((status.phase, status.reason), (status::Phase::Failed, Some(error)));
     drop(run);
     let (ending, told) = finish(&mut Run::resume(folder.path()).unwrap().0);
     assert!(is_finished(ending) && told.lines.len() == 5);

@@ -23,7 +23,7 @@ use crate::{
 };
 
 /// Shots of an iteration. As many as the agents play before their first update, so that updates come in whole hundreds.
-const SHOTS_PER_TURN: u64 = 100;
+const SHOTS_PER_ITERATION: u64 = 100;
 
 /// The lines in the list of agents.
 pub const Q_LEARNING: learner::Agent = line::<QLearning>();
@@ -124,7 +124,7 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn iterate(&mut self) -> candle_core::Result<Iteration> {
-        let shots = self.plan.shots.saturating_sub(self.shots).clamp(1, SHOTS_PER_TURN);
+        let shots = self.plan.shots.saturating_sub(self.shots).clamp(1, SHOTS_PER_ITERATION);
         let (mut iteration, mut updates) = (Iteration::default(), 0_u32);
         for _ in 0..shots {
             let (reward, learnt) = self.progress.shoot(&mut self.agent, &mut self.game, &mut self.rng)?;

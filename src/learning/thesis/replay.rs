@@ -33,7 +33,7 @@ pub const MEMORY: &str = "memory";
 const NUMBERS: usize = 2 * STATES + ACTIONS + 3;
 
 impl StoredTransition {
-    /// What is remembered of an transition.
+    /// What is remembered of a transition.
     pub fn of(transition: &Transition) -> Self {
         let Transition { before, choice, reward, goes_on, after } = *transition;
         let (state, next, reward) = (before.state, after.state, reward as f32);

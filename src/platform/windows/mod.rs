@@ -97,7 +97,7 @@ impl Input {
 ///
 /// # Errors
 /// Where the process has no room for another file.
-#[expect(clippy::disallowed_methods, reason = "a screen is control characters; text goes through the painter")]
+#[expect(clippy::disallowed_methods, reason = "a screen is control characters; text goes through the ANSI backend")]
 pub fn terminal_output() -> io::Result<File> {
     Ok(File::from(io::stdout().as_handle().try_clone_to_owned()?))
 }

@@ -33,9 +33,9 @@ pub struct AnsiBackend {
 }
 
 impl AnsiBackend {
-    /// A painter for a terminal of the size that `size` tells.
+    /// A backend for a terminal of the size that `size` tells.
     pub fn new(size: fn() -> io::Result<(u16, u16)>) -> Self {
-        let mut painter = Self {
+        let mut backend = Self {
             bytes: Vec::with_capacity(FRAME_BYTES),
             size,
             front: Color::Reset,
@@ -43,8 +43,8 @@ impl AnsiBackend {
             modifier: Modifier::empty(),
             cursor: None,
         };
-        painter.forget();
-        painter
+        backend.forget();
+        backend
     }
 
     /// Throws away what was not written and assumes nothing of the terminal.

@@ -2,7 +2,7 @@
 
 #![allow(
     clippy::disallowed_methods,
-    reason = "what takes the terminal over are control characters; text goes through the painter"
+    reason = "what takes the terminal over are control characters; text goes through the ANSI backend"
 )]
 
 use std::{

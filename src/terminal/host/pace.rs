@@ -39,7 +39,7 @@ impl Pace {
         now.saturating_duration_since(self.drawn)
     }
 
-    /// Event of runs have come, and nothing else: whether they are drawn `now`. Where something moves they come with its
+    /// News of runs has come, and nothing else: whether they are drawn `now`. Where something moves they come with its
     /// next picture.
     pub fn news(&mut self, now: Instant, moves: bool) -> bool {
         self.stale = true;

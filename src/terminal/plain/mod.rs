@@ -1,8 +1,8 @@
 //! The coach as a conversation: lines in, sentences out. For screen readers, dumb terminals and scripts.
 
+mod command;
 mod film;
 pub mod follow;
-mod order;
 mod speech;
 
 use std::{
@@ -25,7 +25,7 @@ use crate::{
     table::{CueBall, Layout, Side, Table},
     terminal::{
         Settings,
-        plain::order::{HELP, Order},
+        plain::command::{Command, HELP},
         shot::{History, placing::slide},
     },
 };
@@ -100,11 +100,11 @@ pub fn converse(
     };
     write!(output, "carom. Say help for what may be said.\n{}\n{prompt}", talk.places())?;
     output.flush()?;
-    // What is no UTF-8 is no order either, and is answered so.
+    // What is no UTF-8 is no command either, and is answered so.
     for line in input.split(b'\n') {
         let answer = match String::from_utf8_lossy(&line?).parse() {
-            Ok(Order::Quit) => break,
-            Ok(order) => talk.answer(order),
+            Ok(Command::Quit) => break,
+            Ok(command) => talk.answer(command),
             Err(sentence) => sentence,
         };
         write!(output, "{answer}\n{prompt}")?;
@@ -130,59 +130,59 @@ impl Conversation {
         speech::places(self.table(), self.layout(), self.cue_ball())
     }
 
-    fn answer(&mut self, order: Order) -> String {
-        match order {
-            Order::Where => self.places(),
-            Order::Balls(text) => match Layout::parse(&text, self.table()) {
+    fn answer(&mut self, command: Command) -> String {
+        match command {
+            Command::Where => self.places(),
+            Command::Balls(text) => match Layout::parse(&text, self.table()) {
                 Ok(layout) => match layout.validate(self.table()) {
                     Ok(()) => self.place(layout),
                     Err(error) => error.to_string(),
                 },
                 Err(error) => error.to_string(),
             },
-            Order::CueBall(cue_ball) if cue_ball == self.cue_ball() => format!("The cue ball is {cue_ball} already."),
-            Order::CueBall(cue_ball) => {
+            Command::CueBall(cue_ball) if cue_ball == self.cue_ball() => format!("The cue ball is {cue_ball} already."),
+            Command::CueBall(cue_ball) => {
                 self.balls.push((self.layout().for_the_opponent(), cue_ball));
                 self.forget(format!("The cue ball is {cue_ball}."))
             }
-            Order::Move(colour, step) => {
+            Command::Move(colour, step) => {
                 let ball = self.cue_ball().ordered([0, 1, 2])[colour];
                 let moved = slide(self.table(), self.layout(), ball, step);
                 let stopped =
                     moved.stopped.map_or(String::new(), |reason| format!("\nIt stops there: beyond, {reason}."));
                 self.place(moved.layout) + &stopped
             }
-            Order::Opening(side) => self.open(side),
-            Order::Random => {
+            Command::Opening(side) => self.open(side),
+            Command::Random => {
                 let layout = Layout::random(self.coach.table(), &mut self.rng);
                 self.place(layout)
             }
-            Order::Rule(rule) => {
+            Command::Rule(rule) => {
                 self.request.rule = rule;
                 self.forget(format!("The rule is {rule}."))
             }
-            Order::Skill(skill) => {
+            Command::Skill(skill) => {
                 self.request.skill = skill;
                 self.forget(format!("The player is {skill}."))
             }
-            Order::OwnSkill => match self.own {
+            Command::OwnSkill => match self.own {
                 Some(skill) => {
                     self.request.skill = skill;
                     self.forget(format!("The player is you: {skill}."))
                 }
                 None => "No skill of your own is kept yet; carom drill skill --keep estimates and keeps it.".to_owned(),
             },
-            Order::Plan(plan) => {
+            Command::Plan(plan) => {
                 self.request.plan = plan;
                 self.forget(format!("The next point {}.", if plan { "counts too" } else { "does not count" }))
             }
-            Order::Shot => self.ask(),
-            Order::Other if self.shots.len() > 1 => {
+            Command::Shot => self.ask(),
+            Command::Other if self.shots.len() > 1 => {
                 self.chosen = (self.chosen + 1) % self.shots.len();
                 self.describe()
             }
-            Order::Other => "There is no other shot; say shot to ask for one.".to_owned(),
-            Order::Margins => self.about_the_shot(|talk, shot| {
+            Command::Other => "There is no other shot; say shot to ask for one.".to_owned(),
+            Command::Margins => self.about_the_shot(|talk, shot| {
                 let Request { rule, .. } = talk.request;
                 let doubt = talk.request.shooter().doubts();
                 match Sensitivity::new(rule, talk.table(), talk.layout(), doubt).margins(&shot.cue) {
@@ -190,39 +190,41 @@ impl Conversation {
                     None => "This shot makes no point.".to_owned(),
                 }
             }),
-            Order::Numbers => self.about_the_shot(|talk, shot| {
+            Command::Numbers => self.about_the_shot(|talk, shot| {
                 let aim = aim(talk.table(), talk.layout(), &shot.cue).ok();
                 speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball())
             }),
-            Order::System => self.about_the_shot(|talk, shot| {
+            Command::System => self.about_the_shot(|talk, shot| {
                 talk.recorded(shot, |recording| speech::system(guide(talk.table(), recording).as_ref()))
             }),
-            Order::Words => speech::words(self.table()),
-            Order::Tell(all) => self.about_the_shot(|talk, shot| {
+            Command::Words => speech::words(self.table()),
+            Command::Tell(all) => self.about_the_shot(|talk, shot| {
                 talk.recorded(shot, |recording| {
                     let verdict = Verdict::of(talk.request.rule, talk.table(), talk.layout(), recording);
                     let outcome = verdict.words(talk.cue_ball(), talk.units.length);
                     format!("{}\n{outcome}.", speech::events(recording, all, talk.cue_ball(), talk.units.length))
                 })
             }),
-            Order::GoOn => match self.shots.get(self.chosen).copied() {
+            Command::GoOn => match self.shots.get(self.chosen).copied() {
                 Some(shot) => match Recording::new(self.table(), self.layout(), &shot.cue) {
                     Ok(recording) => self.place(recording.final_layout()),
                     Err(error) => error.to_string(),
                 },
                 None => NO_SHOT.to_owned(),
             },
-            Order::Films => film::list(),
-            Order::Film(number) => film::tell(number),
-            Order::Undo => {
+            Command::Films => film::list(),
+            Command::Film(number) => film::tell(number),
+            Command::Undo => {
                 if self.balls.undo() {
                     self.forget(self.places())
                 } else {
                     "There is nothing to take back.".to_owned()
                 }
             }
-            Order::Help => HELP.iter().map(|(line, about)| format!("{line}: {about}.")).collect::<Vec<_>>().join("\n"),
-            Order::Quit => String::new(),
+            Command::Help => {
+                HELP.iter().map(|(line, about)| format!("{line}: {about}.")).collect::<Vec<_>>().join("\n")
+            }
+            Command::Quit => String::new(),
         }
     }
 

@@ -35,7 +35,7 @@ impl Poll {
         name: &str,
         interval: Duration,
         to_screen: Sender<Event>,
-        mut caps: impl FnMut() -> Option<Report> + Send + 'static,
+        mut look: impl FnMut() -> Option<Report> + Send + 'static,
     ) -> io::Result<Self> {
         let poll = Self { stop: Arc::default(), waiting: Arc::default() };
         let (stop, waiting) = (Arc::clone(&poll.stop), Arc::clone(&poll.waiting));
@@ -44,7 +44,7 @@ impl Poll {
             while !stop.load(Ordering::Relaxed) {
                 if !waiting.load(Ordering::Acquire) {
                     without += 1;
-                    if let Some(report) = caps() {
+                    if let Some(report) = look() {
                         without = 0;
                         waiting.store(true, Ordering::Release);
                         if to_screen.send(Event::Report(report)).is_err() {
@@ -78,8 +78,8 @@ mod tests {
     #[test]
     fn news_wait_until_the_last_have_been_taken_and_end_with_the_poll() {
         let (sender, receiver) = channel();
-        let caps = || Some(Report::Runs(Err(String::new())));
-        let poll = Poll::start("test", Duration::from_millis(1), sender, caps).unwrap();
+        let look = || Some(Report::Runs(Err(String::new())));
+        let poll = Poll::start("test", Duration::from_millis(1), sender, look).unwrap();
         let patience = Duration::from_secs(20);
         assert!(receiver.recv_timeout(patience).is_ok());
         assert!(receiver.recv_timeout(Duration::from_millis(50)).is_err(), "not before they are taken");

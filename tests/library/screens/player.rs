@@ -29,7 +29,7 @@ use tempfile::TempDir;
 use super::{
     keys::key,
     practice::exercise,
-    runs::{NAME, OTHER, RUNS, known, listing, standing},
+    runs::{NAME, OTHER, RUNS, known, listing, status},
 };
 
 pub const TRUE_COLOUR: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
@@ -308,8 +308,8 @@ impl Player {
 
     pub fn condition(self, condition: Condition, reason: Option<&str>) -> Self {
         let phase = if let Condition::Is(phase) = condition { phase } else { Phase::Training };
-        let standing = RunStatus { phase, reason: reason.map(str::to_owned), ..standing() };
-        let update = Update { condition: Some(condition), standing: Some(standing), ..Update::default() };
+        let status = RunStatus { phase, reason: reason.map(str::to_owned), ..status() };
+        let update = Update { condition: Some(condition), status: Some(status), ..Update::default() };
         self.update(Slot::Main, NAME, update)
     }
 

@@ -59,7 +59,7 @@ pub fn config(reward: &str) -> Config {
     .unwrap()
 }
 
-pub fn standing() -> RunStatus {
+pub fn status() -> RunStatus {
     RunStatus {
         phase: Phase::Training,
         shots: 1_200_000,
@@ -68,7 +68,7 @@ pub fn standing() -> RunStatus {
         shots_per_second: 433.0,
         updates_per_second: 34.0,
         exploration: 0.153,
-        memory: Some(0.6),
+        replay_fill: Some(0.6),
         held_out_reward: None,
         process: 1,
         warning: None,
@@ -87,11 +87,11 @@ pub fn record(n: u64) -> Record {
         critic_loss: 0.6 * (-3.0 * share).exp() + 0.02 * (n as f64).sin().abs(),
         actor_loss: Some(-share),
         q_value: 0.7 * share,
-        practice_reward: 0.6 * share + 0.03 * (1.7 * n as f64).sin(),
+        rollout_reward: 0.6 * share + 0.03 * (1.7 * n as f64).sin(),
         exploration: Some(0.3 - 0.147 * share),
-        memory: Some(share),
+        replay_fill: Some(share),
         held_out_reward: n.is_multiple_of(5).then(|| 0.874 * share.sqrt()),
-        held_out_reach: n.is_multiple_of(5).then(|| 0.96 * share.sqrt()),
+        best_of_k: n.is_multiple_of(5).then(|| 0.96 * share.sqrt()),
     }
 }
 
@@ -107,7 +107,7 @@ pub fn known() -> Update {
     Update {
         config: Some(Box::new(config("r3"))),
         records: (1..=60).map(record).collect(),
-        standing: Some(standing()),
+        status: Some(status()),
         condition: Some(Condition::Is(Phase::Training)),
         examples: Some(examples(1_200_000)),
         ..Update::default()

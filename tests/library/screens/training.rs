@@ -5,7 +5,7 @@ use std::{path::Path, sync::Arc, time::Duration};
 use super::{
     keys::key,
     player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check, check_at},
-    runs::{NAME, OTHER, RUNS, config, known, listing, record, standing, summary},
+    runs::{NAME, OTHER, RUNS, config, known, listing, record, status, summary},
 };
 use carom::{
     game::Rule,
@@ -258,7 +258,7 @@ fn a_second_process_that_is_refused_is_no_news_of_the_run() {
     let silent = |player: &Player| player.app.toasts().shown().is_empty();
     let at_work = Player::watching(TRUE_COLOUR).report(refused(7));
     assert!(silent(&at_work));
-    at_work.report(refused(standing().process)).says("another process is training");
+    at_work.report(refused(status().process)).says("another process is training");
     let early = Player::watching(TRUE_COLOUR).condition(Condition::Died, None).report(refused(7));
     early.says("another process is training");
 }
@@ -408,9 +408,9 @@ fn without_colours_letters_tell_everything() {
 #[test]
 fn numbers_that_change_keep_their_places() {
     let columns = |shots: u64, speed: f64| {
-        let mut standing = standing();
-        (standing.shots, standing.shots_per_second) = (shots, speed);
-        let update = Update { standing: Some(standing), ..Update::default() };
+        let mut status = status();
+        (status.shots, status.shots_per_second) = (shots, speed);
+        let update = Update { status: Some(status), ..Update::default() };
         let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, update);
         player.picture(120, 40).content().to_vec()
     };

@@ -100,7 +100,7 @@ impl Signs {
             was_there: is_there,
             is_run: holds_checkpoints(folder),
             is_held: Lock::is_held(folder),
-            phase: RunStatus::read(folder).ok().map(|standing| standing.phase),
+            phase: RunStatus::read(folder).ok().map(|status| status.phase),
             silent: Stamp::of(&folder.join(status::FILE)).map_or(Duration::ZERO, |stamp| stamp.age()),
             shots: None,
             planned: None,

@@ -35,7 +35,7 @@ pub struct Follower {
     tail: Tail,
     seldom: Option<Instant>,
     config: Option<Stamp>,
-    standing: Option<Stamp>,
+    status: Option<Stamp>,
     examples: Option<Stamp>,
     /// When what the run says of itself last changed.
     heard: Instant,
@@ -60,7 +60,7 @@ impl Follower {
             tail: Tail::new(&folder.join(METRICS)),
             seldom: None,
             config: None,
-            standing: None,
+            status: None,
             examples: None,
             heard: Instant::now(),
             lines: 0,
@@ -85,7 +85,7 @@ impl Follower {
             self.seldom = Some(Instant::now());
             self.look_seldom(&mut update);
         }
-        self.look_at_standing(&mut update);
+        self.look_at_status(&mut update);
         let is_there = self.look_at_metrics(&mut update, see);
         self.signs.silent = self.heard.elapsed();
         let now = condition(&self.signs);
@@ -137,22 +137,22 @@ impl Follower {
         }
     }
 
-    fn look_at_standing(&mut self, update: &mut Update) {
+    fn look_at_status(&mut self, update: &mut Update) {
         let stamp = Stamp::of(&self.folder.join(status::FILE));
-        if stamp == self.standing {
+        if stamp == self.status {
             return;
         }
-        let is_first = self.standing.is_none();
-        self.standing = stamp;
+        let is_first = self.status.is_none();
+        self.status = stamp;
         // A look at a run that has said nothing for an hour finds it an hour silent.
         let age = stamp.filter(|_| is_first).map_or(Duration::ZERO, |stamp| stamp.age());
         self.heard = Instant::now().checked_sub(age).unwrap_or_else(Instant::now);
         match RunStatus::read(&self.folder) {
-            Ok(standing) => {
-                self.signs.phase = Some(standing.phase);
-                self.said = standing.shots;
+            Ok(status) => {
+                self.signs.phase = Some(status.phase);
+                self.said = status.shots;
                 self.troubles[1] = None;
-                update.standing = Some(standing);
+                update.status = Some(status);
             }
             Err(_) if stamp.is_none() => {
                 self.signs.phase = None;
@@ -267,9 +267,9 @@ mod tests {
         ) {
             let folder = tempfile::tempdir().unwrap();
             let (mut follower, mut followed) = (Follower::new(folder.path()), Followed::new(folder.path()));
-            for (lines, standing, shots, config) in states {
+            for (lines, status, shots, config) in states {
                 for (name, content) in
-                    [(METRICS, lines), (status::FILE, standing), (examples::FILE, shots), (config::FILE, config)]
+                    [(METRICS, lines), (status::FILE, status), (examples::FILE, shots), (config::FILE, config)]
                 {
                     let path = folder.path().join(name);
                     match content {

@@ -34,7 +34,7 @@ pub struct Followed {
     /// What it has reported.
     pub history: History,
     /// What it says of itself; nothing where it has not started, or an earlier carom trained it.
-    pub standing: Option<RunStatus>,
+    pub status: Option<RunStatus>,
     /// How it is, as far as one can see from outside.
     pub condition: Condition,
     /// Its latest shots on held-out layouts.
@@ -53,7 +53,7 @@ pub struct Update {
     /// Lines that have come since.
     pub records: Vec<Record>,
     /// What it says of itself.
-    pub standing: Option<RunStatus>,
+    pub status: Option<RunStatus>,
     /// How it is.
     pub condition: Option<Condition>,
     /// Its latest shots.
@@ -70,13 +70,13 @@ impl Followed {
 
     /// Shots played, as far as is known.
     pub fn shots(&self) -> u64 {
-        let told = self.standing.as_ref().map_or(0, |standing| standing.shots);
+        let told = self.status.as_ref().map_or(0, |status| status.shots);
         self.history.last().map_or(told, |record| record.shots.max(told))
     }
 
     /// What it earned at its last measurement on held-out layouts.
     pub fn held_out(&self) -> Option<f64> {
-        let told = self.standing.as_ref().and_then(|standing| standing.held_out_reward);
+        let told = self.status.as_ref().and_then(|status| status.held_out_reward);
         told.or_else(|| self.history.last_of(Quantity::HeldOut))
     }
 
@@ -87,9 +87,9 @@ impl Followed {
 
     /// Time until all shots have been played, if it goes on as on average so far; none while it does not train.
     pub fn time_left(&self) -> Option<Duration> {
-        let standing = self.standing.as_ref().filter(|_| !self.condition.is_over())?;
-        let left = self.config.as_ref()?.plan.shots.saturating_sub(standing.shots);
-        Duration::try_from_secs_f64(left as f64 * standing.seconds / standing.shots as f64).ok()
+        let status = self.status.as_ref().filter(|_| !self.condition.is_over())?;
+        let left = self.config.as_ref()?.plan.shots.saturating_sub(status.shots);
+        Duration::try_from_secs_f64(left as f64 * status.seconds / status.shots as f64).ok()
     }
 
     /// How it is, in a sentence that says what to do.
@@ -102,12 +102,12 @@ impl Followed {
             Condition::Unknown => format!("looking at {folder}"),
             Condition::Missing => format!("{folder} holds no run yet"),
             Condition::Is(Phase::Failed) => {
-                let reason = self.standing.as_ref().and_then(|standing| standing.reason.as_deref());
+                let reason = self.status.as_ref().and_then(|status| status.reason.as_deref());
                 format!("the run has failed{after}: {}", reason.unwrap_or("no reason was given"))
             }
             Condition::Is(Phase::Stopped) => {
                 // What is measured at a stop has no line of metrics, which must not depend on where a run was stopped.
-                let reward = self.standing.as_ref().and_then(|standing| standing.held_out_reward);
+                let reward = self.status.as_ref().and_then(|status| status.held_out_reward);
                 let reward = reward.map_or_else(String::new, |reward| format!(", held-out reward {reward:.4}"));
                 format!("the run was stopped{after}{reward}; {go_on}")
             }
@@ -127,7 +127,7 @@ impl Followed {
 
     /// Takes what has changed.
     pub fn apply(&mut self, update: Update) {
-        let Update { config, history, records, standing, condition, examples, notices } = update;
+        let Update { config, history, records, status, condition, examples, notices } = update;
         if let Some(config) = config {
             self.config = Some(*config);
         }
@@ -137,7 +137,7 @@ impl Followed {
         for record in &records {
             self.history.push(record);
         }
-        self.standing = standing.or(self.standing.take());
+        self.status = status.or(self.status.take());
         self.condition = condition.unwrap_or(self.condition);
         self.examples = examples.or(self.examples.take());
         self.notices = notices.unwrap_or(std::mem::take(&mut self.notices));

@@ -19,7 +19,7 @@ pub struct Point {
     /// Smallest, mean and largest finite value; `None` where there is no finite value.
     pub finite: Option<Span>,
     /// What else there was.
-    pub odd: Odd,
+    pub odd: NonFinite,
 }
 
 /// Finite values of a stretch.
@@ -37,7 +37,7 @@ pub struct Span {
 
 /// How many values were not finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Odd {
+pub struct NonFinite {
     /// Not numbers.
     pub nan: u64,
     /// Above all numbers.
@@ -111,13 +111,13 @@ impl History {
     }
 
     /// All values of a quantity that were not finite.
-    pub fn odd(&self, quantity: Quantity) -> Odd {
-        let add = |total: Odd, Odd { nan, above, below }| Odd {
+    pub fn odd(&self, quantity: Quantity) -> NonFinite {
+        let add = |total: NonFinite, NonFinite { nan, above, below }| NonFinite {
             nan: total.nan + nan,
             above: total.above + above,
             below: total.below + below,
         };
-        self.all(quantity).map(|point| point.odd).fold(Odd::default(), add)
+        self.all(quantity).map(|point| point.odd).fold(NonFinite::default(), add)
     }
 
     /// All points of a quantity, in order.

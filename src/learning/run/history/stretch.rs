@@ -1,6 +1,6 @@
 //! Several lines of a run as one: what stays of their values when memory is short.
 
-use super::{Odd, Point, Span};
+use super::{NonFinite, Point, Span};
 use crate::learning::run::{metrics::Record, quantity::Quantity};
 
 /// What stays of the values of one quantity.
@@ -63,8 +63,8 @@ impl Summary {
     fn point(&self, shots: (u64, u64)) -> Option<Point> {
         let &Self { min, mean, max, .. } = self;
         let finite = (self.finite > 0).then(|| Span { min, mean, max, not_positive: self.not_positive.into() });
-        let odd = Odd { nan: self.nan.into(), above: self.above.into(), below: self.below.into() };
-        (finite.is_some() || odd != Odd::default()).then_some(Point { shots, finite, odd })
+        let odd = NonFinite { nan: self.nan.into(), above: self.above.into(), below: self.below.into() };
+        (finite.is_some() || odd != NonFinite::default()).then_some(Point { shots, finite, odd })
     }
 }
 

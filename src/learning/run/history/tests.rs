@@ -8,7 +8,7 @@ use super::*;
 
 /// A line with `shots`, a reward and a held-out reward.
 fn record(shots: u64, reward: f64, held_out: Option<f64>) -> Record {
-    Record { shots, practice_reward: reward, held_out_reward: held_out, ..Record::default() }
+    Record { shots, rollout_reward: reward, held_out_reward: held_out, ..Record::default() }
 }
 
 /// Lines as a run may write them: uneven steps, wild values, a held-out reward every now and then.
@@ -56,7 +56,7 @@ fn plain(lines: &[(u64, f64)], shots: (u64, u64)) -> Point {
             max,
             not_positive: count(|value| value.is_finite() && value <= 0.0),
         }),
-        odd: Odd {
+        odd: NonFinite {
             nan: count(f64::is_nan),
             above: count(|value| value == f64::INFINITY),
             below: count(|value| value == f64::NEG_INFINITY),

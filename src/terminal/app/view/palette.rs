@@ -55,7 +55,7 @@ pub fn draw(app: &App, command_palette: &CommandPalette, area: Rect, ui: &mut Ui
         draw_command(app, &found[n], n == mark, Rect { y, height: 1, ..rows }, ui);
     }
     let status = Rect::new(area.x, area.bottom() - 2, area.width, 1);
-    draw_status(&standing(app, found.get(mark)), status, ui)
+    draw_status(&status_line(app, found.get(mark)), status, ui)
 }
 
 /// Draws one command: its keys, what it does, and why it may not be used now.
@@ -81,7 +81,7 @@ fn sentence(command: &Command, reason: Option<&str>) -> String {
 }
 
 /// What the status line says: the marked command in full.
-fn standing(app: &App, marked: Option<&Command>) -> Message {
+fn status_line(app: &App, marked: Option<&Command>) -> Message {
     marked.map_or_else(
         || Message::plain("no matching command"),
         |command| {

@@ -1,19 +1,19 @@
 //! The state of the coach's screen: the balls, the coach's advice on them, and the clock of a shot's playback.
 //!
-//! [`actions`] is what each key does to it, [`asking`] how the coach is asked, [`dragging`] what the mouse does to balls,
+//! [`actions`] is what each key does to it, [`request`] how the coach is asked, [`dragging`] what the mouse does to balls,
 //! [`saving`] how they are saved as a position, [`positions`] how they are typed;
 //! [`lesson`] teaches diamond systems, [`own_stroke`] is the player's own stroke beside the coach's, [`spectators`] are others who
 //! look on.
 
 mod actions;
 mod advised;
-mod asking;
 mod dragging;
 pub mod keys;
 mod lesson;
 mod own_stroke;
 mod page;
 mod positions;
+mod request;
 mod saving;
 mod side_view;
 mod spectators;
@@ -35,9 +35,9 @@ use crate::{
     terminal::{
         CoachQuery, Proposal, SavedSession, SessionParts, Settings, Shot,
         pages::coach::{
-            asking::{Pending, Studying},
             dragging::Drag,
             keys::QuestionContext,
+            request::{Pending, Studying},
             saving::Saving,
         },
         shot::{History, Playback, WhatIf, placing::STEPS},

@@ -242,7 +242,7 @@ impl TrainingPage {
     /// A process that was to train in `folder` has failed. That is nothing to worry about where another one trains there.
     fn failed(&mut self, folder: &Path, failure: &Failure) {
         let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder && watch.is_at_work());
-        let at_work = watch.and_then(|watch| watch.own.run.standing.as_ref()).map(|standing| standing.process);
+        let at_work = watch.and_then(|watch| watch.own.run.status.as_ref()).map(|status| status.process);
         if at_work.is_some() && at_work != failure.process {
             return;
         }

@@ -153,9 +153,9 @@ impl Watch {
     pub fn advice(&self) -> (String, bool) {
         let Self { own: Named { name, run }, .. } = self;
         let resume = format!("r goes on with it, or: carom train --resume {}", quoted(name));
-        let standing = run.standing.as_ref();
-        let reason = standing.and_then(|standing| standing.reason.as_deref());
-        let warning = standing.and_then(|standing| standing.warning.as_deref());
+        let status = run.status.as_ref();
+        let reason = status.and_then(|status| status.reason.as_deref());
+        let warning = status.and_then(|status| status.warning.as_deref());
         match run.condition {
             Condition::Is(Phase::Failed) => {
                 (format!("{}; {resume}", reason.unwrap_or("the training has broken down")), true)
@@ -190,8 +190,8 @@ impl Watch {
 
 /// Shots that a run plays a second, on average; 0 while it does not train.
 fn speed(run: &Followed) -> f64 {
-    let standing = run.standing.as_ref().filter(|_| is_at_work(run.condition));
-    standing.map_or(0.0, |standing| standing.shots as f64 / standing.seconds.max(1.0))
+    let status = run.status.as_ref().filter(|_| is_at_work(run.condition));
+    status.map_or(0.0, |status| status.shots as f64 / status.seconds.max(1.0))
 }
 
 /// Whether a process works on a run that is so.

@@ -11,7 +11,7 @@ mod trace;
 use ratatui::{layout::Rect, text::Span};
 
 use crate::{
-    learning::run::history::{Odd, Point},
+    learning::run::history::{NonFinite, Point},
     terminal::{
         Capabilities,
         ui::{
@@ -47,7 +47,7 @@ pub struct Curve<'a> {
     /// The values in the order of their shots.
     pub points: &'a [Point],
     /// All values of the quantity that were not finite, which the title names.
-    pub odd: Odd,
+    pub odd: NonFinite,
     /// Whose they are.
     pub whose: SeriesId,
 }

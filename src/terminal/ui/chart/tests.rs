@@ -30,7 +30,7 @@ fn stretch(shots: (u64, u64), values: &[f64]) -> Point {
         max: finite.iter().copied().fold(f64::NEG_INFINITY, f64::max),
         not_positive: finite.iter().filter(|value| **value <= 0.0).count() as u64,
     };
-    let odd = Odd {
+    let odd = NonFinite {
         nan: count(|value| value.is_nan()),
         above: count(|value| **value == f64::INFINITY),
         below: count(|value| **value == f64::NEG_INFINITY),
@@ -58,12 +58,12 @@ fn chart<'a>(title: &'a str, curves: &'a [Curve<'a>]) -> Chart<'a> {
 }
 
 fn curve(points: &[Point], whose: SeriesId) -> Curve<'_> {
-    let add = |sum: Odd, next: Odd| Odd {
+    let add = |sum: NonFinite, next: NonFinite| NonFinite {
         nan: sum.nan + next.nan,
         above: sum.above + next.above,
         below: sum.below + next.below,
     };
-    Curve { points, odd: points.iter().map(|point| point.odd).fold(Odd::default(), add), whose }
+    Curve { points, odd: points.iter().map(|point| point.odd).fold(NonFinite::default(), add), whose }
 }
 
 fn draw(chart: &Chart, area: Rect, theme: &Theme, caps: Capabilities, buffer: &mut Buffer) {
@@ -269,7 +269,7 @@ fn record(n: u64, random: &mut Xoshiro256PlusPlus) -> Record {
         shots: 400 * (n + 1),
         critic_loss: 0.05 + 0.6 * (1.0 - learnt) + noise(0.03),
         q_value: 0.4 * learnt + noise(0.02),
-        practice_reward: 0.35 * learnt + noise(0.08),
+        rollout_reward: 0.35 * learnt + noise(0.08),
         held_out_reward: (n % 50 == 49).then(|| 0.7 * learnt + noise(0.05)),
         ..Record::default()
     }

@@ -7,7 +7,7 @@ use ratatui::{
 };
 
 use crate::{
-    learning::run::history::{Odd, Point},
+    learning::run::history::{NonFinite, Point},
     terminal::{
         Capabilities,
         ui::{
@@ -25,7 +25,7 @@ enum Need {
     Log,
     NotPositive,
     Value,
-    Odd,
+    NonFinite,
     Title,
 }
 
@@ -106,7 +106,7 @@ fn right(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
         };
         let mut add = |need, text: String| parts.extend((!text.is_empty()).then_some(Part { need, text, style }));
         add(Need::NotPositive, not_positive_words(curve, chart, caps));
-        add(Need::Odd, odd_words(curve.odd, caps));
+        add(Need::NonFinite, odd_words(curve.odd, caps));
     }
     let own = chart.curves.iter().find(|curve| curve.whose == SeriesId::Own);
     let last = own.and_then(|own| own.points.iter().rfind(|point| point.shots.0 as f64 <= chart.shots.1));
@@ -121,14 +121,14 @@ fn value(point: &Point, theme: &Theme, caps: Capabilities) -> (String, Style) {
     let infinity = caps.pick("∞", "inf");
     match (point.finite, point.odd) {
         (Some(span), _) => (compact(span.mean), theme.text().fg(theme.curves[0])),
-        (None, Odd { above: 1.., .. }) => (infinity.to_owned(), theme.warning()),
-        (None, Odd { below: 1.., .. }) => (format!("-{infinity}"), theme.warning()),
+        (None, NonFinite { above: 1.., .. }) => (infinity.to_owned(), theme.warning()),
+        (None, NonFinite { below: 1.., .. }) => (format!("-{infinity}"), theme.warning()),
         (None, _) => ("NaN".to_owned(), theme.warning()),
     }
 }
 
 /// The values that are not finite, if there are any.
-fn odd_words(odd: Odd, caps: Capabilities) -> String {
+fn odd_words(odd: NonFinite, caps: Capabilities) -> String {
     let (infinity, times) = (caps.pick("∞", "inf"), caps.pick("×", "x"));
     let counts = [("NaN", "", odd.nan), ("", infinity, odd.above), ("-", infinity, odd.below)];
     let named = counts.into_iter().filter(|(_, _, count)| *count > 0);

@@ -35,7 +35,7 @@ pub fn draw(page: &CalibrationPage, area: &PageArea, ui: &mut Ui) -> u16 {
     }
     let message = page.message.clone();
     let Some((question, field)) = question(page) else {
-        return draw_status(&message.unwrap_or_else(|| standing(page)), area.status, ui);
+        return draw_status(&message.unwrap_or_else(|| status_line(page)), area.status, ui);
     };
     draw_question(&Message::plain(question), field, area.status, ui)
 }
@@ -54,7 +54,7 @@ fn question(page: &CalibrationPage) -> Option<(String, Option<&TextField>)> {
 }
 
 /// What the status line says while there is no news.
-fn standing(page: &CalibrationPage) -> Message {
+fn status_line(page: &CalibrationPage) -> Message {
     let sheet = page.sheet();
     if let Some(sentence) = sheet.trouble.as_ref().or(sheet.unjudged.as_ref()) {
         return Message::warning(sentence.clone());

@@ -99,7 +99,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
         return draw_question(&Message::plain(before + &question), field, area.status, ui);
     }
-    let message = message.unwrap_or_else(|| standing(coach, usize::from(area.status.width.saturating_sub(2)), ui));
+    let message = message.unwrap_or_else(|| status_line(coach, usize::from(area.status.width.saturating_sub(2)), ui));
     draw_status(&coach.marked(message), area.status, ui)
 }
 
@@ -241,7 +241,7 @@ fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut
 }
 
 /// What the status line says in `room` columns while there is no news.
-fn standing(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
+fn status_line(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
     if let Some(picture) = coach.spinner() {
         let pictures =
             ui.caps.pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);

@@ -67,7 +67,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         None => panels::draw_aim(turn, panes.aim, ui),
     }
     score::draw(drills, turn, panes.score, ui);
-    standing(turn, drills.units.length)
+    status_line(turn, drills.units.length)
 }
 
 /// Draws the stroke's numbers, where the tip meets the ball, and what is seen behind it or how it spins.
@@ -129,7 +129,7 @@ fn spots(turn: &Turn, sight: &Sight, theme: &Theme, caps: Capabilities) -> Vec<S
     cue.filter(on_table).chain(line).chain([ghost]).collect()
 }
 
-fn standing(turn: &Turn, unit: LengthUnit) -> Message {
+fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
     if turn.is_waiting() {
         return Message::plain("the stroke is being played");
     }

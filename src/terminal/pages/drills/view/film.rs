@@ -57,7 +57,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     draw_events("Events", events, Some(time), panes.score, ui);
     scene.map_or_else(
         || Message::plain("the stroke is being fitted to the film's first 2 seconds"),
-        |scene| standing(scene, listed, time),
+        |scene| status_line(scene, listed, time),
     )
 }
 
@@ -74,7 +74,7 @@ fn centimetres(metres: f64) -> String {
 }
 
 /// How far the simulated cue ball is from the filmed one, and what that is worth.
-fn standing(scene: &FilmScene, listed: &Listed, time: f64) -> Message {
+fn status_line(scene: &FilmScene, listed: &Listed, time: f64) -> Message {
     let white = centimetres(scene.replay.apart(time)[0]);
     if time >= scene.replay.duration() {
         let simulated = if scene.is_point { "a point" } else { "no point" };

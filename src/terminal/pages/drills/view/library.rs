@@ -50,7 +50,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
         Some(exercise) => draw_exercise(drills, exercise, preview, ui),
         None => draw_nothing(drills, list, ui),
     }
-    standing(drills)
+    status_line(drills)
 }
 
 /// The list's part of the page, and that of the marked exercise.
@@ -75,7 +75,7 @@ pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
     list.contains(at).then(|| Target::list(line, catalogue.mark()))
 }
 
-fn standing(drills: &DrillsPage) -> Message {
+fn status_line(drills: &DrillsPage) -> Message {
     let book = &drills.book;
     if !book.is_known {
         return Message::plain("reading what was played so far");

@@ -35,7 +35,7 @@ const READABLE: u16 = 80;
 /// Draws the page that is open; gives the first row of what stands below it.
 pub fn draw(drills: &DrillsPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let (header, body, status) = (area.header, area.body, area.status);
-    let standing = match (drills.page(), &drills.turn) {
+    let status_line = match (drills.page(), &drills.turn) {
         (Screen::Exam(level), Some(turn)) => exam::draw(drills, turn, level, header, body, ui),
         (Screen::Exercise, Some(turn)) => exercise::draw(drills, turn, header, body, ui),
         (Screen::Result, Some(turn)) => result::draw(drills, turn, header, body, ui),
@@ -50,7 +50,7 @@ pub fn draw(drills: &DrillsPage, area: &PageArea, ui: &mut Ui) -> u16 {
             let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
             draw_question(&Message::plain(before + &question.text()), question.field(), status, ui)
         }
-        None => draw_status(&message.unwrap_or(standing), status, ui),
+        None => draw_status(&message.unwrap_or(status_line), status, ui),
     }
 }
 

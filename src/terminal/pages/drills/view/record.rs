@@ -13,7 +13,7 @@ use crate::{
     drills::{Goal, Record, Session, Venue},
     learning::{
         moment,
-        run::history::{Odd, Point, Span as Values},
+        run::history::{NonFinite, Point, Span as Values},
     },
     terminal::{
         pages::drills::{
@@ -46,7 +46,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     draw_numbers(drills, &sessions, scope, numbers, ui);
     let chart = Rect { x: numbers.right() + 1, width: top.width - numbers.width - 1, ..top };
     let points = points(&sessions, scope);
-    let curves = [Curve { points: &points, odd: Odd::default(), whose: SeriesId::Own }];
+    let curves = [Curve { points: &points, odd: NonFinite::default(), whose: SeriesId::Own }];
     let tried = points.last().map_or(0, |point| point.shots.1);
     let chart_of = Chart {
         title: "made of 100, session by session",
@@ -117,7 +117,7 @@ fn points(sessions: &[&Session], scope: Option<&str>) -> Vec<Point> {
         before = last;
         let share = 100.0 * record.rate.rate;
         let finite = Values { min: share, mean: share, max: share, not_positive: u64::from(share <= 0.0) };
-        (record.tried > 0).then_some(Point { shots: (first, last), finite: Some(finite), odd: Odd::default() })
+        (record.tried > 0).then_some(Point { shots: (first, last), finite: Some(finite), odd: NonFinite::default() })
     });
     shares.collect()
 }

@@ -41,7 +41,7 @@ pub fn draw(settings: &SettingsPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let path = end_of(&settings.path.display().to_string(), usize::from(rest.width.saturating_sub(2)), ui.caps);
     ui.buffer.set_string(rest.x + 1, rest.y, path, ui.theme.faint());
     let [list, words] = halves(settings.page, area.body);
-    let standing = match settings.page {
+    let status_line = match settings.page {
         Screen::Values => values::draw(settings, list, words, ui),
         Screen::Keys => keys::draw(settings, list, words, ui),
     };
@@ -49,7 +49,7 @@ pub fn draw(settings: &SettingsPage, area: &PageArea, ui: &mut Ui) -> u16 {
         let field = if let Some(Input::Value(typed)) = &settings.input { Some(typed) } else { None };
         return draw_question(&Message::plain(question), field, status, ui);
     }
-    let message = settings.message.clone().unwrap_or(Message::plain(standing));
+    let message = settings.message.clone().unwrap_or(Message::plain(status_line));
     draw_status(&message, status, ui)
 }
 

@@ -62,7 +62,9 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
 fn missing(run: &Followed, quantity: Quantity) -> Option<&'static str> {
     let last = run.history.last()?;
     match quantity {
-        Quantity::HeldOut | Quantity::Reach if run.history.best().is_none() => Some("comes with the first measurement"),
+        Quantity::HeldOut | Quantity::BestOfK if run.history.best().is_none() => {
+            Some("comes with the first measurement")
+        }
         Quantity::ActorLoss if last.actor_loss.is_none() => Some("this agent has no actor"),
         Quantity::Exploration if last.exploration.is_none() => Some("the run does not report it"),
         _ => None,

@@ -128,7 +128,7 @@ fn reward_words(reward: Reward) -> &'static str {
 }
 
 /// What the status line says while there is no news.
-pub fn standing(training: &TrainingPage) -> String {
+pub fn status_line(training: &TrainingPage) -> String {
     match training.form.field {
         Field::Shots | Field::Seed => {
             "arrows choose a value, digits type another, Backspace edits it; Enter starts the run".to_owned()

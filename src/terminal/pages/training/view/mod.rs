@@ -23,7 +23,7 @@ use crate::terminal::{
 /// Draws the page that is open; gives the first row of what stands below it.
 pub fn draw(training: &TrainingPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let (head, body, status) = (area.header, area.body, area.status);
-    let standing = match (training.page(), &training.watch) {
+    let status_line = match (training.page(), &training.watch) {
         (Screen::Watch, Some(watch)) => {
             header::draw(watch, head, ui);
             watch::draw(training, watch, body, ui);
@@ -33,13 +33,13 @@ pub fn draw(training: &TrainingPage, area: &PageArea, ui: &mut Ui) -> u16 {
         (Screen::Form, _) => {
             title("a new run", head, ui);
             form::draw(training, body, ui);
-            Message::plain(form::standing(training))
+            Message::plain(form::status_line(training))
         }
         (open, _) => {
             let words = if open == Screen::Compare { "compare with" } else { "training runs" };
             title(words, head, ui);
             runs::draw(training, body, ui);
-            runs::standing(training)
+            runs::status_line(training)
         }
     };
     let message = training.message.clone();
@@ -49,7 +49,7 @@ pub fn draw(training: &TrainingPage, area: &PageArea, ui: &mut Ui) -> u16 {
             let words = Message::warning(before + &question.text(training.watch.as_ref()));
             draw_question(&words, question.field(), status, ui)
         }
-        None => draw_status(&message.unwrap_or(standing), status, ui),
+        None => draw_status(&message.unwrap_or(status_line), status, ui),
     }
 }
 

@@ -92,17 +92,17 @@ type Row = (&'static str, String);
 /// important come first, for not all find room everywhere.
 fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let run = &watch.own.run;
-    let (standing, last) = (run.standing.as_ref(), run.history.last());
+    let (status, last) = (run.status.as_ref(), run.history.last());
     let shots = watch.own.run.shots();
-    let seconds = standing.map(|standing| standing.seconds).or(last.map(|record| record.seconds));
-    let updates = standing.map(|standing| standing.updates).or(last.map(|record| record.updates));
+    let seconds = status.map(|status| status.seconds).or(last.map(|record| record.seconds));
+    let updates = status.map(|status| status.updates).or(last.map(|record| record.updates));
     // Speeds are of a run at work alone.
-    let working = standing.filter(|_| watch.is_at_work());
+    let working = status.filter(|_| watch.is_at_work());
     let speed = |value: Option<f64>| known(value.filter(|value| value.is_finite()), |value| count(value as u64));
     let is_going_on = matches!(watch.condition(), Condition::Is(Phase::Training | Phase::Measuring));
     let left = run.time_left().filter(|_| is_going_on);
-    let exploration = standing.map(|standing| standing.exploration).or(last.and_then(|record| record.exploration));
-    let memory = standing.and_then(|standing| standing.memory).or(last.and_then(|record| record.memory));
+    let exploration = status.map(|status| status.exploration).or(last.and_then(|record| record.exploration));
+    let replay_fill = status.and_then(|status| status.replay_fill).or(last.and_then(|record| record.replay_fill));
     let three = |value: f64| format!("{value:.3}");
     let config = run.config.as_ref();
     let held_out = run.held_out();
@@ -123,7 +123,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     }
     learnt.extend([
         ("exploration", known(exploration, three)),
-        ("memory filled", known(memory, |share| format!("{:.0} %", 100.0 * share))),
+        ("replay filled", known(replay_fill, |share| format!("{:.0} %", 100.0 * share))),
         ("learning rate", known(last, |record| rate(record.learning_rate))),
         ("updates", known(updates, count)),
         ("seed", known(config, |config| config.plan.seed.to_string())),
@@ -141,8 +141,8 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
             ("planned", known(watch.planned(), count)),
             ("trained for", known(seconds, time_words)),
             ("time left", known(left, |left| time_words(left.as_secs_f64()))),
-            ("shots/s", speed(working.map(|standing| standing.shots_per_second))),
-            ("updates/s", speed(working.map(|standing| standing.updates_per_second))),
+            ("shots/s", speed(working.map(|status| status.shots_per_second))),
+            ("updates/s", speed(working.map(|status| status.updates_per_second))),
             ("measured every", known(config, |config| count(config.schedule.evaluate_every))),
             ("layouts", known(config, |config| count(config.schedule.evaluation_layouts as u64))),
             ("started", known(config, |config| config.started.replace('T', " ").replace('Z', ""))),

@@ -172,7 +172,7 @@ fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
 }
 
 /// What the status line says while there is no news.
-pub fn standing(training: &TrainingPage) -> Message {
+pub fn status_line(training: &TrainingPage) -> Message {
     let list = &training.list;
     if let Some(sentence) = list.trouble() {
         return Message::warning(sentence);

@@ -19,7 +19,7 @@ use crate::{
 /// What is measured: all parts of an evaluation have it in common.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line, or follows from some")]
-pub struct Order {
+pub struct Spec {
     /// Who decides: "recommender", "policy" or "random search".
     pub player: String,
     /// The policy, of players that have one.
@@ -112,7 +112,8 @@ pub enum Records {
 /// What one process measured.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Part {
-    pub order: Order,
+    #[serde(rename = "order")]
+    pub spec: Spec,
     pub shard: Shard,
     pub records: Records,
 }
@@ -138,7 +139,7 @@ pub enum MergeError {
 }
 
 /// The whole of which these files hold the parts.
-pub fn merged(files: &[PathBuf]) -> Result<(Order, Records), MergeError> {
+pub fn merged(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
     let mut whole: Option<Part> = None;
     let mut seen = BTreeSet::new();
     for path in files {
@@ -149,7 +150,7 @@ pub fn merged(files: &[PathBuf]) -> Result<(Order, Records), MergeError> {
         match &mut whole {
             None => whole = Some(part),
             Some(whole) => {
-                let is_same = whole.order == part.order && whole.shard.of == part.shard.of;
+                let is_same = whole.spec == part.spec && whole.shard.of == part.shard.of;
                 if !(is_same && whole.records.append(part.records)) {
                     return Err(MergeError::Different { one: files[0].clone(), other: path.clone() });
                 }
@@ -157,14 +158,14 @@ pub fn merged(files: &[PathBuf]) -> Result<(Order, Records), MergeError> {
         }
     }
     // The command line asks for one file at least.
-    let Some(Part { order, shard: Shard { of, .. }, mut records }) = whole else {
+    let Some(Part { spec, shard: Shard { of, .. }, mut records }) = whole else {
         return Err(MergeError::Missing { shard: Shard::WHOLE });
     };
     if let Some(part) = (1..=of).find(|part| !seen.contains(part)) {
         return Err(MergeError::Missing { shard: Shard { part, of } });
     }
     records.sort();
-    Ok((order, records))
+    Ok((spec, records))
 }
 
 fn read(path: &Path) -> Result<Part, MergeError> {

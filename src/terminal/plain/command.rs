@@ -12,7 +12,7 @@ use crate::{
 
 /// What a line asks for.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Order {
+pub enum Command {
     /// Where the balls lie.
     Where,
     /// All three balls at once, as on the command line.
@@ -93,7 +93,7 @@ pub const HELP: &[(&str, &str)] = &[
     ("quit", "end; so do exit and the end of the input"),
 ];
 
-impl FromStr for Order {
+impl FromStr for Command {
     type Err = String;
 
     fn from_str(line: &str) -> Result<Self, String> {
@@ -162,11 +162,11 @@ mod tests {
     #[test]
     fn everything_in_the_help_is_understood() {
         for (line, _) in HELP {
-            assert!(line.parse::<Order>().is_ok(), "{line}");
+            assert!(line.parse::<Command>().is_ok(), "{line}");
         }
-        assert_eq!("".parse(), Ok(Order::Shot));
-        assert_eq!("?".parse(), Ok(Order::Help));
-        assert_eq!("exit".parse(), Ok(Order::Quit));
+        assert_eq!("".parse(), Ok(Command::Shot));
+        assert_eq!("?".parse(), Ok(Command::Help));
+        assert_eq!("exit".parse(), Ok(Command::Quit));
     }
 
     #[test]
@@ -183,7 +183,7 @@ mod tests {
             ("cue ball red", "red"),
             ("opening far", "far"),
         ] {
-            let error = line.parse::<Order>().unwrap_err();
+            let error = line.parse::<Command>().unwrap_err();
             assert!(error.contains(named), "{line}: {error}");
         }
     }
