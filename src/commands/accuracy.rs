@@ -34,7 +34,7 @@ pub struct Args {
     /// Seed of the shots. Default: 2026; of the stability table 1.
     #[arg(long, value_parser = seed)]
     seed: Option<u64>,
-    /// The table: "match", "textbook", "thesis" or the path of a TOML file; where balls leave its cloth, strokes of up to 60
+    /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file; where balls leave its cloth, strokes of up to 60
     /// degrees are studied too. Default: textbook and thesis, and such strokes on match
     #[arg(long, value_name = "NAME")]
     table: Option<String>,

@@ -6,7 +6,7 @@ use std::{
     fs::File,
     io::{self, BufRead, BufReader, Read, Write},
     ops::RangeInclusive,
-    path::Path,
+    path::{Path, PathBuf},
     str::FromStr,
     time::Duration,
 };
@@ -20,20 +20,28 @@ use super::{Failure, output::tell};
 use crate::{
     game::{Reward, Rule},
     learning::{Policy, policy::file::Origin},
-    printing, storage,
+    printing,
+    storage::{self, Places},
     table::{Layout, Table, TableError},
 };
 
-/// A bundled table, or the one in the TOML file at the path `name`.
+/// A bundled table, the one in the TOML file at the path `name`, or the user's own of that name.
 pub fn table_named(name: &str) -> Result<Table, Failure> {
     match Table::preset(name) {
-        Err(TableError::Unknown(_)) if Path::new(name).exists() => {
-            let text = storage::read_text(name.as_ref(), storage::SMALL)
-                .map_err(|error| Failure::failed(format_args!("{name}: {error}")))?;
-            Table::from_toml(&text).map_err(|error| Failure::wrong_input(format_args!("{name}: {error}")))
+        Err(error @ TableError::Unknown(_)) => {
+            let path = Some(PathBuf::from(name)).filter(|path| path.exists());
+            let path = path.or_else(|| Places::of_this_user().own_table(name));
+            table_in(&path.ok_or_else(|| Failure::wrong_input(error))?)
         }
         table => table.map_err(Failure::wrong_input),
     }
+}
+
+/// The table in a TOML file.
+pub fn table_in(file: &Path) -> Result<Table, Failure> {
+    let text = storage::read_text(file, storage::SMALL)
+        .map_err(|error| Failure::failed(format_args!("{} cannot be read: {error}", file.display())))?;
+    Table::from_toml(&text).map_err(|error| Failure::wrong_input(format_args!("{}: {error}", file.display())))
 }
 
 /// Says what speaks against a policy on a table and, where it shall make points, under a rule.
@@ -50,7 +58,7 @@ pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
 /// The table and the balls of a single shot; a batch brings its own.
 #[derive(Debug, clap::Args)]
 pub struct PositionArgs {
-    /// The table: "match", "textbook", "thesis" or the path of a TOML file.
+    /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "match", conflicts_with = "batch")]
     table: String,
     /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre. Default: the opening position

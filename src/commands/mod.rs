@@ -45,7 +45,7 @@ const ASKED_OVER_SSH: &str = "SSH_ORIGINAL_COMMAND";
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Table of the terminal program: "match", "textbook", "thesis" or the path of a TOML file.
+    /// Table of the terminal program: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long)]
     table: Option<String>,
     /// Talk in lines instead of a screen: for screen readers, and terminals that cannot draw.

@@ -32,7 +32,7 @@ pub struct Args {
     /// Seed of everything random: the same seed gives the same curves.
     #[arg(long, default_value_t = 1, value_parser = seed)]
     seed: u64,
-    /// The table: "match", "textbook", "thesis" or the path of a TOML file.
+    /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "thesis")]
     table: String,
     /// Trainings at a time. The curves do not depend on it. Default: one on each processor

@@ -4,9 +4,14 @@ use std::{io::Write, path::PathBuf};
 
 use clap::Subcommand;
 
-use super::{Failure, input::table_named};
+use super::{
+    Failure,
+    input::{table_in, table_named},
+    output::tell,
+};
 use crate::{
-    printing, storage,
+    printing,
+    storage::Places,
     table::{PRESETS, Table},
 };
 
@@ -22,11 +27,11 @@ pub struct Args {
 
 #[derive(Debug, Subcommand)]
 enum Order {
-    /// List the bundled tables (the default).
+    /// List the bundled tables and your own (the default).
     List,
     /// Show a table as TOML, which is also the way to begin a file of one's own.
     Show {
-        /// "match", "textbook", "thesis" or the path of a TOML file.
+        /// "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
         #[arg(default_value = "match")]
         table: String,
     },
@@ -41,8 +46,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut out = printing::stdout();
     match args.order.as_ref().unwrap_or(&Order::List) {
         Order::List => {
-            for name in PRESETS {
-                let table = Table::preset(name).map_err(Failure::failed)?;
+            let bundled = PRESETS.iter().map(|name| Table::preset(name).map_err(Failure::failed));
+            let own = Places::of_this_user().own_tables();
+            for table in bundled.chain(own.iter().map(|file| table_in(file))) {
+                let table = match table {
+                    Ok(table) => table,
+                    Err(failure) => {
+                        tell(format_args!("note: {failure}"));
+                        continue;
+                    }
+                };
                 if args.json {
                     printing::json_line(&mut out, &table)?;
                 } else {
@@ -59,10 +72,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             }
         }
         Order::Check { file } => {
-            let text = storage::read_text(file, storage::SMALL)
-                .map_err(|error| Failure::failed(format_args!("{} cannot be read: {error}", file.display())))?;
-            let table = Table::from_toml(&text)
-                .map_err(|error| Failure::wrong_input(format_args!("{}: {error}", file.display())))?;
+            let table = table_in(file)?;
             if args.json {
                 printing::json_line(&mut out, &table)?;
             } else {

@@ -59,8 +59,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match folder {
         Some(folder) if is_run => follow(&folder, args.json),
         folder => {
-            print_runs(folder.as_deref(), args.json)?;
-            tell("choose one of them: carom watch NAME, or carom watch latest");
+            if print_runs(folder.as_deref(), args.json)? {
+                tell("choose one of them: carom watch NAME, or carom watch latest");
+            }
             Ok(())
         }
     }

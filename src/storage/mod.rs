@@ -15,7 +15,7 @@ pub use atomic::{
 pub use confinement::{confine, may_read};
 pub use lock::Lock;
 pub use notices::notice;
-pub use places::Places;
+pub use places::{Places, is_called};
 pub use player::{Player, PlayerNameError};
 pub use reading::{LARGE, PRACTICE, SMALL, open, read, read_text};
 pub use room::{Room, room_in};

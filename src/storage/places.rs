@@ -82,6 +82,20 @@ impl Places {
         Self::in_folders(folder, folder, folder.join(SETTINGS))
     }
 
+    /// The files of the player's own tables, in the order of their names.
+    pub fn own_tables(&self) -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(&self.tables).into_iter().flatten().flatten().map(|entry| entry.path());
+        let mut files: Vec<_> =
+            entries.filter(|path| path.extension().is_some_and(|extension| extension == "toml")).collect();
+        files.sort();
+        files
+    }
+
+    /// The file of the player's own table that is called `name`, with or without `.toml`, if there is one.
+    pub fn own_table(&self, name: &str) -> Option<PathBuf> {
+        self.own_tables().into_iter().find(|path| is_called(path, name))
+    }
+
     fn in_folders(data: &Path, state: &Path, settings: PathBuf) -> Self {
         Self {
             runs: data.join("runs"),
@@ -100,4 +114,9 @@ impl Places {
             own: data.to_owned(),
         }
     }
+}
+
+/// Whether the file at `path` has this name, with or without its extension.
+pub fn is_called(path: &Path, name: &str) -> bool {
+    [path.file_stem(), path.file_name()].into_iter().flatten().any(|own| own == name)
 }

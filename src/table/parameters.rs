@@ -116,7 +116,9 @@ fn is_thesis_rail(rail: &Rails) -> bool {
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum TableError {
     /// Neither a preset nor a file.
-    #[error("there is no table \"{0}\"; use \"match\", \"textbook\", \"thesis\" or the path of a TOML file")]
+    #[error(
+        "there is no table \"{0}\"; use \"match\", \"textbook\", \"thesis\", one of your own by its name, or the path of a TOML file"
+    )]
     Unknown(String),
     /// The TOML text does not describe a table.
     #[error("the table file is not valid: {0}")]

@@ -16,6 +16,9 @@ use crate::{simulation::Rail, table::Table};
 /// How far from where the ball arrives the shift may be that it still tells, diamonds.
 const NEAR: f64 = 0.5;
 
+/// A smaller shift is none to a player, diamonds: the line itself leads to the diamond.
+const LEAST: f64 = 0.05;
+
 /// A line that leads to a diamond, and the shot's line beside it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Shift {
@@ -56,13 +59,16 @@ impl Shift {
     }
 
     /// The shift from the nearest line that leads to a diamond and takes the same cushions; `None` where there is none, it
-    /// is too far off, or the third cushion does not lie along the first.
+    /// is too far off or leads to the diamond itself, or the third cushion does not lie along the first.
     pub(super) fn of(table: &Table, leg: &Leg) -> Option<Self> {
         let [first, second, third] = leg.rails();
         if is_long(first) != is_long(third) {
             return None;
         }
         let aimed = aimed_at(&leg.line(), first)?;
+        if (aimed - aimed.round()).abs() < LEAST {
+            return None;
+        }
         let lower = aimed.floor();
         let mut beside = [lower, lower + 1.0];
         beside.sort_by(|one, other| (one - aimed).abs().total_cmp(&(other - aimed).abs()));

@@ -87,7 +87,10 @@ impl Shift {
         let Self { rails: [first, last], diamond, arrival, by, third, table_third, .. } = self;
         let (first, last) = (first.name(), last.name());
         let side = if *by < 0.0 { "before" } else { "beyond" };
-        let on_table = if tenth(*third) == tenth(*table_third) {
+        // The sum holds as it stands there.
+        let rounded = |number: f64| (10.0 * number).round() / 10.0;
+        let third = rounded(*arrival) + rounded(third - arrival);
+        let on_table = if tenth(third) == tenth(*table_third) {
             String::new()
         } else {
             format!(", on your table {table_third:.1}")

@@ -30,7 +30,7 @@ const NAME: &str = "own";
 pub struct Args {
     /// The entries: TOML as --template prints it, or JSON with the same names.
     file: Option<PathBuf>,
-    /// The table to begin with: "match", "textbook", "thesis" or the path of a TOML file, such as one that was calibrated
+    /// The table to begin with: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file, such as one that was calibrated
     /// before.
     #[arg(long, default_value = "match")]
     table: String,

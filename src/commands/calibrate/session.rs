@@ -36,7 +36,7 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             words(number, test).iter().for_each(tell);
             shown = Some((test.name, session.entries.trials.len()));
         }
-        let names: Vec<&str> = test.marks.iter().map(|mark| mark.name).collect();
+        let names: Vec<&str> = test.asked().collect();
         prompt(&format!("{}: ", names.join(" ")));
         let Some(read) = input.next() else { break };
         let read = read.map_err(|error| Failure::failed(format_args!("the input cannot be read: {error}")))?;
@@ -68,12 +68,12 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
 /// What was typed as an entry.
 fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     let mut entry = Entry { test: test.name.to_owned(), ..Entry::default() };
-    let mut marks = test.marks.iter();
+    let mut marks = test.asked();
     let mut words = text.split_whitespace();
     while let Some(word) = words.next() {
         let is_name = [RAILS, FAR_END].contains(&word) || test.marks.iter().any(|mark| mark.name == word);
         let name =
-            if is_name { word } else { marks.next().ok_or_else(|| format!("\"{word}\" is too much; {HELP}"))?.name };
+            if is_name { word } else { marks.next().ok_or_else(|| format!("\"{word}\" is too much; {HELP}"))? };
         let value = if is_name { words.next().ok_or_else(|| format!("{word} has no value"))? } else { word };
         entry.take(name, value)?;
     }

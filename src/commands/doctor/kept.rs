@@ -90,7 +90,7 @@ impl Kept {
                 count: usize::from(places.settings.exists()),
                 wrong: Complaint::sentences(&places.settings, complaints),
             },
-            tables: tables(&places.tables),
+            tables: tables(places),
             runs: runs(&places.runs),
             sessions: Found { path: places.sessions.clone(), count: sessions.items.len(), wrong: sessions.notes },
             positions: Found { path: places.positions.clone(), count: positions.items.len(), wrong: positions.notes },
@@ -110,13 +110,9 @@ impl Kept {
 }
 
 /// The user's own tables.
-fn tables(folder: &Path) -> Found {
-    let mut found = Found { path: folder.to_owned(), count: 0, wrong: Vec::new() };
-    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-        let path = entry.path();
-        if path.extension().is_none_or(|extension| extension != "toml") {
-            continue;
-        }
+fn tables(places: &Places) -> Found {
+    let mut found = Found { path: places.tables.clone(), count: 0, wrong: Vec::new() };
+    for path in places.own_tables() {
         let text = storage::read_text(&path, storage::SMALL).map_err(|error| error.to_string());
         match text.and_then(|text| Table::from_toml(&text).map_err(|error| error.to_string())) {
             Ok(_) => found.count += 1,

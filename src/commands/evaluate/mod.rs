@@ -40,7 +40,7 @@ pub struct Args {
     /// Seed of the layouts.
     #[arg(long, default_value_t = EVALUATION_SEED, value_parser = seed)]
     seed: u64,
-    /// The table: "match", "textbook", "thesis" or the path of a TOML file.
+    /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "match")]
     table: String,
     /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.

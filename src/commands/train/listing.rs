@@ -12,8 +12,8 @@ use crate::{
     storage::Places,
 };
 
-/// Prints the runs in `folder`, or the user's.
-pub fn print(folder: Option<&Path>, json: bool) -> Result<(), Failure> {
+/// Prints the runs in `folder`, or the user's, and tells whether there are any.
+pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
     let own = Places::of_this_user().runs;
     // Somebody who has never trained has no folder yet.
     let Listing { runs, unreadable } = match (folder, folder.unwrap_or(&own)) {
@@ -30,16 +30,14 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<(), Failure> {
         for run in &runs {
             printing::json_line(&mut out, run)?;
         }
-        return Ok(());
-    }
-    if runs.is_empty() {
+    } else if runs.is_empty() {
         tell(format_args!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display()));
-        return Ok(());
+    } else {
+        for row in table(&runs) {
+            writeln!(out, "{row}")?;
+        }
     }
-    for row in table(&runs) {
-        writeln!(out, "{row}")?;
-    }
-    Ok(())
+    Ok(!runs.is_empty())
 }
 
 const HEADINGS: [&str; 11] =

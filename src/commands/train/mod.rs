@@ -44,7 +44,7 @@ pub struct Args {
     agent: Option<String>,
     #[arg(long, help = rewards())]
     reward: Option<Reward>,
-    /// The table: "match", "textbook", "thesis" or the path of a TOML file. By default as --from, or "match".
+    /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. By default as --from, or "match".
     #[arg(long)]
     table: Option<String>,
     /// Seed of everything random: the same seed gives the same weights.
@@ -133,7 +133,7 @@ impl TrainOptions<'_> {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.list {
-        return listing::print(folder.as_deref(), args.json);
+        return listing::print(folder.as_deref(), args.json).map(drop);
     }
     let limit = args.minutes.map(minutes).transpose()?;
     // The first signal waits for the iteration and the measurement.

@@ -105,7 +105,7 @@ impl App {
             coach: CoachPage::new(table, layout, seed)?,
             training: TrainingPage::new(Places::of_this_user()),
             drills: DrillsPage::new(Places::of_this_user(), seed),
-            settings: SettingsPage::new(Settings::path(), bindings::key_pages()),
+            settings: SettingsPage::new(Settings::path(), Places::of_this_user(), bindings::key_pages()),
             calibration: CalibrationPage::new(Places::of_this_user()),
             wanted_table: None,
             in_force: Settings::default(),
@@ -145,6 +145,7 @@ impl App {
     pub fn with_places(mut self, places: Places) -> Self {
         self.training.folder.clone_from(&places.runs);
         self.drills.places = places.clone();
+        self.settings.places = places.clone();
         self.calibration = CalibrationPage::new(places.clone());
         self.training.places = places;
         self

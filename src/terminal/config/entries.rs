@@ -99,7 +99,7 @@ pub const ENTRIES: &[Entry] = &[
         group: "Game",
         key: "table",
         about: "The table that is played on; F7 measures one of your own.",
-        accepted: "\"match\", \"textbook\", \"thesis\" or the path of a TOML file that is there",
+        accepted: "\"match\", \"textbook\", \"thesis\" or the path of a TOML file that is there; on the screen one of your own by its name",
         choices: || PRESETS.map(quoted).to_vec(),
         get: |settings| quoted(&*settings.table),
         set: |settings, value| {
@@ -265,7 +265,7 @@ fn truths() -> Vec<String> {
     [false, true].map(|truth| truth.to_string()).to_vec()
 }
 
-fn quoted(value: impl Into<String>) -> String {
+pub fn quoted(value: impl Into<String>) -> String {
     toml::Value::String(value.into()).to_string()
 }
 

@@ -6,7 +6,7 @@ use std::{
 };
 
 use crate::{
-    storage::{self, write_atomic},
+    storage::{self, Places, write_atomic},
     terminal::{
         Change, Complaint, Settings,
         config::{
@@ -23,6 +23,8 @@ pub struct SettingsTask {
     pub number: u64,
     /// The file.
     pub path: PathBuf,
+    /// Where the player's own tables are.
+    pub places: Places,
     /// What is to be changed; otherwise the file is read.
     pub change: Option<Change>,
 }
@@ -40,6 +42,8 @@ pub struct SettingsReport {
     pub is_refused: bool,
     /// What is wrong, a sentence each.
     pub troubles: Vec<String>,
+    /// The files of the player's own tables.
+    pub tables: Vec<PathBuf>,
 }
 
 /// The file, with what it said when it was read or written last.
@@ -53,13 +57,14 @@ pub struct SettingsFile {
 impl SettingsFile {
     /// Does a task. What another program has changed since the last one is read, and not overwritten.
     pub fn run(&mut self, task: &SettingsTask) -> SettingsReport {
-        let SettingsTask { number, path, change } = task;
+        let SettingsTask { number, path, places, change } = task;
         let report = |settings, is_writable, troubles| SettingsReport {
             number: *number,
             settings,
             is_writable,
             is_refused: false,
             troubles,
+            tables: places.own_tables(),
         };
         let unwritten = |settings, sentence: String| {
             let sentence =
@@ -142,7 +147,8 @@ mod tests {
     use crate::terminal::Palette;
 
     fn task(path: &Path, change: impl Into<Option<Change>>) -> SettingsTask {
-        SettingsTask { number: 1, path: path.to_owned(), change: change.into() }
+        let places = Places::under(path.parent().unwrap());
+        SettingsTask { number: 1, path: path.to_owned(), places, change: change.into() }
     }
 
     fn theme(name: &str) -> Change {

@@ -21,7 +21,7 @@ use crate::{
 };
 
 pub use change::Change;
-pub use entries::{ENTRIES, Entry};
+pub use entries::{ENTRIES, Entry, quoted};
 pub use file::{SettingsFile, SettingsReport, SettingsTask};
 pub use read::Complaint;
 

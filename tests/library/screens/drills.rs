@@ -191,7 +191,7 @@ fn makes_and_misses_at_a_real_table_are_noted_and_taken_back() {
     assert_eq!((sessions.len(), sessions[0].venue, sessions[0].attempts.len()), (1, Venue::Table, 4));
     assert!(sessions[0].attempts.iter().all(|attempt| attempt.advised.is_some() && attempt.played.is_none()));
     let back = player.press("u u");
-    back.says("2 of 2 made");
+    back.says("2 of 2 made").says("taken back: missed, 2 of 2 now");
     assert_eq!(back.store().sessions().items[0].attempts.len(), 2);
     let none = back.press("u u u");
     none.says("no attempt yet").says("no note from a real table can be taken back");

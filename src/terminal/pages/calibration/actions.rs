@@ -30,7 +30,9 @@ impl CalibrationPage {
                 (false, "an entry is odd, as the values say: amend it or take it out first")
             }
             Condition::Found => (found().is_some(), "nothing is entered yet that a table could follow from"),
-            Condition::Saved => (self.saved().is_some(), "save the table first: s"),
+            Condition::Saved => {
+                (self.saved().is_some(), "save the table first: s; one that was saved before is chosen by its name, F5")
+            }
             Condition::Daily => (
                 self.table.doubt.is_some(),
                 "a check of the day needs a table that was calibrated before: save one and play on it",

@@ -47,8 +47,7 @@ impl CoachPage {
             ),
             CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
             CoachCondition::Interrupted => {
-                let is_gone = self.before.is_none() || self.is_begun();
-                refuse(is_gone && self.left_exam.is_none(), "there is no earlier session to go on with")
+                refuse(self.before.is_none() && self.left_exam.is_none(), "there is no earlier session to go on with")
             }
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),
             CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is the coach's"),

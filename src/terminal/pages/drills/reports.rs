@@ -2,7 +2,7 @@
 
 use crate::{
     coach::Skill,
-    drills::{Exercise, Library, Session},
+    drills::{Attempt, Exercise, Library, Session},
     terminal::{
         DrillReport, DrillTask, Loaded,
         pages::drills::{Book, DrillsPage, Estimate, Question, Stage},
@@ -102,17 +102,21 @@ impl DrillsPage {
 
     /// A session is on the disk, or could not be written.
     fn saved(&mut self, session: &Session, saved: Result<(), String>) -> Vec<DrillTask> {
+        let before = self.book.sessions().iter().find(|known| known.id == session.id);
+        let taken_back = before.and_then(|before| before.attempts.get(session.attempts.len())).cloned();
         self.book.put(session);
         let tasks = self.turn.as_mut().map_or_else(Vec::new, |turn| turn.saved(session));
-        let last = session.attempts.last();
         let record = session.record();
-        self.message = Some(match last {
-            Some(last) => {
-                let what = if last.made { "made" } else { "missed" };
-                let words = format!("noted: {what}, {} of {} now", record.made, record.tried);
-                if last.made { Message::good(words) } else { Message::plain(words) }
-            }
-            None => Message::plain("taken back: nothing is noted now"),
+        let what = |attempt: &Attempt| if attempt.made { "made" } else { "missed" };
+        let now = match record.tried {
+            0 => "nothing is noted now".to_owned(),
+            tried => format!("{} of {tried} now", record.made),
+        };
+        self.message = Some(match (taken_back, session.attempts.last()) {
+            (Some(attempt), _) => Message::plain(format!("taken back: {}, {now}", what(&attempt))),
+            (None, Some(last)) if last.made => Message::good(format!("noted: made, {now}")),
+            (None, Some(_)) => Message::plain(format!("noted: missed, {now}")),
+            (None, None) => Message::plain(now),
         });
         if session.is_over() {
             self.message = Some(Message::good(format!("done: {} of {} made", record.made, record.tried)));

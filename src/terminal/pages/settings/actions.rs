@@ -2,12 +2,15 @@
 
 use crossterm::event::KeyEvent;
 
-use crate::terminal::{
-    Change, Effect, Settings, SettingsAction as Action, SettingsCondition,
-    config::{ENTRIES, Entry},
-    keymap::Chord,
-    pages::settings::{Input, LONGEST, Screen, SettingsPage},
-    ui::{Message, TextField},
+use crate::{
+    storage::is_called,
+    terminal::{
+        Change, Effect, Settings, SettingsAction as Action, SettingsCondition,
+        config::{ENTRIES, Entry},
+        keymap::Chord,
+        pages::settings::{Input, LONGEST, Screen, SettingsPage, TABLE},
+        ui::{Message, TextField},
+    },
 };
 
 impl SettingsPage {
@@ -70,7 +73,7 @@ impl SettingsPage {
     /// The value before or after the present one: of numbers the next smaller or larger, of names around the end.
     fn step(&mut self, step: isize) -> Option<Effect> {
         let entry = self.marked();
-        let (choices, now) = ((entry.choices)(), (entry.get)(&self.settings));
+        let (choices, now) = (self.choices(entry), (entry.get)(&self.settings));
         let number = |text: &String| text.parse::<f64>().ok();
         let next = match number(&now) {
             Some(now) if step > 0 => choices.iter().find(|choice| number(choice).is_some_and(|n| n > now)),
@@ -91,7 +94,10 @@ impl SettingsPage {
 
     /// Gives the marked setting a value that was chosen or typed.
     fn set(&mut self, typed: &str) -> Option<Effect> {
-        self.give_value(self.marked(), typed)
+        let entry = self.marked();
+        let own = self.tables.iter().find(|path| entry.key == TABLE && is_called(path, typed));
+        let path = own.map(|path| path.to_string_lossy().into_owned());
+        self.give_value(entry, path.as_deref().unwrap_or(typed))
     }
 
     /// Gives the setting `key` a value that was chosen elsewhere.

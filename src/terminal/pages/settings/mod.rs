@@ -11,13 +11,19 @@ mod view;
 
 use std::path::PathBuf;
 
-use crate::terminal::{
-    Change, Effect, Settings, SettingsContext, SettingsReport, SettingsTask,
-    config::{ENTRIES, Entry},
-    keymap::{Chord, KeyPage},
-    pages::settings::own_keys::OwnKeys,
-    ui::{Message, TextField},
+use crate::{
+    storage::Places,
+    terminal::{
+        Change, Effect, Settings, SettingsContext, SettingsReport, SettingsTask,
+        config::{ENTRIES, Entry, quoted},
+        keymap::{Chord, KeyPage},
+        pages::settings::own_keys::OwnKeys,
+        ui::{Message, TextField},
+    },
 };
+
+/// The setting that names the table.
+const TABLE: &str = "table";
 
 /// Longest value that is typed, bytes: the path of a table is one.
 const LONGEST: usize = 1000;
@@ -47,6 +53,10 @@ pub enum Input {
 pub struct SettingsPage {
     /// The file.
     pub path: PathBuf,
+    /// Where the player's files are.
+    pub places: Places,
+    /// The files of the player's own tables, as far as is known.
+    pub tables: Vec<PathBuf>,
     /// What is in force.
     pub settings: Settings,
     /// What the file says; `None` until it was read, and where it cannot be.
@@ -72,9 +82,11 @@ pub struct SettingsPage {
 
 impl SettingsPage {
     /// The screen before it is opened.
-    pub fn new(path: PathBuf, pages: Vec<KeyPage>) -> Self {
+    pub fn new(path: PathBuf, places: Places, pages: Vec<KeyPage>) -> Self {
         Self {
             path,
+            places,
+            tables: Vec::new(),
             settings: Settings::default(),
             file: None,
             is_writable: true,
@@ -124,6 +136,24 @@ impl SettingsPage {
         Some((entry.get)(file)).filter(|value| *value != (entry.get)(&self.settings))
     }
 
+    /// The files of the player's own tables, if the setting is the table.
+    pub fn own_tables_of(&self, entry: &Entry) -> impl Iterator<Item = &PathBuf> {
+        self.tables.iter().filter(move |_| entry.key == TABLE)
+    }
+
+    /// Values of a setting to step through, as TOML.
+    fn choices(&self, entry: &Entry) -> Vec<String> {
+        let own = self.own_tables_of(entry).map(|path| quoted(path.to_string_lossy()));
+        (entry.choices)().into_iter().chain(own).collect()
+    }
+
+    /// A value without the quotes that TOML wants; one of the player's own tables by its name.
+    pub fn shown(&self, value: &str) -> String {
+        let value = value.trim_matches(['"', '\'']);
+        let own = self.tables.iter().find(|path| path.as_os_str() == value).and_then(|path| path.file_stem());
+        own.map_or_else(|| value.to_owned(), |name| name.to_string_lossy().into_owned())
+    }
+
     /// The key context.
     pub const fn place(&self) -> SettingsContext {
         match (&self.input, self.page) {
@@ -148,13 +178,19 @@ impl SettingsPage {
 
     fn task(&mut self, change: Option<Change>) -> Effect {
         self.sent += 1;
-        Effect::Settings(Box::new(SettingsTask { number: self.sent, path: self.path.clone(), change }))
+        Effect::Settings(Box::new(SettingsTask {
+            number: self.sent,
+            path: self.path.clone(),
+            places: self.places.clone(),
+            change,
+        }))
     }
 
     /// Takes what has come of a task, and gives what is wrong. A change that was refused is taken back, as long as
     /// nothing has been changed since; then what another program has changed in the file comes into force.
     pub fn receive(&mut self, report: SettingsReport) -> Vec<String> {
-        let SettingsReport { number, settings: file, is_writable, is_refused, troubles } = report;
+        let SettingsReport { number, settings: file, is_writable, is_refused, troubles, tables } = report;
+        self.tables = tables;
         if is_refused && number == self.sent {
             self.settings = match (&self.file, &file) {
                 (Some(known), Some(file)) => self.before.with_changes(known, file),

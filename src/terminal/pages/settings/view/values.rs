@@ -55,12 +55,12 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
     let x = area.x + NAME;
     let room = usize::from(area.right().saturating_sub(x + 5));
-    let text = shorten(&shown(&(entry.get)(&settings.settings)), room, ui.caps);
+    let text = shorten(&settings.shown(&(entry.get)(&settings.settings)), room, ui.caps);
     let mut spans =
         vec![Span::styled(left, ui.theme.faint()), Span::styled(text, value), Span::styled(right, ui.theme.faint())];
     if let Some(other) = settings.other_in_file(entry) {
         let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
-        let whole = format!(" now; the file has {}", shown(&other));
+        let whole = format!(" now; the file has {}", settings.shown(&other));
         // Where there is no room, the words on the marked setting say the rest.
         let note = if columns(&whole) <= room { whole } else { " now".to_owned() };
         spans.push(Span::styled(note, ui.theme.warning()));
@@ -68,18 +68,18 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     ui.buffer.set_line(x, area.y, &Line::from(spans), area.right().saturating_sub(x));
 }
 
-/// A value without the quotes that TOML wants.
-fn shown(value: &str) -> String {
-    value.trim_matches(['"', '\'']).to_owned()
-}
-
 fn draw_words(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
     let entry = settings.marked();
     let inner = draw_title(entry.key, area, ui);
     let default = (entry.get)(&Settings::default());
+    let own: Vec<String> = settings
+        .own_tables_of(entry)
+        .filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()))
+        .collect();
+    let accepted = if own.is_empty() { String::new() } else { format!(" Your own: {}.", own.join(", ")) };
     let mut paragraphs = vec![
         (entry.about.to_owned(), ui.theme.text()),
-        (format!("Accepted: {}.", entry.accepted), ui.theme.text()),
+        (format!("Accepted: {}.{accepted}", entry.accepted), ui.theme.text()),
         (format!("Default: {default}."), if settings.is_changed(entry) { ui.theme.text() } else { ui.theme.faint() }),
     ];
     if let Some(other) = settings.other_in_file(entry) {
