@@ -13,7 +13,7 @@ use super::{
     next::NextValue,
     pool::Candidate,
     search::Search,
-    trial::{CONTACT_STEPS, ENDLESS, Task},
+    trial::{CONTACT_STEPS, ENDLESS, Task, unhurried},
 };
 use crate::{
     game::Rule,
@@ -168,8 +168,6 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     let best = pool[0];
     keep_one_of_each(&mut pool, task.skill, task.table.radius);
     pool.truncate(1 + ALTERNATIVES);
-    // Another stream than that of the search, whatever its seed.
-    let seed = request.seed ^ 0x6a75_6467_6521_u64.rotate_left(17);
     // Drawn by whoever is the first to need them: where there is no time for them, neither is there for their drawing.
     let attempts: Vec<OnceLock<Draws>> = (0..ATTEMPTS).step_by(PIECE).map(|_| OnceLock::new()).collect();
     let pieces: Vec<(usize, usize)> = (0..pool.len())
@@ -179,7 +177,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         })
         .collect();
     let made = parallel::map(request.threads, &pieces, |(index, piece)| {
-        let own = || Draws::independent(PIECE, task.worlds, seed.wrapping_add(*piece as u64));
+        let own = || judging(task.worlds, request.seed, *piece);
         task.attempts(&pool[*index].shot.cue, attempts[*piece].get_or_init(own).iter())
     });
     let probability = |candidate: usize| {
@@ -211,7 +209,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         source: best.shot.source,
         kind: Some(best.kind),
         make_probability: probability(0),
-        risk: risk(&best.shot.cue, task, request, seed),
+        risk: risk(&best.shot.cue, task, request, judging_seed(request.seed)),
         next_probability: told_next(best.next),
         alternatives,
         ..first_point(found)
@@ -315,16 +313,38 @@ pub fn make_probability(
     attempts: usize,
     seed: u64,
 ) -> SuccessRate {
-    let shooter = shooter.into();
-    let (skill, doubt) = (shooter.skill, shooter.doubts());
-    let never = AtomicBool::new(false);
-    let clock = Clock::start(Duration::MAX, u64::MAX, &never);
-    let (worlds, until) = (Worlds::new(table, layout, doubt), clock.moment(1.0));
-    let task =
-        Task { table, layout, rule, skill, jumps: true, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
-    let draws = Draws::independent(attempts, &worlds, seed);
-    let attempts = task.attempts(cue, draws.iter());
-    SuccessRate::new(attempts.made, attempts.tried)
+    unhurried(table, layout, rule, shooter.into(), ENDLESS, &AtomicBool::new(false), |task| {
+        let attempts = task.attempts(cue, Draws::independent(attempts, task.worlds, seed).iter());
+        SuccessRate::new(attempts.made, attempts.tried)
+    })
+}
+
+/// How often a stroke is made under the first `attempts` errors by which the answer to a request with `seed` is judged: of the
+/// recommended stroke, the number that stands in the answer.
+pub fn judge(
+    shooter: Shooter,
+    rule: Rule,
+    table: &Table,
+    layout: &Layout,
+    cue: &CueInputs,
+    attempts: usize,
+    seed: u64,
+) -> SuccessRate {
+    unhurried(table, layout, rule, shooter, ENDLESS, &AtomicBool::new(false), |task| {
+        let pieces =
+            (0..attempts.div_ceil(PIECE)).map(|piece| task.attempts(cue, judging(task.worlds, seed, piece).iter()));
+        let (made, tried) = pieces.fold((0, 0), |sum, part| (sum.0 + part.made, sum.1 + part.tried));
+        SuccessRate::new(made, tried)
+    })
+}
+
+/// One piece of the errors by which the answer to a request with `seed` is judged: another stream than that of the search.
+fn judging(worlds: &Worlds, seed: u64, piece: usize) -> Draws {
+    Draws::independent(PIECE, worlds, judging_seed(seed).wrapping_add(piece as u64))
+}
+
+const fn judging_seed(seed: u64) -> u64 {
+    seed ^ 0x6a75_6467_6521_u64.rotate_left(17)
 }
 
 #[cfg(test)]

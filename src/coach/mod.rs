@@ -31,7 +31,7 @@ pub mod words;
 
 pub use advice::{Alternative, Improvement, Recommendation, Source, Suggestion};
 pub use aim::{Aim, Hit, Mark, aim, first_hit, line_of_aim};
-pub use coach::{Coach, make_probability};
+pub use coach::{Coach, judge, make_probability};
 pub use doubt::{Doubt, UnknownDoubt};
 pub use ease::{Ease, Sample};
 pub use kind::{Kind, Pace, Way};

@@ -25,6 +25,10 @@ const HARDEST_USUAL: f64 = 4.0;
 /// (120 layouts).
 const HARDER: f64 = 2.0;
 
+/// What is taken off for a shot that makes its point by meeting the first ball twice: nobody means it so, and after a kiss a model
+/// knows least where balls go.
+const AGAIN: f64 = 0.05;
+
 /// The errors that shots are compared on, the same for all of them. Of every four attempts the last is at a larger one.
 #[derive(Debug)]
 pub struct Race {
@@ -91,7 +95,7 @@ pub struct Candidate {
     pub drift: Errors,
     /// Probability of the next point; supposed to be 1 until candidates are looked at for it.
     pub next: NextValue,
-    /// What is taken off for a stroke that is hard to play, whatever its errors.
+    /// What is taken off for a stroke that is hard to play or meets the first ball twice, whatever its errors.
     pub effort_penalty: f64,
 }
 
@@ -117,7 +121,7 @@ impl Candidate {
             wide: 0,
             drift: Errors::default(),
             next: NextValue::Supposed(1.0),
-            effort_penalty: weight * effort(cue),
+            effort_penalty: weight * effort(cue) + if course.tally.met_again { AGAIN } else { 0.0 },
         }
     }
 

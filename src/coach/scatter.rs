@@ -1,15 +1,14 @@
 //! Where the balls come to rest when a player tries a shot again and again.
 
-use std::{sync::atomic::AtomicBool, time::Duration};
+use std::sync::atomic::AtomicBool;
 
 use glam::DVec2;
 
 use super::{
     Shooter,
-    clock::Clock,
-    draws::{Draws, Worlds},
+    draws::Draws,
     next::end_of,
-    trial::{CONTACT_STEPS, Task},
+    trial::{CONTACT_STEPS, unhurried},
 };
 use crate::{
     game::Rule,
@@ -51,21 +50,13 @@ pub fn scatter(
     seed: u64,
     cancel: &AtomicBool,
 ) -> Scatter {
-    let clock = Clock::start(Duration::MAX, u64::MAX, cancel);
-    let shooter = shooter.into();
-    let (skill, worlds) = (shooter.skill, Worlds::new(table, layout, shooter.doubts()));
-    let (until, patience) = (clock.moment(1.0), CONTACT_STEPS);
-    let task = Task { table, layout, rule, skill, jumps: true, worlds: &worlds, clock: &clock, until, patience };
-    let draws = Draws::independent(attempts, &worlds, seed);
-    let draws: Vec<_> = draws.iter().collect();
-    let ends =
-        parallel::map(
-            platform::threads(),
-            &draws,
-            |draw| {
-                if clock.is_cancelled() { None } else { end_of(&task, cue, *draw) }
-            },
-        );
+    let ends = unhurried(table, layout, rule, shooter.into(), CONTACT_STEPS, cancel, |task| {
+        let draws = Draws::independent(attempts, task.worlds, seed);
+        let draws: Vec<_> = draws.iter().collect();
+        parallel::map(platform::threads(), &draws, |draw| {
+            if task.clock.is_cancelled() { None } else { end_of(task, cue, *draw) }
+        })
+    });
     let ends: Vec<Layout> = ends.into_iter().flatten().collect();
     let made = SuccessRate::new(ends.len(), attempts);
     Scatter { ends, made }

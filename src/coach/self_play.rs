@@ -8,11 +8,10 @@ use std::{
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
-    Coach, Doubt, Request,
-    clock::Clock,
+    Coach, Doubt, Request, Shooter,
     draws::{Draw, World, Worlds},
     next::end_of,
-    trial::{ENDLESS, Task},
+    trial::{ENDLESS, unhurried},
 };
 use crate::{
     physics::CueInputs,
@@ -85,11 +84,8 @@ fn turn(
     world: &World,
 ) -> Option<Layout> {
     // Nothing breaks a stroke off that has been made.
-    let (always, never) = (Duration::MAX, AtomicBool::new(false));
-    let clock = Clock::start(always, u64::MAX, &never);
-    let Request { rule, skill, .. } = *request;
-    let (until, worlds) = (clock.moment(1.0), Worlds::new(table, layout, Doubt::NONE));
-    let task =
-        Task { table, layout, rule, skill, jumps: true, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
-    end_of(&task, cue, Draw { errors, world: Some(world) })
+    let shooter = Shooter { skill: request.skill, doubt: Doubt::NONE };
+    unhurried(table, layout, request.rule, shooter, ENDLESS, &AtomicBool::new(false), |task| {
+        end_of(task, cue, Draw { errors, world: Some(world) })
+    })
 }

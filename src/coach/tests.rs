@@ -56,6 +56,20 @@ fn what_is_called_solved_makes_the_point_under_every_rule() {
     }
 }
 
+#[test]
+fn a_stroke_is_judged_as_the_coachs_own_were() {
+    let coach = coach();
+    let layout = held_out_layouts(coach.table(), 1, 5)[0];
+    let shooter = Shooter { skill: Skill::CLUB, doubt: Doubt::FULL };
+    let asked = Request { skill: Skill::CLUB, doubt: Doubt::FULL, seed: 7, ..request(Rule::ThreeCushion, 3_000) };
+    let advice = coach.recommend(&layout, &asked).unwrap();
+    let others = advice.alternatives.iter().map(|other| (other.cue, other.make_probability));
+    for (cue, said) in others.chain([(advice.cue, advice.make_probability)]) {
+        let said = said.unwrap();
+        assert_eq!(judge(shooter, asked.rule, coach.table(), &layout, &cue, said.trials, asked.seed), said);
+    }
+}
+
 /// The estimate is made on errors that took no part in the choice: it must agree with a plain Monte-Carlo estimate of a
 /// hundred thousand attempts. Four standard errors are exceeded once in 16,000 such comparisons.
 #[test]

@@ -1,9 +1,13 @@
 //! One stroke played by a referee who looks at the clock: a shot with a stiff contact can take seconds.
 
-use std::{ops::ControlFlow, time::Instant};
+use std::{
+    ops::ControlFlow,
+    sync::atomic::AtomicBool,
+    time::{Duration, Instant},
+};
 
 use super::{
-    Skill,
+    Shooter, Skill,
     candidates::{MAX_ELEVATION, playable},
     clock::Clock,
     draws::{Draw, World, Worlds},
@@ -55,6 +59,22 @@ pub const CONTACT_STEPS: u32 = 100;
 
 /// A patience that follows every contact to its end.
 pub const ENDLESS: u32 = u32::MAX;
+
+/// Hands over the task of trying strokes of `shooter` that neither time nor the number of simulations ends; `cancel`, set from
+/// another thread, does.
+pub fn unhurried<T>(
+    table: &Table,
+    layout: &Layout,
+    rule: Rule,
+    shooter: Shooter,
+    patience: u32,
+    cancel: &AtomicBool,
+    play: impl FnOnce(&Task) -> T,
+) -> T {
+    let clock = Clock::start(Duration::MAX, u64::MAX, cancel);
+    let (skill, worlds, until) = (shooter.skill, Worlds::new(table, layout, shooter.doubts()), clock.moment(1.0));
+    play(&Task { table, layout, rule, skill, jumps: true, worlds: &worlds, clock: &clock, until, patience })
+}
 
 impl Task<'_> {
     /// The stroke as a player can play it here: see [`playable`].

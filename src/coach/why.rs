@@ -1,15 +1,14 @@
 //! Why a shot leads: its margin, the kiss that lies in wait, what it leaves, and how the next best differs.
 
-use std::{ops::ControlFlow, sync::atomic::AtomicBool, time::Duration};
+use std::{ops::ControlFlow, sync::atomic::AtomicBool};
 
 use glam::DVec2;
 use serde::Serialize;
 
 use super::{
     Input, Pattern, Recommendation, Sensitivity, Shooter, Technique, Units,
-    clock::Clock,
-    draws::{Draws, Worlds},
-    trial::{CONTACT_STEPS, Task},
+    draws::Draws,
+    trial::{CONTACT_STEPS, Task, unhurried},
     words::{self, PlaceUnit, short, table_lengths},
 };
 use crate::{
@@ -131,29 +130,18 @@ fn kiss(shooter: Shooter, rule: Rule, table: &Table, layout: &Layout, cue: &CueI
     if shooter.skill.is_perfect() {
         return None;
     }
-    let never = AtomicBool::new(false);
-    let clock = Clock::start(Duration::MAX, u64::MAX, &never);
-    let worlds = Worlds::new(table, layout, shooter.doubt);
-    let (skill, until) = (shooter.skill, clock.moment(1.0));
-    let task = Task {
-        table,
-        layout,
-        rule,
-        skill,
-        jumps: true,
-        worlds: &worlds,
-        clock: &clock,
-        until,
-        patience: CONTACT_STEPS,
-    };
-    let meant = Contacts::of(table, layout, cue, f64::INFINITY);
+    unhurried(table, layout, rule, shooter, CONTACT_STEPS, &AtomicBool::new(false), |task| worst_kiss(task, cue, seed))
+}
+
+fn worst_kiss(task: &Task, cue: &CueInputs, seed: u64) -> Option<Kiss> {
+    let meant = Contacts::of(task.table, task.layout, cue, f64::INFINITY);
     if !task.point().is_made(&meant.tally) {
         return None;
     }
     // What happens long after the meant shot is over spoils nothing.
     let latest = 1.2 * meant.met.last().map_or(0.0, |contact| contact.0);
     let mut found: Vec<([usize; 2], CueInputs, &Table, &Layout, f64)> = Vec::new();
-    let draws = Draws::independent(ATTEMPTS, &worlds, seed);
+    let draws = Draws::independent(ATTEMPTS, task.worlds, seed);
     for draw in draws.iter() {
         let (stroke, real, balls) = task.stroke(cue, draw);
         if stroke.is_miscue(real) {
@@ -356,8 +344,12 @@ mod tests {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let coach = Coach::without_policy(table.clone());
-        let request =
-            Request { skill: Skill::CLUB, simulations: 3000, budget: Duration::from_secs(60), ..Request::default() };
+        let request = Request {
+            skill: Skill::CLUB,
+            simulations: 3000,
+            budget: std::time::Duration::from_secs(60),
+            ..Request::default()
+        };
         let advice = coach.recommend(&layout, &request).unwrap();
         let why = why(request.shooter(), request.rule, &table, &layout, &advice, 1).unwrap();
         assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));

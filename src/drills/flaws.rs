@@ -39,7 +39,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         ("the cue has room for it", has_room(&table, layout, &cue)),
         ("it makes the point by its rule", Point::of(exercise.rule, &table, layout).is_made(&technique.tally)),
         ("it meets yellow first", technique.first.is_some_and(|hit| hit.ball == 1)),
-        ("it meets yellow only once before red", technique.is_clean),
+        ("it meets yellow only once before red", technique.again.is_none()),
         ("it covers at least a twentieth of yellow", technique.fullness() >= 0.05),
         ("yellow stays away from red but in a time shot", technique.drives_second == is_tagged("time")),
     ];

@@ -81,6 +81,8 @@ pub struct Tally {
     pub cushions_before_first: u32,
     /// Cushions that it had hit when it met its second object ball.
     pub cushions_before_second: u32,
+    /// Whether it has met its first object ball again before the second.
+    pub met_again: bool,
     /// Whether a ball has left the table, which is a foul by every rule: no point.
     pub left_table: bool,
     /// How many balls are in the air.
@@ -103,6 +105,7 @@ impl Tally {
                     self.cushions_before_first = self.cushions;
                 }
             }
+            EventKind::BallBall(0, _) => self.met_again |= !self.met_both(),
             EventKind::Jumps(_) => self.aloft += 1,
             EventKind::Lands(_) => self.aloft -= 1,
             EventKind::LeavesTable(_) => {

@@ -105,6 +105,16 @@ impl fmt::Display for Shift {
     }
 }
 
+impl Guide {
+    /// What is counted, without the name of a parallel shift, for where there is little room.
+    pub fn counted(&self) -> String {
+        match self {
+            Self::System(applied) => applied.to_string(),
+            Self::Shift(shift) => shift.counted(),
+        }
+    }
+}
+
 impl fmt::Display for Guide {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

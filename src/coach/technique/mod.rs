@@ -6,6 +6,7 @@ mod patterns;
 use patterns::BENT;
 pub use patterns::{PATTERNS, Pattern};
 
+use glam::DVec2;
 use serde::Serialize;
 
 use super::{Hit, Mark, aim::hit, first_hit};
@@ -18,6 +19,9 @@ use crate::{
 
 /// How long before an event its course is read, s: at its own time it has already changed.
 const JUST_BEFORE: f64 = 1e-9;
+
+/// Space beside a cushion within which a ball lies close to it, ball radii: two balls.
+const CLOSE: f64 = 4.0;
 
 /// A cushion that the cue ball meets.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -60,8 +64,10 @@ pub struct Technique {
     pub english: f64,
     /// Whether the first ball touches the second before the cue ball is there.
     pub drives_second: bool,
-    /// Whether the cue ball meets the first ball once only before the second.
-    pub is_clean: bool,
+    /// Whether the first ball lies close to the last cushion before it.
+    pub is_close: bool,
+    /// After how many of the cushions between the balls the cue ball first meets the first ball again, if it does so before the second.
+    pub again: Option<usize>,
     /// Largest distance of two balls at the end, m.
     pub spread: f64,
 }
@@ -93,7 +99,8 @@ impl Technique {
             roll: 0.0,
             english: 0.0,
             drives_second: false,
-            is_clean: true,
+            is_close: false,
+            again: None,
             spread: spread(&recording.final_layout()),
         };
         technique.follow(table, recording);
@@ -144,9 +151,16 @@ impl Technique {
                     first = Some(ball);
                     incoming = Some(before.velocity);
                     let ahead = before.velocity.normalize_or_zero();
+                    let space = self
+                        .before
+                        .last()
+                        .map(|cushion| space_at(table, cushion.rail, recording.state(ball, event.time).position));
+                    self.is_close = space.is_some_and(|space| space < CLOSE * table.radius);
                     self.roll = table.radius * before.spin.truncate().dot(ahead.perp()) / before.velocity.length();
                 }
-                EventKind::BallBall(0, ball) if first == Some(ball) => self.is_clean = false,
+                EventKind::BallBall(0, ball) if first == Some(ball) => {
+                    self.again.get_or_insert(self.between.len());
+                }
                 EventKind::BallRail(0, rail) => {
                     let along = before.velocity.dot(rail.normal().perp().abs());
                     if self.before.is_empty() && self.between.is_empty() {
@@ -165,6 +179,12 @@ impl Technique {
             }
         }
     }
+}
+
+/// Space between a ball at `place` and a cushion, m.
+fn space_at(table: &Table, rail: Rail, place: DVec2) -> f64 {
+    let normal = rail.normal().abs();
+    (table.reach() - place.abs()).dot(normal)
 }
 
 /// Largest distance of two balls, m.
@@ -216,6 +236,14 @@ mod tests {
         assert_eq!(running.before.first().map(|cushion| cushion.rail), Some(Rail::Top));
         assert!(running.before[0].along > 0.0 && running.bend < 0.01);
         assert_eq!(running.first, None);
+    }
+
+    #[test]
+    fn a_ball_that_is_met_twice_is_told_with_the_cushions_before_that() {
+        // The red ball comes off the short rail and meets the cue ball that follows it.
+        let twice = technique("0.9,0 1.2,0 -1,0.5", "0,0.5,2,0.2,3");
+        assert_eq!((twice.again, twice.first.map(|hit| hit.ball)), (Some(0), Some(1)));
+        assert_eq!(technique("-0.3,0 0,0 -1,0.3", "0,-0.4,2,0.3,3").again, None);
     }
 
     #[test]

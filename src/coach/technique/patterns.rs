@@ -65,7 +65,7 @@ pub const PATTERNS: [Pattern; 31] = [
         course: "a cushion, a ball close to it, the same cushion again, and on to the other ball",
         is_it: |t| {
             let last = t.before.last().map(|cushion| cushion.rail);
-            last.is_some() && last == t.between.first().map(|cushion| cushion.rail)
+            t.is_close && last == t.between.first().map(|cushion| cushion.rail)
         },
     },
     Pattern {
@@ -77,7 +77,7 @@ pub const PATTERNS: [Pattern; 31] = [
     Pattern {
         tag: "rail-first",
         name: "rail first",
-        course: "a cushion, a ball, two other cushions or more, the other ball",
+        course: "a cushion, a ball, two cushions or more, the other ball",
         is_it: |t| t.before.len() == 1 && t.between.len() >= 2,
     },
     Pattern {

@@ -78,6 +78,9 @@ pub struct ShotWords {
     pub before: Vec<Cushion>,
     /// Cushions from there to the second ball, in order.
     pub between: Vec<Cushion>,
+    /// After how many of those the first ball is met again, if it is.
+    #[serde(skip)]
+    again: Option<usize>,
     /// Where the cue points.
     pub ahead: Mark,
     /// Where it comes from.
@@ -128,6 +131,7 @@ impl ShotWords {
             is_level: cue.theta - least <= LEVEL,
             before: technique.before.clone(),
             between: technique.between.clone(),
+            again: technique.again,
             ahead,
             behind,
             direction: DVec2::from_angle(cue.phi),

@@ -40,7 +40,10 @@ impl ShotWords {
         };
         let mut stops = cushions(&self.before);
         stops.extend(self.first.map(|hit| names[hit.ball].to_owned()));
-        stops.extend(cushions(&self.between));
+        let (until, since) = self.between.split_at(self.again.unwrap_or_default().min(self.between.len()));
+        stops.extend(cushions(until));
+        stops.extend(self.again.and(self.first).map(|hit| format!("{} again", names[hit.ball])));
+        stops.extend(cushions(since));
         stops.extend(self.second.map(|hit| names[hit.ball].to_owned()));
         capital(&stops.join(" \u{2013} "))
     }

@@ -92,6 +92,8 @@ pub struct Proposal {
 pub struct Advice {
     /// The shot that it recommends, then the others that may be chosen.
     pub proposals: Vec<Proposal>,
+    /// The question's seed, which tells by which errors its shots were judged.
+    pub seed: u64,
     /// What it has cost, if that is to be shown.
     pub effort: Option<Effort>,
     /// What the coach has found, where it is asked why its shot leads.

@@ -11,8 +11,8 @@ use std::{
 
 use crate::{
     coach::{
-        Coach, Improvement, Input, Recommendation, Request, Sensitivity, Skill, Why, make_probability, scatter,
-        systems::guide, why,
+        Coach, Improvement, Input, Recommendation, Request, Sensitivity, Skill, Why, judge, scatter, systems::guide,
+        why,
     },
     learning::Policy,
     physics::CueInputs,
@@ -42,11 +42,6 @@ const RIM: f64 = 1.1;
 /// Attempts whose ends are shown: enough to see the cloud, few enough to see through it.
 const ATTEMPTS: usize = 100;
 
-/// Attempts at a stroke of the player's own: its share is right to 2 % in two of three cases, in the time between two keys. Their
-/// seed is the same for all strokes: two are to differ by what they are, and not by luck.
-const JUDGED: usize = 500;
-const JUDGED_SEED: u64 = 0x7768_6174_2069_6621;
-
 /// A question to the coach.
 #[derive(Clone, Debug)]
 pub struct Job {
@@ -62,8 +57,8 @@ pub struct Job {
     pub shot: Option<CueInputs>,
     /// What was found, where it is to be said why that shot leads.
     pub found: Option<Arc<Recommendation>>,
-    /// A stroke of the player's own: how often it is made is all that is asked then.
-    pub stroke: Option<CueInputs>,
+    /// A stroke of the player's own and attempts at it: how often it is made is all that is asked then.
+    pub stroke: Option<(CueInputs, usize)>,
     /// Time that the coach may think.
     pub budget: Duration,
     /// Seed of the coach's random numbers.
@@ -117,11 +112,11 @@ impl CoachWorker {
     /// Answers a question on this thread; `tell` hears everything as soon as it is known. A panic becomes a sentence.
     pub fn answer(&mut self, job: &Job, mut tell: impl FnMut(Answer)) {
         let mut tell = |news| tell(Answer { id: job.id, news });
-        if let Some(cue) = job.stroke {
-            let Job { table, layout, query, .. } = job;
-            let judge = || make_probability(query.shooter(), query.rule, table, layout, &cue, JUDGED, JUDGED_SEED);
+        if let Some((cue, attempts)) = job.stroke {
+            let Job { table, layout, query, seed, .. } = job;
+            let judged = || judge(query.shooter(), query.rule, table, layout, &cue, attempts, *seed);
             // Where it fails, it is not known.
-            if let Ok(made) = catch_unwind(AssertUnwindSafe(judge)) {
+            if let Ok(made) = catch_unwind(AssertUnwindSafe(judged)) {
                 tell(CoachNews::Judged(made));
             }
             return;
@@ -235,7 +230,7 @@ fn proposals(job: &Job, layout: &Layout, found: Recommendation) -> Result<Advice
     });
     let proposals = std::iter::once(Ok(best)).chain(others).collect::<Result<_, String>>()?;
     let effort = Some(Effort { simulations: found.simulations, elapsed: found.elapsed });
-    Ok(Advice { proposals, effort, found: found.solved.then(|| Arc::new(found)) })
+    Ok(Advice { proposals, seed: job.seed, effort, found: found.solved.then(|| Arc::new(found)) })
 }
 
 /// Looks at a shot closely, which was recorded; breaks off between two parts where nobody waits any more.

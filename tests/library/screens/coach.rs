@@ -170,7 +170,8 @@ fn a_shot_without_a_point_is_said_to_be_one() {
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(SHOT).unwrap(), false, "policy").unwrap();
     let attempt = Proposal { shot: Arc::new(shot), kind: None, made: None, risk: None, next: None, is_early: false };
     let effort = Some(Effort { simulations: 4321, elapsed: Duration::from_secs(2) });
-    let player = player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![attempt], effort, found: None }));
+    let player =
+        player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![attempt], seed: 1, effort, found: None }));
     assert!(player.text(120, 40).contains("Contacts 0/"));
     assert!(player.text(80, 24).contains("no point found in 4321 simulations; this is the best attempt"));
 }

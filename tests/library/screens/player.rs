@@ -84,7 +84,7 @@ pub fn advice(job: &Job) -> Advice {
     let proposal = |cue, way, made| proposal(&job.table, &job.layout, cue, way, made);
     let best = proposal(SHOT, Way::OffCushion, 940);
     let others = OTHERS.into_iter().zip([893, 620]).map(|(cue, made)| proposal(cue, Way::AroundTheTable, made));
-    Advice { proposals: std::iter::once(best).chain(others).collect(), effort: None, found: None }
+    Advice { proposals: std::iter::once(best).chain(others).collect(), seed: 1, effort: None, found: None }
 }
 
 /// Where one begins.
@@ -287,7 +287,7 @@ impl Player {
         let end = self.app.shot().unwrap().recording.final_layout();
         let next = proposal(&job.table, &end, NEXT, Way::Direct, 1000);
         self.tell(job.id, CoachNews::Study(study.unwrap()))
-            .tell(job.id, CoachNews::Next(Some(Advice { proposals: vec![next], effort: None, found: None })))
+            .tell(job.id, CoachNews::Next(Some(Advice { proposals: vec![next], seed: 1, effort: None, found: None })))
     }
 
     pub fn report(mut self, report: Report) -> Self {

@@ -18,7 +18,7 @@ fn shown(caps: Capabilities, cue: &str) -> Player {
     let job = player.asked.take().unwrap();
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
     let proposal = Proposal { shot: Arc::new(shot), kind: None, made: None, risk: None, next: None, is_early: false };
-    player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![proposal], effort: None, found: None }))
+    player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![proposal], seed: 1, effort: None, found: None }))
 }
 
 /// How many cells of the table have this colour before them.

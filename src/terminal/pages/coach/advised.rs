@@ -14,6 +14,8 @@ pub struct AdviceState {
     pub query: CoachQuery,
     /// Why the first shot leads, once that is known.
     pub why: Option<Why>,
+    /// Tells by which errors the shots were judged.
+    pub seed: u64,
     found: Option<Arc<Recommendation>>,
     choices: Vec<Choice>,
     chosen: usize,
@@ -36,8 +38,9 @@ impl AdviceState {
     /// `advice` that `query` gave; `None` if it is empty.
     pub fn new(query: CoachQuery, advice: Advice) -> Option<Self> {
         let choice = |proposal| Choice { proposal, study: None, next: None, is_studied: false };
-        let choices: Vec<_> = advice.proposals.into_iter().map(choice).collect();
-        (!choices.is_empty()).then_some(Self { query, why: None, found: advice.found, choices, chosen: 0 })
+        let Advice { proposals, seed, found, .. } = advice;
+        let choices: Vec<_> = proposals.into_iter().map(choice).collect();
+        (!choices.is_empty()).then_some(Self { query, why: None, seed, found, choices, chosen: 0 })
     }
 
     /// All shots, the recommended one first.

@@ -15,6 +15,9 @@ use crate::{
     },
 };
 
+/// Attempts at a stroke of the player's own where the coach's was not judged.
+const JUDGED: usize = 500;
+
 /// The player's own stroke beside the coach's.
 #[derive(Debug)]
 pub struct Compared {
@@ -96,15 +99,18 @@ impl CoachPage {
         self.judge()
     }
 
-    /// Asks how often the player makes the stroke as it is set now; one who makes no errors does not ask.
+    /// Asks how often the player makes the stroke as it is set now, under the errors by which the coach's was judged: two strokes
+    /// are to differ by what they are, and not by luck. One who makes no errors does not ask.
     fn judge(&mut self) -> Option<Effect> {
         if self.query.skill.is_perfect() {
             return None;
         }
         let cue = self.compared.as_ref()?.what_if.shot().cue;
+        let attempts = self.proposal()?.made.map_or(JUDGED, |made| made.trials);
+        let seed = self.advised()?.seed;
         let job = self.job(None);
         let cancel = self.compared.as_mut()?.what_if.ask(job.id);
-        Some(Effect::Ask(Box::new(Job { stroke: Some(cue), cancel, ..job })))
+        Some(Effect::Ask(Box::new(Job { stroke: Some((cue, attempts)), seed, cancel, ..job })))
     }
 
     fn refuse(&mut self, sentence: &str) -> Option<Effect> {
@@ -137,7 +143,7 @@ mod tests {
         let shot = Arc::new(Shot::new(&table, &layout, cue, true, "search").unwrap());
         let made = Some(SuccessRate::new(890, 1000));
         let best = Proposal { shot, kind: None, made, risk: None, next: None, is_early: false };
-        let advice = Advice { proposals: vec![best], effort: None, found: None };
+        let advice = Advice { proposals: vec![best], seed: 1, effort: None, found: None };
         assert!(page.receive(Answer { id: job.id, news: CoachNews::Advice(advice) }).is_some(), "it is studied");
         page
     }
@@ -156,10 +162,10 @@ mod tests {
     fn each_change_asks_once_how_often_the_stroke_is_made_and_late_answers_are_dropped() {
         let mut page = advised();
         let first = asked(&mut page, Action::WhatIf);
-        assert_eq!(first.stroke, page.shot().map(|shot| shot.cue));
+        assert_eq!(first.stroke.map(|(cue, _)| cue), page.shot().map(|shot| shot.cue));
         let second = asked(&mut page, HARDER);
         assert!(first.cancel.load(Ordering::Relaxed) && !second.cancel.load(Ordering::Relaxed));
-        assert!((second.stroke.unwrap().speed - 2.6).abs() < 1e-9);
+        assert!((second.stroke.unwrap().0.speed - 2.6).abs() < 1e-9);
         let tell = |page: &mut CoachPage, id: u64, made| {
             assert!(page.receive(Answer { id, news: CoachNews::Judged(SuccessRate::new(made, 100)) }).is_none());
             page.what_if().unwrap().made().map(|rate| rate.rate)

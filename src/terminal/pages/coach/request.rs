@@ -72,7 +72,7 @@ impl CoachPage {
             if pending.query == self.query {
                 words += "; this is the best shot so far";
             }
-            self.show(pending.query, Advice { proposals: vec![so_far], effort: None, found: None });
+            self.show(pending.query, Advice { proposals: vec![so_far], seed: pending.id, effort: None, found: None });
         }
         self.message = Some(Message::plain(words));
     }

@@ -178,7 +178,7 @@ impl CoachPage {
             let made = told.made.map(|(made, of)| SuccessRate::new(made, of));
             let is_early = told.author == Author::Search;
             let proposal = Proposal { shot, kind: None, made, risk: None, next: None, is_early };
-            let advice = Advice { proposals: vec![proposal], effort: None, found: None };
+            let advice = Advice { proposals: vec![proposal], seed: 1, effort: None, found: None };
             position.advised = AdviceState::new(self.query.clone(), advice);
             // The closer look is the player's own.
             if let Some(advised) = &mut position.advised {

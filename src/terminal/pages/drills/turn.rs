@@ -246,6 +246,20 @@ impl Turn {
         if let Lesson::Known(taught) = &self.lesson { Some(taught) } else { None }
     }
 
+    /// The same while it is shown.
+    pub fn hint(&self) -> Option<&Taught> {
+        self.taught().filter(|_| self.shows_hint)
+    }
+
+    /// The stroke whose numbers are shown: the one that is taught while it is shown, the one that was played, or the one that is set.
+    pub fn shown_stroke(&self) -> CueInputs {
+        match (self.hint(), self.watched()) {
+            (Some(taught), _) => taught.shot.cue,
+            (None, Some(watched)) => watched.meant,
+            (None, None) => self.raised_stroke(),
+        }
+    }
+
     /// The shot on the table: the one that is watched, the one that is taught while it is shown, or the player's own beside it.
     pub fn shot(&self) -> Option<&Shot> {
         if let Some(what_if) = self.what_if() {
@@ -253,7 +267,7 @@ impl Turn {
         }
         match self.watched() {
             Some(watched) if !self.shows_hint => watched.outcome.shot.as_deref(),
-            _ => self.taught().filter(|_| self.shows_hint).map(|taught| taught.shot.as_ref()),
+            _ => self.hint().map(|taught| taught.shot.as_ref()),
         }
     }
 

@@ -132,7 +132,7 @@ fn sentences(guide: &Guide) -> Vec<(String, bool)> {
     let applied = match guide {
         Guide::System(applied) => applied,
         Guide::Shift(shift) => {
-            let why = "No system has this line; the dots lead to a diamond beside it.";
+            let why = "The dots are the line to the diamond.";
             return vec![
                 (shift.counted(), true),
                 (why.to_owned(), false),
@@ -157,11 +157,6 @@ fn sentences(guide: &Guide) -> Vec<(String, bool)> {
         ),
         ("On the cloth: where the ball comes to the third cushion.".to_owned(), false),
     ]
-}
-
-/// What a player counts for the shot that is shown, in a line; `None` where no system applies.
-pub fn system_words(coach: &CoachPage) -> Option<String> {
-    coach.guide().map(ToString::to_string)
 }
 
 #[cfg(test)]

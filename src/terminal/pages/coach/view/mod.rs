@@ -30,7 +30,7 @@ use crate::{
                     card::draw_card,
                     chances::{choice_at, draw_chances, draw_why},
                     header::draw_header,
-                    lesson::{draw_lesson, draw_numbers, lesson_spots, system_words},
+                    lesson::{draw_lesson, draw_numbers, lesson_spots},
                     maps::{draw_aim_map, draw_legend, draw_tip_map},
                     margins::draw_margins,
                     own_stroke::{COACH, draw_own_stroke},
@@ -271,17 +271,14 @@ fn status_line(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
     })
 }
 
-/// The line of aim, and what a system counts for the shot; the system alone where a row has no room for both, since the line
-/// is told above as well, and no more than a row of it where words stand there.
+/// The line of aim, and what a system counts for the shot: as much of it as a row has room for, what is counted before all else, since
+/// the line is told above as well.
 fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
     let aim = spell(&shot.words.aim(coach.units), ui.caps);
-    let Some(system) = system_words(coach).filter(|_| coach.what_if().is_none()) else { return aim };
-    let both = format!("{aim} {system}");
-    match columns(&both) <= room {
-        true => both,
-        false if coach.view == View::Shot => shorten(&system, room, ui.caps),
-        false => system,
-    }
+    let Some(guide) = coach.guide().filter(|_| coach.what_if().is_none()) else { return aim };
+    let (named, counted) = (guide.to_string(), guide.counted());
+    let fits = [format!("{aim} {named}"), named].into_iter().find(|words| columns(words) <= room);
+    fits.unwrap_or_else(|| shorten(&counted, room, ui.caps))
 }
 
 /// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.

@@ -22,7 +22,7 @@ const WAY_LETTER: char = '*';
 const NAMES: u16 = 6;
 
 /// What the distances of the stops are.
-const SPREAD_WORDS: &str = "half of the points leave the balls so near to the planned positions";
+const SPREAD_WORDS: &str = "half of the points leave the balls so near";
 
 /// Draws the panel; without a shot it says `empty`.
 pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, ui: &mut Ui) {

@@ -22,12 +22,16 @@ use crate::{
 /// Fullness from which on a hit is called 100 % full.
 const FULL: f64 = 0.995;
 
-/// Draws the numbers of the stroke that is set, or was meant.
+/// Draws the numbers of the stroke that is set, or was meant, or of the one that is taught while it is shown.
 pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
-    let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
-    // In a match one plays both sides.
-    let title =
-        if turn.session.is_match() { format!("The stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
+    let cue = turn.shown_stroke();
+    let title = match turn.hint() {
+        Some(Taught { is_own: true, .. }) => "Model shot".to_owned(),
+        Some(_) => "The coach's shot".to_owned(),
+        // In a match one plays both sides.
+        None if turn.session.is_match() => format!("The stroke of {}", turn.cue_ball),
+        None => "Your stroke".to_owned(),
+    };
     let inner = draw_title(title, area, ui);
     let degree = ui.caps.pick("°", " deg");
     let millimetres = |radii: f64, [more, less]: [&str; 2]| {
@@ -81,8 +85,8 @@ pub fn draw_aim(turn: &Turn, area: Rect, ui: &mut Ui) {
         }
         // In a game the balls have gone elsewhere, and what was to be learnt with them.
         let is_elsewhere = turn.session.is_game() && turn.layout != turn.exercise.layout;
-        match turn.taught() {
-            Some(taught) if turn.shows_hint => paragraphs.push((hint(turn, taught, ui.caps), ui.theme.text())),
+        match turn.hint() {
+            Some(taught) => paragraphs.push((hint(turn, taught, ui.caps), ui.theme.text())),
             _ if is_elsewhere || turn.exercise.point.is_empty() => {}
             _ => paragraphs.push((turn.exercise.point.clone(), ui.theme.text())),
         }
