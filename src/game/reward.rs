@@ -174,15 +174,14 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_shot_at_two_balls_in_line_earns_what_asks_for_no_cushion() {
+    fn a_half_ball_carom_earns_what_asks_for_no_cushion() {
         let table = Table::default();
-        let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(0.0, 0.0), DVec2::new(0.5, 0.03)]);
-        let cue = CueInputs::parse("0,0.3,0,1,4").unwrap();
-        assert_eq!(Reward::R1.of(&table, &layout, &cue), 1.0);
-        assert_eq!(Reward::R1Difficulty.of(&table, &layout, &cue), 1.0);
-        assert!(Reward::R2.of(&table, &layout, &cue) > 1.0 && Reward::R4.of(&table, &layout, &cue) > 1.0);
-        assert_eq!(Reward::R3.of(&table, &layout, &cue), 1.0);
-        assert_eq!([Reward::OneCushion, Reward::ThreeCushion].map(|reward| reward.of(&table, &layout, &cue)), [0.0; 2]);
+        let layout = Layout::parse("-0.4,0 0,0 0.2,0.28", &table).unwrap();
+        let cue = CueInputs::parse("0,0.25,3,4.5,1.5").unwrap();
+        let earned = |reward: Reward| reward.of(&table, &layout, &cue);
+        assert_eq!([Reward::R1, Reward::R1Difficulty, Reward::R3].map(earned), [1.0; 3]);
+        assert!([Reward::R2, Reward::R4].map(earned).iter().all(|reward| *reward > 1.0));
+        assert_eq!([Reward::OneCushion, Reward::ThreeCushion].map(earned), [0.0; 2]);
     }
 
     #[test]

@@ -201,7 +201,8 @@ fn the_page_of_the_command_line_names_every_field_of_an_answer() {
         "evaluate --self-play --layouts 1 --simulations 100 --skill beginner",
         "drill list",
         "drill show half-ball",
-        "play --coach --against-coach --innings 1 --strokes 2 --budget-ms 50",
+        "play --coach --innings 1 --strokes 2 --budget-ms 50",
+        "play --against-coach --innings 1 --strokes 2 --budget-ms 50",
         "doctor",
     ] {
         let name = line.split(' ').next().unwrap();
@@ -209,7 +210,8 @@ fn the_page_of_the_command_line_names_every_field_of_an_answer() {
             page.split_once(&format!("\n## carom {}\n", if name == "play" { "drill" } else { name })).unwrap().1;
         let section = section.split("\n## ").next().unwrap();
         let mut command = carom(&line.split(' ').chain(["--json"]).collect::<Vec<_>>());
-        let said = command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path()).assert().success();
+        let said =
+            command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path()).write_stdin("").assert().success();
         let said = String::from_utf8(said.get_output().stdout.clone()).unwrap();
         for answer in said.lines() {
             let answer: serde_json::Value = serde_json::from_str(answer).unwrap();

@@ -170,7 +170,9 @@ mod tests {
     fn links_stay() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("config.toml");
-        SettingsFile::default().run(&task(&path, None));
+        let mut file = SettingsFile::default();
+        file.run(&task(&path, None));
+        file.run(&task(&path, theme("light")));
         let linked = folder.path().join("linked.toml");
         std::os::unix::fs::symlink(&path, &linked).unwrap();
         let mut file = SettingsFile::default();

@@ -71,7 +71,7 @@ fn a_parallel_shift_is_drawn_before_the_systems_and_is_of_its_shot_alone() {
     player.shows(&["- Parallel shift for this shot -", "top 3 to top 4.1; aimed 0.2"]);
     let large = player.text(120, 40);
     assert!(
-        large.contains("The dots are the line to the diamond") && large.contains("further along the third"),
+        large.contains("The dots are the line to the") && large.contains("further along the third"),
         "{large}"
     );
     let next = player.press("y");

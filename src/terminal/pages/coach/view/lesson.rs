@@ -12,7 +12,7 @@ use crate::{
     table::Table,
     terminal::{
         Glyphs, Mapping,
-        pages::coach::{CoachPage, lesson::Lesson},
+        pages::coach::lesson::Lesson,
         ui::{Spot, Theme, Ui, columns, draw_title, wrap},
         words::fixed,
     },
