@@ -54,6 +54,27 @@ fn what_is_wrong_with_a_table_is_said() {
 }
 
 #[test]
+fn a_table_of_ones_own_is_listed_and_found_by_its_name() {
+    let home = tempfile::tempdir().unwrap();
+    let tables = home.path().join("carom/tables");
+    std::fs::create_dir_all(&tables).unwrap();
+    let shown = text(&["table", "show", "match"]);
+    std::fs::write(tables.join("mine.toml"), shown.replace("name = \"match\"", "name = \"mine\"")).unwrap();
+    std::fs::write(tables.join("bad.toml"), "L = 0").unwrap();
+    let at_home = |args: &[&str]| {
+        let mut command = carom(args);
+        command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path());
+        let done = command.assert().success();
+        [&done.get_output().stdout, &done.get_output().stderr].map(|bytes| String::from_utf8(bytes.clone()).unwrap())
+    };
+    let [listed, told] = at_home(&["table", "list"]);
+    assert!(listed.contains("mine: 2.84 x 1.42 m") && listed.lines().count() == 4, "{listed}");
+    assert!(told.starts_with("note: ") && told.contains("bad.toml"), "{told}");
+    at_home(&["simulate", "--table", "mine", "--shot", "0,0,0,0,2"]);
+    assert!(said(&["simulate", "--table", "yours", "--shot", "0,0,0,0,2"], 2).contains("one of your own by its name"));
+}
+
+#[test]
 fn every_shell_has_its_completions() {
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let script = text(&["completions", shell]);

@@ -75,6 +75,26 @@ fn the_table_comes_back_with_a_step_back() {
 }
 
 #[test]
+fn tables_of_ones_own_are_stepped_through_and_typed_by_their_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let tables = folder.path().join("tables");
+    fs::create_dir(&tables).unwrap();
+    for name in ["cellar", "club"] {
+        let text = include_str!("../../../src/table/match.toml").replace("\"match\"", &format!("\"{name}\""));
+        fs::write(tables.join(format!("{name}.toml")), text).unwrap();
+    }
+    let player = Player::in_folder(TRUE_COLOUR, folder).press("F5 Down Down Down Left");
+    player.shows(&["club", "Your own: cellar, club."]);
+    assert_eq!(player.app.table().name, "club");
+    let player = player.press("Left");
+    assert_eq!(player.app.table().name, "cellar");
+    for typed in ["club", "club.toml"] {
+        let player = player.press("Enter").type_in(typed).press("Enter");
+        assert_eq!(player.app.table().name, "club");
+    }
+}
+
+#[test]
 fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
     let player = new().press("Down Down Down Down Down Down Down Down Down Enter").type_in("5");
     player.shows(&["think_ms = 5", "Accepted: 10 to 60000.", "Enter take it"]);

@@ -70,10 +70,7 @@ fn a_parallel_shift_is_drawn_before_the_systems_and_is_of_its_shot_alone() {
     let player = advised(Player::with(ASCII), "-0.6035,-0.355 0.165,0.42 0,0.3", "0,0.2,2,75,4").press("Esc y");
     player.shows(&["- Parallel shift for this shot -", "top 3 to top 4.1; aimed 0.2"]);
     let large = player.text(120, 40);
-    assert!(
-        large.contains("The dots are the line to the") && large.contains("further along the third"),
-        "{large}"
-    );
+    assert!(large.contains("The dots are the line to the") && large.contains("further along the third"), "{large}");
     let next = player.press("y");
     next.shows(&["System - Corner-5 example"]);
     let mut shift = next.press("y y y y");
