@@ -84,13 +84,13 @@ fn tables_of_ones_own_are_stepped_through_and_typed_by_their_names() {
         fs::write(tables.join(format!("{name}.toml")), text).unwrap();
     }
     let player = Player::in_folder(TRUE_COLOUR, folder).press("F5 Down Down Down Left");
-    player.shows(&["club", "Your own: cellar, club."]);
+    player.shows(&["◂ club ▸", "own: cellar, club."]);
     assert_eq!(player.app.table().name, "club");
-    let player = player.press("Left");
+    let mut player = player.press("Left");
     assert_eq!(player.app.table().name, "cellar");
-    for typed in ["club", "club.toml"] {
-        let player = player.press("Enter").type_in(typed).press("Enter");
-        assert_eq!(player.app.table().name, "club");
+    for (typed, name) in [("club", "club"), ("cellar.toml", "cellar")] {
+        player = player.press("Enter").type_in(typed).press("Enter");
+        assert_eq!(player.app.table().name, name);
     }
 }
 
@@ -222,12 +222,11 @@ fn a_key_is_given_other_work_and_gets_its_own_back() {
     let player = new().press("Tab");
     check("keys", &player);
     let own = "[keys]\nx = \"Enter\"\n";
-    let plain = with(NO_COLOUR, own).press("Tab Down Down");
+    let plain = with(NO_COLOUR, own).press("Tab Down");
     plain.is_plain().shows(&["Keys ◂ Coach ▸", "▸ ↓ j           move the ball down by one step"]);
     let plain = with(ASCII, own).press("Tab Right Right");
     plain.is_plain().shows(&["Keys < "]);
-    // Behind the first command is the one that moves a ball to the left.
-    let asked = player.press("Down Enter");
+    let asked = player.press("Enter");
     assert_eq!(asked.app.place(), KeyContext::Settings(SettingsContext::Pressing));
     asked.says("press the key that is to do this: move the ball left by one step");
     let refused = asked.press("Enter");

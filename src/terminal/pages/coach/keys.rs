@@ -201,8 +201,6 @@ const POSITIONS: &[Binding<A, W>] = &[
 pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
     bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("ask", 1)), "ask the coach for a shot"),
-    bind(Balls, W::Interrupted, &[letter('c', A::Resume)], Some(("go on", 1)),
-        "go on with the exam that was left, or from where the last session ended"),
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled weights again, as at the start"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
@@ -265,6 +263,8 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Balls, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
     bind(Balls, W::Redoable, &[letter('U', A::Redo), ctrl('r', A::Redo)], Some(("redo", 1)),
         "make a change again that was taken back"),
+    bind(Balls, W::Interrupted, &[letter('c', A::Resume)], Some(("go on", 1)),
+        "go on with the exam that was left, or from where the last session ended"),
     bind(Balls, W::Idle, &[letter('o', A::Opening)], None, "put the balls on their spots; again for the other side")
         .known_as("clear reset opening break start"),
     bind(Balls, W::Idle, &[letter('r', A::Random)], None, "random position").known_as("shuffle"),
