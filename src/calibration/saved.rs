@@ -33,7 +33,7 @@ pub fn save_table(path: &Path, table: &Table) -> Result<(), SaveError> {
     let unwritten = |error| SaveError::Unwritten(path.to_owned(), error);
     let text = toml::to_string(table).map_err(|error| unwritten(io::Error::other(error)))?;
     let text = format!(
-        "# Written by carom calibrate; carom recommend --table with the name of this file plays on it.\n{text}"
+        "# Written by carom calibrate. carom recommend --table plays on it, with the path of this file.\n{text}"
     );
     write_atomic(&target_of(path), text.as_bytes()).map_err(unwritten)
 }

@@ -320,7 +320,7 @@ pub fn make_probability(
 }
 
 /// How often a stroke is made under the first `attempts` errors by which the answer to a request with `seed` is judged: of the
-/// recommended stroke, the number that stands in the answer.
+/// recommended stroke, the number that stands in the answer, if there was time for all attempts at it.
 pub fn judge(
     shooter: Shooter,
     rule: Rule,

@@ -31,7 +31,7 @@ pub struct Args {
     /// Number of random shots on each table. Default: 1000, or 96 with --quick; with --stability 100000, or 10000
     #[arg(long, value_parser = whole(1..=1_000_000_000_u32))]
     shots: Option<u32>,
-    /// Seed of the shots. Default: 2026; of the stability table 1.
+    /// Seed of the shots. Default: 2026, or 1 in the stability table
     #[arg(long, value_parser = seed)]
     seed: Option<u64>,
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file; where balls leave its cloth, strokes of up to 60

@@ -22,14 +22,14 @@ use crate::{
     learning::{Policy, policy::file::Origin},
     printing,
     storage::{self, Places},
-    table::{Layout, Table, TableError},
+    table::{CueBall, Layout, Table, TableError},
 };
 
 /// A bundled table, the one in the TOML file at the path `name`, or the user's own of that name.
 pub fn table_named(name: &str) -> Result<Table, Failure> {
     match Table::preset(name) {
         Err(error @ TableError::Unknown(_)) => {
-            let path = Some(PathBuf::from(name)).filter(|path| path.exists());
+            let path = Some(PathBuf::from(name)).filter(|path| path.exists() && !path.is_dir());
             let path = path.or_else(|| Places::of_this_user().own_table(name));
             table_in(&path.ok_or_else(|| Failure::wrong_input(error))?)
         }
@@ -73,11 +73,14 @@ impl PositionArgs {
     /// What is described; the layout is checked.
     pub fn read(&self) -> Result<(Table, Layout), Failure> {
         let table = table_named(&self.table)?;
-        let layout = match &self.layout {
-            None => Layout::opening(&table),
-            Some(text) => Layout::parse(text, &table).map_err(Failure::wrong_input)?,
+        let opening = Layout::opening(&table);
+        let Some(text) = &self.layout else {
+            opening.validate(&table).map_err(Failure::wrong_input)?;
+            return Ok((table, opening));
         };
-        layout.validate(&table).map_err(Failure::wrong_input)?;
+        Layout::parse(text, &table).map_err(Failure::wrong_input)?;
+        // What is wrong with places is said in the unit in which they were typed.
+        let layout = opening.with_positions(text, &table, CueBall::White, 0).map_err(Failure::wrong_input)?;
         Ok((table, layout))
     }
 }
@@ -232,6 +235,17 @@ impl<T, F: Fn(Table) -> Result<T, Failure>> ByTable<T, F> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_ball_beside_the_table_is_told_in_the_unit_in_which_it_was_typed() {
+        let said = |layout: &str| {
+            let args = PositionArgs { table: "match".to_owned(), layout: Some(layout.to_owned()) };
+            args.read().unwrap_err().to_string()
+        };
+        assert!(said("9d,1d 7d,1d 1d,1d").contains("accepted are 0.09d to 7.91d"));
+        assert!(said("2,0 0,0 0.5,0").contains("accepted are |x| <= 1.3892"));
+        assert!(said("0,0 0.5,0").contains("0,0 0.5,0"), "one place is missing");
+    }
 
     #[test]
     fn no_time_is_refused_and_named() {

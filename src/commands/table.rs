@@ -48,7 +48,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Order::List => {
             let bundled = PRESETS.iter().map(|name| Table::preset(name).map_err(Failure::failed));
             let own = Places::of_this_user().own_tables();
-            for table in bundled.chain(own.iter().map(|file| table_in(file))) {
+            // By the names by which they are found.
+            let named = |file: &PathBuf| {
+                let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                table_in(file).map(|table| Table { name, ..table })
+            };
+            for table in bundled.chain(own.iter().map(named)) {
                 let table = match table {
                     Ok(table) => table,
                     Err(failure) => {

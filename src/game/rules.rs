@@ -219,6 +219,19 @@ mod tests {
     }
 
     #[test]
+    fn a_first_ball_that_is_met_again_is_noted_until_the_second_is_met() {
+        let met_again = |balls: &[usize]| {
+            let mut tally = Tally::default();
+            for ball in balls {
+                tally.note(&Event { time: 0.0, kind: EventKind::BallBall(0, *ball) });
+            }
+            tally.met_again
+        };
+        assert!(met_again(&[1, 1, 2]) && met_again(&[2, 2]));
+        assert!(!met_again(&[1, 2]) && !met_again(&[1, 2, 1]));
+    }
+
+    #[test]
     fn the_same_ball_twice_is_no_point() {
         let tally = tally(&[EventKind::BallBall(0, 1), RAIL, EventKind::BallBall(0, 1)]);
         assert!(tally.met_any() && !tally.is_point(Rule::StraightRail));

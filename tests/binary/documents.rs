@@ -59,7 +59,7 @@ fn a_table_of_ones_own_is_listed_and_found_by_its_name() {
     let tables = home.path().join("carom/tables");
     std::fs::create_dir_all(&tables).unwrap();
     let shown = text(&["table", "show", "match"]);
-    std::fs::write(tables.join("mine.toml"), shown.replace("name = \"match\"", "name = \"mine\"")).unwrap();
+    std::fs::write(tables.join("mine.toml"), &shown).unwrap();
     std::fs::write(tables.join("bad.toml"), "L = 0").unwrap();
     let at_home = |args: &[&str]| {
         let mut command = carom(args);
@@ -209,7 +209,7 @@ fn the_page_of_the_command_line_has_every_command_and_option_and_no_other() {
 }
 
 #[test]
-fn the_page_of_the_command_line_names_every_field_of_an_answer() {
+fn the_page_of_the_command_line_names_every_top_level_field_of_an_answer() {
     let home = tempfile::tempdir().unwrap();
     let page = include_str!("../../docs/command-line.md");
     for line in [
@@ -236,7 +236,8 @@ fn the_page_of_the_command_line_names_every_field_of_an_answer() {
         let said = String::from_utf8(said.get_output().stdout.clone()).unwrap();
         for answer in said.lines() {
             let answer: serde_json::Value = serde_json::from_str(answer).unwrap();
-            for field in answer.as_object().unwrap().keys().filter(|field| !is_of_an_exercise(field)) {
+            for field in answer.as_object().unwrap().keys().filter(|field| name != "drill" || !is_of_an_exercise(field))
+            {
                 assert!(section.contains(&format!("`{field}`")), "carom {line}: {field}");
             }
         }

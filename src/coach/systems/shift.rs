@@ -59,7 +59,7 @@ impl Shift {
     }
 
     /// The shift from the nearest line that leads to a diamond and takes the same cushions; `None` where there is none, it
-    /// is too far off or leads to the diamond itself, or the third cushion does not lie along the first.
+    /// is too far off, the shot's own line leads to the diamond, or the third cushion does not lie along the first.
     pub(super) fn of(table: &Table, leg: &Leg) -> Option<Self> {
         let [first, second, third] = leg.rails();
         if is_long(first) != is_long(third) {

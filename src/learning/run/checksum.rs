@@ -1,7 +1,6 @@
 //! A checksum within the file that it guards: any changed byte is noticed, wherever it stands.
 
-/// What a file that is to have a checksum has at one place: it is the first field of a JSON note, which stands as a
-/// text in the JSON of the header.
+/// The bytes before the checksum: it is the first field of a JSON note, which stands as a text in the JSON of the header.
 const MARK: &[u8] = br#"{\"checksum\":\""#;
 
 /// Hexadecimal digits of a checksum.

@@ -15,8 +15,11 @@ use crate::{
     },
 };
 
-/// Attempts at a stroke of the player's own where the coach's was not judged.
+/// Attempts at a stroke of the player's own where the coach's was not judged, since its search was stopped.
 const JUDGED: usize = 500;
+
+/// The fewest where it was.
+const LEAST: usize = 100;
 
 /// The player's own stroke beside the coach's.
 #[derive(Debug)]
@@ -106,7 +109,9 @@ impl CoachPage {
             return None;
         }
         let cue = self.compared.as_ref()?.what_if.shot().cue;
-        let attempts = self.proposal()?.made.map_or(JUDGED, |made| made.trials);
+        let coach = self.proposal()?;
+        let judged = coach.made.filter(|_| !coach.is_early);
+        let attempts = judged.map_or(JUDGED, |made| made.trials.max(LEAST));
         let seed = self.advised()?.seed;
         let job = self.job(None);
         let cancel = self.compared.as_mut()?.what_if.ask(job.id);

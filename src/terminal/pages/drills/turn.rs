@@ -251,15 +251,6 @@ impl Turn {
         self.taught().filter(|_| self.shows_hint)
     }
 
-    /// The stroke whose numbers are shown: the one that is taught while it is shown, the one that was played, or the one that is set.
-    pub fn shown_stroke(&self) -> CueInputs {
-        match (self.hint(), self.watched()) {
-            (Some(taught), _) => taught.shot.cue,
-            (None, Some(watched)) => watched.meant,
-            (None, None) => self.raised_stroke(),
-        }
-    }
-
     /// The shot on the table: the one that is watched, the one that is taught while it is shown, or the player's own beside it.
     pub fn shot(&self) -> Option<&Shot> {
         if let Some(what_if) = self.what_if() {

@@ -4,6 +4,7 @@ use crossterm::event::KeyEvent;
 
 use crate::{
     storage::is_called,
+    table::PRESETS,
     terminal::{
         Change, Effect, Settings, SettingsAction as Action, SettingsCondition,
         config::{ENTRIES, Entry},
@@ -81,8 +82,12 @@ impl SettingsPage {
             None => {
                 let count = choices.len();
                 let place = choices.iter().position(|choice| *choice == now);
-                let next = place.map_or(0, |place| (place + count).saturating_add_signed(step) % count);
-                choices.get(next)
+                let mut others = (1..=count.cast_signed()).map(|steps| match place {
+                    Some(place) => (place.cast_signed() + steps * step).rem_euclid(count.cast_signed()).cast_unsigned(),
+                    None => steps.cast_unsigned() - 1,
+                });
+                // A table of the player's own may not be readable.
+                others.find(|other| self.settings.with(entry, &choices[*other]).is_ok()).map(|other| &choices[other])
             }
         };
         let Some(next) = next.cloned() else {
@@ -95,7 +100,8 @@ impl SettingsPage {
     /// Gives the marked setting a value that was chosen or typed.
     fn set(&mut self, typed: &str) -> Option<Effect> {
         let entry = self.marked();
-        let own = self.tables.iter().find(|path| entry.key == TABLE && is_called(path, typed));
+        let own =
+            self.tables.iter().find(|path| entry.key == TABLE && !PRESETS.contains(&typed) && is_called(path, typed));
         let path = own.map(|path| path.to_string_lossy().into_owned());
         self.give_value(entry, path.as_deref().unwrap_or(typed))
     }

@@ -22,26 +22,33 @@ use crate::{
 /// Fullness from which on a hit is called 100 % full.
 const FULL: f64 = 0.995;
 
-/// Draws the numbers of the stroke that is set, or was meant, or of the one that is taught while it is shown.
+/// Draws the numbers of the stroke that is set, or was meant.
 pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
-    let cue = turn.shown_stroke();
-    let title = match turn.hint() {
-        Some(Taught { is_own: true, .. }) => "Model shot".to_owned(),
-        Some(_) => "The coach's shot".to_owned(),
-        // In a match one plays both sides.
-        None if turn.session.is_match() => format!("The stroke of {}", turn.cue_ball),
-        None => "Your stroke".to_owned(),
-    };
+    let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
+    // In a match one plays both sides.
+    let title =
+        if turn.session.is_match() { format!("The stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
     let inner = draw_title(title, area, ui);
-    let degree = ui.caps.pick("°", " deg");
+    for ((name, value), row) in numbers(&cue, turn.table.radius, ui.caps).into_iter().zip(inner.y..inner.bottom()) {
+        let line = Line::from(vec![
+            Span::styled(format!("{name:<7}"), ui.theme.faint()),
+            Span::styled(value, ui.theme.text()),
+        ]);
+        ui.buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
+    }
+}
+
+/// The numbers of a stroke with a ball of this radius, m, and what they are called.
+fn numbers(cue: &CueInputs, radius: f64, caps: Capabilities) -> [(&'static str, String); 5] {
+    let degree = caps.pick("°", " deg");
     let millimetres = |radii: f64, [more, less]: [&str; 2]| {
-        let offset = 1000.0 * turn.table.radius * radii;
+        let offset = 1000.0 * radius * radii;
         match fixed(offset.abs(), 1).as_str() {
             "0.0" => "middle".to_owned(),
             size => format!("{size} mm {}", if offset > 0.0 { more } else { less }),
         }
     };
-    let rows = [
+    [
         ("aim", cue.phi_text(2) + degree),
         ("side", millimetres(cue.a, ["left", "right"])),
         ("height", millimetres(cue.b, ["up", "down"])),
@@ -53,14 +60,7 @@ pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
                 angle => format!("{angle}{degree} up"),
             },
         ),
-    ];
-    for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
-        let line = Line::from(vec![
-            Span::styled(format!("{name:<7}"), ui.theme.faint()),
-            Span::styled(value, ui.theme.text()),
-        ]);
-        ui.buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
-    }
+    ]
 }
 
 /// Draws where the stroke is aimed and what is to be learnt; once it was played, how it compares.
@@ -164,7 +164,8 @@ fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, caps: Capabilities
 fn hint(turn: &Turn, taught: &Taught, caps: Capabilities) -> String {
     let advice = &taught.advice;
     let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", caps);
-    format!("{} makes {}: {changes}", teacher(taught), percent(advice.chance.rate))
+    let numbers = numbers(&advice.cue, turn.table.radius, caps).map(|(name, value)| format!("{name} {value}"));
+    format!("{} makes {}: {}. Yours: {changes}", teacher(taught), percent(advice.chance.rate), numbers.join(", "))
 }
 
 /// How often the stroke is made, and the advised one.
