@@ -157,7 +157,11 @@ context context-three-cushion-28th --from "$folder/context-three-cushion-27th" -
 context context-three-cushion-29th --from "$folder/context-three-cushion-28th" --seed 731 --steps 2500000 $heads $choice $fine --set "$speeds" $rails
 context context-three-cushion-30th --from "$folder/context-three-cushion-29th" --seed 741 --steps 3800000 $heads $taught $awake $again --set "$speeds" $rails
 # The mean of four times as many attempts for every shot.
-context context-three-cushion --from "$folder/context-three-cushion-30th" --seed 751 --steps 8000000 $heads $choice $critic --set attempts=32 --set shots_per_update=96 --set "$speeds" $rails
+context context-three-cushion-31st --from "$folder/context-three-cushion-30th" --seed 751 --steps 8000000 $heads $choice $critic --set attempts=32 --set shots_per_update=96 --set "$speeds" $rails
 speeds="head_speeds=[[0.5, 2.0], [1.4, 3.6], [2.8, 6.0]]"
-context context-one-cushion --from "$folder/context-one-cushion-fifth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
-context context-r3 --from "$folder/context-r3-sixth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
+context context-one-cushion-sixth --from "$folder/context-one-cushion-fifth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
+context context-r3-seventh --from "$folder/context-r3-sixth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
+# One update more, for what the critics say of their own choice is calibrated at the end of a run; the rounds before are older than that.
+train context-three-cushion --from "$folder/context-three-cushion-31st" --reward three-cushion --seed 772 --steps 192 --set calibrated=32768
+train context-one-cushion --from "$folder/context-one-cushion-sixth" --reward one-cushion --seed 772 --steps 192 --set calibrated=32768
+train context-r3 --from "$folder/context-r3-seventh" --reward r3 --seed 772 --steps 192 --set calibrated=32768

@@ -85,6 +85,8 @@ pub struct Hyperparameters {
     /// Whether a run that starts from other weights takes the critic alone, and its actor begins anew: one whose outputs lie where
     /// the squashing is flat can no longer be turned.
     pub new_actor: bool,
+    /// Layouts on which a finished run plays its own choice, to calibrate what its critic says of it; none to take it at its word.
+    pub calibrated: usize,
     /// How far the behaviour strays from the actor's proposals.
     pub exploration: Exploration,
 }
@@ -119,6 +121,7 @@ impl Default for Hyperparameters {
             logit_weight: 0.02,
             saturation_penalty: 0.0,
             new_actor: false,
+            calibrated: 8192,
             exploration: Exploration::default(),
         }
     }
@@ -179,6 +182,7 @@ impl Hyperparameters {
         check_share("hindsight", self.hindsight)?;
         check_share("demonstrations", self.demonstrations)?;
         check("searched", self.searched as f64, self.searched <= 1 << 12, "0 to 4096")?;
+        check("calibrated", self.calibrated as f64, self.calibrated <= 1 << 20, "0 to 1048576")?;
         check_share("imitation", self.imitation)?;
         check_share("logit_weight", self.logit_weight)?;
         check_share("saturation_penalty", self.saturation_penalty)?;

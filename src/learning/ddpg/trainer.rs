@@ -12,7 +12,7 @@ use super::{
     agent::{Ddpg, ShotBatch},
     hyperparameters::Hyperparameters,
     observation_batch::ObservationBatch,
-    policy::{Policy, file::Origin},
+    policy::{Policy, calibration::Calibration, file::Origin},
     replay::Transition,
     venues::Venues,
 };
@@ -80,6 +80,7 @@ impl Trainer {
             date: date.to_owned(),
             version: VERSION.to_owned(),
             held_out_reward,
+            calibration: Calibration::default(),
             hyperparameters: self.task.hyperparameters.clone(),
         };
         Ok(Policy::new(self.agent.target.duplicate()?, origin))
@@ -150,6 +151,7 @@ pub(in crate::learning) mod tests {
             actor_batch: 8,
             shots_per_update: 16,
             replay: 100,
+            calibrated: 200,
             ..Hyperparameters::default()
         };
         Task { plan: TrainingPlan { reward: Reward::R1, seed: 5, shots: 160 }, hyperparameters }

@@ -43,6 +43,14 @@ pub struct Conditions {
     pub errors: f32,
 }
 
+impl Conditions {
+    /// The same on the run's own table.
+    #[must_use]
+    pub const fn at_home(self) -> Self {
+        Self { venue: self.venue - self.venue % OWN as u32, ..self }
+    }
+}
+
 /// A table as it is told, and as it may really be.
 #[derive(Clone, Debug)]
 struct Venue {

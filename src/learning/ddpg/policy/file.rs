@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::Policy;
+use super::{Policy, calibration::Calibration};
 use crate::{
     game::{Reward, Rule},
     learning::{
@@ -53,6 +53,9 @@ pub struct Origin {
     pub version: String,
     /// Mean reward of its first choice on the run's held-out layouts.
     pub held_out_reward: f64,
+    /// What is told by what the critic says.
+    #[serde(default)]
+    pub calibration: Calibration,
     /// Settings of the run.
     pub hyperparameters: Hyperparameters,
 }

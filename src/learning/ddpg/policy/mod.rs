@@ -1,5 +1,6 @@
 //! A trained agent as a player: shots for a layout out of one pass through its networks, without the simulator.
 
+pub mod calibration;
 pub mod file;
 pub mod kept;
 mod score;
@@ -108,8 +109,9 @@ impl Policy {
                 Err(_) => Proposal { cue: cue_inputs(table, observation, actions[row]), success: 0.0 },
             }
         };
+        let calibration = self.origin.calibration;
         let mut rows = logits.iter().enumerate().map(|(row, logit)| {
-            let success = 1.0 / (1.0 + (-f64::from(*logit)).exp());
+            let success = calibration.probability(f64::from(*logit), errors);
             // What is not a number must neither win nor upset the order.
             (row, if success.is_nan() { 0.0 } else { success })
         });
