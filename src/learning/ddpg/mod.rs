@@ -20,6 +20,7 @@ pub mod learner;
 pub mod networks;
 pub mod observation;
 pub mod observation_batch;
+mod own_choice;
 pub mod policy;
 mod rail_first;
 pub mod replay;

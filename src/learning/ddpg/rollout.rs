@@ -7,7 +7,6 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     action::Action,
-    approach::playable,
     demonstrations::demonstrate,
     expert::{Expert, Found},
     hindsight::relabel,
@@ -15,7 +14,6 @@ use super::{
     networks::Networks,
     observation::Observation,
     observation_batch::ObservationBatch,
-    policy::calibration::{Calibration, Trial},
     replay::Transition,
     trainer::Trainer,
     venues::{Conditions, Venues},
@@ -27,16 +25,7 @@ use crate::{learning::evaluation::CONTACT_STEPS, platform, table::Layout};
 const RANKED: usize = 8;
 
 /// A layout, and the conditions under which it is played.
-type Scene = (Layout, Conditions);
-
-/// How often a player who errs strikes a stroke by which the critic is calibrated.
-const ATTEMPTS: usize = 16;
-
-/// Layouts that are judged in one pass: their numbers stay in the processor's cache.
-const AT_ONCE: usize = 64;
-
-/// Tells the layouts of the calibration from all else that is drawn from a run's seed.
-const STREAM: u64 = 0x0070_6c61_7474;
+pub(super) type Scene = (Layout, Conditions);
 
 impl Trainer {
     /// Plays the shots of one iteration, each on a fresh layout but for those that are ranked, and returns their mean reward.
@@ -106,7 +95,7 @@ impl Trainer {
 
     /// What networks propose on each of the layouts from every side, with the critic's logits, an observation's heads one after the
     /// other.
-    fn judged(&self, networks: &Networks, scenes: &[Scene]) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
+    pub(super) fn judged(&self, networks: &Networks, scenes: &[Scene]) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
         if scenes.is_empty() {
             return Ok(Vec::new());
         }
@@ -122,41 +111,6 @@ impl Trainer {
         let all = actions.into_iter().zip(logits).enumerate();
         let all = all.map(|(row, (action, logit))| (observed.observations()[row / heads], action, logit));
         Ok(all.collect::<Vec<_>>().chunks(each).map(<[_]>::to_vec).collect())
-    }
-
-    /// What is to be told by what the averaged critic says: as often as its choices are made by players drawn as for practice, half of
-    /// them on the run's own table, which is in doubt about its rails' law as well, half on drawn ones.
-    pub(super) fn calibration(&self) -> Result<Calibration> {
-        let Hyperparameters { perfect, calibrated, .. } = self.task.hyperparameters;
-        let reward = self.task.plan.reward;
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.task.plan.seed ^ STREAM);
-        let scenes: Vec<Scene> = (0..calibrated)
-            .map(|number| {
-                let conditions = self.venues.draw(perfect, &mut rng);
-                let conditions = if number % 2 == 0 { conditions.at_home() } else { conditions };
-                (Layout::random(self.venues.table(conditions), &mut rng), conditions)
-            })
-            .collect();
-        let mut trials = Vec::with_capacity(calibrated);
-        for scenes in scenes.chunks(AT_ONCE) {
-            for ((layout, conditions), proposals) in scenes.iter().zip(self.judged(&self.agent.target, scenes)?) {
-                let table = self.venues.table(*conditions);
-                let has_room = |(observation, action, _): &(Observation, Action, f32)| {
-                    playable(table, layout, observation, *action).is_ok()
-                };
-                let best = proposals.into_iter().filter(has_room).max_by(|(.., a), (.., b)| a.total_cmp(b));
-                let Some((observation, action, logit)) = best else { continue };
-                let attempts = if conditions.errors == 0.0 { 1 } else { ATTEMPTS };
-                let attempt = |_| self.venues.attempt(reward, layout, (&observation, action), *conditions, &mut rng);
-                trials.push(Trial {
-                    logit: f64::from(logit),
-                    errors: f64::from(conditions.errors),
-                    attempts: attempts as f64,
-                    successes: (0..attempts).map(attempt).sum::<f64>() / reward.highest(),
-                });
-            }
-        }
-        Ok(Calibration::of(&trials))
     }
 
     /// Plays the averaged networks' best proposals on every layout, as they are. Returns the rewards' sum.

@@ -1,0 +1,62 @@
+//! The shots by which a finished run's critic is calibrated: its own choice on fresh layouts.
+
+use candle_core::Result;
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{
+    action::Action,
+    approach::playable,
+    hyperparameters::Hyperparameters,
+    observation::Observation,
+    policy::calibration::{Calibration, Trial},
+    rollout::Scene,
+    trainer::Trainer,
+};
+use crate::table::Layout;
+
+/// How often a player who errs strikes each of them.
+const ATTEMPTS: usize = 16;
+
+/// Layouts that are judged in one pass: their numbers stay in the processor's cache.
+const AT_ONCE: usize = 64;
+
+/// Tells these layouts from all else that is drawn from a run's seed.
+const STREAM: u64 = 0x0070_6c61_7474;
+
+impl Trainer {
+    /// What is to be told by what the averaged critic says: as often as its choices are made by players drawn as for practice, half of
+    /// them on the run's own table, which is in doubt about its rails' law as well, half on drawn ones.
+    pub(super) fn calibration(&self) -> Result<Calibration> {
+        let Hyperparameters { perfect, calibrated, .. } = self.task.hyperparameters;
+        let reward = self.task.plan.reward;
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.task.plan.seed ^ STREAM);
+        let scenes: Vec<Scene> = (0..calibrated)
+            .map(|number| {
+                let conditions = self.venues.draw(perfect, &mut rng);
+                let conditions = if number % 2 == 0 { conditions.at_home() } else { conditions };
+                (Layout::random(self.venues.table(conditions), &mut rng), conditions)
+            })
+            .collect();
+        let mut trials = Vec::with_capacity(calibrated);
+        for scenes in scenes.chunks(AT_ONCE) {
+            for ((layout, conditions), proposals) in scenes.iter().zip(self.judged(&self.agent.target, scenes)?) {
+                let table = self.venues.table(*conditions);
+                let has_room = |(observation, action, _): &(Observation, Action, f32)| {
+                    playable(table, layout, observation, *action).is_ok()
+                };
+                let best = proposals.into_iter().filter(has_room).max_by(|(.., a), (.., b)| a.total_cmp(b));
+                let Some((observation, action, logit)) = best else { continue };
+                let attempts = if conditions.errors == 0.0 { 1 } else { ATTEMPTS };
+                let attempt = |_| self.venues.attempt(reward, layout, (&observation, action), *conditions, &mut rng);
+                trials.push(Trial {
+                    logit: f64::from(logit),
+                    errors: f64::from(conditions.errors),
+                    attempts: attempts as f64,
+                    successes: (0..attempts).map(attempt).sum::<f64>() / reward.highest(),
+                });
+            }
+        }
+        Ok(Calibration::of(&trials))
+    }
+}
