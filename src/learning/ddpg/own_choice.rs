@@ -15,7 +15,7 @@ use super::{
 };
 use crate::table::Layout;
 
-/// How often a player who errs strikes each of them.
+/// How often a player who errs strikes each of his choices.
 const ATTEMPTS: usize = 16;
 
 /// Layouts that are judged in one pass: their numbers stay in the processor's cache.
@@ -40,13 +40,13 @@ impl Trainer {
             .collect();
         let mut trials = Vec::with_capacity(calibrated);
         for scenes in scenes.chunks(AT_ONCE) {
-            for ((layout, conditions), proposals) in scenes.iter().zip(self.judged(&self.agent.target, scenes)?) {
+            for ((layout, conditions), mut proposals) in scenes.iter().zip(self.judged(&self.agent.target, scenes)?) {
                 let table = self.venues.table(*conditions);
                 let has_room = |(observation, action, _): &(Observation, Action, f32)| {
                     playable(table, layout, observation, *action).is_ok()
                 };
-                let best = proposals.into_iter().filter(has_room).max_by(|(.., a), (.., b)| a.total_cmp(b));
-                let Some((observation, action, logit)) = best else { continue };
+                proposals.sort_by(|(.., a), (.., b)| a.total_cmp(b));
+                let Some((observation, action, logit)) = proposals.into_iter().rfind(has_room) else { continue };
                 let attempts = if conditions.errors == 0.0 { 1 } else { ATTEMPTS };
                 let attempt = |_| self.venues.attempt(reward, layout, (&observation, action), *conditions, &mut rng);
                 trials.push(Trial {
