@@ -124,22 +124,6 @@ fn usual([mean, deviation]: [f64; 2], rng: &mut Xoshiro256PlusPlus) -> f64 {
     mean + deviation * normal(rng)
 }
 
-/// A shot near `cue`: normal steps of `scale` times 0.15 R of the tip, 1.7° of elevation, 0.45° of direction and 0.6 m/s.
-pub fn neighbour(table: &Table, cue: &CueInputs, scale: f64, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
-    let mut step = |size: f64| scale * size * normal(rng);
-    let (a, b) = (cue.a + step(0.15), cue.b + step(0.15));
-    let theta = (cue.theta + step(0.03)).clamp(0.0, steepest(cue));
-    let (a, b) = within_limit(table, theta, a, b);
-    let turned = squirt(table, cue.a) - squirt(table, a);
-    CueInputs {
-        a,
-        b,
-        theta,
-        phi: cue.phi + step(0.008) + turned,
-        speed: (cue.speed + step(0.6)).clamp(MIN_SPEED, MAX_SPEED),
-    }
-}
-
 /// The stroke that a player of this skill makes of `cue` with these errors, kept within what can be recommended.
 pub fn towards(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) -> CueInputs {
     let stroke = skill.stroke(table.radius, cue, errors);
@@ -194,6 +178,7 @@ fn random_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::player::errors;
     use rand::SeedableRng;
 
     #[test]
@@ -221,8 +206,8 @@ mod tests {
                 let cue = anything(&table, &layout, &mut rng);
                 let rule = Rule::ALL[n as usize % Rule::ALL.len()];
                 let wide = stratified(&table, &layout, rule, n, MIN_SPEED, &mut rng);
-                let near = [neighbour(&table, &wide, 3.0, &mut rng), variation(&table, &cue, &mut rng)];
-                for cue in near.into_iter().chain([cue, wide]) {
+                let moved = towards(&table, Skill::BEGINNER, &wide, &errors::one(&mut rng));
+                for cue in [moved, variation(&table, &cue, &mut rng), cue, wide] {
                     cue.validate().unwrap();
                     cue.validate_tip(table.miscue_limit).unwrap();
                 }

@@ -296,7 +296,7 @@ fn improvement(leader: &Candidate, clock: &Clock) -> Improvement {
     Improvement {
         cue: leader.shot.cue,
         kind: leader.kind,
-        make_probability: SuccessRate::new(leader.made, leader.narrow()),
+        make_probability: leader.own.as_counted(),
         simulations: clock.simulations(),
         elapsed: clock.elapsed(),
     }
@@ -350,10 +350,7 @@ const fn judging_seed(seed: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        coach::{Pace, Source, Suggestion, Way},
-        player::errors::Errors,
-    };
+    use crate::coach::{Pace, Source, Suggestion, Way, evidence::Rate};
 
     #[test]
     fn a_stroke_that_makes_the_point_in_two_ways_is_no_alternative_to_itself() {
@@ -366,9 +363,9 @@ mod tests {
                 shot,
                 kind,
                 tried: 0,
-                made: 0,
-                wide: 0,
-                drift: Errors::default(),
+                points: 0,
+                own: Rate::default(),
+                larger: Rate::default(),
                 next: NextValue::Supposed(1.0),
                 effort_penalty: 0.0,
             }

@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::Doubt;
 use crate::{
     player::{
-        errors::{self, Errors, Streams},
+        errors::{self, Errors, Halton, Streams},
         misplaced,
     },
     table::{Layout, Table, TableDoubt, TableSampler},
@@ -14,6 +14,30 @@ use crate::{
 
 /// Tells the numbers of worlds from those of errors.
 const WORLDS: u64 = 0x776f_726c_6473;
+
+/// Worlds that are drawn for comparing shots; then they come again with other errors of the hand. To draw one takes a good part of the time
+/// of a simulation. A prime number: those that have the same world must not have much else in common.
+const MOST_WORLDS: usize = 509;
+
+/// How large the errors of an attempt are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// The player's own.
+    Own,
+    /// Larger ones. Of shots that hardly ever miss, these tell apart the one that forgives more.
+    Larger,
+}
+
+impl Size {
+    /// How many times the player's own.
+    pub const fn factor(self) -> f64 {
+        match self {
+            Self::Own => 1.0,
+            // Three times the variance.
+            Self::Larger => 1.732_050_807_568_877_2,
+        }
+    }
+}
 
 /// What is really there: a table and where the balls lie, either not quite as the coach believes.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +61,7 @@ pub struct Draw<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct Draws {
     errors: Vec<Errors>,
-    /// One an attempt, or none at all where nothing is in doubt.
+    /// One an attempt, or fewer, that come again; none at all where nothing is in doubt.
     worlds: Vec<World>,
 }
 
@@ -53,7 +77,8 @@ impl Draws {
     /// Those in this range, fewer where there are not so many.
     pub fn range(&self, from: usize, to: usize) -> impl Iterator<Item = Draw<'_>> + Clone {
         let to = to.min(self.errors.len());
-        (from.min(to)..to).map(|index| Draw { errors: &self.errors[index], world: self.worlds.get(index) })
+        let world = |index: usize| self.worlds.get(index % self.worlds.len().max(1));
+        (from.min(to)..to).map(move |index| Draw { errors: &self.errors[index], world: world(index) })
     }
 
     /// All of them.
@@ -71,24 +96,23 @@ impl Draws {
 /// attempts. They are drawn when they are first needed: a search with little time ends before most of them.
 #[derive(Debug)]
 pub struct QuasiRandomDraws {
-    errors: Vec<Errors>,
+    size: Size,
+    errors: Halton,
     streams: Streams,
     drawn: Draws,
 }
 
 impl QuasiRandomDraws {
-    /// At most so many, at a hand's errors that are `wide` times as large as the player's.
-    pub fn new(most: usize, wide: f64, seed: u64) -> Self {
-        let wider = |errors: Errors| errors.map(|error| wide * error);
-        let errors = errors::spread(most, seed).into_iter().map(wider).collect();
-        Self { errors, streams: Streams::new(seed ^ WORLDS), drawn: Draws::default() }
+    /// At errors of a hand that are so large.
+    pub fn new(size: Size, seed: u64) -> Self {
+        Self { size, errors: Halton::new(seed), streams: Streams::new(seed ^ WORLDS), drawn: Draws::default() }
     }
 
     /// Draws them up to the `count`th.
     pub fn extend_to(&mut self, worlds: &Worlds, count: usize) {
-        for n in self.drawn.len()..count.min(self.errors.len()) {
-            self.drawn.errors.push(self.errors[n]);
-            if !worlds.is_certain() {
+        for n in self.drawn.len()..count {
+            self.drawn.errors.push(self.errors.errors(n).map(|error| self.size.factor() * error));
+            if !worlds.is_certain() && n < MOST_WORLDS {
                 let mut stream = 0..;
                 let number = || self.streams.number(stream.next().unwrap_or_default(), n);
                 self.drawn.worlds.push(worlds.draw(number));

@@ -1,20 +1,19 @@
 //! Candidates of a search and how they stand: ranked by the share of the same errors under which each makes the point.
 
+use std::ops::Range;
+
 use super::{
     Kind, Source, Suggestion,
-    candidates::{MAX_ELEVATION, MAX_SPEED, towards},
-    draws::{QuasiRandomDraws, Worlds},
+    candidates::{MAX_ELEVATION, MAX_SPEED},
+    draws::{Draw, QuasiRandomDraws, Size, Worlds},
+    evidence::Rate,
     next::{NextValue, next_value},
     trial::{Course, Task},
 };
 use crate::{physics::CueInputs, player::errors::Errors};
 
-/// One in four of the errors is this many times as large. Of shots that hardly ever miss, these tell apart the one that
-/// forgives more.
-const WIDE: f64 = 1.8;
-
 /// What a point under the larger errors is worth against one under the player's own.
-const WORTH_OF_WIDE: f64 = 0.3;
+const WORTH_OF_LARGER: f64 = 0.3;
 
 /// Speed up to which strokes are usual, m/s. The ball leaves such a stroke at 5.6 m/s, and one of 91 filmed shots is faster.
 const HARDEST_USUAL: f64 = 4.0;
@@ -30,7 +29,13 @@ const HARDER: f64 = 2.0;
 /// 60.2 at straight rail (300 layouts each).
 const AGAIN: f64 = 0.05;
 
-/// The errors that shots are compared on, the same for all of them. Of every four attempts the last is at a larger one.
+/// Attempts of a block: the last of them is at larger errors.
+pub const BLOCK: usize = 4;
+
+/// One attempt: its errors and their size, and whether it made the point.
+pub type Outcome = (Errors, Size, bool);
+
+/// The errors that shots are compared on, the same for all of them, in blocks.
 #[derive(Debug)]
 pub struct Race {
     own: QuasiRandomDraws,
@@ -38,18 +43,32 @@ pub struct Race {
 }
 
 impl Race {
-    /// With so many errors at most, a multiple of four.
-    pub fn new(most: usize, seed: u64) -> Self {
-        Self {
-            own: QuasiRandomDraws::new(most / 4 * 3, 1.0, seed),
-            larger: QuasiRandomDraws::new(most / 4, WIDE, !seed),
-        }
+    /// With the errors that `seed` draws.
+    pub fn new(seed: u64) -> Self {
+        Self { own: QuasiRandomDraws::new(Size::Own, seed), larger: QuasiRandomDraws::new(Size::Larger, !seed) }
     }
 
-    /// Makes sure that candidates can be tried at so many errors, a multiple of four, each in one of the worlds.
-    pub fn extend_to(&mut self, worlds: &Worlds, count: usize) {
-        self.own.extend_to(worlds, count / 4 * 3);
-        self.larger.extend_to(worlds, count / 4);
+    /// Makes sure that shots can be tried at so many blocks of errors, each in one of the worlds.
+    pub fn extend_to(&mut self, worlds: &Worlds, blocks: usize) {
+        self.own.extend_to(worlds, (BLOCK - 1) * blocks);
+        self.larger.extend_to(worlds, blocks);
+    }
+
+    /// The errors of one attempt, and in which world.
+    fn draw(&self, attempt: usize) -> Option<(Draw<'_>, Size)> {
+        let (block, n) = (attempt / BLOCK, attempt % BLOCK);
+        let (draws, index, size) = if n < BLOCK - 1 {
+            (&self.own, (BLOCK - 1) * block + n, Size::Own)
+        } else {
+            (&self.larger, block, Size::Larger)
+        };
+        Some((draws.drawn().range(index, index + 1).next()?, size))
+    }
+
+    /// What its errors make of each attempt in these blocks, as far as they are drawn.
+    pub fn errors(&self, blocks: Range<usize>) -> impl Iterator<Item = (Errors, Size)> + Clone {
+        let attempts = BLOCK * blocks.start..BLOCK * blocks.end;
+        attempts.filter_map(|attempt| self.draw(attempt).map(|(draw, size)| (*draw.errors, size)))
     }
 
     /// Finds out how easy the next point is after a candidate; `None` where time ran out.
@@ -58,22 +77,29 @@ impl Race {
         Some(Candidate { next, ..*candidate })
     }
 
-    /// Tries a candidate at the errors up to the `count`th, a multiple of four, as far as they are drawn; `None` where time ran out.
-    pub fn go_on(&self, task: &Task, candidate: &Candidate, count: usize) -> Option<Candidate> {
+    /// Tries a stroke at the errors of these blocks, as far as they are drawn; `None` where time ran out.
+    pub fn attempts(&self, task: &Task, cue: &CueInputs, blocks: Range<usize>) -> Option<Vec<Outcome>> {
+        let mut all = Vec::with_capacity(BLOCK * blocks.len());
+        for attempt in BLOCK * blocks.start..BLOCK * blocks.end {
+            let Some((draw, size)) = self.draw(attempt) else { break };
+            if task.clock.is_past(task.until) {
+                return None;
+            }
+            task.clock.count(1);
+            all.push((*draw.errors, size, task.makes(cue, draw)?));
+        }
+        Some(all)
+    }
+
+    /// Tries a candidate at the errors up to this block; `None` where time ran out.
+    pub fn go_on(&self, task: &Task, candidate: &Candidate, blocks: usize) -> Option<Candidate> {
         let mut after = *candidate;
-        while after.tried < count {
-            let block = after.tried / 4;
-            if block >= self.larger.drawn().len() {
-                break;
-            }
-            let own = task.all_attempts(&after.shot.cue, self.own.drawn().range(3 * block, 3 * block + 3), 3)?;
-            let larger = task.all_attempts(&after.shot.cue, self.larger.drawn().range(block, block + 1), 1)?;
-            after.made += own.made;
-            after.wide += larger.made;
-            for (input, sum) in after.drift.iter_mut().enumerate() {
-                *sum += own.drift[input] + larger.drift[input];
-            }
-            after.tried += 4;
+        for (_, size, made) in self.attempts(task, &after.shot.cue, after.tried / BLOCK..blocks)? {
+            after.points |= u32::from(made) << after.tried;
+            after.tried += 1;
+            let rate = if size == Size::Own { &mut after.own } else { &mut after.larger };
+            rate.attempts += 1.0;
+            rate.share += (f64::from(u8::from(made)) - rate.share) / rate.attempts;
         }
         Some(after)
     }
@@ -86,14 +112,14 @@ pub struct Candidate {
     pub shot: Suggestion,
     /// What sort of shot.
     pub kind: Kind,
-    /// Errors that it was tried at.
+    /// Attempts of the race that it was tried at by itself, at most as many as `points` has bits.
     pub tried: usize,
-    /// Points under the player's errors, three quarters of those tried.
-    pub made: usize,
-    /// Points under the larger errors.
-    pub wide: usize,
-    /// Sum of the errors of the attempts that made the point, in the player's standard errors.
-    pub drift: Errors,
+    /// Which of them made the point: one bit each, the first is the lowest.
+    pub points: u32,
+    /// How often it is made under the player's errors, as far as is known; it flatters whoever was chosen by it.
+    pub own: Rate,
+    /// The same under the larger errors.
+    pub larger: Rate,
     /// Probability of the next point; supposed to be 1 until candidates are looked at for it.
     pub next: NextValue,
     /// What is taken off for a stroke that is hard to play or meets the first ball twice, whatever its errors.
@@ -118,42 +144,18 @@ impl Candidate {
             shot,
             kind: Kind::of(course, cue),
             tried: 0,
-            made: 0,
-            wide: 0,
-            drift: Errors::default(),
+            points: 0,
+            own: Rate::default(),
+            larger: Rate::default(),
             next: NextValue::Supposed(1.0),
             effort_penalty: weight * effort(cue) + if course.tally.met_again { AGAIN } else { 0.0 },
         }
     }
 
-    /// Share of points under the player's errors; it flatters whoever was chosen by it.
-    pub fn rate(&self) -> f64 {
-        self.made as f64 / self.narrow().max(1) as f64
-    }
-
-    /// Attempts under the player's errors.
-    pub const fn narrow(&self) -> usize {
-        self.tried - self.tried / 4
-    }
-
-    /// The stroke in the middle of those that made the point: a step to where more of them do, without another simulation. It
-    /// is the step of expectation maximization for the probability of the point under normal errors (Dayan and Hinton 1997);
-    /// `stretch` times as far.
-    pub fn middle(&self, task: &Task, stretch: f64) -> CueInputs {
-        let made = (self.made + self.wide).max(1) as f64;
-        towards(task.table, task.skill, &self.shot.cue, &self.drift.map(|sum| stretch * sum / made))
-    }
-
-    /// Whether it has made the point every time.
-    pub const fn is_flawless(&self) -> bool {
-        self.tried > 0 && self.made + self.wide == self.tried
-    }
-
     /// What candidates are ranked by.
     pub fn score(&self) -> f64 {
-        let wide = self.tried / 4;
-        let share = if wide == 0 { self.rate() } else { self.wide as f64 / wide as f64 };
-        (self.rate() + WORTH_OF_WIDE * share) * self.next.value() - self.effort_penalty
+        let larger = if self.larger.attempts > 0.0 { self.larger } else { self.own };
+        (self.own.share + WORTH_OF_LARGER * larger.share) * self.next.value() - self.effort_penalty
     }
 }
 
@@ -165,39 +167,15 @@ fn effort(cue: &CueInputs) -> f64 {
 
 /// Those that nobody has looked at for the next point count as the worst of those that somebody has: time must not make a
 /// shot better.
-pub fn suppose_the_worst(candidates: &mut [Candidate]) {
+pub fn suppose_the_worst<'c>(candidates: impl Iterator<Item = &'c mut Candidate>) {
+    let candidates: Vec<_> = candidates.collect();
     let worst = candidates.iter().filter_map(|candidate| candidate.next.known()).fold(1.0, f64::min);
-    for candidate in candidates.iter_mut().filter(|candidate| candidate.next.known().is_none()) {
+    for candidate in candidates.into_iter().filter(|candidate| candidate.next.known().is_none()) {
         candidate.next = NextValue::Supposed(worst);
     }
 }
 
-/// Leaders that may be nearly alike. The neighbours of one would crowd out all other ways to play the shot, some of which get better
-/// in the end. On two hard layouts the mean over eight seeds rose from 83.7 to 85.4 and from 75.0 to 76.7 %; elsewhere a club player's
-/// shots are made as often (600 layouts).
-const ALIKE: usize = 4;
-
-/// Steps of the tip, rad and m/s within which strokes are nearly alike: those to a neighbour, or little less.
-const NEARLY: [f64; 3] = [0.15, 0.01, 0.4];
-
-/// The same as [`keep`] for those whose neighbours are tried: of strokes that are nearly alike, the best [`ALIKE`] alone.
-pub fn keep_leaders(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
-    sort(candidates);
-    let mut kept: Vec<CueInputs> = Vec::new();
-    candidates.retain(|Candidate { shot: Suggestion { cue, .. }, .. }| {
-        let [tip, direction, speed] = NEARLY;
-        let is_near = |other: &&CueInputs| {
-            (other.a - cue.a).abs().max((other.b - cue.b).abs()) < tip
-                && (other.phi - cue.phi).abs() < direction
-                && (other.speed - cue.speed).abs() < speed
-        };
-        let is_one_of_few = kept.iter().filter(is_near).count() < ALIKE;
-        kept.extend(is_one_of_few.then_some(*cue));
-        is_one_of_few
-    });
-    keep(candidates, best, of_each);
-}
-
+/// The best first; equals stay in their order.
 fn sort(candidates: &mut [Candidate]) {
     candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
 }
@@ -230,40 +208,31 @@ mod tests {
     use super::*;
     use crate::coach::{Pace, Way};
 
-    fn candidate(cue: CueInputs, made: usize, next: NextValue) -> Candidate {
+    fn candidate(cue: CueInputs, share: f64, next: NextValue) -> Candidate {
         Candidate {
             shot: Suggestion { cue, source: Source::Search },
             kind: Kind { first_ball: 1, cushion_first: false, way: Way::Direct, pace: Pace::Soft, raised: false },
             tried: 32,
-            made,
-            wide: 8,
-            drift: Errors::default(),
+            points: 0,
+            own: Rate { share, attempts: 24.0 },
+            larger: Rate { share: 1.0, attempts: 8.0 },
             next,
             effort_penalty: 0.0,
         }
     }
 
     #[test]
-    fn neighbours_of_one_leader_do_not_crowd_out_the_others() {
-        let cue = |phi: f64| CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi, speed: 2.0 };
-        let near = (0..9).map(|n| candidate(cue(1e-3 * f64::from(n)), 24, NextValue::Supposed(1.0)));
-        let mut pool: Vec<_> = near.chain([candidate(cue(0.5), 20, NextValue::Supposed(1.0))]).collect();
-        keep_leaders(&mut pool, 8, 1);
-        assert_eq!(pool.iter().map(|shot| shot.made).collect::<Vec<_>>(), [24, 24, 24, 24, 20]);
-    }
-
-    #[test]
     fn a_shot_that_nobody_has_looked_at_ranks_behind_those_that_leave_a_good_next_one() {
         let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 };
-        let candidate = |made, next| candidate(cue, made, next);
+        let candidate = |share, next| candidate(cue, share, next);
         let (good, bad, unseen) = (NextValue::Known(0.9), NextValue::Known(0.6), NextValue::Supposed(1.0));
-        let mut pool = vec![candidate(24, unseen), candidate(24, bad), candidate(22, good)];
-        suppose_the_worst(&mut pool);
+        let mut pool = vec![candidate(1.0, unseen), candidate(1.0, bad), candidate(0.9, good)];
+        suppose_the_worst(pool.iter_mut());
         keep(&mut pool, 3, 1);
         assert_eq!(pool.iter().map(|shot| shot.next.known()).collect::<Vec<_>>(), [Some(0.9), None, Some(0.6)]);
         // Where nobody was looked at, none is worse for it.
-        let mut pool = [candidate(24, unseen)];
-        suppose_the_worst(&mut pool);
+        let mut pool = [candidate(1.0, unseen)];
+        suppose_the_worst(pool.iter_mut());
         assert_eq!(pool[0].next, unseen);
     }
 }

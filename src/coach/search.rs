@@ -5,29 +5,17 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Source, Suggestion,
-    candidates::{MIN_SPEED, neighbour, stratified, variation},
+    candidates::{MIN_SPEED, stratified, variation},
     elevated::raised,
-    next::NextValue,
-    pool::{Candidate, Race, keep, keep_leaders, suppose_the_worst},
+    pool::{BLOCK, Candidate, Race, keep},
+    refinement::Refinement,
     trial::{Course, Task},
 };
 use crate::{physics::CueInputs, platform::parallel};
 
-/// Errors at which shots are tried, each time only those that are still among the better ones: two looks at what was
-/// sampled, then the stages of the refinement.
-const LOOKS: [usize; 5] = [8, 32, 96, 256, 768];
-const FIRST_LOOK: usize = LOOKS[0];
-const SECOND_LOOK: usize = LOOKS[1];
-const THIRD_LOOK: usize = LOOKS[2];
-const FOURTH_LOOK: usize = LOOKS[3];
-const MOST_ERRORS: usize = LOOKS[4];
-
-/// Errors in each stage of the refinement, the share of it at which the stage begins at the latest, and the neighbours of
-/// each leader that are tried in a round.
-const STAGES: [(usize, f64, usize); 3] = [(THIRD_LOOK, 0.0, 6), (FOURTH_LOOK, 0.4, 4), (MOST_ERRORS, 0.75, 3)];
-
-/// How far each leader is moved to the middle of its points in a round of the refinement.
-const STRETCHES: [f64; 2] = [1.0, 2.0];
+/// Blocks of errors at which sampled shots are tried: all of them, and those that are still among the better ones.
+const FIRST_LOOK: usize = 2;
+const SECOND_LOOK: usize = 8;
 
 /// Shares of what is left of the budget when the search begins, after which the sampling and the refinement end. The
 /// rest is for judging the answer.
@@ -52,27 +40,11 @@ const GOOD_WITHOUT: f64 = 0.9;
 /// Shots that leave the sampling, besides the best of each kind.
 const SHORTLIST: usize = 128;
 
-/// A stage of successive halving (Jamieson and Talwalkar 2016): how many shots go on to it, besides the best of each kind.
-struct Rung {
-    most: usize,
-    fewest: usize,
-    /// Simulations left for each: where there are few, they go to the better shots.
-    simulations: f64,
-}
+/// Shots of each kind that begin the refinement, however they stand.
+const OF_EACH_KIND: usize = 1;
 
-impl Rung {
-    /// How many do when so many simulations are left.
-    fn size(&self, simulations_left: f64) -> usize {
-        ((simulations_left / self.simulations) as usize).clamp(self.fewest, self.most)
-    }
-}
-
-/// Those after the second look, and those in the refinement.
-const FAVOURITES: Rung = Rung { most: 64, fewest: 8, simulations: 160.0 };
-const LEADERS: Rung = Rung { most: 10, fewest: 3, simulations: 640.0 };
-
-/// Shots of each kind that stay in, however they stand, where there are as many leaders as can be; one where there are fewer.
-const OF_EACH_KIND: usize = 3;
+/// Shots of each kind that stay in while others are sampled.
+const OF_EACH_KIND_AT_FIRST: usize = 3;
 
 /// What a unit of effort costs in a shot's score: a player is not to strike with all force and a raised cue for the last
 /// percent. In a plan it only decides between equals: where runs of
@@ -94,8 +66,6 @@ pub struct Search<'a> {
     plan: bool,
     race: Race,
     pool: Vec<Candidate>,
-    /// How many lead.
-    leaders: usize,
 }
 
 impl<'a> Search<'a> {
@@ -103,11 +73,11 @@ impl<'a> Search<'a> {
     /// now.
     pub fn new(task: Task<'a>, plan: bool, threads: usize, seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let race = Race::new(MOST_ERRORS, rng.random());
+        let race = Race::new(rng.random());
         let begins = task.clock.used().min(1.0);
         let [sampling_ends, refinement_ends] =
             [SAMPLING_ENDS, REFINEMENT_ENDS].map(|share| begins + share * (1.0 - begins));
-        Self { task, threads, sampling_ends, refinement_ends, rng, plan, race, pool: Vec::new(), leaders: LEADERS.most }
+        Self { task, threads, sampling_ends, refinement_ends, rng, plan, race, pool: Vec::new() }
     }
 
     /// Looks for shots, starting from those that were `found` to make the point and from variations of `proposals`; the best
@@ -122,12 +92,10 @@ impl<'a> Search<'a> {
         let weight = self.weight();
         let found: Vec<_> = found.iter().map(|(shot, course)| Candidate::of(*shot, course, weight)).collect();
         self.race.extend_to(self.task.worlds, SECOND_LOOK);
-        self.pool = self.raced(&found, SECOND_LOOK);
+        let raced = |candidate: &Candidate| self.race.go_on(&self.task, candidate, SECOND_LOOK).unwrap_or(*candidate);
+        self.pool = parallel::map(self.threads, &found, raced);
         self.sample(proposals, tell);
-        self.task.until = self.task.clock.moment(self.refinement_ends);
-        self.narrow_down(tell);
-        self.refine(tell);
-        self.pool
+        self.refine(tell)
     }
 
     fn sample(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
@@ -144,7 +112,7 @@ impl<'a> Search<'a> {
                 cue: stratified(table, self.task.layout, self.task.rule, drawn + n, softest, &mut self.rng),
                 source: Source::Search,
             }));
-            keep(&mut self.pool, SHORTLIST, OF_EACH_KIND);
+            keep(&mut self.pool, SHORTLIST, OF_EACH_KIND_AT_FIRST);
             let elevated = self.elevated(batch, rounds);
             shots.extend(elevated.into_iter().map(|cue| Suggestion { cue, source: Source::Search }));
             drawn += batch as u64;
@@ -160,7 +128,8 @@ impl<'a> Search<'a> {
 
     /// Jumps and massés for a round of sampling with so many other strokes.
     fn elevated(&mut self, batch: usize, rounds: usize) -> Vec<CueInputs> {
-        let is_good = self.pool.first().is_some_and(|best| best.tried >= SECOND_LOOK && best.rate() >= GOOD_WITHOUT);
+        let is_good =
+            self.pool.first().is_some_and(|best| best.tried >= BLOCK * SECOND_LOOK && best.own.share >= GOOD_WITHOUT);
         if !self.task.seeks_jumps() || is_good {
             return Vec::new();
         }
@@ -191,103 +160,14 @@ impl<'a> Search<'a> {
         self.pool.extend(found.into_iter().flatten());
     }
 
-    /// Tries the best at more errors, the best of those at more still.
-    fn narrow_down(&mut self, tell: &mut dyn FnMut(&Candidate)) {
-        let left = self.simulations_left();
-        self.leaders = LEADERS.size(left);
-        let of_each = if self.leaders == LEADERS.most { OF_EACH_KIND } else { 1 };
-        for (errors, best) in [(SECOND_LOOK, FAVOURITES.size(left)), (THIRD_LOOK, self.leaders)] {
-            self.race.extend_to(self.task.worlds, errors);
-            keep(&mut self.pool, 2 * best, of_each);
-            self.pool = self.raced(&self.pool, errors);
-            let steps: Vec<_> = self.pool.iter().map(|parent| (*parent, parent.middle(&self.task, 1.0))).collect();
-            let found = parallel::map(self.threads, &steps, |(parent, cue)| self.beside(parent, *cue, errors));
-            self.pool.extend(found.into_iter().flatten());
-            if self.plan && errors == SECOND_LOOK {
-                self.look_ahead();
-            }
-            keep_leaders(&mut self.pool, best, of_each);
-            self.tell(tell);
-        }
-    }
-
-    /// The simulations that fit in before the refinement ends, as far as is known by now.
-    fn simulations_left(&self) -> f64 {
-        let used = self.task.clock.used();
-        self.task.clock.simulations() as f64 * (self.refinement_ends / used - 1.0).max(0.0)
-    }
-
-    /// Finds out how easy the next point is after each of the pool.
-    fn look_ahead(&mut self) {
-        self.pool = parallel::map(self.threads, &self.pool, |candidate| {
-            self.race.look_ahead(&self.task, candidate).unwrap_or(*candidate)
-        });
-        suppose_the_worst(&mut self.pool);
-    }
-
-    /// The candidates tried at so many errors; those that time did not suffice for are left as they are.
-    fn raced(&self, candidates: &[Candidate], errors: usize) -> Vec<Candidate> {
-        parallel::map(self.threads, candidates, |candidate| {
-            self.race.go_on(&self.task, candidate, errors).unwrap_or(*candidate)
-        })
-    }
-
-    /// Looks around the leaders, at first far, then near.
-    fn refine(&mut self, tell: &mut dyn FnMut(&Candidate)) {
-        let mut stage = 0;
-        loop {
-            let used = self.task.clock.used();
-            if used >= self.refinement_ends || self.pool.is_empty() {
-                break;
-            }
-            let progress = (used - self.sampling_ends) / (self.refinement_ends - self.sampling_ends);
-            if self.pool[0].is_flawless() && self.pool[0].tried >= STAGES[stage].0 {
-                // There is nothing to improve that these errors could show.
-                if stage + 1 == STAGES.len() && !self.plan {
-                    break;
-                }
-                stage = (stage + 1).min(STAGES.len() - 1);
-            }
-            stage = STAGES.iter().rposition(|(_, begins, _)| progress >= *begins).unwrap_or(0).max(stage);
-            let (errors, _, neighbours) = STAGES[stage];
-            self.race.extend_to(self.task.worlds, errors);
-            self.pool = self.raced(&self.pool, errors);
-            keep_leaders(&mut self.pool, self.leaders, 1);
-            let scale = 1.0 - 0.8 * progress.max(0.0);
-            let mut tries = Vec::with_capacity(self.pool.len() * neighbours);
-            for parent in &self.pool {
-                tries.extend(STRETCHES.map(|stretch| (*parent, parent.middle(&self.task, stretch))));
-                for _ in 0..neighbours {
-                    tries.push((*parent, neighbour(self.task.table, &parent.shot.cue, scale, &mut self.rng)));
-                }
-            }
-            let found = parallel::map(self.threads, &tries, |(parent, cue)| self.beside(parent, *cue, errors));
-            self.pool.extend(found.into_iter().flatten());
-            keep_leaders(&mut self.pool, self.leaders, 1);
-            self.tell(tell);
-        }
-    }
-
-    /// A neighbour of a leader, tried at so many errors; `None` where it falls behind, or time runs out.
-    fn beside(&self, parent: &Candidate, cue: CueInputs, errors: usize) -> Option<Candidate> {
-        let Self { task, race, .. } = self;
-        if task.clock.is_past(task.until) {
-            return None;
-        }
-        let source = if parent.shot.source == Source::Search { Source::Search } else { Source::Variation };
-        // Until it is known, what comes next is what comes after the parent.
-        let next = NextValue::Supposed(parent.next.value());
-        let mut candidate = Candidate { next, ..Candidate::new(task, cue, source, self.weight())? };
-        for look in LOOKS.into_iter().take_while(|look| *look <= errors) {
-            if candidate.tried > 0 && candidate.score() < parent.score() - slack(candidate.tried) {
-                return None;
-            }
-            candidate = race.go_on(task, &candidate, look)?;
-            if self.plan && look == SECOND_LOOK {
-                candidate = race.look_ahead(task, &candidate)?;
-            }
-        }
-        (candidate.tried == errors).then_some(candidate)
+    /// Refines the better ones.
+    fn refine(mut self, tell: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
+        self.task.until = self.task.clock.moment(self.refinement_ends);
+        let size = Refinement::size(self.task.clock.simulations_until(self.refinement_ends), SHORTLIST);
+        keep(&mut self.pool, size, OF_EACH_KIND);
+        let weight = self.weight();
+        let Self { task, threads, refinement_ends: ends, plan, race, pool, .. } = self;
+        Refinement { task, threads, ends, plan, weight, race }.run(&pool, tell)
     }
 
     fn tell(&self, tell: &mut dyn FnMut(&Candidate)) {
@@ -296,11 +176,6 @@ impl<'a> Search<'a> {
             tell(best);
         }
     }
-}
-
-/// By how much a shot may lag behind its parent after so many errors and still be followed.
-fn slack(tried: usize) -> f64 {
-    0.5 / (tried as f64).sqrt()
 }
 
 #[cfg(test)]
@@ -334,7 +209,7 @@ mod tests {
         thread::sleep(budget.mul_f64(0.5).saturating_sub(clock.elapsed()));
         let mut told = 0;
         let pool = Search::new(task, false, 2, 1).run(&[], &found.solutions, &mut |_| told += 1);
-        assert!(pool[0].tried > SECOND_LOOK && told > 1, "{told} {:?}", pool[0]);
+        assert!(pool[0].own.attempts > 100.0 && told > 1, "{told} {:?}", pool[0]);
         assert!(pool.iter().any(|candidate| candidate.shot != found.solutions[0].0), "{pool:?}");
         // No time at all: what was found is all there is.
         cancel.store(true, std::sync::atomic::Ordering::Relaxed);

@@ -16,7 +16,7 @@ use super::{
 use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, strike},
-    player::{aimed, errors::Errors},
+    player::aimed,
     simulation::{All, Event, EventKind, Observer, watch_with},
     table::{Layout, Table},
 };
@@ -147,10 +147,7 @@ impl Task<'_> {
             }
             let Some(point) = self.makes(cue, draw) else { break };
             attempts.tried += 1;
-            if point {
-                attempts.made += 1;
-                attempts.drift.iter_mut().zip(draw.errors).for_each(|(sum, error)| *sum += error);
-            }
+            attempts.made += usize::from(point);
         }
         self.clock.count(attempts.tried as u64);
         attempts
@@ -168,14 +165,12 @@ impl Task<'_> {
 }
 
 /// What came of attempts at a stroke.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Attempts {
     /// How many there were.
     pub tried: usize,
     /// How many made the point.
     pub made: usize,
-    /// Sum of the errors of those that did, in the player's standard errors.
-    pub drift: Errors,
 }
 
 /// A referee who gives a shot up when time is up.

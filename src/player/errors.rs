@@ -11,14 +11,26 @@ pub type Errors = [f64; 5];
 /// The bases of Halton's sequence, one an input.
 const BASES: [u32; 5] = [2, 3, 5, 7, 11];
 
-/// `count` errors that cover the normal distribution more evenly than chance: Halton's sequence (1960) with a random shift
-/// (Cranley and Patterson 1976), so that a mean over them is unbiased. Every beginning of the list is spread evenly too,
-/// but not every fourth of it or the like. For comparing shots on the same errors.
-pub fn spread(count: usize, seed: u64) -> Vec<Errors> {
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let shift: [f64; 5] = std::array::from_fn(|_| rng.random());
-    let place = |n: u32, index: usize| (shift[index] + radical_inverse(n, BASES[index])).fract();
-    (1..=count as u32).map(|n| std::array::from_fn(|index| quantile(place(n, index)))).collect()
+/// Errors that cover the normal distribution more evenly than chance: Halton's sequence (1960) with a random shift (Cranley and
+/// Patterson 1976), so that a mean over them is unbiased. Every beginning of the sequence is spread evenly too, but not every fourth
+/// of it or the like. For comparing shots on the same errors.
+#[derive(Clone, Copy, Debug)]
+pub struct Halton {
+    shift: [f64; 5],
+}
+
+impl Halton {
+    /// The sequence with the shift that `seed` draws.
+    pub fn new(seed: u64) -> Self {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        Self { shift: std::array::from_fn(|_| rng.random()) }
+    }
+
+    /// The `n`th of its errors.
+    pub fn errors(&self, n: usize) -> Errors {
+        let place = |index: usize| (self.shift[index] + radical_inverse(n as u32 + 1, BASES[index])).fract();
+        std::array::from_fn(|index| quantile(place(index)))
+    }
 }
 
 /// Streams of standard normal numbers, each spread evenly over the distribution, for what is in doubt besides the hand:
@@ -97,8 +109,9 @@ mod tests {
     #[test]
     fn both_kinds_have_mean_nought_and_deviation_one_and_do_not_correlate() {
         // Of independent errors the means deviate by 0.5 % as a rule.
-        for (errors, tolerance, correlation) in [(spread(4096, 3), 0.005, 0.025), (independent(40_000, 3), 0.03, 0.03)]
-        {
+        let halton = Halton::new(3);
+        let spread = (0..4096).map(|n| halton.errors(n)).collect();
+        for (errors, tolerance, correlation) in [(spread, 0.005, 0.025), (independent(40_000, 3), 0.03, 0.03)] {
             let mean = |f: &dyn Fn(&Errors) -> f64| errors.iter().map(f).sum::<f64>() / errors.len() as f64;
             for i in 0..5 {
                 assert!(mean(&|e| e[i]).abs() < tolerance && (mean(&|e| e[i] * e[i]) - 1.0).abs() < tolerance);

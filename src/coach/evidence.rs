@@ -1,0 +1,240 @@
+//! How often a stroke is made, by all attempts at strokes near it: importance sampling.
+//!
+//! An attempt at one stroke, with the errors that it had, counts for another as much as that stroke's own attempts would have been likely
+//! to come out like it: by the density of its outcomes there, divided by that of the outcomes of all that was tried (the balance heuristic
+//! of Veach and Guibas 1995, normalised by the sum of the weights). So a few hundred attempts tell of every stroke among them, and which
+//! is made most often.
+
+use super::{Skill, candidates::towards, draws::Size};
+use crate::{physics::CueInputs, player::errors::Errors, statistics::SuccessRate, table::Table};
+
+/// Rounds of expectation maximization from one round of attempts to the next: more would climb what is chance.
+const CLIMBING_ROUNDS: usize = 2;
+
+/// How far a stroke may move before it is tried again, in its standard errors: further away, the attempts tell little.
+const FARTHEST: f64 = 1.0;
+
+/// The five inputs of a stroke, as far as errors change them: a, b, theta, phi and V.
+type Place = [f64; 5];
+
+/// A stroke as it is meant, and how its outcomes are spread.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim {
+    cue: CueInputs,
+    at: Place,
+    /// The standard errors, and their reciprocals; both zero where there is no error.
+    deviations: Place,
+    precisions: Place,
+    /// The product of the precisions, and what larger errors make of it.
+    height: [f64; 2],
+}
+
+impl Aim {
+    /// `cue` as this player strikes balls of `radius` m.
+    pub fn new(skill: &Skill, radius: f64, cue: &CueInputs) -> Self {
+        let Skill { a, b, theta, phi, speed, .. } = skill.at(cue);
+        let deviations = [a / radius, b / radius, theta, phi, speed];
+        let precisions = deviations.map(|deviation| if deviation > 0.0 { deviation.recip() } else { 0.0 });
+        let height = precisions.into_iter().filter(|precision| *precision > 0.0);
+        let height = height
+            .fold([1.0, 1.0], |[own, larger], precision| [own * precision, larger * precision / Size::Larger.factor()]);
+        Self { cue: *cue, at: [cue.a, cue.b, cue.theta, cue.phi, cue.speed], deviations, precisions, height }
+    }
+
+    /// The stroke as it is meant.
+    pub const fn cue(&self) -> &CueInputs {
+        &self.cue
+    }
+
+    /// What comes of it with these errors.
+    fn outcome(&self, errors: &Errors) -> Place {
+        std::array::from_fn(|input| self.at[input] + self.deviations[input] * errors[input])
+    }
+
+    /// An outcome's or another aim's place, in standard errors from this one.
+    fn errors_to(&self, place: &Place) -> Errors {
+        std::array::from_fn(|input| (place[input] - self.at[input]) * self.precisions[input])
+    }
+
+    /// How far another stroke is meant from this one, in standard errors.
+    pub fn distance(&self, other: &Self) -> f64 {
+        squared(&self.errors_to(&other.at)).sqrt()
+    }
+
+    /// The density of an outcome under the player's errors and under the larger ones, but for a factor that all aims share.
+    #[inline]
+    fn densities(&self, outcome: &Place) -> [f64; 2] {
+        // The variance of the larger errors is three times that of the player's own.
+        let larger = libm::exp(squared(&self.errors_to(outcome)) / -6.0);
+        [self.height[0] * larger * larger * larger, self.height[1] * larger]
+    }
+}
+
+fn squared(errors: &Errors) -> f64 {
+    errors.iter().map(|error| error * error).sum()
+}
+
+/// How often a stroke is made.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rate {
+    /// As a share, 0 to 1.
+    pub share: f64,
+    /// The number of its own attempts that would tell it as well.
+    pub attempts: f64,
+}
+
+impl Rate {
+    /// Adds up attempts by their weights.
+    fn of(weights: impl Iterator<Item = (f64, bool)>) -> Self {
+        let (mut made, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        for (weight, is_made) in weights {
+            made += if is_made { weight } else { 0.0 };
+            sum += weight;
+            squares += weight * weight;
+        }
+        if sum > 0.0 { Self { share: made / sum, attempts: sum * sum / squares } } else { Self::default() }
+    }
+
+    /// As if it had been counted, with its interval.
+    pub fn as_counted(self) -> SuccessRate {
+        let tried = self.attempts.round();
+        SuccessRate::new((self.share * tried).round() as usize, tried as usize)
+    }
+}
+
+/// One attempt.
+#[derive(Clone, Copy, Debug)]
+struct Attempt {
+    outcome: Place,
+    made: bool,
+    /// The density of its outcome among all outcomes that were to be expected.
+    density: f64,
+}
+
+/// Attempts at strokes near each other.
+#[derive(Clone, Debug, Default)]
+pub struct Evidence {
+    /// What was tried, and how often under errors of either size.
+    tried: Vec<(Aim, [f64; 2])>,
+    attempts: Vec<Attempt>,
+}
+
+impl Evidence {
+    /// Adds attempts at one stroke: errors, their size, and whether the point was made.
+    pub fn add(&mut self, aim: &Aim, attempts: impl Iterator<Item = (Errors, Size, bool)> + Clone) {
+        let counts = attempts.clone().fold([0.0; 2], |mut counts, (_, size, _)| {
+            counts[size as usize] += 1.0;
+            counts
+        });
+        let density = |(aim, counts): &(Aim, [f64; 2]), outcome: &Place| {
+            let [own, larger] = aim.densities(outcome);
+            counts[0] * own + counts[1] * larger
+        };
+        for attempt in &mut self.attempts {
+            attempt.density += density(&(*aim, counts), &attempt.outcome);
+        }
+        self.tried.push((*aim, counts));
+        for (errors, _, made) in attempts {
+            let outcome = aim.outcome(&errors);
+            let density = self.tried.iter().map(|tried| density(tried, &outcome)).sum();
+            self.attempts.push(Attempt { outcome, made, density });
+        }
+    }
+
+    /// How often a stroke is made under the player's errors, and under the larger ones.
+    pub fn rates(&self, aim: &Aim) -> [Rate; 2] {
+        let weights: Vec<([f64; 2], bool)> = self
+            .attempts
+            .iter()
+            .map(|attempt| (aim.densities(&attempt.outcome).map(|density| density / attempt.density), attempt.made))
+            .collect();
+        [0, 1].map(|size| Rate::of(weights.iter().map(|(weights, made)| (weights[size], *made))))
+    }
+
+    /// The errors that would turn `aim` into a stroke that is made more often: steps of expectation maximization (Dayan and Hinton 1997) to
+    /// the middle of what makes the point, without another attempt.
+    pub fn climb(&self, aim: &Aim) -> Errors {
+        let mut errors = [0.0; 5];
+        let mut climber = *aim;
+        for _ in 0..CLIMBING_ROUNDS {
+            let (mut sum, mut weights) = ([0.0; 5], 0.0);
+            for attempt in self.attempts.iter().filter(|attempt| attempt.made) {
+                let weight = climber.densities(&attempt.outcome)[0] / attempt.density;
+                weights += weight;
+                sum.iter_mut().zip(attempt.outcome).for_each(|(sum, input)| *sum += weight * input);
+            }
+            if weights <= 0.0 {
+                break;
+            }
+            errors = aim.errors_to(&sum.map(|sum| sum / weights));
+            let distance = squared(&errors).sqrt();
+            if distance > FARTHEST {
+                return errors.map(|error| error * FARTHEST / distance);
+            }
+            climber.at = aim.outcome(&errors);
+        }
+        errors
+    }
+
+    /// The stroke to which `share` of the way up from `aim` leads, as far as it can be recommended.
+    pub fn moved(&self, table: &Table, skill: Skill, aim: &Aim, share: f64) -> CueInputs {
+        towards(table, skill, aim.cue(), &self.climb(aim).map(|error| share * error))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::player::errors::Halton;
+
+    const RADIUS: f64 = 0.03;
+    const MEANT: CueInputs = CueInputs { a: 0.1, b: 0.2, theta: 0.1, phi: 1.0, speed: 2.5 };
+
+    /// Attempts at `aim` that make the point where the direction is within a standard error to the left of `middle`, and their number.
+    fn attempts(aim: &Aim, middle: f64, count: usize, seed: u64) -> Vec<(Errors, Size, bool)> {
+        let own = (0..count).map(|n| (Halton::new(seed).errors(n), Size::Own));
+        let larger = (0..count / 3).map(|n| (Halton::new(!seed).errors(n), Size::Larger));
+        own.chain(larger)
+            .map(|(errors, size)| {
+                let errors = errors.map(|error| size.factor() * error);
+                let phi = aim.outcome(&errors)[3];
+                (errors, size, (phi - middle).abs() < aim.deviations[3])
+            })
+            .collect()
+    }
+
+    #[test]
+    fn attempts_at_two_strokes_tell_of_a_third() {
+        let skill = Skill::EXPERT;
+        let aim = |off: f64| Aim::new(&skill, RADIUS, &CueInputs { phi: MEANT.phi + off * skill.phi, ..MEANT });
+        let mut evidence = Evidence::default();
+        for (off, seed) in [(-1.0, 1), (0.8, 2)] {
+            evidence.add(&aim(off), attempts(&aim(off), MEANT.phi, 3000, seed).into_iter());
+        }
+        // Of a normal distribution this much is within one deviation of what is so far off the middle; the larger errors have the
+        // square root of three as their deviation.
+        for (off, own, larger) in [(0.0, 0.6827, 0.4363), (0.5, 0.6247, 0.4210)] {
+            let rates = evidence.rates(&aim(off));
+            assert!((rates[0].share - own).abs() < 0.015 && (rates[1].share - larger).abs() < 0.03, "{off} {rates:?}");
+            assert!((1000.0..8000.0).contains(&rates[0].attempts), "{rates:?}");
+        }
+        let best = evidence.climb(&aim(0.8));
+        assert!((-0.8..-0.5).contains(&best[3]) && best[4].abs() < 0.1, "{best:?}");
+    }
+
+    #[test]
+    fn own_attempts_count_fully_and_inputs_without_errors_stay() {
+        let skill = Skill { theta: 0.0, ..Skill::EXPERT };
+        let aim = Aim::new(&skill, RADIUS, &MEANT);
+        let own: Vec<_> =
+            attempts(&aim, MEANT.phi, 300, 3).into_iter().filter(|(_, size, _)| *size == Size::Own).collect();
+        let mut evidence = Evidence::default();
+        evidence.add(&aim, own.iter().copied());
+        let made = own.iter().filter(|(_, _, made)| *made).count();
+        let [rate, _] = evidence.rates(&aim);
+        assert!((rate.share - made as f64 / 300.0).abs() < 1e-12 && (rate.attempts - 300.0).abs() < 1e-9, "{rate:?}");
+        assert_eq!(evidence.moved(&Table::default(), skill, &aim, 1.0).theta, MEANT.theta);
+        assert_eq!(Evidence::default().rates(&aim), [Rate::default(); 2]);
+        assert_eq!(Evidence::default().climb(&aim), [0.0; 5]);
+    }
+}

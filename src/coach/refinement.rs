@@ -1,0 +1,205 @@
+//! The refinement of a search: successive halving (Jamieson and Talwalkar 2016) of strokes that climb, from round to round, to where more
+//! attempts at them make the point.
+
+use super::{
+    Source,
+    evidence::{Aim, Evidence},
+    next::NextValue,
+    pool::{BLOCK, Candidate, Outcome, Race, suppose_the_worst},
+    trial::Task,
+};
+use crate::{physics::CueInputs, platform::parallel};
+
+/// Strokes that are meant within so many standard errors of each other are one: they would climb to the same place.
+const ALIKE: f64 = 1.0;
+
+/// How many strokes begin, besides the best of each kind: one for so many simulations that are left.
+const SIMULATIONS_EACH: f64 = 100.0;
+const FEWEST: usize = 24;
+
+/// From all to one, the number of strokes falls by this power of the share of the time: the best has the last of it for itself.
+const HALVING: f64 = 1.2;
+
+/// Blocks of a stroke in a round.
+const FEWEST_BLOCKS: usize = 2;
+const MOST_BLOCKS: usize = 256;
+
+/// Blocks of a stroke in all: then its share is known to half a percent.
+const ENOUGH_BLOCKS: usize = 4096;
+
+/// Blocks of one piece of work.
+const PIECE: usize = 4;
+
+/// Blocks of evidence from which on to climb it is shared out between threads: less takes no longer than to wake them.
+const SHARED_FROM: usize = 2000;
+
+/// Shares of the way up that are tried: it may lead over a stroke that makes no point as it is meant.
+const SHARES: [f64; 2] = [1.0, 0.5];
+
+/// Attempts after which a stroke that has never missed, to a ten-thousandth, is good enough, and time may be left.
+const ENOUGH_WITHOUT_A_MISS: f64 = 576.0;
+const NEXT_TO_NO_MISS: f64 = 1e-4;
+
+/// A stroke on its way up, and what was tried on it.
+struct Climber {
+    best: Candidate,
+    aim: Aim,
+    evidence: Evidence,
+    /// Blocks of the race that it has used.
+    blocks: usize,
+}
+
+impl Climber {
+    fn add(&mut self, aim: &Aim, outcomes: &[Outcome]) {
+        self.evidence.add(aim, outcomes.iter().copied());
+    }
+
+    /// Reads off how often the stroke is made.
+    fn judge(&mut self) {
+        [self.best.own, self.best.larger] = self.evidence.rates(&self.aim);
+    }
+
+    fn is_certain(&self) -> bool {
+        let Candidate { own, larger, .. } = self.best;
+        own.attempts >= ENOUGH_WITHOUT_A_MISS && own.share.min(larger.share) >= 1.0 - NEXT_TO_NO_MISS
+    }
+}
+
+/// A refinement on its way.
+pub struct Refinement<'a> {
+    /// What the strokes are tried at.
+    pub task: Task<'a>,
+    /// With so many threads.
+    pub threads: usize,
+    /// The share of the budget at which it ends.
+    pub ends: f64,
+    /// Whether the next point counts, too.
+    pub plan: bool,
+    /// What effort costs in a shot's score.
+    pub weight: f64,
+    /// The errors of all attempts.
+    pub race: Race,
+}
+
+impl Refinement<'_> {
+    /// How many strokes a refinement begins with that has so many simulations.
+    pub fn size(simulations: f64, most: usize) -> usize {
+        ((simulations / SIMULATIONS_EACH) as usize).clamp(FEWEST, most)
+    }
+
+    /// Refines the best of a pool, and returns them, the best first. `tell` hears of every new leader.
+    pub fn run(mut self, pool: &[Candidate], tell: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
+        let mut climbers = self.gathered(pool);
+        let all = climbers.len() as f64;
+        let rounds = libm::log2(all).ceil() + 1.0;
+        let begins = self.task.clock.used();
+        let mut live = climbers.len();
+        for round in 0.. {
+            let used = self.task.clock.used();
+            if used >= self.ends || live == 0 {
+                break;
+            }
+            let round = f64::from(round);
+            let progress = ((used - begins) / (self.ends - begins)).max(round / rounds);
+            let simulations = self.task.clock.simulations_until(self.ends) / (rounds - round).max(1.0);
+            let blocks = simulations / BLOCK as f64;
+            // Where there are more simulations than one stroke needs, others may still get better.
+            let fewest = (blocks / MOST_BLOCKS as f64).ceil().max(1.0);
+            live = live.min(libm::pow(all, 1.0 - HALVING * progress).max(fewest).ceil() as usize);
+            let each = ((blocks / live as f64) as usize).clamp(FEWEST_BLOCKS, MOST_BLOCKS);
+            self.climb(&mut climbers[..live]);
+            if !self.attempt(&mut climbers[..live], each) {
+                break;
+            }
+            climbers[..live].sort_by(|a, b| b.best.score().total_cmp(&a.best.score()));
+            tell(&climbers[0].best);
+            if climbers[0].is_certain() && !self.plan {
+                break;
+            }
+        }
+        climbers.into_iter().map(|climber| climber.best).collect()
+    }
+
+    /// Those of a pool that are not alike, with all that was tried on those that are.
+    fn gathered(&self, pool: &[Candidate]) -> Vec<Climber> {
+        let mut climbers: Vec<Climber> = Vec::new();
+        for candidate in pool {
+            let aim = self.aim(&candidate.shot.cue);
+            let made = |(n, (errors, size)): (usize, _)| (errors, size, candidate.points >> n & 1 == 1);
+            let blocks = candidate.tried / BLOCK;
+            let outcomes: Vec<Outcome> = self.race.errors(0..blocks).enumerate().map(made).collect();
+            if let Some(near) = climbers.iter_mut().find(|climber| climber.aim.distance(&aim) < ALIKE) {
+                near.add(&aim, &outcomes);
+                near.judge();
+            } else {
+                let mut climber = Climber { best: *candidate, aim, evidence: Evidence::default(), blocks };
+                climber.add(&aim, &outcomes);
+                climbers.push(climber);
+            }
+        }
+        climbers.sort_by(|a, b| b.best.score().total_cmp(&a.best.score()));
+        climbers
+    }
+
+    fn aim(&self, cue: &CueInputs) -> Aim {
+        Aim::new(&self.task.skill, self.task.table.radius, cue)
+    }
+
+    /// Moves each stroke to where the attempts so far make the point more often.
+    fn climb(&self, climbers: &mut [Climber]) {
+        let Self { task, race, .. } = self;
+        let evidence: usize = climbers.iter().map(|climber| climber.blocks).sum();
+        let threads = if self.plan || evidence >= SHARED_FROM { self.threads } else { 1 };
+        let moved = parallel::map(threads, climbers, |Climber { best, aim, evidence, .. }| {
+            let source = if best.shot.source == Source::Search { Source::Search } else { Source::Variation };
+            let up = |share| {
+                let cue = evidence.moved(task.table, task.skill, aim, share);
+                Candidate::new(task, cue, source, self.weight)
+            };
+            let moved = SHARES.into_iter().find_map(up).unwrap_or(*best);
+            // Until it is known, what comes next is what has come so far.
+            let next = NextValue::Supposed(best.next.value());
+            let moved = Candidate { next, ..moved };
+            if self.plan { race.look_ahead(task, &moved).unwrap_or(moved) } else { moved }
+        });
+        for (climber, best) in climbers.iter_mut().zip(moved) {
+            (climber.aim, climber.best) = (self.aim(&best.shot.cue), best);
+        }
+        if self.plan {
+            suppose_the_worst(climbers.iter_mut().map(|climber| &mut climber.best));
+        }
+    }
+
+    /// Tries each stroke at so many blocks of errors; tells whether there was anything to try.
+    fn attempt(&mut self, climbers: &mut [Climber], each: usize) -> bool {
+        let wanted = |climber: &Climber| climber.blocks..(climber.blocks + each).min(ENOUGH_BLOCKS);
+        let most = climbers.iter().map(|climber| wanted(climber).end).max().unwrap_or(0);
+        self.race.extend_to(self.task.worlds, most);
+        let Self { task, race, .. } = &*self;
+        let pieces: Vec<_> = climbers
+            .iter()
+            .enumerate()
+            .flat_map(|(index, climber)| {
+                let blocks = wanted(climber);
+                let end = blocks.end;
+                blocks.step_by(PIECE).map(move |begin| (index, begin..(begin + PIECE).min(end)))
+            })
+            .collect();
+        let tried = parallel::map(self.threads, &pieces, |(index, blocks)| {
+            race.attempts(task, &climbers[*index].best.shot.cue, blocks.clone())
+        });
+        let tried: Vec<_> =
+            pieces.into_iter().zip(tried).filter_map(|((index, _), tried)| Some((index, tried?))).collect();
+        for (index, climber) in climbers.iter_mut().enumerate() {
+            let own: Vec<Outcome> =
+                tried.iter().filter(|(of, _)| *of == index).flat_map(|(_, outcomes)| outcomes).copied().collect();
+            climber.blocks = wanted(climber).end;
+            if !own.is_empty() {
+                let aim = climber.aim;
+                climber.add(&aim, &own);
+            }
+            climber.judge();
+        }
+        !tried.is_empty()
+    }
+}
