@@ -65,8 +65,8 @@ pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) ->
 /// ball's image in a cushion, which comes off that cushion to it; and one anywhere. Of fifty the first twenty are of any kind:
 /// their thicknesses are all alike, their tips fill the disc, and their speeds, from `softest` on, are alike in their logarithm, as errors
 /// of the speed are a share of it. The others are spread as usual strokes are. The cue is level, for a player lifts it only with a
-/// reason. Usual strokes, and fewer shots in the later stages where time is short, raise what a club player makes of three-cushion shots
-/// that were looked for in 30 ms from 25.3 to 27.8 % (200 layouts).
+/// reason. Usual strokes, and fewer shots in later stages where time was short, raised what a club player made of three-cushion
+/// shots that were looked for in 30 ms from 25.3 to 27.8 % (200 layouts, with the search of that day).
 pub fn stratified(
     table: &Table,
     layout: &Layout,

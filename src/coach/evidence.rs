@@ -19,7 +19,7 @@ type Place = [f64; 5];
 
 /// A stroke as it is meant, and how its outcomes are spread.
 #[derive(Clone, Copy, Debug)]
-pub struct Aim {
+pub struct Distribution {
     cue: CueInputs,
     at: Place,
     /// The standard errors, and their reciprocals; both zero where there is no error.
@@ -29,7 +29,7 @@ pub struct Aim {
     height: [f64; 2],
 }
 
-impl Aim {
+impl Distribution {
     /// `cue` as this player strikes balls of `radius` m.
     pub fn new(skill: &Skill, radius: f64, cue: &CueInputs) -> Self {
         let Skill { a, b, theta, phi, speed, .. } = skill.at(cue);
@@ -41,17 +41,12 @@ impl Aim {
         Self { cue: *cue, at: [cue.a, cue.b, cue.theta, cue.phi, cue.speed], deviations, precisions, height }
     }
 
-    /// The stroke as it is meant.
-    pub const fn cue(&self) -> &CueInputs {
-        &self.cue
-    }
-
     /// What comes of it with these errors.
     fn outcome(&self, errors: &Errors) -> Place {
         std::array::from_fn(|input| self.at[input] + self.deviations[input] * errors[input])
     }
 
-    /// An outcome's or another aim's place, in standard errors from this one.
+    /// An outcome's or another stroke's place, in standard errors from this one.
     fn errors_to(&self, place: &Place) -> Errors {
         std::array::from_fn(|input| (place[input] - self.at[input]) * self.precisions[input])
     }
@@ -61,7 +56,7 @@ impl Aim {
         squared(&self.errors_to(&other.at)).sqrt()
     }
 
-    /// The density of an outcome under the player's errors and under the larger ones, but for a factor that all aims share.
+    /// The density of an outcome under the player's errors and under the larger ones, but for a factor that all strokes share.
     #[inline]
     fn densities(&self, outcome: &Place) -> [f64; 2] {
         // The variance of the larger errors is three times that of the player's own.
@@ -104,7 +99,7 @@ impl Rate {
 
 /// One attempt.
 #[derive(Clone, Copy, Debug)]
-struct Attempt {
+struct Sample {
     outcome: Place,
     made: bool,
     /// The density of its outcome among all outcomes that were to be expected.
@@ -115,70 +110,75 @@ struct Attempt {
 #[derive(Clone, Debug, Default)]
 pub struct Evidence {
     /// What was tried, and how often under errors of either size.
-    tried: Vec<(Aim, [f64; 2])>,
-    attempts: Vec<Attempt>,
+    tried: Vec<(Distribution, [f64; 2])>,
+    samples: Vec<Sample>,
 }
 
 impl Evidence {
     /// Adds attempts at one stroke: errors, their size, and whether the point was made.
-    pub fn add(&mut self, aim: &Aim, attempts: impl Iterator<Item = (Errors, Size, bool)> + Clone) {
+    pub fn add(&mut self, stroke: &Distribution, attempts: impl Iterator<Item = (Errors, Size, bool)> + Clone) {
         let counts = attempts.clone().fold([0.0; 2], |mut counts, (_, size, _)| {
             counts[size as usize] += 1.0;
             counts
         });
-        let density = |(aim, counts): &(Aim, [f64; 2]), outcome: &Place| {
-            let [own, larger] = aim.densities(outcome);
+        let density = |(stroke, counts): &(Distribution, [f64; 2]), outcome: &Place| {
+            let [own, larger] = stroke.densities(outcome);
             counts[0] * own + counts[1] * larger
         };
-        for attempt in &mut self.attempts {
-            attempt.density += density(&(*aim, counts), &attempt.outcome);
+        for sample in &mut self.samples {
+            sample.density += density(&(*stroke, counts), &sample.outcome);
         }
-        self.tried.push((*aim, counts));
+        self.tried.push((*stroke, counts));
         for (errors, _, made) in attempts {
-            let outcome = aim.outcome(&errors);
+            let outcome = stroke.outcome(&errors);
             let density = self.tried.iter().map(|tried| density(tried, &outcome)).sum();
-            self.attempts.push(Attempt { outcome, made, density });
+            self.samples.push(Sample { outcome, made, density });
         }
     }
 
     /// How often a stroke is made under the player's errors, and under the larger ones.
-    pub fn rates(&self, aim: &Aim) -> [Rate; 2] {
+    pub fn rates(&self, stroke: &Distribution) -> [Rate; 2] {
         let weights: Vec<([f64; 2], bool)> = self
-            .attempts
+            .samples
             .iter()
-            .map(|attempt| (aim.densities(&attempt.outcome).map(|density| density / attempt.density), attempt.made))
+            .map(|sample| (stroke.densities(&sample.outcome).map(|density| density / sample.density), sample.made))
             .collect();
         [0, 1].map(|size| Rate::of(weights.iter().map(|(weights, made)| (weights[size], *made))))
     }
 
-    /// The errors that would turn `aim` into a stroke that is made more often: steps of expectation maximization (Dayan and Hinton 1997) to
+    /// The errors that would turn `stroke` into a stroke that is made more often: steps of expectation maximization (Dayan and Hinton 1997) to
     /// the middle of what makes the point, without another attempt.
-    pub fn climb(&self, aim: &Aim) -> Errors {
+    fn climb(&self, stroke: &Distribution) -> Errors {
         let mut errors = [0.0; 5];
-        let mut climber = *aim;
+        let mut climber = *stroke;
         for _ in 0..CLIMBING_ROUNDS {
             let (mut sum, mut weights) = ([0.0; 5], 0.0);
-            for attempt in self.attempts.iter().filter(|attempt| attempt.made) {
-                let weight = climber.densities(&attempt.outcome)[0] / attempt.density;
+            for sample in self.samples.iter().filter(|sample| sample.made) {
+                let weight = climber.densities(&sample.outcome)[0] / sample.density;
                 weights += weight;
-                sum.iter_mut().zip(attempt.outcome).for_each(|(sum, input)| *sum += weight * input);
+                sum.iter_mut().zip(sample.outcome).for_each(|(sum, input)| *sum += weight * input);
             }
             if weights <= 0.0 {
                 break;
             }
-            errors = aim.errors_to(&sum.map(|sum| sum / weights));
+            errors = stroke.errors_to(&sum.map(|sum| sum / weights));
             let distance = squared(&errors).sqrt();
             if distance > FARTHEST {
                 return errors.map(|error| error * FARTHEST / distance);
             }
-            climber.at = aim.outcome(&errors);
+            climber.at = stroke.outcome(&errors);
         }
         errors
     }
 
-    /// The stroke to which `share` of the way up from `aim` leads, as far as it can be recommended.
-    pub fn moved(&self, table: &Table, skill: Skill, aim: &Aim, share: f64) -> CueInputs {
-        towards(table, skill, aim.cue(), &self.climb(aim).map(|error| share * error))
+    /// Strokes to which it leads from this one to climb, the best first, as far as they can be recommended: the top, half-way, and the
+    /// outcome nearest to the top of all that made the point, for what lies in the middle of them need not make it.
+    pub fn ways_up(&self, table: &Table, skill: Skill, stroke: &Distribution) -> [CueInputs; 3] {
+        let top = self.climb(stroke);
+        let apart = |errors: &Errors| squared(&std::array::from_fn(|input| errors[input] - top[input]));
+        let made = self.samples.iter().filter(|sample| sample.made).map(|sample| stroke.errors_to(&sample.outcome));
+        let nearest = made.min_by(|one, other| apart(one).total_cmp(&apart(other))).unwrap_or_default();
+        [top, top.map(|error| 0.5 * error), nearest].map(|errors| towards(table, skill, &stroke.cue, &errors))
     }
 }
 
@@ -190,15 +190,15 @@ mod tests {
     const RADIUS: f64 = 0.03;
     const MEANT: CueInputs = CueInputs { a: 0.1, b: 0.2, theta: 0.1, phi: 1.0, speed: 2.5 };
 
-    /// Attempts at `aim` that make the point where the direction is within a standard error to the left of `middle`, and their number.
-    fn attempts(aim: &Aim, middle: f64, count: usize, seed: u64) -> Vec<(Errors, Size, bool)> {
+    /// Attempts at `stroke` that make the point where the direction is within a standard error to the left of `middle`, and their number.
+    fn attempts(stroke: &Distribution, middle: f64, count: usize, seed: u64) -> Vec<(Errors, Size, bool)> {
         let own = (0..count).map(|n| (Halton::new(seed).errors(n), Size::Own));
         let larger = (0..count / 3).map(|n| (Halton::new(!seed).errors(n), Size::Larger));
         own.chain(larger)
             .map(|(errors, size)| {
                 let errors = errors.map(|error| size.factor() * error);
-                let phi = aim.outcome(&errors)[3];
-                (errors, size, (phi - middle).abs() < aim.deviations[3])
+                let phi = stroke.outcome(&errors)[3];
+                (errors, size, (phi - middle).abs() < stroke.deviations[3])
             })
             .collect()
     }
@@ -206,35 +206,39 @@ mod tests {
     #[test]
     fn attempts_at_two_strokes_tell_of_a_third() {
         let skill = Skill::EXPERT;
-        let aim = |off: f64| Aim::new(&skill, RADIUS, &CueInputs { phi: MEANT.phi + off * skill.phi, ..MEANT });
+        let stroke =
+            |off: f64| Distribution::new(&skill, RADIUS, &CueInputs { phi: MEANT.phi + off * skill.phi, ..MEANT });
         let mut evidence = Evidence::default();
         for (off, seed) in [(-1.0, 1), (0.8, 2)] {
-            evidence.add(&aim(off), attempts(&aim(off), MEANT.phi, 3000, seed).into_iter());
+            evidence.add(&stroke(off), attempts(&stroke(off), MEANT.phi, 3000, seed).into_iter());
         }
         // Of a normal distribution this much is within one deviation of what is so far off the middle; the larger errors have the
         // square root of three as their deviation.
         for (off, own, larger) in [(0.0, 0.6827, 0.4363), (0.5, 0.6247, 0.4210)] {
-            let rates = evidence.rates(&aim(off));
+            let rates = evidence.rates(&stroke(off));
             assert!((rates[0].share - own).abs() < 0.015 && (rates[1].share - larger).abs() < 0.03, "{off} {rates:?}");
             assert!((1000.0..8000.0).contains(&rates[0].attempts), "{rates:?}");
         }
-        let best = evidence.climb(&aim(0.8));
+        let best = evidence.climb(&stroke(0.8));
         assert!((-0.8..-0.5).contains(&best[3]) && best[4].abs() < 0.1, "{best:?}");
     }
 
     #[test]
     fn own_attempts_count_fully_and_inputs_without_errors_stay() {
         let skill = Skill { theta: 0.0, ..Skill::EXPERT };
-        let aim = Aim::new(&skill, RADIUS, &MEANT);
+        let stroke = Distribution::new(&skill, RADIUS, &MEANT);
         let own: Vec<_> =
-            attempts(&aim, MEANT.phi, 300, 3).into_iter().filter(|(_, size, _)| *size == Size::Own).collect();
+            attempts(&stroke, MEANT.phi, 300, 3).into_iter().filter(|(_, size, _)| *size == Size::Own).collect();
         let mut evidence = Evidence::default();
-        evidence.add(&aim, own.iter().copied());
+        evidence.add(&stroke, own.iter().copied());
         let made = own.iter().filter(|(_, _, made)| *made).count();
-        let [rate, _] = evidence.rates(&aim);
+        let [rate, _] = evidence.rates(&stroke);
         assert!((rate.share - made as f64 / 300.0).abs() < 1e-12 && (rate.attempts - 300.0).abs() < 1e-9, "{rate:?}");
-        assert_eq!(evidence.moved(&Table::default(), skill, &aim, 1.0).theta, MEANT.theta);
-        assert_eq!(Evidence::default().rates(&aim), [Rate::default(); 2]);
-        assert_eq!(Evidence::default().climb(&aim), [0.0; 5]);
+        let ways = evidence.ways_up(&Table::default(), skill, &stroke);
+        assert!(ways.iter().all(|cue| cue.theta == MEANT.theta) && ways[0] != ways[1], "{ways:?}");
+        let is_way = |errors: &Errors| (skill.stroke(RADIUS, &MEANT, errors).phi - ways[2].phi).abs() < 1e-12;
+        assert!(own.iter().any(|(errors, _, made)| *made && is_way(errors)), "{ways:?}");
+        assert_eq!(Evidence::default().rates(&stroke), [Rate::default(); 2]);
+        assert_eq!(Evidence::default().climb(&stroke), [0.0; 5]);
     }
 }

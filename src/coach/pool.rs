@@ -33,7 +33,7 @@ const AGAIN: f64 = 0.05;
 pub const BLOCK: usize = 4;
 
 /// One attempt: its errors and their size, and whether it made the point.
-pub type Outcome = (Errors, Size, bool);
+pub type Trial = (Errors, Size, bool);
 
 /// The errors that shots are compared on, the same for all of them, in blocks.
 #[derive(Debug)]
@@ -78,7 +78,7 @@ impl Race {
     }
 
     /// Tries a stroke at the errors of these blocks, as far as they are drawn; `None` where time ran out.
-    pub fn attempts(&self, task: &Task, cue: &CueInputs, blocks: Range<usize>) -> Option<Vec<Outcome>> {
+    pub fn attempts(&self, task: &Task, cue: &CueInputs, blocks: Range<usize>) -> Option<Vec<Trial>> {
         let mut all = Vec::with_capacity(BLOCK * blocks.len());
         for attempt in BLOCK * blocks.start..BLOCK * blocks.end {
             let Some((draw, size)) = self.draw(attempt) else { break };

@@ -3,9 +3,9 @@
 
 use super::{
     Source,
-    evidence::{Aim, Evidence},
+    evidence::{Distribution, Evidence},
     next::NextValue,
-    pool::{BLOCK, Candidate, Outcome, Race, suppose_the_worst},
+    pool::{BLOCK, Candidate, Race, Trial, suppose_the_worst},
     trial::Task,
 };
 use crate::{physics::CueInputs, platform::parallel};
@@ -33,9 +33,6 @@ const PIECE: usize = 4;
 /// Blocks of evidence from which on to climb it is shared out between threads: less takes no longer than to wake them.
 const SHARED_FROM: usize = 2000;
 
-/// Shares of the way up that are tried: it may lead over a stroke that makes no point as it is meant.
-const SHARES: [f64; 2] = [1.0, 0.5];
-
 /// Attempts after which a stroke that has never missed, to a ten-thousandth, is good enough, and time may be left.
 const ENOUGH_WITHOUT_A_MISS: f64 = 576.0;
 const NEXT_TO_NO_MISS: f64 = 1e-4;
@@ -43,20 +40,20 @@ const NEXT_TO_NO_MISS: f64 = 1e-4;
 /// A stroke on its way up, and what was tried on it.
 struct Climber {
     best: Candidate,
-    aim: Aim,
+    distribution: Distribution,
     evidence: Evidence,
     /// Blocks of the race that it has used.
     blocks: usize,
 }
 
 impl Climber {
-    fn add(&mut self, aim: &Aim, outcomes: &[Outcome]) {
-        self.evidence.add(aim, outcomes.iter().copied());
+    fn add(&mut self, distribution: &Distribution, trials: &[Trial]) {
+        self.evidence.add(distribution, trials.iter().copied());
     }
 
     /// Reads off how often the stroke is made.
     fn judge(&mut self) {
-        [self.best.own, self.best.larger] = self.evidence.rates(&self.aim);
+        [self.best.own, self.best.larger] = self.evidence.rates(&self.distribution);
     }
 
     fn is_certain(&self) -> bool {
@@ -124,16 +121,17 @@ impl Refinement<'_> {
     fn gathered(&self, pool: &[Candidate]) -> Vec<Climber> {
         let mut climbers: Vec<Climber> = Vec::new();
         for candidate in pool {
-            let aim = self.aim(&candidate.shot.cue);
+            let distribution = self.distribution(&candidate.shot.cue);
             let made = |(n, (errors, size)): (usize, _)| (errors, size, candidate.points >> n & 1 == 1);
             let blocks = candidate.tried / BLOCK;
-            let outcomes: Vec<Outcome> = self.race.errors(0..blocks).enumerate().map(made).collect();
-            if let Some(near) = climbers.iter_mut().find(|climber| climber.aim.distance(&aim) < ALIKE) {
-                near.add(&aim, &outcomes);
+            let trials: Vec<Trial> = self.race.errors(0..blocks).enumerate().map(made).collect();
+            if let Some(near) = climbers.iter_mut().find(|climber| climber.distribution.distance(&distribution) < ALIKE)
+            {
+                near.add(&distribution, &trials);
                 near.judge();
             } else {
-                let mut climber = Climber { best: *candidate, aim, evidence: Evidence::default(), blocks };
-                climber.add(&aim, &outcomes);
+                let mut climber = Climber { best: *candidate, distribution, evidence: Evidence::default(), blocks };
+                climber.add(&distribution, &trials);
                 climbers.push(climber);
             }
         }
@@ -141,8 +139,8 @@ impl Refinement<'_> {
         climbers
     }
 
-    fn aim(&self, cue: &CueInputs) -> Aim {
-        Aim::new(&self.task.skill, self.task.table.radius, cue)
+    fn distribution(&self, cue: &CueInputs) -> Distribution {
+        Distribution::new(&self.task.skill, self.task.table.radius, cue)
     }
 
     /// Moves each stroke to where the attempts so far make the point more often.
@@ -150,20 +148,18 @@ impl Refinement<'_> {
         let Self { task, race, .. } = self;
         let evidence: usize = climbers.iter().map(|climber| climber.blocks).sum();
         let threads = if self.plan || evidence >= SHARED_FROM { self.threads } else { 1 };
-        let moved = parallel::map(threads, climbers, |Climber { best, aim, evidence, .. }| {
+        let moved = parallel::map(threads, climbers, |Climber { best, distribution, evidence, .. }| {
             let source = if best.shot.source == Source::Search { Source::Search } else { Source::Variation };
-            let up = |share| {
-                let cue = evidence.moved(task.table, task.skill, aim, share);
-                Candidate::new(task, cue, source, self.weight)
-            };
-            let moved = SHARES.into_iter().find_map(up).unwrap_or(*best);
+            let ways = evidence.ways_up(task.table, task.skill, distribution);
+            let moved =
+                ways.into_iter().find_map(|cue| Candidate::new(task, cue, source, self.weight)).unwrap_or(*best);
             // Until it is known, what comes next is what has come so far.
             let next = NextValue::Supposed(best.next.value());
             let moved = Candidate { next, ..moved };
             if self.plan { race.look_ahead(task, &moved).unwrap_or(moved) } else { moved }
         });
         for (climber, best) in climbers.iter_mut().zip(moved) {
-            (climber.aim, climber.best) = (self.aim(&best.shot.cue), best);
+            (climber.distribution, climber.best) = (self.distribution(&best.shot.cue), best);
         }
         if self.plan {
             suppose_the_worst(climbers.iter_mut().map(|climber| &mut climber.best));
@@ -191,15 +187,65 @@ impl Refinement<'_> {
         let tried: Vec<_> =
             pieces.into_iter().zip(tried).filter_map(|((index, _), tried)| Some((index, tried?))).collect();
         for (index, climber) in climbers.iter_mut().enumerate() {
-            let own: Vec<Outcome> =
-                tried.iter().filter(|(of, _)| *of == index).flat_map(|(_, outcomes)| outcomes).copied().collect();
+            let own: Vec<Trial> =
+                tried.iter().filter(|(of, _)| *of == index).flat_map(|(_, trials)| trials).copied().collect();
             climber.blocks = wanted(climber).end;
             if !own.is_empty() {
-                let aim = climber.aim;
-                climber.add(&aim, &own);
+                let distribution = climber.distribution;
+                climber.add(&distribution, &own);
             }
             climber.judge();
         }
         !tried.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{sync::atomic::AtomicBool, time::Duration};
+
+    use super::*;
+    use crate::{
+        coach::{Doubt, Skill, clock::Clock, draws::Worlds, first::Attempt, make_probability, trial::CONTACT_STEPS},
+        game::Rule,
+        table::{Layout, Table},
+    };
+
+    #[test]
+    fn a_stroke_at_the_edge_climbs_and_those_that_are_alike_are_one() {
+        let (table, cancel, skill) = (Table::default(), AtomicBool::new(false), Skill::CLUB);
+        let (layout, rule) = (Layout::opening(&table), Rule::StraightRail);
+        let worlds = Worlds::new(&table, &layout, Doubt::NONE);
+        let [unlimited, clock] =
+            [u64::MAX, 4000].map(|simulations| Clock::start(Duration::from_secs(60), simulations, &cancel));
+        let (until, patience) = (clock.moment(1.0), CONTACT_STEPS);
+        let task = Task {
+            table: &table,
+            layout: &layout,
+            rule,
+            skill,
+            jumps: true,
+            worlds: &worlds,
+            clock: &clock,
+            until,
+            patience,
+        };
+        let mut race = Race::new(1);
+        race.extend_to(&worlds, 8);
+        // Of the directions about a shot that makes the point those that do it, too; the first is at the edge.
+        let found = Attempt::new(Task { clock: &unlimited, ..task }).run(&[], 1).solutions[0].0.cue;
+        let turned = |n: i32| CueInputs { phi: found.phi + 0.1 * f64::from(n) * skill.at(&found).phi, ..found };
+        let made = (-40..=0).filter_map(|n| Candidate::new(&task, turned(n), Source::Search, 0.0));
+        let pool: Vec<_> = made.take(2).map(|candidate| race.go_on(&task, &candidate, 8).unwrap()).collect();
+        let refinement = Refinement { task, threads: 2, ends: 1.0, plan: false, weight: 0.0, race };
+        let gathered = refinement.gathered(&pool);
+        assert_eq!((gathered.len(), gathered[0].blocks), (1, 8));
+        assert!(gathered[0].best.own.attempts > 40.0, "both have 24: {:?}", gathered[0].best);
+        let mut told = 0;
+        let refined = refinement.run(&pool, &mut |_| told += 1);
+        let chance = |cue: CueInputs| make_probability(skill, rule, &table, &layout, &cue, 4000, 1).rate;
+        let [before, after] = [pool[0].shot.cue, refined[0].shot.cue].map(chance);
+        assert!(after > before + 0.01 && told > 1, "{before} {after}");
+        assert!((refined[0].own.share - after).abs() < 0.04, "{:?} {after}", refined[0]);
     }
 }

@@ -6,7 +6,7 @@ use candle_core::{CpuStorage, CustomOp2, Device, Layout, Result, Shape, Tensor, 
 use pulp::Arch;
 
 use super::{
-    matmul::{Matrix, product},
+    matmul::{Matrix, product, product_into},
     tensors::{stored_values, values},
 };
 
@@ -96,12 +96,14 @@ impl CustomOp2 for Fused {
             let start = end - (before * after + bias.len());
             if for_parameters {
                 let (weight_part, bias_part) = parameter_gradient[start..end].split_at_mut(before * after);
-                weight_part.copy_from_slice(&product(Matrix::new(from, rows, before).transposed(), delta));
-                for row in errors.chunks_exact(after) {
-                    for (sum, error) in bias_part.iter_mut().zip(row) {
-                        *sum += error;
+                product_into(Matrix::new(from, rows, before).transposed(), delta, weight_part);
+                Arch::new().dispatch(|| {
+                    for row in errors.chunks_exact(after) {
+                        for (sum, error) in bias_part.iter_mut().zip(row) {
+                            *sum += error;
+                        }
                     }
-                }
+                });
             }
             end = start;
             if index == 0 {
@@ -111,9 +113,11 @@ impl CustomOp2 for Fused {
                 }
             } else {
                 let mut previous = product(delta, weights.transposed());
-                for (error, output) in previous.iter_mut().zip(from) {
-                    *error = if *output > 0.0 { *error } else { 0.0 };
-                }
+                Arch::new().dispatch(|| {
+                    for (error, output) in previous.iter_mut().zip(from) {
+                        *error = if *output > 0.0 { *error } else { 0.0 };
+                    }
+                });
                 errors = previous;
             }
         }

@@ -105,12 +105,18 @@ impl<'a> Matrix<'a> {
 
 /// `left` times `right`, row after row.
 pub fn product(left: Matrix<'_>, right: Matrix<'_>) -> Vec<f32> {
-    assert_eq!(left.columns, right.rows, "the inner sizes of a matrix product");
     let mut out = vec![0.0; left.rows * right.columns];
-    if left.rows > 0 && left.columns > 0 && right.columns > 0 {
-        Arch::new().dispatch(Product { left, right, out: &mut out });
-    }
+    product_into(left, right, &mut out);
     out
+}
+
+/// The same into values that are zero.
+pub fn product_into(left: Matrix<'_>, right: Matrix<'_>, out: &mut [f32]) {
+    assert_eq!(left.columns, right.rows, "the inner sizes of a matrix product");
+    assert_eq!(out.len(), left.rows * right.columns, "the size of a matrix product");
+    if left.rows > 0 && left.columns > 0 && right.columns > 0 {
+        Arch::new().dispatch(Product { left, right, out });
+    }
 }
 
 struct Product<'a> {
