@@ -171,8 +171,8 @@ impl Evidence {
         errors
     }
 
-    /// Strokes to which it leads from this one to climb, the best first, as far as they can be recommended: the top, half-way, and the
-    /// outcome nearest to the top of all that made the point, for what lies in the middle of them need not make it.
+    /// Strokes to climb to from this one, the best first, as far as they can be recommended: the top, half-way to it, and the outcome
+    /// nearest to it of all that made the point, for what lies in the middle of those need not make it.
     pub fn ways_up(&self, table: &Table, skill: Skill, stroke: &Distribution) -> [CueInputs; 3] {
         let top = self.climb(stroke);
         let apart = |errors: &Errors| squared(&std::array::from_fn(|input| errors[input] - top[input]));
