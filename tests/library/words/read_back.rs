@@ -166,7 +166,8 @@ fn rail_mark((rail, diamond): (&str, &str)) -> Option<Mark> {
     Some(Mark { rail, diamond: diamond.trim_end_matches('.').parse().ok()? })
 }
 
-/// Reads "Red – long 5.1 – short 1.2 – long 2.3 – yellow, thin on the left."; how the second ball is met is not gone by.
+/// Reads "Red – long 5.1 – short 1.2 – red again – long 2.3 – yellow, thin on the left."; how the second ball is met is not gone by, nor where
+/// the first is met again.
 fn course(text: &str) -> Option<Vec<Stop>> {
     let text = text.trim_end_matches('.').to_lowercase();
     let text = text.split_once(", ").map_or(&*text, |(stops, _)| stops);
@@ -174,7 +175,7 @@ fn course(text: &str) -> Option<Vec<Stop>> {
         Some((length, diamond)) => Some(Stop::Cushion { is_long: length == "long", diamond: diamond.parse().ok()? }),
         None => Some(Stop::Ball(BALL_NAMES.iter().position(|name| *name == words)?)),
     };
-    text.split(" \u{2013} ").map(stop).collect()
+    text.split(" \u{2013} ").filter(|words| !words.ends_with(" again")).map(stop).collect()
 }
 
 /// Reads "Cue from 4.2 on the bottom long rail to 0.98 on the top long rail.": the direction, and how far off it may be, rad.
