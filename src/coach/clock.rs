@@ -62,7 +62,7 @@ impl<'a> Clock<'a> {
 
     /// How many simulations are left until a share of the budget is used, as far as is known by now.
     pub fn simulations_until(&self, share: f64) -> f64 {
-        self.simulations() as f64 * (share / self.used() - 1.0).max(0.0)
+        (self.simulations() as f64 * (share / self.used() - 1.0)).max(0.0)
     }
 
     /// Time since the start.

@@ -24,8 +24,8 @@ pub struct Distribution {
     at: Place,
     /// The standard errors, and their reciprocals; both zero where there is no error.
     deviations: Place,
-    precisions: Place,
-    /// The product of the precisions, and what larger errors make of it.
+    inverse_deviations: Place,
+    /// The product of the reciprocals, and what larger errors make of it.
     height: [f64; 2],
 }
 
@@ -34,11 +34,11 @@ impl Distribution {
     pub fn new(skill: &Skill, radius: f64, cue: &CueInputs) -> Self {
         let Skill { a, b, theta, phi, speed, .. } = skill.at(cue);
         let deviations = [a / radius, b / radius, theta, phi, speed];
-        let precisions = deviations.map(|deviation| if deviation > 0.0 { deviation.recip() } else { 0.0 });
-        let height = precisions.into_iter().filter(|precision| *precision > 0.0);
-        let height = height
-            .fold([1.0, 1.0], |[own, larger], precision| [own * precision, larger * precision / Size::Larger.factor()]);
-        Self { cue: *cue, at: [cue.a, cue.b, cue.theta, cue.phi, cue.speed], deviations, precisions, height }
+        let inverse_deviations = deviations.map(|deviation| if deviation > 0.0 { deviation.recip() } else { 0.0 });
+        let height = inverse_deviations.into_iter().filter(|inverse| *inverse > 0.0);
+        let height =
+            height.fold([1.0, 1.0], |[own, larger], inverse| [own * inverse, larger * inverse / Size::Larger.factor()]);
+        Self { cue: *cue, at: [cue.a, cue.b, cue.theta, cue.phi, cue.speed], deviations, inverse_deviations, height }
     }
 
     /// What comes of it with these errors.
@@ -48,7 +48,7 @@ impl Distribution {
 
     /// An outcome's or another stroke's place, in standard errors from this one.
     fn errors_to(&self, place: &Place) -> Errors {
-        std::array::from_fn(|input| (place[input] - self.at[input]) * self.precisions[input])
+        std::array::from_fn(|input| (place[input] - self.at[input]) * self.inverse_deviations[input])
     }
 
     /// How far another stroke is meant from this one, in standard errors.
@@ -97,7 +97,10 @@ impl Rate {
     }
 }
 
-/// One attempt.
+/// One attempt: its errors and their size, and whether it made the point.
+pub type Trial = (Errors, Size, bool);
+
+/// One attempt by what came of it.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
     outcome: Place,
@@ -115,12 +118,12 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// Adds attempts at one stroke: errors, their size, and whether the point was made.
-    pub fn add(&mut self, stroke: &Distribution, attempts: impl Iterator<Item = (Errors, Size, bool)> + Clone) {
-        let counts = attempts.clone().fold([0.0; 2], |mut counts, (_, size, _)| {
-            counts[size as usize] += 1.0;
-            counts
-        });
+    /// Adds attempts at one stroke.
+    pub fn add(&mut self, stroke: &Distribution, trials: &[Trial]) {
+        let mut counts = [0.0; 2];
+        for (_, size, _) in trials {
+            counts[*size as usize] += 1.0;
+        }
         let density = |(stroke, counts): &(Distribution, [f64; 2]), outcome: &Place| {
             let [own, larger] = stroke.densities(outcome);
             counts[0] * own + counts[1] * larger
@@ -129,10 +132,10 @@ impl Evidence {
             sample.density += density(&(*stroke, counts), &sample.outcome);
         }
         self.tried.push((*stroke, counts));
-        for (errors, _, made) in attempts {
-            let outcome = stroke.outcome(&errors);
+        for (errors, _, made) in trials {
+            let outcome = stroke.outcome(errors);
             let density = self.tried.iter().map(|tried| density(tried, &outcome)).sum();
-            self.samples.push(Sample { outcome, made, density });
+            self.samples.push(Sample { outcome, made: *made, density });
         }
     }
 
@@ -191,7 +194,7 @@ mod tests {
     const MEANT: CueInputs = CueInputs { a: 0.1, b: 0.2, theta: 0.1, phi: 1.0, speed: 2.5 };
 
     /// Attempts at `stroke` that make the point where the direction is within a standard error to the left of `middle`, and their number.
-    fn attempts(stroke: &Distribution, middle: f64, count: usize, seed: u64) -> Vec<(Errors, Size, bool)> {
+    fn attempts(stroke: &Distribution, middle: f64, count: usize, seed: u64) -> Vec<Trial> {
         let own = (0..count).map(|n| (Halton::new(seed).errors(n), Size::Own));
         let larger = (0..count / 3).map(|n| (Halton::new(!seed).errors(n), Size::Larger));
         own.chain(larger)
@@ -210,7 +213,7 @@ mod tests {
             |off: f64| Distribution::new(&skill, RADIUS, &CueInputs { phi: MEANT.phi + off * skill.phi, ..MEANT });
         let mut evidence = Evidence::default();
         for (off, seed) in [(-1.0, 1), (0.8, 2)] {
-            evidence.add(&stroke(off), attempts(&stroke(off), MEANT.phi, 3000, seed).into_iter());
+            evidence.add(&stroke(off), &attempts(&stroke(off), MEANT.phi, 3000, seed));
         }
         // Of a normal distribution this much is within one deviation of what is so far off the middle; the larger errors have the
         // square root of three as their deviation.
@@ -230,7 +233,7 @@ mod tests {
         let own: Vec<_> =
             attempts(&stroke, MEANT.phi, 300, 3).into_iter().filter(|(_, size, _)| *size == Size::Own).collect();
         let mut evidence = Evidence::default();
-        evidence.add(&stroke, own.iter().copied());
+        evidence.add(&stroke, &own);
         let made = own.iter().filter(|(_, _, made)| *made).count();
         let [rate, _] = evidence.rates(&stroke);
         assert!((rate.share - made as f64 / 300.0).abs() < 1e-12 && (rate.attempts - 300.0).abs() < 1e-9, "{rate:?}");

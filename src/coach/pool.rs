@@ -6,7 +6,7 @@ use super::{
     Kind, Source, Suggestion,
     candidates::{MAX_ELEVATION, MAX_SPEED},
     draws::{Draw, QuasiRandomDraws, Size, Worlds},
-    evidence::Rate,
+    evidence::{Rate, Trial},
     next::{NextValue, next_value},
     trial::{Course, Task},
 };
@@ -32,10 +32,7 @@ const AGAIN: f64 = 0.05;
 /// Attempts of a block: the last of them is at larger errors.
 pub const BLOCK: usize = 4;
 
-/// One attempt: its errors and their size, and whether it made the point.
-pub type Trial = (Errors, Size, bool);
-
-/// The errors that shots are compared on, the same for all of them, in blocks.
+/// The errors that shots are compared on, in blocks: each shot has the same ones, as far as it is tried.
 #[derive(Debug)]
 pub struct Race {
     own: QuasiRandomDraws,
@@ -77,18 +74,17 @@ impl Race {
         Some(Candidate { next, ..*candidate })
     }
 
-    /// Tries a stroke at the errors of these blocks, as far as they are drawn; `None` where time ran out.
+    /// Tries a stroke at the errors of these blocks; `None` where time ran out, or they are not drawn.
     pub fn attempts(&self, task: &Task, cue: &CueInputs, blocks: Range<usize>) -> Option<Vec<Trial>> {
-        let mut all = Vec::with_capacity(BLOCK * blocks.len());
-        for attempt in BLOCK * blocks.start..BLOCK * blocks.end {
-            let Some((draw, size)) = self.draw(attempt) else { break };
-            if task.clock.is_past(task.until) {
-                return None;
-            }
-            task.clock.count(1);
-            all.push((*draw.errors, size, task.makes(cue, draw)?));
-        }
-        Some(all)
+        let all = BLOCK * blocks.start..BLOCK * blocks.end;
+        let wanted = all.len();
+        let tried = all.map_while(|attempt| {
+            let (draw, size) = self.draw(attempt).filter(|_| !task.clock.is_past(task.until))?;
+            Some((*draw.errors, size, task.makes(cue, draw)?))
+        });
+        let trials: Vec<Trial> = tried.collect();
+        task.clock.count(trials.len() as u64);
+        (trials.len() == wanted).then_some(trials)
     }
 
     /// Tries a candidate at the errors up to this block; `None` where time ran out.

@@ -3,9 +3,9 @@
 
 use super::{
     Source,
-    evidence::{Distribution, Evidence},
+    evidence::{Distribution, Evidence, Trial},
     next::NextValue,
-    pool::{BLOCK, Candidate, Race, Trial, suppose_the_worst},
+    pool::{BLOCK, Candidate, Race, suppose_the_worst},
     trial::Task,
 };
 use crate::{physics::CueInputs, platform::parallel};
@@ -47,10 +47,6 @@ struct Climber {
 }
 
 impl Climber {
-    fn add(&mut self, distribution: &Distribution, trials: &[Trial]) {
-        self.evidence.add(distribution, trials.iter().copied());
-    }
-
     /// Reads off how often the stroke is made.
     fn judge(&mut self) {
         [self.best.own, self.best.larger] = self.evidence.rates(&self.distribution);
@@ -60,6 +56,11 @@ impl Climber {
         let Candidate { own, larger, .. } = self.best;
         own.attempts >= ENOUGH_WITHOUT_A_MISS && own.share.min(larger.share) >= 1.0 - NEXT_TO_NO_MISS
     }
+}
+
+/// The best first; equals stay in their order.
+fn sort(climbers: &mut [Climber]) {
+    climbers.sort_by(|a, b| b.best.score().total_cmp(&a.best.score()));
 }
 
 /// A refinement on its way.
@@ -108,7 +109,7 @@ impl Refinement<'_> {
             if !self.attempt(&mut climbers[..live], each) {
                 break;
             }
-            climbers[..live].sort_by(|a, b| b.best.score().total_cmp(&a.best.score()));
+            sort(&mut climbers[..live]);
             tell(&climbers[0].best);
             if climbers[0].is_certain() && !self.plan {
                 break;
@@ -127,15 +128,15 @@ impl Refinement<'_> {
             let trials: Vec<Trial> = self.race.errors(0..blocks).enumerate().map(made).collect();
             if let Some(near) = climbers.iter_mut().find(|climber| climber.distribution.distance(&distribution) < ALIKE)
             {
-                near.add(&distribution, &trials);
+                near.evidence.add(&distribution, &trials);
                 near.judge();
             } else {
                 let mut climber = Climber { best: *candidate, distribution, evidence: Evidence::default(), blocks };
-                climber.add(&distribution, &trials);
+                climber.evidence.add(&distribution, &trials);
                 climbers.push(climber);
             }
         }
-        climbers.sort_by(|a, b| b.best.score().total_cmp(&a.best.score()));
+        sort(&mut climbers);
         climbers
     }
 
@@ -191,8 +192,7 @@ impl Refinement<'_> {
                 tried.iter().filter(|(of, _)| *of == index).flat_map(|(_, trials)| trials).copied().collect();
             climber.blocks = wanted(climber).end;
             if !own.is_empty() {
-                let distribution = climber.distribution;
-                climber.add(&distribution, &own);
+                climber.evidence.add(&climber.distribution, &own);
             }
             climber.judge();
         }
