@@ -170,7 +170,7 @@ const fn mark(name: &'static str, words: &'static str, quantity: Quantity, sure:
 pub const PROTOCOL: &[Test] = &[
     Test {
         name: "slow-roll",
-        title: "slow roll away from you: how fast the cloth is, and whether the table leans sideways",
+        title: "slow roll: the cloth's speed, sideways lean",
         place: "any ball in the middle of your end: diamond 1 along, 2 across",
         strike: "straight along the middle, a little above centre, so softly that it stops past the middle of the table",
         balls: &[[1.0, 2.0]],
@@ -186,7 +186,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "slow-back",
-        title: "the same slow roll from the far end: whether the table leans along",
+        title: "slow roll back: whether the table leans along",
         place: "any ball in the middle of the far end: diamond 7 along, 2 across",
         strike: "from the far end, straight back along the middle, as softly as before",
         balls: &[[7.0, 2.0]],
@@ -202,7 +202,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "lag",
-        title: "the lag, as if for the first stroke: how alive the short rails are",
+        title: "the lag: how alive the short rails are",
         place: "the cue ball in the middle of your end: diamond 1 along, 2 across",
         strike: "centre ball, straight along the middle: to the far rail, back to your own and off it",
         balls: &[[1.0, 2.0]],
@@ -218,7 +218,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "hard-lag",
-        title: "a hard lag over five lengths: what fast balls lose at a rail",
+        title: "a hard lag: what fast balls lose at a rail",
         place: "the cue ball in the middle of your end: diamond 1 along, 2 across",
         strike: "centre ball, straight along the middle, hard: five lengths or so",
         balls: &[[1.0, 2.0]],
@@ -238,7 +238,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "corner-five",
-        title: "Corner-5 from 50 to 20: how long or short three rails play",
+        title: "Corner-5, 50 to 20: how long three rails play",
         place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
         strike: "through diamond 6 of the left long rail (that is 20), with running side (right), at medium speed",
         balls: &[[0.6, 0.4]],
@@ -256,7 +256,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "five-plain",
-        title: "the same line without side: how the rails grip",
+        title: "the line without side: how the rails grip",
         place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
         strike: "through diamond 6 of the left long rail, without side, a little above centre, at medium speed",
         balls: &[[0.6, 0.4]],
@@ -274,7 +274,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "five-reverse",
-        title: "the same line with reverse side: how soon the rails turn it",
+        title: "with reverse side: how soon the rails turn it",
         place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
         strike: "through diamond 6 of the left long rail, with reverse side (left), at medium speed",
         balls: &[[0.6, 0.4]],
@@ -292,7 +292,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "side-along",
-        title: "maximum side along the table: squirt, and how long side lasts",
+        title: "maximum side: squirt, and how long side lasts",
         place: "the cue ball in the middle of your end: diamond 1 along, 2 across",
         strike: "maximum side on the left, straight along the middle, at medium speed: it shall reach a long rail",
         balls: &[[1.0, 2.0]],
@@ -324,7 +324,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "frozen-pair",
-        title: "a frozen pair: how much balls throw each other",
+        title: "a frozen pair: how far balls throw each other",
         place: "a ball at 1.8 along, 2 across; another one behind it that touches it, both in line with the middle of the \
                 far rail; the cue ball at 1 along, 1.2 across",
         strike: "centre ball, full on the nearer ball, medium speed",

@@ -2,7 +2,10 @@
 
 use std::io::Write;
 
-use super::{Failure, output::tell};
+use super::{
+    Failure,
+    output::{plural, tell},
+};
 use crate::{printing, terminal::Settings};
 
 /// Show every setting with what it means and accepts, as a file to begin with.
@@ -31,12 +34,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     match complaints.len() {
         0 => Ok(()),
-        1 => Err(Failure::wrong_input(format_args!(
-            "1 of the settings in {} is wrong; its default is used",
-            path.display()
-        ))),
         count => Err(Failure::wrong_input(format_args!(
-            "{count} of the settings in {} are wrong; their defaults are used",
+            "{} of {} wrong: what stands there is not used",
+            plural(count, "line"),
             path.display()
         ))),
     }

@@ -2,6 +2,8 @@
 
 use std::{fmt::Display, io};
 
+use crate::platform::UNFINISHED;
+
 /// A sentence for the user and the process' exit code.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
@@ -21,9 +23,9 @@ impl Failure {
         Self { message: message.to_string(), code: 2 }
     }
 
-    /// What was begun can go on by the same command: exit code 75, as schedulers know it (`EX_TEMPFAIL` of sysexits.h).
+    /// What was begun can go on by the same command.
     pub fn unfinished(message: impl Display) -> Self {
-        Self { message: message.to_string(), code: 75 }
+        Self { message: message.to_string(), code: UNFINISHED }
     }
 
     /// The process' exit code.

@@ -3,7 +3,6 @@
 use std::{
     collections::HashMap,
     fmt::Display,
-    fs::File,
     io::{self, BufRead, BufReader, Read, Write},
     ops::RangeInclusive,
     path::{Path, PathBuf},
@@ -22,7 +21,7 @@ use crate::{
     learning::{Policy, policy::file::Origin},
     printing,
     storage::{self, Places},
-    table::{CueBall, Layout, Table, TableError},
+    table::{CueBall, Layout, PRESETS, Table, TableError},
 };
 
 /// A bundled table, the one in the TOML file at the path `name`, or the user's own of that name.
@@ -35,6 +34,16 @@ pub fn table_named(name: &str) -> Result<Table, Failure> {
         }
         table => table.map_err(Failure::wrong_input),
     }
+}
+
+/// The bundled table of this name, for what is saved by it and must mean the same to everybody.
+pub fn bundled_table(name: &str) -> Result<Table, Failure> {
+    Table::preset(name).map_err(|_| {
+        Failure::wrong_input(format_args!(
+            "positions and games of practice lie on bundled tables, and \"{name}\" is none; accepted are {}",
+            PRESETS.map(|name| format!("\"{name}\"")).join(", ")
+        ))
+    })
 }
 
 /// The table in a TOML file.
@@ -108,7 +117,7 @@ pub fn whole_from<T: FromStr + PartialOrd + Display + Clone>(least: T) -> impl F
 
 /// A seed, as [`whole`] reads it.
 pub fn seed(text: &str) -> Result<u64, String> {
-    whole_from(0)(text)
+    whole(0..=u64::MAX)(text)
 }
 
 /// The time that `--minutes` gives, fractions of a minute too.
@@ -145,6 +154,9 @@ const LONGEST_LINE: u64 = 1 << 20;
 fn question<Q: DeserializeOwned + Keys>(line: &[u8]) -> Result<Q, String> {
     // serde counts lines within the line: only its column helps.
     let reason = |error: serde_json::Error| error.to_string().replace(" at line 1", ",");
+    if !line.trim_ascii_start().starts_with(b"{") {
+        return Err(format!("it begins with no brace; accepted is an object with some of {}", Q::KEYS.join(", ")));
+    }
     let question = serde_json::from_slice(line).map_err(reason)?;
     #[expect(clippy::zero_sized_map_values, reason = "serde reads a set from no object")]
     let keys: HashMap<String, IgnoredAny> = serde_json::from_slice(line).map_err(reason)?;
@@ -174,7 +186,7 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
         Box::new(io::stdin().lock())
     } else {
         let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
-        Box::new(BufReader::new(File::open(file).map_err(unreadable)?))
+        Box::new(BufReader::new(storage::open(Path::new(file)).map_err(unreadable)?))
     };
     let mut out = io::BufWriter::new(printing::stdout());
     let (mut lines, mut refused) = (0_usize, 0_usize);

@@ -144,7 +144,7 @@ impl Cli {
         let settings = seat.allowed(settings);
         let table = named.map_or_else(|| input::table_named(&settings.table), Ok)?;
         if self.plain {
-            if let Some(news) = notice(&seat.places, path) {
+            if let Some(news) = notice(&seat.places) {
                 tell(format_args!("note: {news}"));
             }
             for complaint in &complaints {

@@ -3,12 +3,12 @@
 use super::{
     Failure,
     drill::{PlayOptions, Strokes, Workspace, play, strokes},
-    input::whole,
+    input::{bundled_table, whole},
 };
 use crate::{
     drills::{Exercise, Goal},
     game::Rule,
-    table::{CueBall, Layout, Side, Table},
+    table::{CueBall, Layout, Side},
 };
 
 /// What a game is called among exercises.
@@ -58,7 +58,7 @@ pub struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let table = Table::preset(&args.table).map_err(Failure::wrong_input)?;
+    let table = bundled_table(&args.table)?;
     let layout = match &args.layout {
         None => Layout::opening_on(&table, args.side),
         Some(text) => Layout::parse(text, &table).map_err(Failure::wrong_input)?,

@@ -87,8 +87,8 @@ fn openings(low: f64, high: f64) -> [bool; 2] {
 pub enum NoEstimate {
     /// Too few attempts.
     #[error(
-        "the skill cannot be estimated yet: {attempts} of {FEWEST} attempts. What counts are makes and misses at a real table, of exercises \
-         with a model shot or with the coach's hint shown, and no games"
+        "the skill cannot be estimated yet: {attempts} of {FEWEST} attempts. Those at a real table count: of a model shot with its \
+         balls not shifted, or with the coach's hint shown; no games"
     )]
     TooFew {
         /// Attempts there are.

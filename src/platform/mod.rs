@@ -13,7 +13,7 @@ mod system;
 mod threads;
 
 pub use self::{
-    stop::{outlive_hang_up, stop_when_told},
+    stop::{UNFINISHED, outlive_hang_up, stop_when_told},
     system::{
         CAN_SUSPEND, CLOCK, Input, NEEDS_TERM, die, file_identity, for_all_to_read, free_space, free_the_screen,
         listen, own_group, refuse_large_files, suspend, sync_folder, terminal_output, thread_time,

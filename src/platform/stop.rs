@@ -10,6 +10,9 @@ use signal_hook::{
     flag,
 };
 
+/// The exit code of a command whose work can go on by the same command, as schedulers know it (`EX_TEMPFAIL` of sysexits.h).
+pub const UNFINISHED: u8 = 75;
+
 /// A flag that Ctrl-C and TERM set. With `at_once`, a second one ends the process, with exit code 1.
 ///
 /// # Errors

@@ -8,7 +8,7 @@ use std::{
 
 use tempfile::NamedTempFile;
 
-use super::confinement::may_write;
+use super::{confinement::may_write, reading::regular};
 use crate::platform;
 
 /// Begin and end of the names of files that are being written: they show what a killed process has left.
@@ -21,7 +21,7 @@ const ABANDONED: Duration = Duration::from_secs(3600);
 /// are made.
 ///
 /// # Errors
-/// Whatever the file system reports; the old file is then untouched.
+/// Where something else than a regular file is there, or whatever the file system reports; it is then untouched.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Staged::new(path, bytes)?.publish()
 }
@@ -41,6 +41,7 @@ pub fn create_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// Whatever the file system reports; the old file is then untouched.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    replaceable(path)?;
     let mut file = readable_by_all(folder_of(path))?;
     file.as_file_mut().write_all(bytes)?;
     file.persist(path)?;
@@ -60,6 +61,7 @@ impl Staged {
     /// # Errors
     /// Whatever the file system reports; nothing is then left.
     pub fn new(path: &Path, bytes: &[u8]) -> io::Result<Self> {
+        replaceable(path)?;
         let folder = folder_of(path);
         may_write(folder)?;
         std::fs::create_dir_all(folder)?;
@@ -129,6 +131,11 @@ pub fn target_of(path: &Path) -> PathBuf {
     std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
 
+/// Refuses what is there and is no regular file: a pipe or a device would be one afterwards.
+fn replaceable(path: &Path) -> io::Result<()> {
+    std::fs::metadata(path).map_or(Ok(()), |found| regular(&found))
+}
+
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -177,6 +184,19 @@ mod tests {
         assert!(write_atomic(&folder.path().join("taken"), b"new").is_err());
         assert_eq!(std::fs::read(folder.path().join("taken/inside")).unwrap(), b"kept");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_stays_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink("/dev/null", &link).unwrap();
+        for write in [write_atomic, replace, create_atomic] {
+            let refused = write(&link, b"new").unwrap_err().to_string();
+            assert!(refused.contains("a device") && refused.contains("regular file"), "{refused}");
+        }
+        assert!(link.is_symlink());
     }
 
     #[test]

@@ -11,18 +11,15 @@ const MATCH: &str = "\"match\" is now a table as filmed balls show it, and what 
 const MATCH_TOLD: &str = "match";
 
 /// The notice to this user, if they have saved anything with an older version; from then on `None`. Where
-/// that cannot be written down, it is said again.
-pub fn notice(places: &Places, settings: &Path) -> Option<&'static str> {
+/// that cannot be written down, it is said again. Settings alone tell nothing: they may be a newcomer's first step.
+pub fn notice(places: &Places) -> Option<&'static str> {
     let told = read_text(&places.notices, SMALL).unwrap_or_default();
     if told.lines().any(|line| line == MATCH_TOLD) {
         return None;
     }
     let Places { sessions, positions, last, .. } = places;
     let holds_any = |folder: &Path| fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
-    // Settings alone may be a newcomer's first step, if they name no table.
-    let names_table =
-        || read_text(settings, SMALL).is_ok_and(|text| text.lines().any(|line| line.starts_with("table")));
-    let has_saved = holds_any(sessions) || holds_any(positions) || last.exists() || names_table();
+    let has_saved = holds_any(sessions) || holds_any(positions) || last.exists();
     let folder = places.notices.parent();
     folder.map(fs::create_dir_all);
     // Where it fails, the sentence comes again: better twice than never.
@@ -39,7 +36,6 @@ mod tests {
     #[test]
     fn who_has_saved_something_is_told_once_and_a_newcomer_never() {
         let folder = tempfile::tempdir().unwrap();
-        let settings = folder.path().join("config.toml");
         for is_newcomer in [true, false] {
             let places = Places::under(&folder.path().join(if is_newcomer { "new" } else { "old" }));
             if !is_newcomer {
@@ -47,14 +43,8 @@ mod tests {
                 assert!(!places.notices.exists());
                 fs::write(places.sessions.join("one.json"), "{}").unwrap();
             }
-            assert_eq!(notice(&places, &settings).is_some(), !is_newcomer);
-            assert_eq!(notice(&places, &settings), None);
+            assert_eq!(notice(&places).is_some(), !is_newcomer);
+            assert_eq!(notice(&places), None);
         }
-        fs::write(&settings, "theme = \"light\"\n").unwrap();
-        assert_eq!(notice(&Places::under(&folder.path().join("themed")), &settings), None);
-        fs::write(&settings, "table = \"match\"\n").unwrap();
-        assert!(
-            notice(&Places::under(&folder.path().join("third")), &settings).is_some_and(|it| it.contains("textbook"))
-        );
     }
 }

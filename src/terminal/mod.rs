@@ -118,7 +118,7 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
         .with_settings(settings)
         .with_last(SavedSession::load(&places.last))
         .with_own_skill(own.map(|own| own.skill))
-        .with_notice(storage::notice(places, &places.settings))
+        .with_notice(storage::notice(places))
         .with_notice(seat.warning().as_deref())
         .with_complaints(&places.settings, complaints);
     Ok(host::runner::run(app, seat.places)?)

@@ -214,7 +214,7 @@ fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
 fn a_negative_number_is_refused_by_the_range_and_not_as_an_option() {
     for (args, words) in [
         (&["recommend", "--budget-ms", "-5"][..], &["from 0 to 3600000", "--budget-ms"][..]),
-        (&["recommend", "--seed", "-1"], &["from 0 on", "--seed"]),
+        (&["recommend", "--seed", "-1"], &["from 0 to 18446744073709551615", "--seed"]),
         (&["simulate", "--shot", SHOT, "--method", "steps", "--dt", "-1"], &["dt = -1", "accepted"]),
         (&["drill", "list", "--grade", "-1"], &["from 0 to 5", "--grade"]),
         (&["bench", "--seconds", "-1"], &["-1"]),

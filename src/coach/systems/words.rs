@@ -69,13 +69,7 @@ impl Applied {
 
 impl fmt::Display for Applied {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            formatter,
-            "{}: {}, aim at {}",
-            self.system,
-            self.arithmetic(),
-            number(self.system, self.numbers.first)
-        )?;
+        write!(formatter, "{}: {}, aim at {}", self.system, self.arithmetic(), self.aim())?;
         let correction = self.correction();
         if correction.is_empty() { Ok(()) } else { write!(formatter, "; {correction}") }
     }
@@ -102,16 +96,6 @@ impl Shift {
 impl fmt::Display for Shift {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "Parallel shift: {}", self.counted())
-    }
-}
-
-impl Guide {
-    /// What is counted, without the name of a parallel shift, for where there is little room.
-    pub fn counted(&self) -> String {
-        match self {
-            Self::System(applied) => applied.to_string(),
-            Self::Shift(shift) => shift.counted(),
-        }
     }
 }
 

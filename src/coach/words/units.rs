@@ -35,6 +35,9 @@ pub enum LengthUnit {
     Feet,
 }
 
+/// An inch, m.
+const INCH: f64 = 0.0254;
+
 /// The units in which a player is told lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Units {
@@ -60,9 +63,16 @@ impl LengthUnit {
     /// Both, by name.
     pub const NAMED: [(&'static str, Self); 2] = [("metres", Self::Metres), ("feet", Self::Feet)];
 
+    /// The smaller of the two units: how many of it are a metre, and its sign.
+    pub const fn small(self) -> (f64, &'static str) {
+        match self {
+            Self::Metres => (100.0, "cm"),
+            Self::Feet => (1.0 / INCH, "in"),
+        }
+    }
+
     /// A distance of so many metres, in the smaller of the two units where that is below a hundred centimetres or 24 inches.
     pub fn words(self, metres: f64) -> String {
-        const INCH: f64 = 0.0254;
         match self {
             Self::Metres if metres < 0.095 => format!("{} cm", short(100.0 * metres, 1)),
             Self::Metres if metres < 0.995 => format!("{:.0} cm", 100.0 * metres),

@@ -29,7 +29,7 @@ pub struct Args {
     #[arg(conflicts_with_all = ["made", "of"])]
     results: Vec<String>,
     /// Points made, where their order is not known: they do not count for runs.
-    #[arg(long, requires = "of")]
+    #[arg(long, requires = "of", value_parser = whole(0..=100_000_u32))]
     made: Option<u32>,
     /// Attempts, points included.
     #[arg(long, requires = "made", value_parser = whole(1..=100_000_u32))]

@@ -2,10 +2,15 @@
 
 use super::{Workspace, options::StrokeInput};
 use crate::{
-    commands::{Failure, output::line},
+    commands::{
+        Failure,
+        input::bundled_table,
+        output::{line, tell},
+    },
     drills::{Exercise, check, decode, encode, store::StoreError},
-    game::Rule,
-    table::{Layout, Table},
+    game::{Rule, scores},
+    physics::has_room,
+    table::Layout,
 };
 
 /// Save a position of one's own.
@@ -71,7 +76,7 @@ pub struct RemoveArgs {
 }
 
 pub fn save(args: &SaveArgs) -> Result<(), Failure> {
-    let table = Table::preset(&args.table).map_err(Failure::wrong_input)?;
+    let table = bundled_table(&args.table)?;
     let shot = match args.shot.as_deref().map(str::parse).transpose()? {
         None => None,
         Some(StrokeInput::Own(cue)) => Some(cue),
@@ -81,7 +86,15 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     let layout = Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?;
     let position = Exercise::own(&args.name, args.rule, &table.name, layout);
     let title = args.title.clone().unwrap_or(position.title);
-    keep(&Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position }, args.replace)
+    keep(&Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position }, args.replace)?;
+    if let Some(cue) = &shot {
+        if !has_room(&table, &layout, cue) {
+            tell("note: the cue has no room for the shot at this elevation, so it is no model shot");
+        } else if !scores(args.rule, &table, &layout, cue) {
+            tell(format_args!("note: the shot makes no point under the rule {}", args.rule));
+        }
+    }
+    Ok(())
 }
 
 pub fn share(args: &ShareArgs) -> Result<(), Failure> {

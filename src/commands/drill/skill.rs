@@ -7,7 +7,7 @@ use crate::{
     coach::Skill,
     commands::{
         Failure,
-        output::{json_line, line, tell},
+        output::{json_line, line, plural, tell},
     },
     drills::estimate::{Estimate, estimate},
 };
@@ -74,13 +74,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         })?);
     }
     line(format_args!("you play like an average of {} at three-cushion (95 % interval)", estimate.words()))?;
-    line(format_args!("from {made} of {attempts} made at {shots} shots"))?;
+    line(format_args!("from {made} of {attempts} made at {}", plural(shots, "shot")))?;
     match skill {
         Some(skill) => line(format_args!("as a skill: {skill}"))?,
         None => line(NO_SKILL)?,
     }
     if left_out > 0 {
-        tell(format_args!("note: {left_out} attempts have no part in it, for their shot is not known"));
+        tell(format_args!(
+            "note: {} had no part in it, for their shot is not known or the cue has no room for it",
+            plural(left_out, "attempt")
+        ));
     }
     if args.keep {
         line("kept: --skill own is this player")?;

@@ -22,7 +22,7 @@ use crate::{
 /// Write all sessions, positions and the skill of one's own as one JSON file.
 #[derive(Debug, clap::Args)]
 pub struct ExportArgs {
-    /// The file, in a folder that is there; without one, or for "-", the standard output.
+    /// The file, in a folder that is there, or an earlier export to replace; without one, or for "-", the standard output.
     file: Option<PathBuf>,
 }
 
@@ -51,6 +51,13 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
             if let Some(folder) = target.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.exists()) {
                 let (file, folder) = (file.display(), folder.display());
                 return Err(Failure::failed(format_args!("{file}: there is no folder {folder}; make it first")));
+            }
+            let is_export = |text: String| text.is_empty() || Practice::parse(&text).is_ok();
+            if target.exists() && !storage::read_text(&target, storage::PRACTICE).is_ok_and(is_export) {
+                let file = file.display();
+                return Err(Failure::failed(format_args!(
+                    "{file} is there already and is no export, so it stays as it is; accepted is a new name"
+                )));
             }
             let bytes = serde_json::to_vec(&practice).map_err(|error| refuse(error.into()))?;
             write_atomic(&target, &bytes).map_err(refuse)?;

@@ -6,7 +6,6 @@ use crate::{
     drills::{Exercise, Library, Session, Store},
     printing::OneLine,
     storage::{self, Places},
-    terminal::Settings,
 };
 
 /// The user's store and the library with the user's own positions.
@@ -19,7 +18,7 @@ impl Workspace {
     /// Reads the library; files that cannot be read are named on the standard error.
     pub fn open() -> Result<Self, Failure> {
         let places = Places::of_this_user();
-        note(storage::notice(&places, &Settings::path()).map(str::to_owned).as_slice());
+        note(storage::notice(&places).map(str::to_owned).as_slice());
         let store = Store::new(&places);
         let (library, notes) = store.library().map_err(Failure::failed)?;
         note(&notes);

@@ -56,7 +56,7 @@ pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
-    /// With --policy-only, what is measured in place of the rule: r1, r1-difficulty, r2, r3 or r4. Where it is more than
+    /// With --policy-only, what is measured in place of the rule: r1, r1-difficulty, r2, r3, r4, one-cushion or three-cushion. Where it is more than
     /// yes or no, the mean is given.
     #[arg(long, requires = "policy_only", conflicts_with_all = ["rule", "random_search", "budget_ms"])]
     reward: Option<Reward>,
@@ -153,7 +153,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
         player: player.name().to_owned(),
         policy: args.random_search.is_none().then(|| args.policy.clone()),
         table,
-        measure: if args.policy_only { reward.name() } else { args.rule.name() }.to_owned(),
+        measure: args.reward.map_or(args.rule.name(), Reward::name).to_owned(),
         is_yes_or_no: reward == Reward::R1 || reward.rule().is_some(),
         seed: args.seed,
         layouts: args.layouts,

@@ -14,7 +14,7 @@ use crate::{
     coach::{Coach, Doubt, Inning, Request, Skill, inning},
     commands::{
         Failure,
-        output::{json_line, tell},
+        output::{json_line, plural, tell},
     },
     learning::evaluation::held_out_layouts,
     printing,
@@ -64,7 +64,7 @@ struct SelfPlayReport<'a> {
     /// Mean points of the innings, a broken-off one as long as it got.
     mean_run: f64,
     /// Points for each miss.
-    average: f64,
+    average: Option<f64>,
     /// Its 95 % interval, from Wilson's for the share of misses: turns are taken as independent.
     average_interval: [Option<f64>; 2],
     longest: u32,
@@ -94,14 +94,18 @@ pub fn play(
         let number = index + 1;
         let mut say = |so_far: &Inning, _: &Layout| {
             if so_far.points.is_multiple_of(PROGRESS) {
-                tell(format_args!("inning {number}: {} points", so_far.points));
+                tell(format_args!("inning {number}: {}", plural(so_far.points as usize, "point")));
             }
         };
         // Numbers of its own for each inning: parts play what the whole plays.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(!spec.seed ^ (u64::from(index) << 32));
         let Inning { points, missed, simulations, slowest } =
             inning(coach, layout, request, most, until, &mut rng, &mut say).map_err(Failure::wrong_input)?;
-        tell(format_args!("inning {number}: {points} points{}", if missed { "" } else { ", broken off" }));
+        tell(format_args!(
+            "inning {number}: {}{}",
+            plural(points as usize, "point"),
+            if missed { "" } else { ", broken off" }
+        ));
         records.push(InningRecord {
             layout: index,
             points,
@@ -141,7 +145,7 @@ fn report<'a>(spec: &'a Spec, records: &[InningRecord]) -> SelfPlayReport<'a> {
         points,
         misses,
         mean_run: f64::from(points) / records.len().max(1) as f64,
-        average: f64::from(points) / f64::from(misses.max(1)),
+        average: (misses > 0).then(|| f64::from(points) / f64::from(misses)),
         average_interval: [average(missed.high), average(missed.low)],
         longest: records.iter().map(|inning| inning.points).max().unwrap_or(0),
         runs: records.iter().map(|inning| inning.points).collect(),
@@ -168,8 +172,10 @@ fn print_text(out: &mut impl Write, report: &SelfPlayReport<'_>) -> std::io::Res
     )?;
     writeln!(
         out,
-        "average {:.2} (95 % interval {low} to {high}), mean run {:.1}, longest {}",
-        report.average, report.mean_run, report.longest
+        "average {} (95 % interval {low} to {high}), mean run {:.1}, longest {}",
+        report.average.map_or_else(|| "unknown, for nothing was missed".to_owned(), |average| format!("{average:.2}")),
+        report.mean_run,
+        report.longest
     )?;
     writeln!(
         out,

@@ -74,7 +74,7 @@ pub struct Args {
     /// on top, thousands of simulations.
     #[arg(long, value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
-    /// Give the networks' own shot, without any simulation.
+    /// Give the networks' own shot, without any search.
     #[arg(long)]
     policy_only: bool,
     /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.

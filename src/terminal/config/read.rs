@@ -19,6 +19,9 @@ pub const KEYS: &str = "keys";
 /// The name of the setting that may name a file, which may be wrong itself.
 const TABLE: &str = "table";
 
+/// Lines that are no TOML, after which the file is not read any further: each costs another look at all of it.
+const MOST_MISTAKES: usize = 50;
+
 /// Something wrong in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Complaint {
@@ -52,13 +55,10 @@ impl fmt::Display for Complaint {
 /// The settings in `text`, with defaults for what is missing or wrong.
 pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
     let mut settings = Settings::default();
-    let mut complaints = Vec::new();
+    let (text, mut complaints) = without_mistakes(text);
+    let text = text.as_str();
     let line = |start: usize| Some(line_at(text, start));
-    let (table, errors) = DeTable::parse_recoverable(text);
-    for error in errors {
-        let line = error.span().and_then(|span| line(span.start));
-        complaints.push(Complaint { line, text: error.message().to_owned() });
-    }
+    let table = DeTable::parse_recoverable(text).0;
     for (key, value) in table.get_ref() {
         let mut complain = |text| complaints.push(Complaint { line: line(key.span().start), text });
         let name = key.get_ref().as_ref();
@@ -86,6 +86,32 @@ pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
     }
     complaints.sort_by_key(|complaint| complaint.line);
     (settings, complaints)
+}
+
+/// The text with blanks in place of the lines that are no TOML, and what is wrong with each: a line without a value would cost all that
+/// follow.
+fn without_mistakes(text: &str) -> (String, Vec<Complaint>) {
+    let (mut text, mut complaints) = (text.to_owned(), Vec::new());
+    loop {
+        let errors = DeTable::parse_recoverable(&text).1;
+        let Some(error) = errors.first() else { return (text, complaints) };
+        let place = error.span().map_or(0, |span| span.start).min(text.len());
+        let number = line_at(&text, place);
+        let start = text.as_bytes()[..place].iter().rposition(|byte| *byte == b'\n').map_or(0, |newline| newline + 1);
+        let end = text[start..].find('\n').map_or(text.len(), |length| start + length);
+        let written = text[start..end].trim().to_owned();
+        let reason = error.message().to_owned();
+        let text_of = |what: &str| {
+            format!("{what} is not taken: {reason}; accepted are lines like name = value, with words in quotes")
+        };
+        if written.is_empty() || complaints.len() == MOST_MISTAKES {
+            // Something above has no end, or it is no file of settings.
+            complaints.push(Complaint { line: Some(number), text: text_of("the file") });
+            return (String::new(), complaints);
+        }
+        complaints.push(Complaint { line: Some(number), text: text_of(&written) });
+        text.replace_range(start..end, &" ".repeat(end - start));
+    }
 }
 
 /// Takes `value`, a value as TOML writes it; `None` where it is none or is refused.
@@ -185,12 +211,20 @@ mod tests {
     }
 
     #[test]
+    fn what_is_no_file_of_settings_is_given_up_soon() {
+        let (settings, complaints) = read(&"no settings at all\n".repeat(50_000));
+        assert_eq!((settings, complaints.len()), (Settings::default(), MOST_MISTAKES + 1));
+    }
+
+    #[test]
     fn a_mistake_in_the_syntax_costs_one_line_only() {
-        let (settings, complaints) = read("theme = dark light\nrule = \"one-cushion\"\n");
-        assert_eq!(settings.rule, Rule::OneCushion);
-        assert!(
-            !complaints.is_empty() && complaints.iter().all(|complaint| complaint.line == Some(1)),
-            "{complaints:?}"
-        );
+        for wrong in ["theme = dark light", "theme", "theme: \"light\"", "theme = light", "= 3", "\u{20ac}", "[theme"] {
+            let (settings, complaints) =
+                read(&format!("speed = 2.0\n{wrong}\nrule = \"one-cushion\"\njumps = false\n"));
+            assert_eq!((settings.speed, settings.rule, settings.jumps), (2.0, Rule::OneCushion, false), "{wrong}");
+            assert_eq!(settings.palette, Settings::default().palette, "{wrong}");
+            let [complaint] = &complaints[..] else { panic!("{wrong}: {complaints:?}") };
+            assert!(complaint.line == Some(2) && complaint.text.contains(wrong), "{complaints:?}");
+        }
     }
 }

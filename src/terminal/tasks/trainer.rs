@@ -7,7 +7,10 @@ use std::{
     process::{Command, Stdio},
 };
 
-use crate::{platform, terminal::Failure};
+use crate::{
+    platform::{self, UNFINISHED},
+    terminal::Failure,
+};
 
 /// Bytes at the end of what a process says in which its last sentence is looked for.
 const LAST_BYTES: i64 = 4096;
@@ -36,7 +39,8 @@ pub fn run(arguments: &[OsString]) -> Result<(), Failure> {
         move |sentence| Failure { process, sentence }
     };
     match process.wait() {
-        Ok(status) if status.success() => Ok(()),
+        // One that was stopped can go on, and its page says so.
+        Ok(status) if status.success() || status.code() == Some(i32::from(UNFINISHED)) => Ok(()),
         Ok(status) => {
             let killed = || format!("the process that trains has ended: {status}");
             Err(failure(last_sentence(said).unwrap_or_else(killed)))

@@ -22,9 +22,13 @@ fn unknown_keys_of_a_batch_are_refused() {
 #[test]
 fn a_line_without_an_end_fills_no_memory() {
     let home = folder();
-    let said = carom(home.path(), &["simulate", "--batch", "/dev/zero"]);
+    let endless = std::fs::File::open("/dev/zero").unwrap();
+    let said = outcome(command(home.path(), &["simulate", "--batch", "-"]).stdin(endless).spawn().unwrap());
     assert_eq!(said.code, Some(1));
     assert!(said.err.contains("a line has more than"), "{}", said.err);
+    let said = carom(home.path(), &["simulate", "--batch", "/dev/zero"]);
+    assert_eq!(said.code, Some(1));
+    assert!(said.err.contains("a device") && said.err.contains("accepted is a regular file"), "{}", said.err);
 }
 
 #[test]

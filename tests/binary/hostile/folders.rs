@@ -80,6 +80,12 @@ fn an_export_goes_where_a_link_leads() {
     assert_eq!(carom(home.path(), &["drill", "export", "link.json"]).code, Some(0));
     assert!(home.path().join("link.json").is_symlink());
     assert!(fs::read_to_string(home.path().join("real.json")).unwrap().contains("carom"));
+    // Over another export, but over nothing else.
+    assert_eq!(carom(home.path(), &["drill", "export", "real.json"]).code, Some(0));
+    fs::write(home.path().join("notes.txt"), "mine").unwrap();
+    let said = carom(home.path(), &["drill", "export", "notes.txt"]);
+    assert!(said.code == Some(1) && said.err.contains("is no export, so it stays as it is"), "{}", said.err);
+    assert_eq!(fs::read_to_string(home.path().join("notes.txt")).unwrap(), "mine");
 }
 
 #[test]

@@ -41,7 +41,7 @@ fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
     player.shows(&["slow-roll", "0/2", "put: any ball in the middle of your end", "strike: straight", "time", "bits"]);
     player.says("0 of 20 strokes");
     let corner = player.press("Down Down Down Down");
-    corner.shows(&["Corner-5 from 50 to 20", "0.3R right", "first", "third", "fourth"]);
+    corner.shows(&["Corner-5, 50 to 20", "0.3R right", "first", "third", "fourth"]);
     let best = corner.press("n");
     best.says("would tell most");
     let out = best.press("Home x");

@@ -291,7 +291,7 @@ fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_
     let perfect = cycled.press("S d");
     perfect.says("player: perfect");
     let chosen = perfect.press("p Esc");
-    assert_eq!(chosen.app.coach().query.skill, own);
+    assert_eq!(chosen.app.coach().query.skill, Skill::EXPERT);
 }
 
 #[test]
@@ -385,7 +385,7 @@ fn an_exercise_goes_to_the_coachs_table() {
     assert_eq!(coach.press("d").app.place(), KeyContext::Drill(DrillContext::Exercise));
     let from_list = Player::at_library(TRUE_COLOUR, &[exercise("opening", "x")], &[]).press("Left c");
     assert_eq!(*from_list.app.layout(), exercise("opening", "x").layout);
-    assert_eq!(Player::practising(TRUE_COLOUR).press("p").app.drills().player.skill, Skill::PERFECT);
+    assert_eq!(Player::practising(TRUE_COLOUR).press("p").app.drills().player.skill, Skill::WORLD_CLASS);
 }
 
 #[test]

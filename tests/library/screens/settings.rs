@@ -130,7 +130,7 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     player.says("has been changed by another program and was read again");
     assert_eq!(player.settings_text(), "theme = \"dark\"\nspeed = 4.0\n");
     assert_eq!(player.app.playback().speed(), 4.0);
-    player.wait(60.0).shows(&["1 changed", "theme      ◂ dark ▸", "speed     •  4.0"]);
+    player.wait(60.0).shows(&["1 changed", "theme        ◂ dark ▸", "speed       •  4.0"]);
     let player = with(TRUE_COLOUR, "theme = \"dark\"\n");
     fs::write(player.path("config.toml"), "theme = \n").unwrap();
     // Opened once more, the file is damaged.
@@ -156,7 +156,7 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
     let player = player.press("Home Down Down Down Down");
     player.shows(&[
         "4 changed",
-        "rule      •◂ three-cushion ▸ now",
+        "rule        •◂ three-cushion ▸ now",
         "Now \"three-cushion\"; the file has",
         "keeps it.",
     ]);

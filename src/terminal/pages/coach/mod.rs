@@ -309,9 +309,12 @@ impl CoachPage {
         self.step = STEPS.iter().position(|step| *step == step_mm).unwrap_or(FIRST_STEP);
     }
 
-    /// Asks the policy of `query` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.
+    /// Asks the policy of `query` from now on, under its rule, on `table`: balls that have been placed stay where they lie, if they can
+    /// lie there.
     pub fn take_query(&mut self, table: &Table, query: CoachQuery) {
-        let layout = if self.table() == table { *self.layout() } else { Layout::opening(table) };
+        let lies = *self.layout();
+        let stays = self.table() == table || lies.opening_side(self.table()).is_none() && lies.validate(table).is_ok();
+        let layout = if stays { lies } else { Layout::opening(table) };
         let news = format!("the coach plays with {}; Enter asks it", query.name());
         let CoachQuery { skill, doubt, plan, jumps, .. } = self.query;
         self.take(table, layout, CoachQuery { skill, doubt, plan, jumps, ..query });

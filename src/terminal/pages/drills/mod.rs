@@ -74,7 +74,7 @@ pub struct Player {
 impl Player {
     /// The next of those there are.
     fn choose_next(&mut self) {
-        let named = Skill::NAMED.iter().rev().map(|(_, skill)| *skill);
+        let named = Skill::NAMED.iter().map(|(_, skill)| *skill);
         let all: Vec<Skill> = named.chain(self.own).collect();
         let now = all.iter().position(|skill| *skill == self.skill);
         self.choose(all[now.map_or(0, |now| (now + 1) % all.len())]);

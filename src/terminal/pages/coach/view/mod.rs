@@ -44,7 +44,7 @@ use crate::{
         shot::playback::passed,
         ui::{
             ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_question, draw_sight,
-            draw_spin, draw_status, draw_table, draw_tip, shorten, spell, write_paragraphs,
+            draw_spin, draw_status, draw_table, draw_tip, spell, write_paragraphs,
         },
         words::{event_words, fixed, in_diamonds, millimetres, percent},
     },
@@ -236,7 +236,7 @@ fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut
             let study = choice.and_then(|choice| choice.study.as_deref());
             draw_margins(study, empty, area, ui);
         }
-        View::Plan => draw_plan(choice, empty, area, ui),
+        View::Plan => draw_plan(choice, coach.units.length, empty, area, ui),
     }
 }
 
@@ -271,14 +271,14 @@ fn status_line(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
     })
 }
 
-/// The line of aim, and what a system counts for the shot: as much of it as a row has room for, what is counted before all else, since
-/// the line is told above as well.
+/// The line of aim, and what a system counts for the shot: as much of it as a row has room for, what is counted before the line, which
+/// is told above as well.
 fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
     let aim = spell(&shot.words.aim(coach.units), ui.caps);
     let Some(guide) = coach.guide().filter(|_| coach.what_if().is_none()) else { return aim };
-    let (named, counted) = (guide.to_string(), guide.counted());
+    let named = guide.to_string();
     let fits = [format!("{aim} {named}"), named].into_iter().find(|words| columns(words) <= room);
-    fits.unwrap_or_else(|| shorten(&counted, room, ui.caps))
+    fits.unwrap_or(aim)
 }
 
 /// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.

@@ -6,6 +6,7 @@ use ratatui::{
 };
 
 use crate::{
+    coach::words::LengthUnit,
     table::BALLS,
     terminal::{
         Glyphs, Proposal,
@@ -25,7 +26,7 @@ const NAMES: u16 = 6;
 const SPREAD_WORDS: &str = "half of the points leave the balls so near";
 
 /// Draws the panel; without a shot it says `empty`.
-pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, ui: &mut Ui) {
+pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: Rect, ui: &mut Ui) {
     let mut title = vec![Span::styled("Plan", ui.theme.text())];
     if let Some(next) = choice.and_then(|choice| choice.proposal.next) {
         title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
@@ -36,7 +37,7 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, ui: &mut Ui) 
     let room = usize::from(inner.width.saturating_sub(NAMES));
     let rows = [
         ("now", shot_words(&choice.proposal, room, ui)),
-        ("stop", stop_words(choice, ui.theme)),
+        ("stop", stop_words(choice, unit, ui.theme)),
         ("next", next_words(choice, room, ui)),
     ];
     let mut lines: Vec<Line> = rows
@@ -74,13 +75,14 @@ fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
 }
 
 /// How near to the planned positions the balls stop, in half of the attempts that make the point.
-fn stop_words(choice: &Choice, theme: &Theme) -> String {
+fn stop_words(choice: &Choice, unit: LengthUnit, theme: &Theme) -> String {
+    let (in_a_metre, sign) = unit.small();
     let Some(study) = &choice.study else { return "being tried".to_owned() };
     let meant = choice.proposal.shot.recording.final_layout();
-    let spread = |ball: usize| Some(100.0 * study.scatter.spread(ball, meant.balls[ball])?);
+    let spread = |ball: usize| Some(in_a_metre * study.scatter.spread(ball, meant.balls[ball])?);
     let words: Vec<_> =
         (0..BALLS).filter_map(|ball| Some(format!("{} {}", theme.names()[ball], fixed(spread(ball)?, 0)))).collect();
-    if words.is_empty() { "no attempt made the point".to_owned() } else { words.join(", ") + " cm" }
+    if words.is_empty() { "no attempt made the point".to_owned() } else { format!("{} {sign}", words.join(", ")) }
 }
 
 fn next_words(choice: &Choice, room: usize, ui: &Ui) -> String {

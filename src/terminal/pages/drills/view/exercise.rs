@@ -64,7 +64,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
             };
             draw_what_if(what_if, &beside, panes.aim, ui);
         }
-        None => panels::draw_aim(turn, panes.aim, ui),
+        None => panels::draw_aim(turn, drills.units.length, panes.aim, ui),
     }
     score::draw(drills, turn, panes.score, ui);
     status_line(turn, drills.units.length)

@@ -29,7 +29,7 @@ use crate::{
 
 /// Draws the page; gives what the status line says while there is no news.
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
-    let film = &drills.film;
+    let (film, unit) = (&drills.film, drills.units.length);
     let Some(listed) = film.marked() else { return Message::plain("the film has no shots") };
     let more = about(listed, ui.caps.pick(" · ", " - "));
     draw_film_header(&format!("filmed shot {}", listed.filmed.number), &more, header, ui);
@@ -49,15 +49,15 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
         Some(spin) => draw_spin(&spin, panes.sight, ui),
         None => draw_sight(scene.map(|scene| scene.shot.meeting()), panes.sight, ui),
     }
-    draw_distances(scene, time, panes.aim, ui);
+    draw_distances(scene, time, unit, panes.aim, ui);
     let events = scene.map(|scene| {
         let recording = &scene.shot.recording;
-        ListedEvents { recording, events: recording.events(), unit: LengthUnit::default() }
+        ListedEvents { recording, events: recording.events(), unit }
     });
     draw_events("Events", events, Some(time), panes.score, ui);
     scene.map_or_else(
         || Message::plain("the stroke is being fitted to the film's first 2 seconds"),
-        |scene| status_line(scene, listed, time),
+        |scene| status_line(scene, listed, time, unit),
     )
 }
 
@@ -68,14 +68,15 @@ fn about(listed: &Listed, dot: &str) -> String {
         .join(dot)
 }
 
-/// A distance in centimetres.
-fn centimetres(metres: f64) -> String {
-    format!("{} cm", fixed(100.0 * metres, 1))
+/// A distance in the smaller unit.
+fn distance(metres: f64, unit: LengthUnit) -> String {
+    let (in_a_metre, sign) = unit.small();
+    format!("{} {sign}", fixed(in_a_metre * metres, 1))
 }
 
 /// How far the simulated cue ball is from the filmed one, and what that is worth.
-fn status_line(scene: &FilmScene, listed: &Listed, time: f64) -> Message {
-    let white = centimetres(scene.replay.apart(time)[0]);
+fn status_line(scene: &FilmScene, listed: &Listed, time: f64, unit: LengthUnit) -> Message {
+    let white = distance(scene.replay.apart(time)[0], unit);
     if time >= scene.replay.duration() {
         let simulated = if scene.is_point { "a point" } else { "no point" };
         let filmed = if listed.is_point { "a point" } else { "no point" };
@@ -87,7 +88,7 @@ fn status_line(scene: &FilmScene, listed: &Listed, time: f64) -> Message {
 
 /// Draws what the stroke gave the cue ball, by the fit.
 fn draw_stroke(scene: Option<&FilmScene>, area: Rect, ui: &mut Ui) {
-    let inner = draw_title("The stroke", area, ui);
+    let inner = draw_title("The fitted stroke", area, ui);
     let Some(scene) = scene else { return };
     let tip = |radii: f64, [more, less]: [&str; 2]| {
         let word = if radii > 0.0 { more } else { less };
@@ -114,13 +115,14 @@ fn draw_stroke(scene: Option<&FilmScene>, area: Rect, ui: &mut Ui) {
 }
 
 /// Draws how far each simulated ball is from the filmed one, and which is which.
-fn draw_distances(scene: Option<&FilmScene>, time: f64, area: Rect, ui: &mut Ui) {
+fn draw_distances(scene: Option<&FilmScene>, time: f64, unit: LengthUnit, area: Rect, ui: &mut Ui) {
     let title = scene.map_or("Film".to_owned(), |_| format!("From the film at {} s", fixed(time, 2)));
     let inner = draw_title(title, area, ui);
     let Some(scene) = scene else { return };
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let apart = scene.replay.apart(time);
-    let distances: Vec<String> = (0..BALLS).map(|n| format!("{} {}", BALL_NAMES[n], centimetres(apart[n]))).collect();
+    let distances: Vec<String> =
+        (0..BALLS).map(|n| format!("{} {}", BALL_NAMES[n], distance(apart[n], unit))).collect();
     let legend = if ui.caps.glyphs == Glyphs::Letters {
         "Capitals and paths are the simulation's, small letters the film's."
     } else {

@@ -7,6 +7,7 @@ use ratatui::{
 };
 
 use crate::{
+    coach::words::LengthUnit,
     drills::changes,
     physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
     table::CueBall,
@@ -64,7 +65,7 @@ fn numbers(cue: &CueInputs, radius: f64, caps: Capabilities) -> [(&'static str, 
 }
 
 /// Draws where the stroke is aimed and what is to be learnt; once it was played, how it compares.
-pub fn draw_aim(turn: &Turn, area: Rect, ui: &mut Ui) {
+pub fn draw_aim(turn: &Turn, unit: LengthUnit, area: Rect, ui: &mut Ui) {
     let settled = turn.watched().filter(|watched| watched.is_settled);
     let title = settled.map_or("Aim".to_owned(), |watched| chances(turn, watched, ui.caps));
     let mut paragraphs = Vec::new();
@@ -72,7 +73,7 @@ pub fn draw_aim(turn: &Turn, area: Rect, ui: &mut Ui) {
         paragraphs.extend(differences(turn, watched, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
     } else {
         if let Some(sight) = turn.sight() {
-            paragraphs.push((sight_words(&sight, turn.cue_ball), ui.theme.accent()));
+            paragraphs.push((sight_words(&sight, turn.cue_ball, unit), ui.theme.accent()));
             match turn.least_elevation() {
                 Ok(LeastElevation { theta, over: Some(over) }) => {
                     paragraphs.push((least_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
@@ -112,17 +113,18 @@ fn write_pages(title: String, paragraphs: &[(String, Style)], page: isize, area:
 }
 
 /// What the line of aim meets.
-fn sight_words(sight: &Sight, cue_ball: CueBall) -> String {
-    let way = fixed(100.0 * sight.way, 0);
+fn sight_words(sight: &Sight, cue_ball: CueBall, unit: LengthUnit) -> String {
+    let (in_a_metre, sign) = unit.small();
+    let way = format!("{} {sign}", fixed(in_a_metre * sight.way, 0));
     match sight.meets {
         Meets::Ball(hit) => {
             // Head-on has no side.
             let sides = if hit.fullness > FULL { ["", ""] } else { [", right side", ", left side"] };
             let side = sides[usize::from(hit.left)];
-            format!("{} {:.0} % full{side}, {way} cm", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
+            format!("{} {:.0} % full{side}, {way}", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
         }
         Meets::Cushion(mark) => {
-            format!("{} at {} diamonds, {way} cm", rail_name(mark.rail), fixed(mark.diamond, 1))
+            format!("{} at {} diamonds, {way}", rail_name(mark.rail), fixed(mark.diamond, 1))
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::terminal::{
 };
 
 /// Columns of the names.
-const NAME: u16 = 11;
+const NAME: u16 = 13;
 
 /// All rows of the list.
 pub fn rows() -> Vec<Row<&'static Entry>> {
