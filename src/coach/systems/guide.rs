@@ -228,6 +228,15 @@ mod tests {
         assert!(told[0].starts_with("Corner-5: ") && told.iter().all(|words| *words == told[0]), "{told:?}");
     }
 
+    /// Each number is rounded as it is said, and the sum is one of what is said.
+    #[test]
+    fn the_number_to_aim_at_is_what_the_sum_comes_to() {
+        let example = Applied::example(System::Corner5, &Table::preset("textbook").unwrap()).unwrap();
+        let numbers = Numbers { start: 65.6, first: 30.3, third: 35.3 };
+        let applied = Applied { numbers, table_first: None, table_third: None, ..example };
+        assert_eq!(applied.to_string(), "Corner-5: 66 - 35 = 31, aim at 31");
+    }
+
     #[test]
     fn without_running_side_or_three_cushions_no_system_is_named() {
         assert_eq!(guided("6d,1d 7d,3.5d 0.5d,0.5d", "0,0,0,133,0.6"), None);

@@ -143,6 +143,18 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
 }
 
 #[test]
+fn placed_balls_stay_where_they_lie_on_another_table_and_others_go_to_its_spots() {
+    let to_textbook = |player: Player| player.press("F5 Home Down Down Down Right F2");
+    let begun = with(TRUE_COLOUR, "").press("F2");
+    let spots = to_textbook(begun);
+    assert_eq!(*spots.app.layout(), Layout::opening(spots.app.table()));
+    let placed = with(TRUE_COLOUR, "").press("F2 Right Right");
+    let layout = *placed.app.layout();
+    let placed = to_textbook(placed);
+    assert_eq!((placed.app.table().name.as_str(), *placed.app.layout()), ("textbook", layout));
+}
+
+#[test]
 fn what_holds_for_the_session_is_shown_and_gone_on_from() {
     let text = "# mine\nrule = \"straight\" # at home\n";
     let player = with(TRUE_COLOUR, text).press("F2 R R S P + F5");
