@@ -186,7 +186,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "slow-back",
-        title: "slow roll back: whether the table leans along",
+        title: "slow roll back: how the table leans along",
         place: "any ball in the middle of the far end: diamond 7 along, 2 across",
         strike: "from the far end, straight back along the middle, as softly as before",
         balls: &[[7.0, 2.0]],
@@ -238,7 +238,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "corner-five",
-        title: "Corner-5, 50 to 20: how long three rails play",
+        title: "Corner-5, 50 to 20: how three rails play",
         place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
         strike: "through diamond 6 of the left long rail (that is 20), with running side (right), at medium speed",
         balls: &[[0.6, 0.4]],
@@ -274,7 +274,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "five-reverse",
-        title: "with reverse side: how soon the rails turn it",
+        title: "reverse side: how soon the rails turn it",
         place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
         strike: "through diamond 6 of the left long rail, with reverse side (left), at medium speed",
         balls: &[[0.6, 0.4]],
@@ -292,7 +292,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "side-along",
-        title: "maximum side: squirt, and how long side lasts",
+        title: "maximum side: squirt, how long side lasts",
         place: "the cue ball in the middle of your end: diamond 1 along, 2 across",
         strike: "maximum side on the left, straight along the middle, at medium speed: it shall reach a long rail",
         balls: &[[1.0, 2.0]],
@@ -324,7 +324,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "frozen-pair",
-        title: "a frozen pair: how far balls throw each other",
+        title: "a frozen pair: how balls throw each other",
         place: "a ball at 1.8 along, 2 across; another one behind it that touches it, both in line with the middle of the \
                 far rail; the cue ball at 1 along, 1.2 across",
         strike: "centre ball, full on the nearer ball, medium speed",

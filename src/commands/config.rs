@@ -35,8 +35,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match complaints.len() {
         0 => Ok(()),
         count => Err(Failure::wrong_input(format_args!(
-            "{} of {} wrong: what stands there is not used",
-            plural(count, "line"),
+            "{} in {}: what is wrong there is not used",
+            plural(count, "mistake"),
             path.display()
         ))),
     }

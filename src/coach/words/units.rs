@@ -63,7 +63,7 @@ impl LengthUnit {
     /// Both, by name.
     pub const NAMED: [(&'static str, Self); 2] = [("metres", Self::Metres), ("feet", Self::Feet)];
 
-    /// The smaller of the two units: how many of it are a metre, and its sign.
+    /// The smaller of the two units: how many of it are a metre, and its symbol.
     pub const fn small(self) -> (f64, &'static str) {
         match self {
             Self::Metres => (100.0, "cm"),

@@ -76,13 +76,13 @@ fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
 
 /// How near to the planned positions the balls stop, in half of the attempts that make the point.
 fn stop_words(choice: &Choice, unit: LengthUnit, theme: &Theme) -> String {
-    let (in_a_metre, sign) = unit.small();
+    let (in_a_metre, symbol) = unit.small();
     let Some(study) = &choice.study else { return "being tried".to_owned() };
     let meant = choice.proposal.shot.recording.final_layout();
     let spread = |ball: usize| Some(in_a_metre * study.scatter.spread(ball, meant.balls[ball])?);
     let words: Vec<_> =
         (0..BALLS).filter_map(|ball| Some(format!("{} {}", theme.names()[ball], fixed(spread(ball)?, 0)))).collect();
-    if words.is_empty() { "no attempt made the point".to_owned() } else { format!("{} {sign}", words.join(", ")) }
+    if words.is_empty() { "no attempt made the point".to_owned() } else { format!("{} {symbol}", words.join(", ")) }
 }
 
 fn next_words(choice: &Choice, room: usize, ui: &Ui) -> String {

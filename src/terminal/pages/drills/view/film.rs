@@ -70,8 +70,8 @@ fn about(listed: &Listed, dot: &str) -> String {
 
 /// A distance in the smaller unit.
 fn distance(metres: f64, unit: LengthUnit) -> String {
-    let (in_a_metre, sign) = unit.small();
-    format!("{} {sign}", fixed(in_a_metre * metres, 1))
+    let (in_a_metre, symbol) = unit.small();
+    format!("{} {symbol}", fixed(in_a_metre * metres, 1))
 }
 
 /// How far the simulated cue ball is from the filmed one, and what that is worth.

@@ -114,8 +114,8 @@ fn write_pages(title: String, paragraphs: &[(String, Style)], page: isize, area:
 
 /// What the line of aim meets.
 fn sight_words(sight: &Sight, cue_ball: CueBall, unit: LengthUnit) -> String {
-    let (in_a_metre, sign) = unit.small();
-    let way = format!("{} {sign}", fixed(in_a_metre * sight.way, 0));
+    let (in_a_metre, symbol) = unit.small();
+    let way = format!("{} {symbol}", fixed(in_a_metre * sight.way, 0));
     match sight.meets {
         Meets::Ball(hit) => {
             // Head-on has no side.
