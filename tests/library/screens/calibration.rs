@@ -3,7 +3,7 @@
 use std::fs;
 
 use carom::{
-    calibration::{Edit, Entries, Entry, edit_entries},
+    calibration::{Edit, Entries, Entry, PROTOCOL, edit_entries},
     terminal::{CalibrationContext, KeyContext, PageId},
 };
 
@@ -32,6 +32,15 @@ fn kept(player: &Player) -> Entries {
 fn measured() -> Player {
     let player = enter(new(), &ROLL).press("Down Down");
     enter(player, &LAG)
+}
+
+#[test]
+fn what_each_test_is_for_is_shown_whole_at_80_columns() {
+    PROTOCOL.iter().fold(new(), |player, test| {
+        let text = player.text(80, 24);
+        assert!(text.contains(test.title), "{}: {text}", test.title);
+        player.press("Down")
+    });
 }
 
 #[test]
