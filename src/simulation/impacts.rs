@@ -22,6 +22,13 @@ use crate::{
 /// cushion exchange some dozens, an inelastic collapse infinitely many.
 const MOST_ROUNDS: u32 = 64;
 
+/// Impacts at one moment after which balls are jammed between cushions: a ball that rolls past others in a row that fills the table
+/// needs more room than rounding leaves, until it has passed, and no impulse gives it.
+const JAMMED_ROUNDS: u32 = 2 * MOST_ROUNDS;
+
+/// Room behind a cushion for a jammed ball, in gaps that count as none: so much that the next impact comes later.
+const ROOM_FOR_JAMMED: f64 = 4.0;
+
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[inline(always)]
     pub(super) fn rebound(&mut self, index: usize, now: f64) -> ControlFlow<()> {
@@ -149,12 +156,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for (ball, changed) in changed.iter_mut().enumerate() {
             *changed = contacts.hold(ball);
         }
+        let room = if self.rounds > JAMMED_ROUNDS { ROOM_FOR_JAMMED * c.tolerance.touching } else { 0.0 };
         for contact in contacts.as_slice() {
             // Exactly at the cushion, as in a single impact.
             let n = contact.cushion_normal;
             let ball = &mut states[contact.first];
             if contact.second.is_none() {
-                ball.position += (-n.abs().dot(c.reach) - ball.position.dot(n)) * n;
+                ball.position += (-n.abs().dot(c.reach) - room - ball.position.dot(n)) * n;
             }
         }
         let law = if collapsed { self.law.inelastic() } else { self.law.clone() };
