@@ -17,7 +17,7 @@ const TAPE: f64 = 0.015;
 const SHORTEST: f64 = 0.2;
 
 /// Most short rails that a ball meets in a test: nobody strikes it so hard.
-const MOST_RAILS: usize = 12;
+pub const MOST_RAILS: usize = 12;
 
 /// A file of entries.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -204,11 +204,11 @@ impl Entry {
             None if is_taped => TAPE,
             None => mark.sure,
             Some(written) => {
-                let (sure, _) = written.read(unit, table).ok_or_else(|| no_number(written))?;
-                if !(sure > 0.0 && sure <= most) {
-                    return Err(format!("sure.{name} = {written}; accepted is above 0 and at most {most}"));
-                }
-                sure
+                let read = written.read(unit, table).map(|(sure, _)| sure).filter(|sure| *sure > 0.0 && *sure <= most);
+                read.ok_or_else(|| {
+                    let unit = unit.sign();
+                    format!("{name} ~ {written}: how sure a mark is must be above 0 and at most {most} {unit}")
+                })?
             }
         };
         if !matches!(mark.quantity, Quantity::StopAlong(_)) {

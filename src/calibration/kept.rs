@@ -19,7 +19,7 @@ pub enum Edit {
     TakeOut(usize, Entry),
     /// The first stroke, which stands there, becomes the second.
     Amend(usize, Entry, Entry),
-    /// All of it becomes this; what there was is kept beside the file.
+    /// All of it becomes this; what there was is kept beside the file, with what was kept before.
     Anew(Entries),
 }
 
@@ -93,7 +93,7 @@ pub fn edit_entries(path: &Path, edit: &Edit) -> Result<(Entries, Edit), KeptErr
         }
         Edit::Anew(all) => {
             if !trials.is_empty() {
-                write(&beside(path), &entries)?;
+                put_aside(path, &entries)?;
             }
             Edit::Anew(std::mem::replace(&mut entries, all.clone()))
         }
@@ -102,9 +102,29 @@ pub fn edit_entries(path: &Path, edit: &Edit) -> Result<(Entries, Edit), KeptErr
     Ok((entries, back))
 }
 
-/// Where entries are kept that were to be put aside.
+/// Where entries are kept that were put aside last.
 pub fn beside(path: &Path) -> PathBuf {
     path.with_extension("before.toml")
+}
+
+/// Where they are kept that were put aside `age` times before, from 2 on.
+fn aged(path: &Path, age: usize) -> PathBuf {
+    if age == 1 { beside(path) } else { path.with_extension(format!("before-{age}.toml")) }
+}
+
+/// How often entries that were put aside are kept.
+const MOST_KEPT: usize = 9;
+
+/// Keeps entries beside the file; what was kept there before becomes one older.
+fn put_aside(path: &Path, entries: &Entries) -> Result<(), KeptError> {
+    for age in (1..MOST_KEPT).rev() {
+        let (from, to) = (aged(path, age), aged(path, age + 1));
+        match std::fs::rename(&from, &to) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(KeptError::Unwritten(to, error)),
+            _ => {}
+        }
+    }
+    write(&beside(path), entries)
 }
 
 /// Writes the entries, whole or not at all.
@@ -146,6 +166,13 @@ mod tests {
             backs.push(back);
         }
         assert_eq!(kept_entries(&beside(&path)).unwrap(), states[5], "what was put aside");
+        // What is put aside later leaves it there.
+        edit_entries(&path, &Edit::Add(entry("6"))).unwrap();
+        let (_, back) = edit_entries(&path, &Edit::Anew(Entries::default())).unwrap();
+        assert_eq!(kept_entries(&beside(&path)).unwrap().trials, [entry("6")]);
+        assert_eq!(kept_entries(&aged(&path, 2)).unwrap(), states[5]);
+        edit_entries(&path, &back).unwrap();
+        edit_entries(&path, &Edit::TakeOut(0, entry("6"))).unwrap();
         for (before, back) in states.iter().zip(&backs).rev() {
             assert_eq!(edit_entries(&path, back).unwrap().0, *before);
         }

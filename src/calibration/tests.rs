@@ -190,7 +190,7 @@ fn odd_marks_are_named_with_what_would_be_accepted() {
         ("stop = \"far\"", "\"412 mm\""),
         ("stopp = 3", "no mark \"stopp\"; its marks are lap, rest, stop"),
         ("stop = 3\nrails = 40", "rails = 40: nobody strikes that hard"),
-        ("stop = 3\nsure = { stop = 0 }", "sure.stop = 0; accepted is above 0"),
+        ("stop = 3\nsure = { stop = 0 }", "stop ~ 0: how sure a mark is must be above 0"),
     ] {
         assert!(said(marks).contains(says), "{marks}: {}", said(marks));
     }

@@ -1,7 +1,7 @@
 //! Marks as a player types them: a number, with its unit and how sure it is where that is not what is usual.
 
 use super::{
-    entries::{Entry, Written},
+    entries::{Entry, MOST_RAILS, Written},
     protocol::{Quantity, Test},
 };
 
@@ -26,7 +26,8 @@ impl Entry {
             return Ok(());
         }
         if name == RAILS {
-            self.rails = Some(typed.parse().map_err(|_| format!("rails {typed} is no number of rails"))?);
+            let no_number = |_| format!("rails {typed} is no number of rails; accepted is 0 to {MOST_RAILS}");
+            self.rails = Some(typed.parse().map_err(no_number)?);
             return Ok(());
         }
         if name == FAR_END {

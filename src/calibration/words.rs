@@ -32,7 +32,7 @@ impl Change {
             "rail.fade.slope" => "loss of fast balls at rails",
             "mu_s" => "friction of sliding balls",
             "mu_r" => "friction of rolling balls",
-            "c1" => "its growth with speed (mu_r)",
+            "c1" => "growth of mu_r with speed",
             "mu_sp" => "how soon side is lost",
             "tilt.x" => "lean along the table, m/s²",
             "tilt.y" => "lean across it, m/s²",
@@ -56,12 +56,12 @@ const fn whose(rail: Rail) -> &'static str {
 }
 
 impl Verdict {
-    /// What speaks against a mark that looks misread.
-    pub fn doubtful(&self) -> String {
-        let Self { trial, test, mark, marked, expected, rails, .. } = self;
+    /// What speaks against a mark that looks misread, of a stroke that is called this.
+    pub fn doubtful(&self, stroke: &str) -> String {
+        let Self { test, mark, marked, expected, rails, .. } = self;
         let unit = Test::named(test)
             .and_then(|test| test.marks.iter().find(|one| one.name == *mark))
-            .map_or("", |mark| mark.unit().sign());
+            .map_or_else(String::new, |mark| format!(" {}", mark.unit().sign()));
         let after = |rails: usize| format!(" after {rails} rails");
         let [met, wanted] = match rails {
             Some((met, wanted)) if met != wanted => [after(*met), after(*wanted)],
@@ -71,17 +71,15 @@ impl Verdict {
             || "no stroke of this test comes there".to_owned(),
             |(value, deviation)| format!("expected {value:.1} ± {deviation:.1}{wanted}"),
         );
-        format!("trial {trial} ({test}) looks misread: you marked {mark} {marked:.1}{met} {unit}, {but}")
+        format!("{stroke} looks misread: you marked {mark} {marked:.1}{unit}{met}, {but}")
     }
 }
 
 impl Strange {
-    /// How the stroke was different.
-    pub fn words(&self) -> String {
-        let Self { trial, test, what, off } = self;
-        format!(
-            "trial {trial} ({test}) was struck far from what is asked for ({what}: {off:+.1} deviations), or a mark is misread"
-        )
+    /// How a stroke that is called this was different.
+    pub fn words(&self, stroke: &str) -> String {
+        let Self { what, off, .. } = self;
+        format!("{stroke} was struck far from what is asked for ({what}: {off:+.1} deviations), or a mark is misread")
     }
 }
 

@@ -90,9 +90,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// The table in a few words.
 fn line(table: &Table) -> String {
-    let Table { name, length, width, radius, rolling_friction, rail_restitution, .. } = table;
+    let Table { name, length, width, radius, .. } = table;
+    // A calibration tells more digits than it knows.
+    let [rolling, rails] = [table.rolling_friction, table.rail_restitution].map(|value| (1e4 * value).round() / 1e4);
     format!(
-        "{name}: {length} x {width} m between the noses, balls of {} mm, rolling friction {rolling_friction}, cushions {rail_restitution}",
+        "{name}: {length} x {width} m between the noses, balls of {} mm, rolling friction {rolling}, cushions {rails}",
         2e3 * radius
     )
 }

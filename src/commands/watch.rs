@@ -34,8 +34,8 @@ const GRACE: Duration = Duration::from_secs(1);
 
 /// Watch a run, live while it trains and also after its end.
 ///
-/// On a terminal the training screen opens; elsewhere a line is printed for every measurement until the run has ended. Watching
-/// only reads the run's files; leaving never disturbs it.
+/// On a terminal the training screen opens, whose keys can pause and stop the run; elsewhere a line is printed for every
+/// measurement until the run has ended. Looking only reads the run's files, and leaving never disturbs it.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The run: its folder, its name among the user's runs, or "latest". Left out, or a folder of several runs: a list to
@@ -60,7 +60,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Some(folder) if is_run => follow(&folder, args.json),
         folder => {
             if print_runs(folder.as_deref(), args.json)? {
-                tell("choose one of them: carom watch NAME, or carom watch latest");
+                tell(match folder {
+                    None => "choose one of them: carom watch NAME, or carom watch latest".to_owned(),
+                    Some(folder) => format!("choose one of them: carom watch {}", folder.join("NAME").display()),
+                });
             }
             Ok(())
         }

@@ -84,6 +84,11 @@ impl Record {
         }
     }
 
+    /// Whether points were counted whose order nobody knows: they have no part in the average and the high run.
+    pub fn has_unordered(&self) -> bool {
+        self.average.is_some_and(|average| ((average * self.innings as f64).round() as usize) < self.made)
+    }
+
     /// Of all repetitions of the exercise called `name`; games are none.
     pub fn of_exercise<'a>(sessions: impl IntoIterator<Item = &'a Session>, name: &str) -> Self {
         Self::of(sessions, |session, attempt| !session.is_game() && attempt.exercise == name)

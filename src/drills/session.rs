@@ -169,8 +169,13 @@ impl Session {
 
     /// What is to be played next; `None` when it is over.
     pub fn exercise(&self) -> Option<&Exercise> {
-        let number = if self.goal == Goal::Exam { self.attempts.len() } else { 0 };
+        let number = if self.is_exam() { self.attempts.len() } else { 0 };
         self.exercises.get(number).filter(|_| !self.is_over())
+    }
+
+    /// Whether it is an exam.
+    pub fn is_exam(&self) -> bool {
+        self.goal == Goal::Exam
     }
 
     /// Whether it is a game: then its attempts are no repetitions of an exercise.

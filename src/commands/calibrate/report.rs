@@ -77,10 +77,10 @@ impl<'a> Report<'a> {
         columns(&rows, &[1, 2]).iter().try_for_each(line)?;
         line("")?;
         for verdict in self.marks.iter().filter(|verdict| verdict.misread) {
-            line(verdict.doubtful())?;
+            line(verdict.doubtful(&in_file(verdict.trial, verdict.test)))?;
         }
         for strange in self.strange {
-            line(strange.words())?;
+            line(strange.words(&in_file(strange.trial, strange.test)))?;
         }
         self.found.rails_apart().iter().try_for_each(line)?;
         line(self.found.agreement())?;
@@ -96,4 +96,9 @@ impl<'a> Report<'a> {
             self.next.iter().take(NEXT).map(|next| format!("{} ({:.2} bits)", next.test, next.bits)).collect();
         line(format_args!("what one more stroke would tell most: {}", told.join(", ")))
     }
+}
+
+/// What a stroke is called by its place in a file.
+fn in_file(trial: usize, test: &str) -> String {
+    format!("trial {trial} ({test})")
 }

@@ -143,6 +143,9 @@ impl Log {
         if self.json {
             return Ok(json_line(&Logged { session: &self.session.id, score: record.into() })?);
         }
+        if record.tried == 0 {
+            return line("taken back; nothing else is noted in this session");
+        }
         line(words(&record))
     }
 

@@ -214,8 +214,7 @@ impl App {
 
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
     pub fn last(&self) -> Option<SessionParts<'_>> {
-        let practice = if self.screen == PageId::Drills { self.drills.unfinished() } else { None };
-        self.coach.last(practice.or(self.coach.left_exam.as_ref()))
+        self.coach.last(if self.screen == PageId::Drills { self.drills.unfinished() } else { None })
     }
 
     /// Says what has changed since the user was here before.

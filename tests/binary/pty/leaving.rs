@@ -193,12 +193,23 @@ fn an_exam_that_was_interrupted_is_gone_on_with() {
     first.wait_for("exercise 2 of 20");
     first.signal("HUP");
     first.assert_left_without_trace();
+    // It waits, whatever is done meanwhile.
     let mut second = start();
-    second.wait_for("c goes on");
-    second.send("c");
-    second.wait_for("exercise 2 of 20");
+    second.wait_for("c goes on with the exam");
+    second.send("\x1b[1;2B");
+    second.wait_for("white at x -710.0 mm, y 82.5 mm");
+    second.send("d");
+    second.wait_for("The half ball");
+    second.send("\r ");
+    second.wait_for("to the end");
     second.send("q");
     assert!(second.assert_left_without_trace().success());
+    let mut third = start();
+    third.wait_for("c goes on with the exam");
+    third.send("c");
+    third.wait_for("exercise 2 of 20");
+    third.send("q");
+    assert!(third.assert_left_without_trace().success());
 }
 
 #[test]

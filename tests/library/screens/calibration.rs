@@ -129,11 +129,31 @@ fn strokes_are_amended_taken_out_and_come_back() {
     assert_eq!(kept(&back).trials[0].typed("stop"), "5.4");
     let none = back.press("u u");
     assert!(kept(&none).trials.is_empty());
-    none.press("u").warns("there is nothing to take back");
+    none.press("u").warns("nothing was changed here yet");
     let anew = measured().press("N y");
     anew.says("u takes this back");
     assert!(kept(&anew).trials.is_empty() && anew.path("calibration.before.toml").exists());
     assert_eq!(kept(&anew.press("u")).trials.len(), 2);
+}
+
+#[test]
+fn a_test_that_is_left_out_counts_no_more_until_that_is_taken_back() {
+    let out = measured().press("Home x");
+    out.says("slow-roll is left out, with what is entered of it");
+    out.shows(&["1 of 19 strokes"]);
+    let back = out.press("u");
+    back.says("slow-roll counts again");
+    back.shows(&["2 of 20 strokes"]);
+    assert_eq!(kept(&back).trials.len(), 2);
+}
+
+#[test]
+fn what_the_marks_say_is_turned_to_where_the_values_leave_no_room() {
+    let values = measured().press("Tab");
+    let first = values.text(80, 20);
+    assert!(first.contains("1 of 2: PgDn") && !first.contains("all marks agree"), "{first}");
+    let second = values.press("PageDown").text(80, 20);
+    assert!(second.contains("2 of 2: PgDn") && second.contains("all marks agree"), "{second}");
 }
 
 #[test]
@@ -164,6 +184,8 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     player.says("the table's name = ");
     let player = player.press("C-u").type_in("our club/2").press("Enter");
     player.warns("is no name of a table");
+    let player = player.press("C-u").type_in("match").press("Enter");
+    player.warns("\"match\" is the name of a bundled table; take another");
     let player = player.press("C-u").type_in("our club 2").press("Enter");
     let file = player.path("tables/our club 2.toml");
     assert!(file.exists(), "{}", player.text(120, 40));

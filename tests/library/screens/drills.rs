@@ -276,6 +276,13 @@ fn the_records() {
 }
 
 #[test]
+fn the_record_has_what_another_program_has_noted_meanwhile() {
+    let player = played();
+    player.store().save(&session(7, "opening", Goal::Free, "xxx")).unwrap();
+    player.press("r").shows(&["attempts  40"]);
+}
+
+#[test]
 fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_them() {
     let folder = tempfile::tempdir().unwrap();
     Store::new(&places(folder.path())).keep_skill(Skill::CLUB.scaled(1.1)).unwrap();

@@ -51,7 +51,7 @@ fn in_a_match_of_two_the_turn_passes_with_a_miss_and_the_score_is_each_sides_own
         player = player.press("Down");
     }
     let missed = player.press("S-Left Space Enter");
-    missed.says("white: 0 in 1 innings");
+    missed.says("white: 0 in 1 inning, best");
     let next = missed.press("Enter");
     next.says("The stroke of yellow");
     assert_eq!(next.app.page().cue_ball().name(), "yellow");

@@ -2,9 +2,10 @@
 
 use crate::{
     calibration::{Edit, Entries},
+    table::PRESETS,
     terminal::{
         CalibrationAction as Action, CalibrationCondition as Condition, CalibrationTask, Effect,
-        pages::calibration::{CalibrationPage, Input, Side, form::Form},
+        pages::calibration::{CalibrationPage, Input, Side, form::Form, sheet::Back},
         ui::{Message, TextField},
     },
 };
@@ -23,8 +24,11 @@ impl CalibrationPage {
                 (sheet.entries.is_some(), "the file of entries was not read yet, or cannot be: mend it first")
             }
             Condition::Stroke => (sheet.marked_stroke().is_some(), "no stroke of this test is entered yet"),
-            Condition::Entered => (sheet.count().0 > 0, "nothing is entered yet"),
-            Condition::Undo => (sheet.can_undo(), "there is nothing to take back"),
+            Condition::Entered => {
+                let is_entered = sheet.entries.as_ref().is_some_and(|entries| !entries.trials.is_empty());
+                (is_entered, "nothing is entered yet")
+            }
+            Condition::Undo => (sheet.can_undo(), "nothing was changed here yet; Delete takes the marked stroke out"),
             Condition::Found if sheet.is_asking() => (false, "the values are being worked out; one moment"),
             Condition::Found if !sheet.odd(&self.table).is_empty() => {
                 (false, "an entry is odd, as the values say: amend it or take it out first")
@@ -46,12 +50,12 @@ impl CalibrationPage {
         match action {
             Action::Back => self.is_left = true,
             Action::Line(lines) => self.sheet_mut().move_mark(lines),
+            Action::Page(pages) if self.side == Side::Values => self.values_page += pages,
+            Action::Page(pages) => self.sheet_mut().move_mark(10 * pages),
             Action::Best => self.mark_best(),
             Action::LeaveOut => {
                 let is_out = self.sheet_mut().turn_left_out();
-                let test = self.sheet().test().name;
-                let said = if is_out { "is left out, until the program ends" } else { "is asked for again" };
-                self.message = Some(Message::plain(format!("{test} {said}")));
+                return Some(self.say_left_out(self.sheet().test().name, is_out));
             }
             Action::Stroke(by) => self.sheet_mut().move_stroke(by),
             Action::Enter => {
@@ -72,11 +76,26 @@ impl CalibrationPage {
                 return Some(self.edit(edit, false));
             }
             Action::Undo => {
-                let edit = self.sheet_mut().undo()?;
-                self.message = Some(Message::plain("the last change is taken back"));
+                let edit = match self.sheet_mut().undo()? {
+                    Back::Edit(edit) => edit,
+                    Back::Turn(test) => {
+                        let is_out = self.sheet_mut().turn(test);
+                        return Some(self.say_left_out(test, is_out));
+                    }
+                };
+                let said = match &edit {
+                    Edit::TakeOut(_, entry) => format!("the stroke of {} is taken out again", entry.test),
+                    Edit::Add(entry) | Edit::Insert(_, entry) => format!("the stroke of {} is back", entry.test),
+                    Edit::Amend(.., entry) => format!("the stroke of {} is as it was before", entry.test),
+                    Edit::Anew(_) => "what was entered before is back".to_owned(),
+                };
+                self.message = Some(Message::plain(said));
                 return Some(self.edit(edit, true));
             }
-            Action::Turn => self.side = if self.side == Side::Test { Side::Values } else { Side::Test },
+            Action::Turn => {
+                self.side = if self.side == Side::Test { Side::Values } else { Side::Test };
+                self.values_page = 0;
+            }
             Action::Daily => {
                 self.is_daily = !self.is_daily;
                 return Some(Effect::Calibrate(vec![CalibrationTask::Read(self.sheet().path.clone())]));
@@ -120,6 +139,17 @@ impl CalibrationPage {
         }
     }
 
+    /// Says that a test is left out, or taken in again, and asks what the others say.
+    fn say_left_out(&mut self, test: &str, is_out: bool) -> Effect {
+        let said = if is_out {
+            format!("{test} is left out, with what is entered of it, until the program ends")
+        } else {
+            format!("{test} counts again")
+        };
+        self.message = Some(Message::plain(said));
+        Effect::Calibrate(self.judge())
+    }
+
     fn mark_best(&mut self) {
         self.message = Some(if self.sheet_mut().mark_best() {
             let test = self.sheet().test().name;
@@ -135,8 +165,9 @@ impl CalibrationPage {
             Input::Name(typed) => self.save(typed.text().trim(), false),
             Input::Replace(name) => self.save(&name, true),
             Input::Anew => {
-                let count = self.sheet().count().0;
-                let said = format!("{count} entries are kept as {}; u takes this back", self.beside().display());
+                let count = self.sheet().entries.as_ref().map_or(0, |entries| entries.trials.len());
+                let strokes = if count == 1 { "1 stroke is".to_owned() } else { format!("{count} strokes are") };
+                let said = format!("{strokes} kept as {}; u takes this back", self.beside().display());
                 self.message = Some(Message::plain(said));
                 Some(self.edit(Edit::Anew(Entries::default()), false))
             }
@@ -174,11 +205,16 @@ impl CalibrationPage {
     fn save(&mut self, name: &str, replaces: bool) -> Option<Effect> {
         let found = self.sheet().judged.as_ref()?.found.as_ref()?;
         let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');
-        if name.is_empty() || !name.chars().all(is_plain) {
+        let refused = if PRESETS.contains(&name) {
+            Some("is the name of a bundled table; take another")
+        } else if name.is_empty() || !name.chars().all(is_plain) {
+            Some("is no name of a table; accepted are letters, digits, blanks, - and _")
+        } else {
+            None
+        };
+        if let Some(reason) = refused {
             self.input = Some(Input::Name(TextField::new(LONGEST).with(name)));
-            self.message = Some(Message::warning(format!(
-                "\"{name}\" is no name of a table; accepted are letters, digits, blanks, - and _"
-            )));
+            self.message = Some(Message::warning(format!("\"{name}\" {reason}")));
             return None;
         }
         let mut table = found.table.clone();

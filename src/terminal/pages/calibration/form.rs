@@ -98,9 +98,12 @@ impl Form {
     pub fn turn_tape(&mut self) -> Result<(), String> {
         let (name, field) = &mut self.fields[self.field];
         let is_place = self.test.marks.iter().any(|mark| mark.name == *name && mark.unit() == Unit::Diamonds);
+        if !is_place {
+            return Err(format!("a tape measures places, and {name} is none"));
+        }
         let value = field.text().split(['±', '~']).next().unwrap_or_default().trim().to_owned();
-        if !is_place || value.is_empty() {
-            return Err(format!("a tape measures places: type one first, {name} is none yet"));
+        if value.is_empty() {
+            return Err(format!("type the place first: nothing is typed of {name} yet"));
         }
         let was_taped = field.text().ends_with(TAPED);
         let text = if was_taped { value } else { format!("{value} ~ {TAPED}") };
@@ -183,7 +186,7 @@ mod tests {
         let table = Table::default();
         let mut form = form("slow-roll", &["9.6", "5.4"]);
         assert!(form.question(&table).contains("right to 0.2 s"), "{}", form.question(&table));
-        assert!(form.turn_tape().unwrap_err().contains("a tape measures places"));
+        assert_eq!(form.turn_tape().unwrap_err(), "a tape measures places, and time is none");
         form.step(1);
         assert!(form.question(&table).contains("by eye, right to 0.1 diamonds"), "{}", form.question(&table));
         form.turn_tape().unwrap();

@@ -20,6 +20,8 @@ pub enum CalibrationAction {
     Back,
     /// Moves the mark by tests, down where positive.
     Line(isize),
+    /// Marks a test far down where positive, or turns the page of the values.
+    Page(isize),
     /// Marks the test of which one more stroke tells most.
     Best,
     /// Leaves a test out, or takes it in again.
@@ -116,8 +118,9 @@ pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Known, &[key(Enter, A::Enter)], Some(("enter a stroke", 1)), "enter what was marked of a stroke of the test"),
     bind(Calibration, W::Here, &[
         key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
-        key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)), key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
+        key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
         ], Some(("test", 2)), "mark another test"),
+    bind(Calibration, W::Here, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page"),
     bind(Calibration, W::Here, &[key(Tab, A::Turn)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
     bind(Calibration, W::Here, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test of which one more stroke tells most"),
     bind(Calibration, W::Undo, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
@@ -162,6 +165,8 @@ pub const QUESTION: &[Binding<A, W>] = &[
 pub const fn words(action: CalibrationAction, _: Section) -> Option<&'static str> {
     Some(match action {
         A::Line(lines) => return mark!(lines, "test"),
+        A::Page(1) => "mark a test ten on; of the values, the next page",
+        A::Page(-1) => "mark a test ten back; of the values, the page before",
         A::Stroke(1) => "mark the next stroke of the test",
         A::Stroke(-1) => "mark the stroke of the test before",
         A::Field(1) => "type the next mark",

@@ -69,6 +69,8 @@ pub struct CalibrationPage {
     pub input: Option<Input>,
     /// What is shown beside the list of tests.
     pub side: Side,
+    /// The page of the table's values, from 0 on, where they have several; further ones are the first again.
+    pub values_page: isize,
     /// What the status line says.
     pub message: Option<Message>,
     all: Sheet,
@@ -90,6 +92,7 @@ impl CalibrationPage {
             table: Table::default(),
             input: None,
             side: Side::Test,
+            values_page: 0,
             message: None,
             all,
             daily,

@@ -11,6 +11,15 @@ use crate::{
 /// The name of a table that was given none.
 pub const UNNAMED: &str = "own";
 
+/// What takes a change back.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Back {
+    /// A change of the file.
+    Edit(Edit),
+    /// This test is left out, or taken in again.
+    Turn(&'static str),
+}
+
 /// A file of entries, and what is known of it.
 #[derive(Debug)]
 pub struct Sheet {
@@ -31,7 +40,7 @@ pub struct Sheet {
     /// The marked stroke of that test; the last one where it is none.
     stroke: Option<usize>,
     /// Changes that take those back that were made here.
-    back: Vec<Edit>,
+    back: Vec<Back>,
     /// Tests that the player does not want to play.
     left_out: Vec<&'static str>,
     /// The number of the last question about the entries, and of the last that was answered.
@@ -97,9 +106,10 @@ impl Sheet {
         all.filter(|(_, entry)| entry.test == test.name).collect()
     }
 
-    /// How many strokes are entered, and how many are asked for of those tests that are not left out.
+    /// How many strokes are entered, and how many are asked for, of those tests that are not left out.
     pub fn count(&self) -> (usize, usize) {
-        let entered = self.entries.as_ref().map_or(0, |entries| entries.trials.len());
+        let entered = self.entries.iter().flat_map(|entries| &entries.trials);
+        let entered = entered.filter(|entry| !self.left_out.contains(&entry.test.as_str())).count();
         (entered, self.tests().filter(|test| !self.is_left_out(test)).map(|test| self.times(test)).sum())
     }
 
@@ -125,9 +135,15 @@ impl Sheet {
         self.left_out.contains(&test.name)
     }
 
-    /// Leaves the marked test out, or takes it in again; gives whether it is out.
+    /// Leaves the marked test out, with what is entered of it, or takes it in again; gives whether it is out.
     pub fn turn_left_out(&mut self) -> bool {
         let name = self.test().name;
+        self.back.push(Back::Turn(name));
+        self.turn(name)
+    }
+
+    /// The same of any test, as a change that is taken back.
+    pub fn turn(&mut self, name: &'static str) -> bool {
         let count = self.left_out.len();
         self.left_out.retain(|one| *one != name);
         let is_out = self.left_out.len() == count;
@@ -172,7 +188,7 @@ impl Sheet {
         self.trouble = None;
         self.stroke = None;
         if let Some((back, false)) = back {
-            self.back.push(back);
+            self.back.push(Back::Edit(back));
         }
         if is_added && self.missing(self.test().name) == 0 {
             let later = self.tests().skip(self.mark + 1).chain(self.tests());
@@ -183,22 +199,21 @@ impl Sheet {
         }
     }
 
-    /// Whether there is something to take back.
-    pub fn can_undo(&self) -> bool {
-        !self.back.is_empty() || self.entries.as_ref().is_some_and(|entries| !entries.trials.is_empty())
+    /// Whether a change was made here that can be taken back.
+    pub const fn can_undo(&self) -> bool {
+        !self.back.is_empty()
     }
 
-    /// The change that takes the last one back: of those made here, or else the last entry of an earlier session.
-    pub fn undo(&mut self) -> Option<Edit> {
-        self.back.pop().or_else(|| {
-            let trials = &self.entries.as_ref()?.trials;
-            Some(Edit::TakeOut(trials.len().checked_sub(1)?, trials.last()?.clone()))
-        })
+    /// What takes the last change back that was made here.
+    pub fn undo(&mut self) -> Option<Back> {
+        self.back.pop()
     }
 
-    /// What is odd about entries, as a file may hold them that was written by hand.
+    /// What is odd about entries that count, as a file may hold them that was written by hand.
     pub fn odd(&self, table: &Table) -> Vec<Oddity> {
-        self.entries.as_ref().map_or_else(Vec::new, |entries| entries.trials(table).1)
+        let mut odd = self.entries.as_ref().map_or_else(Vec::new, |entries| entries.trials(table).1);
+        odd.retain(|odd| !self.left_out.contains(&odd.test.as_str()));
+        odd
     }
 
     /// What is held of the table that is played on before the tests.
@@ -221,7 +236,8 @@ impl Sheet {
     /// Asks what the entries say of the table.
     pub fn judge(&mut self, table: &Table) -> Option<Judging> {
         let (base, doubt) = self.base(table);
-        let (trials, _) = self.entries.as_ref()?.trials(&base);
+        let (mut trials, _) = self.entries.as_ref()?.trials(&base);
+        trials.retain(|(_, trial)| !self.is_left_out(trial.test));
         self.asked += 1;
         let (name, is_daily) = (self.name(table), self.is_daily);
         Some(Judging { number: self.asked, name, table: base, doubt, trials, is_daily })
@@ -297,7 +313,8 @@ mod tests {
         add(&mut sheet, 2);
         assert_eq!(sheet.test().name, "lag", "slow-back is left out");
         assert_eq!(sheet.count(), (2, 19));
-        assert_eq!(sheet.undo(), Some(Edit::TakeOut(1, entry.clone())));
+        assert_eq!(sheet.undo(), Some(Back::Edit(Edit::TakeOut(1, entry.clone()))));
+        assert_eq!(sheet.undo(), Some(Back::Turn("slow-back")));
     }
 
     #[test]

@@ -46,9 +46,10 @@ impl CoachPage {
                 "there is no other shot to choose",
             ),
             CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
-            CoachCondition::Interrupted => {
-                refuse(self.before.is_none() && self.left_exam.is_none(), "there is no earlier session to go on with")
-            }
+            CoachCondition::Interrupted => refuse(
+                self.before.is_none() && self.left_exam.is_none(),
+                "no exam was left and no earlier session waits; what is practised now is behind F3",
+            ),
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),
             CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is the coach's"),
             CoachCondition::StrokeUndone => refuse(!self.can_travel().1, "no change of the stroke was taken back"),

@@ -212,18 +212,27 @@ impl CoachPage {
             last.layout != *self.layout() || last.table != *self.table() || last.practice.is_some()
         };
         self.before = last.filter(is_elsewhere);
-        if self.before.is_some() {
-            self.message = Some(Message::plain("c goes on from where the last session ended"));
-        }
+        let words = match &self.before {
+            None => return,
+            Some(SavedSession { practice: Some(practice), .. }) if practice.is_exam() => {
+                "c goes on with the exam of the last session"
+            }
+            Some(_) => "c goes on from where the last session ended",
+        };
+        self.message = Some(Message::plain(words));
     }
 
-    /// What the next session may go on from, with what is practised; `None` while nothing is and the balls lie as at the
-    /// start.
-    pub fn last<'a>(&'a self, practice: Option<&'a Session>) -> Option<SessionParts<'a>> {
+    /// What the next session may go on from, with what is practised or the exam that waits to be gone on with; `None` while
+    /// nothing is and the balls lie as at the start.
+    pub fn last<'a>(&'a self, practised: Option<&'a Session>) -> Option<SessionParts<'a>> {
         let CoachQuery { rule, skill, plan, .. } = self.query;
         let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
+        let of_before = || self.before.as_ref()?.practice.as_ref().filter(|practice| practice.is_exam());
+        let exam = self.left_exam.as_ref().or_else(of_before);
+        let practice = if practised.is_some_and(Session::is_exam) { practised } else { exam.or(practised) };
         let last = SessionParts { table, layout, cue_ball, rule, skill, plan, practice };
-        (self.followed().is_none() && (self.is_begun() || practice.is_some())).then_some(last)
+        let is_begun = self.is_begun() || practised.is_some() || self.left_exam.is_some();
+        (self.followed().is_none() && is_begun).then_some(last)
     }
 
     /// Whether anything has been done since the start.

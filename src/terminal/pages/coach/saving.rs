@@ -4,6 +4,7 @@
 use crate::{
     drills::{Category, Exercise, Library},
     learning::policy::kept::is_name,
+    table::PRESETS,
     terminal::{
         DrillTask, Effect,
         pages::coach::{CoachPage, keys::QuestionContext},
@@ -85,7 +86,9 @@ impl CoachPage {
             self.saving.question = Some(Question::Title(TextField::new(LONGEST), Box::new(position)));
         } else {
             let name = &self.table().name;
-            let words = format!("positions are saved for the bundled tables alone, and \"{name}\" is none");
+            let tables = PRESETS.join(", ");
+            let words =
+                format!("\"{name}\" is your own table, and a position needs a bundled one ({tables}): F5 changes it");
             self.message = Some(Message::warning(words));
         }
     }

@@ -154,8 +154,9 @@ impl DrillsPage {
     fn open_records(&mut self) -> Effect {
         self.pages.push(Screen::Record);
         let name = self.turn.as_ref().filter(|turn| !turn.is_exam()).map(|turn| turn.exercise.name.clone());
-        let number = self.records.open(name);
-        Effect::Drill(vec![DrillTask::Estimate(number, self.book.shared())])
+        self.records.open(name);
+        // Another program may have noted something.
+        Effect::Drill(vec![self.load()])
     }
 
     fn scroll_records(&mut self, lines: isize) {

@@ -31,14 +31,18 @@ pub struct Records {
 }
 
 impl Records {
-    /// Opens the page with the record of `exercise`, or of all, and gives the number of the question for the player's skill.
-    pub(super) fn open(&mut self, exercise: Option<String>) -> u64 {
+    /// Opens the page with the record of `exercise`, or of all, whose sessions are about to be read.
+    pub(super) fn open(&mut self, exercise: Option<String>) {
         self.exercise = exercise;
         self.shows_all = false;
         self.top = 0;
         if matches!(self.estimate, Estimate::Unknown | Estimate::Missing(_)) {
             self.estimate = Estimate::Working;
         }
+    }
+
+    /// Gives the number of a question for the player's skill.
+    pub(super) const fn ask(&mut self) -> u64 {
         self.asked += 1;
         self.asked
     }

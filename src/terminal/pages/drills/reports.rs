@@ -5,7 +5,7 @@ use crate::{
     drills::{Attempt, Exercise, Library, Session},
     terminal::{
         DrillReport, DrillTask, Loaded,
-        pages::drills::{Book, DrillsPage, Estimate, Question, Stage},
+        pages::drills::{Book, DrillsPage, Estimate, Question, Screen, Stage},
         ui::Message,
     },
 };
@@ -14,7 +14,12 @@ impl DrillsPage {
     /// Takes what has come of a task, and gives what it asks for in turn.
     pub fn receive(&mut self, report: DrillReport) -> Vec<DrillTask> {
         match report {
-            DrillReport::Loaded(loaded) => self.loaded(*loaded),
+            DrillReport::Loaded(loaded) => {
+                self.loaded(*loaded);
+                if self.page() == Screen::Record {
+                    return vec![DrillTask::Estimate(self.records.ask(), self.book.shared())];
+                }
+            }
             DrillReport::AdviceState(id, answer) => {
                 let taught = answer.unwrap_or_else(|sentence| {
                     self.message = Some(Message::warning(sentence));

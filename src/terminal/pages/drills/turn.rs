@@ -12,7 +12,7 @@ use crate::{
         Skill,
         words::{LengthUnit, no_jump_words},
     },
-    drills::{Exercise, ExerciseError, Goal, Session, Venue},
+    drills::{Exercise, ExerciseError, Session, Venue},
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
     statistics::SuccessRate,
     table::{CueBall, Layout, Table},
@@ -214,7 +214,7 @@ impl Turn {
 
     /// Whether an exam is under way or over.
     pub fn is_exam(&self) -> bool {
-        self.session.goal == Goal::Exam
+        self.session.is_exam()
     }
 
     /// The stroke that is watched.

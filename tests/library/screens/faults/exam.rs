@@ -32,7 +32,7 @@ fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
     let over = (2..=20).fold(on, |player, _| player.press("Space Enter Enter"));
     over.says("Grade: ");
     assert_eq!((over.kept(), over.store().sessions().items.len()), (20, 1), "one exam");
-    over.press("Enter F2 c").says("there is no earlier session");
+    over.press("Enter F2 c").says("no exam was left");
 }
 
 #[test]

@@ -75,7 +75,11 @@ fn status_line(page: &CalibrationPage) -> Message {
             "all is entered: s saves the table; {} would still tell most ({:.1} bits)",
             best.test, best.bits
         )),
-        None if page.is_daily => Message::good("both strokes are entered; N begins another day's check"),
+        None if page.is_daily => {
+            let play = sheet.judged.as_ref().and_then(|judged| judged.play);
+            let today = play.map_or_else(String::new, |[before, now]| format!("today {}; ", now.against(&before)));
+            Message::good(format!("{today}both strokes are entered; N begins another day's check"))
+        }
         None => Message::plain("choose a test, play it, and enter what was marked"),
     }
 }

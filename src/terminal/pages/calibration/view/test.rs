@@ -15,8 +15,10 @@ use crate::{
     table::{BALLS, Table},
     terminal::{
         Glyphs, Mapping,
-        pages::calibration::{CalibrationPage, Input, view::values::sentences},
-        ui::{Spot, TableView, Ui, cue_sign, draw_table, draw_tip, draw_title, shorten, wrap, write_paragraphs},
+        pages::calibration::{CalibrationPage, Input, form::Form, view::values::sentences},
+        ui::{
+            Spot, TableView, Ui, columns, cue_sign, draw_table, draw_tip, draw_title, shorten, wrap, write_paragraphs,
+        },
         words::{across_word, fixed, height_word},
     },
 };
@@ -26,9 +28,11 @@ const TIP: u16 = 13;
 const BESIDE: u16 = 46;
 /// Rows of the tip's words.
 const WORDS: u16 = 3;
-/// Columns of a mark's number and name, and of what is typed.
+/// Columns of a mark's letter and name, and of what is typed: at least, and at most.
 const NAME: u16 = 10;
-const TYPED: u16 = 10;
+const TYPED: [usize; 2] = [10, 18];
+/// The letters of the marks: the diamonds have the numbers.
+const LETTERS: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 /// Fewest rows of what the marks say.
 const SAID: u16 = 3;
 /// Columns from one dot of a way to the next.
@@ -61,8 +65,11 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let text = Rect { y: bottom, height: inner.bottom() - bottom, ..inner }.inner(Margin::new(1, 0));
     let [place, strike] = words;
     let below = write_paragraphs(&[(place, style), (strike, style)], text, ui);
-    for ((n, name), y) in asked.iter().enumerate().zip(below..text.bottom()) {
-        draw_mark(page, test, n, name, Rect { y, height: 1, ..text }, ui);
+    let typed: Vec<String> = (0..asked.len()).map(|n| typed(page, test, n, asked[n], ui)).collect();
+    let longest = typed.iter().map(|typed| columns(typed) + 1).max().unwrap_or(0);
+    let room = longest.clamp(TYPED[0], TYPED[1]) as u16;
+    for (((n, name), typed), y) in asked.iter().enumerate().zip(typed).zip(below..text.bottom()) {
+        draw_mark(page, test, (n, name), (&typed, room), Rect { y, height: 1, ..text }, ui);
     }
     // Where there is room, what the marks say stands here as well.
     let end = (below + asked.len() as u16 + 1).min(inner.bottom());
@@ -93,7 +100,7 @@ fn draw_stroke(table: &Table, sketch: &Sketch, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// The table with the balls, the way of the stroke, and the numbers of the marks where they are expected.
+/// The table with the balls, the way of the stroke, and the letters of the marks where they are expected.
 fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mut Ui) {
     let mapping = Mapping::fit(table, area);
     if mapping.bed.is_empty() {
@@ -118,7 +125,7 @@ fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mu
     let view = TableView { spots: &spots, is_numbered: false, ..TableView::new(table, &sketch.layout, ui) };
     draw_table(&view, area, ui);
     number_rails(table, &mapping, ui);
-    number_marks(test, sketch, &mapping, ui);
+    letter_marks(test, sketch, &mapping, ui);
 }
 
 /// The numbers of the diamonds: along the table on the rail below, across it on the left.
@@ -140,15 +147,15 @@ fn number_rails(table: &Table, mapping: &Mapping, ui: &mut Ui) {
     }
 }
 
-/// The numbers of the marks beside the places where they are expected: on the rail, or to the right of a ball that has stopped.
-fn number_marks(test: &Test, sketch: &Sketch, mapping: &Mapping, ui: &mut Ui) {
+/// The letters of the marks beside the places where they are expected: on the rail, or to the right of a ball that has stopped.
+fn letter_marks(test: &Test, sketch: &Sketch, mapping: &Mapping, ui: &mut Ui) {
     let bed = mapping.bed;
     let half = 0.5 * f64::from(bed.height);
     let style = ui.theme.accent().add_modifier(Modifier::REVERSED);
     let mut taken: Vec<DVec2> = Vec::new();
     for (n, place) in sketch.places.iter().enumerate() {
         let Some(place) = *place else { continue };
-        // What one ball is marked for twice has its numbers side by side.
+        // What one ball is marked for twice has its letters side by side.
         let beside = taken.iter().filter(|other| **other == place).count() as u16;
         taken.push(place);
         let (x, y) = mapping.to_cell(place);
@@ -160,36 +167,57 @@ fn number_marks(test: &Test, sketch: &Sketch, mapping: &Mapping, ui: &mut Ui) {
             RailAcross(..) => (bed.right(), y),
             _ => (x + 2 + beside, y),
         };
-        ui.buffer.set_stringn(x.min(bed.right() + 1), y, (n + 1).to_string(), 1, style);
+        ui.buffer.set_stringn(x.min(bed.right() + 1), y, letter(n), 1, style);
     }
 }
 
-/// A mark with its number, what is typed of it, and its words.
-fn draw_mark(page: &CalibrationPage, test: &Test, n: usize, name: &str, area: Rect, ui: &mut Ui) {
-    let form = page.input.as_ref().and_then(|input| if let Input::Marks(form) = input { Some(form) } else { None });
-    let is_typed = form.is_some_and(|form| form.field == n);
-    let style = if is_typed { ui.theme.accent() } else { ui.theme.text() };
-    let sign = if is_typed { ui.caps.pick("▸", ">") } else { " " };
-    ui.buffer.set_stringn(area.x, area.y, format!("{sign}{} {name}", n + 1), usize::from(NAME), style);
-    let mark = test.marks.iter().find(|mark| mark.name == name);
-    let unit = match mark.map(Mark::unit) {
-        Some(Unit::Seconds) => "s",
-        _ => "",
-    };
-    let typed = match form {
+/// The letter of the mark with this number.
+const fn letter(n: usize) -> &'static str {
+    LETTERS[n % LETTERS.len()]
+}
+
+/// The form that is open, if one is.
+const fn form(page: &CalibrationPage) -> Option<&Form> {
+    if let Some(Input::Marks(form)) = &page.input { Some(form) } else { None }
+}
+
+/// What is typed of the mark with this number and name, or was entered, with its unit.
+fn typed(page: &CalibrationPage, test: &Test, n: usize, name: &str, ui: &Ui) -> String {
+    let typed = match form(page) {
         Some(form) => form.fields[n].1.text().to_owned(),
         None => page.sheet().marked_stroke().map_or_else(String::new, |(_, entry)| entry.typed(name)),
     };
-    let typed = if typed.is_empty() { "-".to_owned() } else { format!("{typed} {unit}") };
-    let typed = if ui.caps.unicode { typed } else { typed.replace('±', "~") };
-    let value = if form.is_some() { ui.theme.text() } else { ui.theme.faint() };
-    ui.buffer.set_string(area.x + NAME, area.y, shorten(&typed, usize::from(TYPED - 1), ui.caps), value);
+    let mark = test.marks.iter().find(|mark| mark.name == name);
+    let is_bare = mark.map(Mark::unit) == Some(Unit::Seconds) && !typed.ends_with('s');
+    match typed {
+        typed if typed.is_empty() => "-".to_owned(),
+        typed => (if is_bare { typed + " s" } else { typed }).replace('±', ui.caps.pick("±", "~")),
+    }
+}
+
+/// A mark with its number's letter and its name, what is typed of it in so much room, and its words.
+fn draw_mark(
+    page: &CalibrationPage,
+    test: &Test,
+    (n, name): (usize, &str),
+    (typed, room): (&str, u16),
+    area: Rect,
+    ui: &mut Ui,
+) {
+    let is_typed = form(page).is_some_and(|form| form.field == n);
+    let style = if is_typed { ui.theme.accent() } else { ui.theme.text() };
+    let sign = if is_typed { ui.caps.pick("▸", ">") } else { " " };
+    ui.buffer.set_stringn(area.x, area.y, format!("{sign}{} {name}", letter(n)), usize::from(NAME), style);
+    let value = if form(page).is_some() { ui.theme.text() } else { ui.theme.faint() };
+    ui.buffer.set_string(area.x + NAME, area.y, shorten(typed, usize::from(room - 1), ui.caps), value);
     let usual = test.rails.map_or_else(String::new, |rails| format!(", if not {rails}"));
+    let mark = test.marks.iter().find(|mark| mark.name == name);
     let words = match mark {
         Some(mark) => mark.words.to_owned(),
         None if name == RAILS => format!("how many short rails it has met{usual}"),
         None => String::new(),
     };
-    let room = usize::from(area.width.saturating_sub(NAME + TYPED));
-    ui.buffer.set_string(area.x + NAME + TYPED, area.y, shorten(&words, room, ui.caps), ui.theme.faint());
+    let x = NAME + room;
+    let words = shorten(&words, usize::from(area.width.saturating_sub(x)), ui.caps);
+    ui.buffer.set_string(area.x + x, area.y, words, ui.theme.faint());
 }

@@ -1,15 +1,14 @@
 //! All that was found: the table's values, which marks look misread, and what to play next.
 
-use ratatui::{
-    layout::{Margin, Rect},
-    style::Style,
-};
+use ratatui::{layout::Rect, style::Style};
 
 use crate::{
-    calibration::{Calibration, Change},
+    calibration::{Calibration, Change, Test},
     terminal::{
-        pages::calibration::CalibrationPage,
-        ui::{Ui, draw_title, write_paragraphs, write_right},
+        CalibrationAction,
+        keymap::{chord_of, keys_text},
+        pages::calibration::{CalibrationPage, keys::TESTS},
+        ui::{Ui, draw_title, wrap, write_right},
     },
 };
 
@@ -18,17 +17,39 @@ const VALUE_END: u16 = 36;
 const KNOWN_END: u16 = 46;
 const WORDS: u16 = 48;
 
-/// Draws it.
+/// A row of the part.
+enum Row<'a> {
+    Constant(&'a Change),
+    Text(String, Style),
+}
+
+/// Draws it, a page at a time where it is longer than its room.
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
-    let sheet = page.sheet();
-    let inner = draw_title("The table's values", area, ui);
-    let found = sheet.judged.as_ref().and_then(|judged| judged.found.as_ref());
-    let constants = found.map_or(&[][..], |found| &found.constants);
-    for (one, y) in constants.iter().zip(inner.y..inner.bottom()) {
-        draw_constant(one, Rect { y, height: 1, ..inner }, ui);
+    let found = page.sheet().judged.as_ref().and_then(|judged| judged.found.as_ref());
+    let width = usize::from(area.width.saturating_sub(2));
+    let said = said(page, found, ui)
+        .into_iter()
+        .flat_map(|(words, style)| wrap(&words, width).into_iter().map(move |line| Row::Text(line, style)));
+    let constants = found.map_or(&[][..], |found| &found.constants).iter().map(Row::Constant);
+    let rows: Vec<Row> = constants.chain(said).collect();
+    let height = usize::from(area.height.saturating_sub(1)).max(1);
+    let pages = rows.len().div_ceil(height).max(1);
+    let number = page.values_page.rem_euclid(pages.cast_signed()).cast_unsigned();
+    let turns = chord_of(TESTS, &CalibrationAction::Page(1)).into_iter();
+    let key = keys_text(turns.flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps);
+    let paged = if pages > 1 { format!(", {} of {pages}: {key}", number + 1) } else { String::new() };
+    let inner = draw_title(format!("The table's values{paged}"), area, ui);
+    for (row, y) in rows.chunks(height).nth(number).unwrap_or_default().iter().zip(inner.y..inner.bottom()) {
+        match row {
+            Row::Constant(one) => draw_constant(one, Rect { y, height: 1, ..inner }, ui),
+            Row::Text(line, style) => ui.buffer.set_string(inner.x + 1, y, line, *style),
+        }
     }
-    let rows = (constants.len() as u16).min(inner.height);
-    let below = Rect { y: inner.y + rows, height: inner.height - rows, ..inner };
+}
+
+/// What is odd about the entries, then what the marks say.
+fn said(page: &CalibrationPage, found: Option<&Calibration>, ui: &Ui) -> Vec<(String, Style)> {
+    let sheet = page.sheet();
     let mut said: Vec<(String, Style)> = Vec::new();
     said.extend(sheet.odd(&page.table).iter().map(|odd| (format!("{odd}; it is left out"), ui.theme.warning())));
     match found {
@@ -40,7 +61,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
             ui.theme.faint(),
         )),
     }
-    write_paragraphs(&said, below.inner(Margin::new(1, 0)), ui);
+    said
 }
 
 fn draw_constant(one: &Change, area: Rect, ui: &mut Ui) {
@@ -64,9 +85,15 @@ fn draw_constant(one: &Change, area: Rect, ui: &mut Ui) {
 /// What is said of the marks.
 pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(String, Style)> {
     let mut said: Vec<(String, Style)> = Vec::new();
+    let stroke = |trial: usize, test: &str| {
+        let strokes = Test::named(test).map_or_else(Vec::new, |test| page.sheet().strokes(test));
+        let number = strokes.iter().position(|(place, _)| place + 1 == trial).map_or(trial, |place| place + 1);
+        format!("stroke {number} of {test}")
+    };
     let misread = found.verdicts.iter().filter(|verdict| verdict.misread);
-    said.extend(misread.map(|verdict| (verdict.doubtful(), ui.theme.warning())));
-    said.extend(found.strange.iter().map(|strange| (strange.words(), ui.theme.warning())));
+    said.extend(misread.map(|one| (one.doubtful(&stroke(one.trial, one.test)), ui.theme.warning())));
+    let strange = found.strange.iter();
+    said.extend(strange.map(|one| (one.words(&stroke(one.trial, one.test)), ui.theme.warning())));
     said.extend(found.rails_apart().into_iter().map(|sentence| (sentence, ui.theme.accent())));
     let agreement = if found.misread().is_empty() { ui.theme.good() } else { ui.theme.text() };
     said.push((found.agreement().to_owned(), agreement));

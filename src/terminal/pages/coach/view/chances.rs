@@ -6,8 +6,9 @@ use crate::{
     coach::words::{fullness_word, pace_word},
     terminal::{
         AdviceState, Proposal,
+        pages::coach::Choice,
         ui::{Ui, columns, cut, draw_nothing, draw_title, list, spell, wrap, write_right},
-        words::{chance_words, percent, skill_word},
+        words::{chance_words, fixed, percent, skill_word},
     },
 };
 
@@ -46,7 +47,12 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
         let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate) + " %");
         write_right(ui.buffer, inner.x, inner.x + CHANCE_END, row, &chance, style);
         let room = usize::from(inner.width.saturating_sub(WORDS));
-        ui.buffer.set_stringn(inner.x + WORDS, row, sort_words(proposal, room, ui), room, style);
+        let sort = |proposal: &Proposal, is_exact: bool| sort_words(proposal, is_exact, room, ui);
+        let words = sort(proposal, false);
+        let like = |(other, choice): (usize, &Choice)| other != n && sort(&choice.proposal, false) == words;
+        let is_unclear = advised.choices().iter().enumerate().any(like);
+        let words = if is_unclear { sort(proposal, true) } else { words };
+        ui.buffer.set_stringn(inner.x + WORDS, row, words, room, style);
     }
     // What would miss the first shot by itself.
     let mut row = inner.y + advised.choices().len() as u16;
@@ -113,21 +119,26 @@ fn in_view(advised: &AdviceState, inner: Rect) -> impl Iterator<Item = (usize, u
 }
 
 /// What sort of shot it is, as players call it, or that it makes no point: the first ball, the pattern, how full, and how hard,
-/// the last two as far as `room` columns hold them.
-pub fn sort_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
+/// the last two as far as `room` columns hold them; where it `is_exact`, how hard in table lengths, and before how full.
+pub fn sort_words(proposal: &Proposal, is_exact: bool, room: usize, ui: &Ui) -> String {
     if !proposal.shot.solved {
         return "no point".to_owned();
     }
     let words = &proposal.shot.words;
     let mut text = String::new();
-    let parts = [
-        words.first.map(|hit| ui.theme.names()[hit.ball]),
-        proposal.shot.pattern.map(|pattern| pattern.name),
-        words.first.map(|hit| fullness_word(hit.fullness)),
-        Some(pace_word(words.table_lengths)),
+    let pace = pace_word(words.table_lengths);
+    let pace = if is_exact { format!("{pace} {}", fixed(words.table_lengths, 1)) } else { pace.to_owned() };
+    let mut parts = [
+        words.first.map(|hit| ui.theme.names()[hit.ball].to_owned()),
+        proposal.shot.pattern.map(|pattern| pattern.name.to_owned()),
+        words.first.map(|hit| fullness_word(hit.fullness).to_owned()),
+        Some(pace),
     ];
+    if is_exact {
+        parts.swap(2, 3);
+    }
     for (n, part) in parts.into_iter().flatten().enumerate() {
-        let more = if n == 0 { part.to_owned() } else { format!("{text}, {part}") };
+        let more = if n == 0 { part } else { format!("{text}, {part}") };
         if n < 2 || columns(&more) <= room {
             text = more;
         }

@@ -30,9 +30,10 @@ const NAME: usize = 8;
 /// Draws the coach's row. What is asked and the time of the shot always have room; the rest comes as it fits.
 pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let room = usize::from(area.width);
-    let question = question(coach, ui);
-    let name =
-        name(coach, room.saturating_sub(question.width() + transport(coach, Form::Now, 0, ui).width() + 2), room, ui);
+    let time = transport(coach, Form::Short, 0, ui).width() + 2;
+    let whole = question(coach, true, ui);
+    let question = if whole.width() + time <= room { whole } else { question(coach, coach.query.plan, ui) };
+    let name = name(coach, room.saturating_sub(question.width() + time), room, ui);
     let left = room.saturating_sub(question.width() + name.width() + 1);
     // The bar says more than words do.
     let wanted = [
@@ -53,8 +54,8 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     ui.buffer.set_line(start, area.y, &right, area.right() - start);
 }
 
-/// What is asked, each after the key that changes it.
-fn question(coach: &CoachPage, ui: &Ui) -> Line<'static> {
+/// What is asked, each after the key that changes it; whether the next point counts only where that is wanted.
+fn question(coach: &CoachPage, has_plan: bool, ui: &Ui) -> Line<'static> {
     let query = &coach.query;
     if let Some(followed) = coach.followed() {
         let words = if followed.emptiness().is_some() {
@@ -73,7 +74,7 @@ fn question(coach: &CoachPage, ui: &Ui) -> Line<'static> {
         (CoachAction::TurnPlan, plan),
     ];
     let mut line = Line::default();
-    for (action, words) in parts {
+    for (action, words) in parts.into_iter().take(if has_plan { 3 } else { 2 }) {
         let chord = chord_of(COACH, &action);
         let key = keys_text(chord.into_iter().flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps);
         line.push_span(Span::styled(format!(" {key}"), ui.theme.accent()));

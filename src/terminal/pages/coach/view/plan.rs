@@ -70,7 +70,7 @@ fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
     let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate));
     let so_far = if proposal.is_early { "so far " } else { "" };
     let chance = format!("{so_far}{chance} % ");
-    let sort = sort_words(proposal, room.saturating_sub(chance.len()), ui);
+    let sort = sort_words(proposal, false, room.saturating_sub(chance.len()), ui);
     chance + &sort
 }
 

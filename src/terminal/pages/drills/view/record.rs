@@ -83,7 +83,9 @@ fn draw_numbers(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>,
     let mut rows = vec![("attempts", record.tried.to_string())];
     if record.tried > 0 {
         rows.push(("made", format!("{}, {}", record.made, chance_words(&record.rate))));
-        rows.push(("average", record.average.map_or("-".to_owned(), |average| format!("{average:.2} an inning"))));
+        let of = if record.has_unordered() { ", noted one by one" } else { "" };
+        let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2} an inning{of}"));
+        rows.push(("average", average));
         rows.push(("high run", high_run(&record).map_or("-".to_owned(), |run| run.to_string())));
     }
     if record.helped > 0 {

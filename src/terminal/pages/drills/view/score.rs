@@ -84,13 +84,13 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
         return lines;
     }
     let average = record.average.map_or(String::new(), |average| format!(", average {average:.2}"));
+    let plural = |count: usize, one: &str| if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") };
     if session.is_match() {
         for cue_ball in [session.cue_ball, session.cue_ball.other()] {
             let Record { made, innings, high_run, .. } = session.side(cue_ball);
-            lines.push(format!("{cue_ball}: {made} in {innings} innings, best run {high_run}"));
+            lines.push(format!("{cue_ball}: {made} in {}, best run {high_run}", plural(innings, "inning")));
         }
     } else if session.is_game() {
-        let plural = |count: usize, one: &str| if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") };
         lines.push(format!("{} in {}{average}", plural(made, "point"), plural(record.innings, "inning")));
         lines.push(format!("run {}, best {}", session.run(), record.high_run));
     } else {
