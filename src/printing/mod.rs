@@ -7,6 +7,7 @@
 
 mod json;
 mod progress;
+mod shell;
 mod shown;
 mod version;
 mod visible;
@@ -14,6 +15,7 @@ mod visible;
 pub use self::{
     json::{json_line, json_text},
     progress::ProgressLine,
+    shell::shell_word,
     shown::{Shown, clear_line, is_watched, redraw_line, stderr, stdout},
     version::{FULL_VERSION, SOURCE, TARGET, VERSION},
     visible::{OneLine, is_hidden},

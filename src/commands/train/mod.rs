@@ -29,7 +29,7 @@ use crate::{
         run::{Ending, Limits, Run, RunError, discard, holds_checkpoints, seeds::is_group},
     },
     platform::{outlive_hang_up, stop_when_told},
-    printing,
+    printing::{self, shell_word},
 };
 
 /// Train an agent without a screen.
@@ -186,14 +186,17 @@ fn train(mut run: Run, options: &TrainOptions<'_>) -> Result<(), Failure> {
     }
     let mut progress = Progress::new(&run, options.json, None);
     let ending = run.train(&options.limits(options.limit), &mut progress);
-    progress.close();
+    let written = progress.close();
     match ending.map_err(failure)? {
-        Ending::Finished(score) => say_result(&run, score, options)?,
+        Ending::Finished(score) => {
+            written?;
+            say_result(&run, score, options)?;
+        }
         Ending::Stopped(score) => {
             say_result(&run, score, options)?;
             return Err(how_to_go_on(run.folder()));
         }
-        Ending::Abandoned => abandon(run).map_err(failure)?,
+        Ending::Abandoned => return Err(abandon(run).map_err(failure)?),
     }
     Ok(())
 }
@@ -217,18 +220,18 @@ fn say_result(run: &Run, score: Score, options: &TrainOptions<'_>) -> io::Result
     )
 }
 
-/// Removes a run that was given up.
-fn abandon(run: Run) -> Result<(), RunError> {
+/// Removes a run that was given up, which is not finished.
+fn abandon(run: Run) -> Result<Failure, RunError> {
     let folder = run.folder().to_owned();
     // It holds the lock.
     drop(run);
     discard(&folder)?;
-    tell(format_args!("{}: given up and removed, as was asked", folder.display()));
-    Ok(())
+    Ok(Failure::unfinished(format_args!("{}: given up and removed, as was asked", folder.display())))
 }
 
 fn how_to_go_on(folder: &Path) -> Failure {
-    Failure::unfinished(format_args!("stopped early; go on with: carom train --resume \"{}\"", folder.display()))
+    let folder = shell_word(&folder.to_string_lossy());
+    Failure::unfinished(format_args!("stopped early; go on with: carom train --resume {folder}"))
 }
 
 fn failure(error: RunError) -> Failure {

@@ -71,9 +71,16 @@ fn train_one(group: &Group, seed: u64, limit: Option<Duration>, options: &TrainO
         return Ok(true);
     }
     let mut progress = Progress::new(&run, options.json, Some(seed));
-    match run.train(&options.limits(limit), &mut progress)? {
+    let ending = run.train(&options.limits(limit), &mut progress)?;
+    if let Err(error) = progress.close() {
+        tell(format_args!("warning: seed {seed}: the output cannot be written: {error}"));
+    }
+    match ending {
         Ending::Finished(_) => Ok(true),
         Ending::Stopped(_) => Ok(false),
-        Ending::Abandoned => abandon(run).map(|()| false),
+        Ending::Abandoned => abandon(run).map(|removed| {
+            tell(removed);
+            false
+        }),
     }
 }

@@ -1,6 +1,6 @@
 //! What the user sees while training: a bar on a terminal, else a line for every measurement.
 
-use std::io::Write as _;
+use std::io::{self, Write as _};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::{
     commands::output::tell,
     learning::run::{Run, Watcher, metrics::Record},
-    printing,
+    printing::{self, shell_word},
 };
 
 /// The progress of one run.
@@ -17,6 +17,8 @@ pub struct Progress {
     json: bool,
     /// The run's seed, where there are several runs.
     seed: Option<u64>,
+    /// Why a line could not be written, where one could not.
+    unwritten: Option<io::Error>,
 }
 
 /// A line of JSON.
@@ -40,13 +42,13 @@ impl Progress {
         };
         if !learner.is_finished() {
             tell(format_args!(
-                "training {} for {} on \"{}\" with seed {} in {}; from any terminal: carom watch \"{}\"",
+                "training {} for {} on \"{}\" with seed {} in {}; from any terminal: carom watch {}",
                 learner.agent(),
                 plan.reward,
                 learner.table().name,
                 plan.seed,
                 run.folder().display(),
-                run.folder().display()
+                shell_word(&run.folder().to_string_lossy())
             ));
         }
         let template = "{elapsed_precise} {wide_bar} {human_pos}/{human_len} shots, {eta} left  {msg}";
@@ -55,12 +57,16 @@ impl Progress {
         }
         bar.set_position(learner.shots());
         bar.reset_eta();
-        Self { bar, json, seed }
+        Self { bar, json, seed, unwritten: None }
     }
 
     /// Takes the bar away.
-    pub fn close(&self) {
+    ///
+    /// # Errors
+    /// Where a line could not be written.
+    pub fn close(self) -> io::Result<()> {
         self.bar.finish_and_clear();
+        self.unwritten.map_or(Ok(()), Err)
     }
 }
 
@@ -82,7 +88,7 @@ impl Watcher for Progress {
             && let Ok(line) = printing::json_text(&Line { seed: self.seed, record })
         {
             // A reader that has gone away must not end the training.
-            let _ = writeln!(printing::stdout(), "{line}");
+            self.unwritten = writeln!(printing::stdout(), "{line}").err().or(self.unwritten.take());
         }
         self.bar.set_position(record.shots);
         let Some(summary) = summary(record) else { return };

@@ -21,7 +21,7 @@ pub const TABLES: [&str; 3] = ["match", "textbook", "thesis"];
 const BUDGETS: [u64; 9] =
     [100_000, 300_000, 1_000_000, 3_000_000, 5_000_000, 10_000_000, 30_000_000, 100_000_000, 300_000_000];
 /// Most digits of a number that is typed; every number of so many digits fits.
-const DIGITS: usize = 18;
+const DIGITS: usize = 20;
 
 /// Seconds beyond which a run is a long one.
 const DAY: f64 = 86_400.0;

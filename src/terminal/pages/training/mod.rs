@@ -29,6 +29,7 @@ use crate::{
             request::Request,
         },
     },
+    printing::shell_word,
     storage::Places,
     table::Table,
     terminal::{CoachQuery, Failure, Keeping, Kept, Report, Slot, Subscriptions, TrainingContext, ui::Message},
@@ -249,6 +250,9 @@ impl TrainingPage {
         if self.is_launched(folder) {
             self.launched = None;
         }
+        if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
+            watch.failure = Some(failure.sentence.clone());
+        }
         let name = Named::new(folder, &self.places.runs).name;
         self.message = Some(Message::warning(format!("{name}: {}", failure.sentence)));
     }
@@ -266,7 +270,7 @@ impl TrainingPage {
         let name = keeping.name;
         match outcome {
             Ok(Kept::Done) => {
-                let call = watch::quoted(&name);
+                let call = shell_word(&name);
                 self.message = Some(Message::good(format!("kept; use it by: carom recommend --policy {call}")));
             }
             // A player who has left the run meanwhile is not asked any more.

@@ -9,6 +9,7 @@ use crate::{
         follow::{Condition, Followed, Update},
         status::Phase,
     },
+    printing::shell_word,
     table::Table,
     terminal::pages::training::{
         charts::{Charts, Progress},
@@ -51,13 +52,15 @@ pub struct Watch {
     pub replay: Replay,
     /// Whether it has left a policy that the coach can use.
     pub has_policy: bool,
+    /// Why the process failed that was to train it, where one did.
+    pub failure: Option<String>,
 }
 
 impl Watch {
     /// The run in `folder`, of which nothing is known yet. Runs in `runs` are called by what follows.
     pub fn new(folder: &Path, runs: &Path) -> Self {
         let (charts, replay) = (Charts::default(), Replay::default());
-        Self { own: Named::new(folder, runs), other: None, charts, replay, has_policy: false }
+        Self { own: Named::new(folder, runs), other: None, charts, replay, has_policy: false, failure: None }
     }
 
     /// Takes what has changed.
@@ -152,7 +155,7 @@ impl Watch {
     /// What stands in the way of the run, or what can be done now, in a sentence; and whether that is bad news.
     pub fn advice(&self) -> (String, bool) {
         let Self { own: Named { name, run }, .. } = self;
-        let resume = format!("r goes on with it, or: carom train --resume {}", quoted(name));
+        let resume = format!("r goes on with it, or: carom train --resume {}", shell_word(name));
         let status = run.status.as_ref();
         let reason = status.and_then(|status| status.reason.as_deref());
         let warning = status.and_then(|status| status.warning.as_deref());
@@ -172,11 +175,14 @@ impl Watch {
             }
             _ if warning.is_some() => (warning.unwrap_or_default().to_owned(), true),
             Condition::Unknown => ("looking for the run".to_owned(), false),
-            Condition::Missing => ("waiting for the run to start".to_owned(), false),
+            Condition::Missing => match &self.failure {
+                Some(sentence) => (format!("it could not be started: {sentence}"), true),
+                None => ("waiting for the run to start".to_owned(), false),
+            },
             Condition::Is(Phase::Paused) => ("paused and saved; p lets it go on".to_owned(), false),
             Condition::Is(Phase::Measuring) => ("plays the held-out layouts".to_owned(), false),
             Condition::Is(Phase::Training) => {
-                (format!("it goes on without this screen: carom watch {}", quoted(name)), false)
+                (format!("it goes on without this screen: carom watch {}", shell_word(name)), false)
             }
             Condition::Is(Phase::Finished) if !self.has_policy => {
                 ("finished; it has left no policy for the coach".to_owned(), false)
@@ -201,10 +207,4 @@ const fn is_at_work(condition: Condition) -> bool {
         Condition::Stalled(_) => true,
         _ => false,
     }
-}
-
-/// The name as a shell takes it.
-pub fn quoted(name: &str) -> String {
-    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./".contains(letter);
-    if name.chars().all(is_plain) { name.to_owned() } else { format!("'{}'", name.replace('\'', r"'\''")) }
 }

@@ -1,0 +1,21 @@
+//! Words as a shell takes them.
+
+/// `word` as a shell takes it as one argument: in quotes where it needs them, and a name that begins with a hyphen as a path, which is
+/// no option.
+pub fn shell_word(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./".contains(letter);
+    let word = if word.starts_with('-') { format!("./{word}") } else { word.to_owned() };
+    if word.chars().all(is_plain) { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shell_takes_a_word_as_it_is_meant() {
+        assert_eq!(shell_word("runs/2026-11-27_a.b"), "runs/2026-11-27_a.b");
+        assert_eq!(shell_word("it's $HOME `id`"), r"'it'\''s $HOME `id`'");
+        assert_eq!(shell_word("-d2"), "./-d2");
+    }
+}
