@@ -59,6 +59,11 @@ impl Policy {
         self.origin.hyperparameters.context
     }
 
+    /// Whether its probabilities are those of a player with this skill: it is told the skill, and has practised with such players.
+    pub fn speaks_of(&self, skill: &Skill) -> bool {
+        self.has_context() && (self.origin.hyperparameters.perfect < 1.0 || skill.scale() == 0.0)
+    }
+
     /// Whether it has practised on tables like this one.
     pub fn knows(&self, table: &Table) -> bool {
         if self.has_context() { knows(table) } else { self.origin.table == table.name }
