@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{Policy, file::PolicyError};
-use crate::storage::{self, write_atomic};
+use crate::storage::write_atomic;
 
 /// What the files are called after their names.
 const EXTENSION: &str = "safetensors";
@@ -57,9 +57,8 @@ pub fn keep(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<
     if kept.exists() && !replaces {
         return Err(KeepError::Taken(name.to_owned()));
     }
-    Policy::load(policy)?;
-    let copy = || write_atomic(&kept, &storage::read(policy, storage::LARGE)?);
-    copy().map_err(|reason| KeepError::File { path: kept.display().to_string(), reason })?;
+    let (_, bytes) = Policy::load_with_bytes(policy)?;
+    write_atomic(&kept, &bytes).map_err(|reason| KeepError::File { path: kept.display().to_string(), reason })?;
     Ok(kept)
 }
 
