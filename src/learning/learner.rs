@@ -32,7 +32,7 @@ pub struct Agent {
     pub start: Start,
     /// The learner whose [`Learner::save`] filled the file and returned the note.
     pub restore: Restore,
-    /// Settings that say how a run takes up others' weights: a run that starts from its weights does not inherit them.
+    /// Settings that apply only when weights are loaded; `--from` does not pass them on.
     pub of_one_start: &'static [&'static str],
 }
 
@@ -96,8 +96,8 @@ pub trait Learner: Debug + Send {
     /// Learning rate now, of whatever judges actions.
     fn learning_rate(&self) -> f64;
 
-    /// How strongly it explores now: the probability of a shot that is not its own choice, or, for an agent that adds
-    /// noise to each, the noise's standard deviation in units of half an action's range.
+    /// How strongly it explores now: the probability of a shot that is drawn uniformly from all actions (`ddpg` adds noise to most of
+    /// its other shots, too), or, for `thesis-ddpg`, the standard deviation of its noise in units of half an action's range.
     fn exploration(&self) -> f64;
 
     /// Share of its replay buffer that is filled, where it has one.

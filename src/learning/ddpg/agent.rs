@@ -22,8 +22,8 @@ use crate::learning::nn::{
 /// Outputs of the actor beyond which the hyperbolic tangent, 0.96 here, hardly has a slope.
 const SATURATED: f64 = 2.0;
 
-/// What counts in the way from one action to another: a tenth of the ball's half decides over a point, of the speed's range it
-/// seldom does.
+/// Weights of the squared differences in [`Ddpg::imitation_loss`]: a small error of the aim loses the point, the same share of the
+/// speed seldom does.
 const WAY_WEIGHTS: [f32; ACTIONS] = [4.0, 1.0, 1.0, 1.0, 1.0];
 
 /// Shots to learn from.
@@ -58,7 +58,7 @@ impl ShotBatch {
 pub struct UpdateStats {
     /// Mean cross entropy of the critic, nats.
     pub critic: f64,
-    /// Minus what the actor climbs: the mean over its heads of the critic's probability.
+    /// Minus the critic's mean probability of success over all heads; what the actor climbs has further terms.
     pub actor: f64,
 }
 

@@ -30,9 +30,9 @@ const LEFT_OF_ONE_WAY: usize = 2;
 /// Attempts by which the strokes that did not win are remembered.
 const AGAIN: usize = 8;
 
-/// Strokes beside each that is left, the critic's favourites among all of them, which are raced, and how far they are from where they
-/// began: standard deviations in halves of an action's range. Of strokes about which it errs, a race is not misled as a choice by the
-/// critic alone would be.
+/// Neighbours that are drawn around each stroke that is left, how many of all of them enter the race, and the standard deviations of the
+/// steps to them, in halves of an action's range. The critic only picks which neighbours enter; attempts decide, so its errors cost time,
+/// not correctness.
 const NEIGHBOURS: usize = 24;
 const FAVOURITES: usize = 24;
 const STEPS: [f32; 3] = [0.12, 0.06, 0.03];
@@ -129,8 +129,7 @@ impl Expert<'_> {
         let mut seen = Vec::new();
         for (attempts, left) in ROUNDS {
             self.race(&mut runners, attempts, seed);
-            let out = leave(&mut runners, left, LEFT_OF_ONE_WAY);
-            seen.extend(out.into_iter().filter(|runner| runner.attempts >= ROUNDS[0].0));
+            seen.extend(leave(&mut runners, left, LEFT_OF_ONE_WAY));
         }
         for step in STEPS {
             let parents = runners.clone();
@@ -191,7 +190,8 @@ impl Expert<'_> {
         Ok(())
     }
 
-    /// Makes attempts at every stroke until each has so many, with the same errors for all, and puts the best first.
+    /// One round of successive halving (Karnin et al. 2013): makes attempts at every stroke until each has so many, with the same errors
+    /// for all, and puts the best first.
     fn race(&self, runners: &mut [Runner], attempts: usize, seed: u64) {
         for runner in runners.iter_mut() {
             for attempt in runner.attempts..attempts {

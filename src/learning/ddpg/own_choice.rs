@@ -25,8 +25,8 @@ const AT_ONCE: usize = 64;
 const STREAM: u64 = 0x0070_6c61_7474;
 
 impl Trainer {
-    /// What is to be told by what the averaged critic says: as often as its choices are made by players drawn as for practice, half of
-    /// them on the run's own table, which is in doubt about its rails' law as well, half on drawn ones.
+    /// Fits the calibration: the averaged networks' own choice is played on fresh layouts, half of them on the run's own table, with
+    /// errors drawn as in practice.
     pub(super) fn calibration(&self) -> Result<Calibration> {
         let Hyperparameters { perfect, calibrated, .. } = self.task.hyperparameters;
         let reward = self.task.plan.reward;

@@ -20,8 +20,8 @@ use super::{
 };
 use crate::{learning::evaluation::CONTACT_STEPS, platform, table::Layout};
 
-/// Proposals of a layout that are played where the critic learns to rank them: the best of the 24 that six heads give. Among the
-/// others it hardly ever chooses wrongly.
+/// Proposals of a layout that are played where the critic learns to rank them, the best ones: among the others it hardly ever
+/// chooses wrongly. (Six heads make 24 for straight ways.)
 const RANKED: usize = 8;
 
 /// A layout, and the conditions under which it is played.

@@ -1,4 +1,4 @@
-//! A trainer as a file: everything that the next turn depends on, so that a run that goes on is the run that never
+//! A trainer as a file: everything that the next iteration depends on, so that a run that goes on is the run that never
 //! stopped.
 
 use std::sync::Arc;

@@ -108,7 +108,7 @@ impl Trainer {
         let [played, searched] = [played, searched].map(|shots| self.batch(&shots));
         let losses = self.agent.update(&played?, Some(&searched?).filter(|shots| !shots.is_empty()), lr_factor)?;
         self.updates += 1;
-        // What the actor climbs is the critic's mean value of its actions.
+        // The critic's mean probability of success over all heads.
         let q_value = -losses.actor;
         Ok(Iteration { mean_reward, q_value, critic_loss: losses.critic, actor_loss: Some(losses.actor) })
     }
@@ -185,7 +185,7 @@ pub(in crate::learning) mod tests {
     }
 
     #[test]
-    fn a_turn_that_leaves_nothing_to_remember_is_no_failure() {
+    fn an_iteration_that_leaves_nothing_to_remember_is_no_failure() {
         let mut task = small_task();
         task.plan.reward = Reward::ThreeCushion;
         task.hyperparameters.demonstrations = 1.0;

@@ -129,7 +129,7 @@ mod tests {
         })
     }
 
-    /// Holds the run up between two turns, so that it does not end before it is asked.
+    /// Holds the run up between two iterations, so that it does not end before it is asked.
     const SLOW: Limits<'_> = Limits { time: None, stop: &linger };
 
     fn linger() -> bool {

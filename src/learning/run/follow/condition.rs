@@ -17,7 +17,7 @@ const HEARTBEAT_TIMEOUT: Duration = Duration::from_secs(15);
 /// The same while it plays the held-out layouts, which may be many.
 const MEASURING_TIMEOUT: Duration = Duration::from_secs(600);
 
-/// Time in which a process begins, or ends, to hold the lock and to say what it does: the two are not seen at one moment.
+/// Locking and writing `state.json` are two steps; for so long their disagreement means nothing.
 const FRESH: Duration = Duration::from_secs(2);
 
 /// How a run is.

@@ -115,7 +115,7 @@ impl Watch {
         }
     }
 
-    /// Where charts end: at the plan, or where the last turn of the run ended, which may be a few shots beyond.
+    /// Where charts end: at the plan, or where the last iteration of the run ended, which may be a few shots beyond.
     fn planned_end(&self) -> Option<u64> {
         self.planned().map(|planned| planned.max(self.own.run.shots()))
     }
