@@ -15,12 +15,6 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Creates an untrained agent from a plan, a table and settings.
-pub type Start = fn(TrainingPlan, Table, Value) -> Result<Box<dyn Learner>, StartError>;
-
-/// Takes up a learner from a file.
-pub type Restore = fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>;
-
 /// A kind of agent: how to create it untrained, and how to restore a saved one.
 #[derive(Clone, Copy, Debug)]
 pub struct Agent {
@@ -29,9 +23,9 @@ pub struct Agent {
     /// What it is, in one line for people.
     pub title: &'static str,
     /// An untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
-    pub start: Start,
+    pub start: fn(TrainingPlan, Table, Value) -> Result<Box<dyn Learner>, StartError>,
     /// The learner whose [`Learner::save`] filled the file and returned the note.
-    pub restore: Restore,
+    pub restore: fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>,
     /// Settings that apply only when weights are loaded; `--from` does not pass them on.
     pub of_one_start: &'static [&'static str],
 }
@@ -72,6 +66,20 @@ pub struct Iteration {
     pub actor_loss: Option<f64>,
 }
 
+/// How far an agent's learning has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Updates made so far.
+    pub updates: u64,
+    /// Learning rate now, of whatever judges actions.
+    pub learning_rate: f64,
+    /// How strongly it explores now: the probability of a shot that is drawn uniformly from all actions (`ddpg` adds noise to most of
+    /// its other shots, too), or, for `thesis-ddpg`, the standard deviation of its noise in units of half an action's range.
+    pub exploration: f64,
+    /// Share of its replay buffer that is filled, where it has one.
+    pub replay_fill: Option<f64>,
+}
+
 /// An agent that trains. It can be saved between any two iterations and goes on bit for bit as if it had not been: what it
 /// does depends on nothing but its own state.
 pub trait Learner: Debug + Send {
@@ -90,18 +98,8 @@ pub trait Learner: Debug + Send {
     /// Shots played so far.
     fn shots(&self) -> u64;
 
-    /// Updates made so far.
-    fn updates(&self) -> u64;
-
-    /// Learning rate now, of whatever judges actions.
-    fn learning_rate(&self) -> f64;
-
-    /// How strongly it explores now: the probability of a shot that is drawn uniformly from all actions (`ddpg` adds noise to most of
-    /// its other shots, too), or, for `thesis-ddpg`, the standard deviation of its noise in units of half an action's range.
-    fn exploration(&self) -> f64;
-
-    /// Share of its replay buffer that is filled, where it has one.
-    fn replay_fill(&self) -> Option<f64>;
+    /// How far its learning has come.
+    fn progress(&self) -> Progress;
 
     /// Whether all shots of the plan have been played.
     fn is_finished(&self) -> bool {

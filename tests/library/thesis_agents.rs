@@ -4,15 +4,15 @@ use carom::{
     game::Reward,
     learning::{
         learner::{Agent as Line, Learner, TrainingPlan},
-        nn::weights::{Reader, Writer},
         thesis::{
-            agent::{Agent, Progress},
+            agent::{Agent, EpisodeState},
             ddpg::{PlainDdpg, PlainDdpgSettings},
             dqn::{Dqn, DqnSettings},
             environment::{Action, Environment, Observation, Outcome},
             exploration::{Epsilon, OrnsteinUhlenbeck},
             q_learning::{QLearning, QLearningSettings},
         },
+        weights::{Reader, Writer},
     },
     table::Table,
 };
@@ -59,9 +59,9 @@ impl Environment for Detour {
 fn learnt<A: Agent>(settings: A::Settings, shots: u32, seed: u64) -> f64 {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut agent = A::new(settings, &mut rng).unwrap();
-    let (mut progress, mut game) = (Progress::default(), Detour::default());
+    let (mut episode, mut game) = (EpisodeState::default(), Detour::default());
     for _ in 0..shots {
-        progress.shoot(&mut agent, &mut game, &mut rng).unwrap();
+        episode.shoot(&mut agent, &mut game, &mut rng).unwrap();
     }
     let earned = [-0.5, 0.5].map(|goal| {
         let mut game = Detour { goal, closeness: None };
@@ -131,12 +131,16 @@ fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped(
         (Line::named("thesis-ddpg").unwrap().start)(plan, Table::preset("thesis").unwrap(), settings.clone()).unwrap()
     };
     let (mut whole, mut parts) = (start(), start());
-    let first_rate = whole.learning_rate();
+    let first_rate = whole.progress().learning_rate;
     while !whole.is_finished() {
         parts = taken_up("thesis-ddpg", &put_aside(parts.as_ref()));
         assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap());
     }
-    assert!((whole.learning_rate() / first_rate - 0.5).abs() < 1e-12, "{} of {first_rate}", whole.learning_rate());
+    assert!(
+        (whole.progress().learning_rate / first_rate - 0.5).abs() < 1e-12,
+        "{} of {first_rate}",
+        whole.progress().learning_rate
+    );
     let bytes = put_aside(whole.as_ref());
     assert!(bytes == put_aside(parts.as_ref()));
     for name in ["hindsight", "demonstrations"] {
@@ -189,7 +193,7 @@ fn an_agent_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
                 assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap(), "{agent}");
             }
             assert_eq!(parts.shots(), 650);
-            assert!(parts.updates() >= 500);
+            assert!(parts.progress().updates >= 500);
             assert!(put_aside(whole.as_ref()) == put_aside(parts.as_ref()), "{agent}");
         }
     }

@@ -109,9 +109,6 @@ fn leave(runners: &mut Vec<Runner>, left: usize, of_one_way: usize) -> Vec<Runne
 impl Expert<'_> {
     /// Strokes that went far in the race that began with `proposals`. Each has the share of attempts in which it was made, attempts
     /// that did not decide the race: what wins has had luck. None where no stroke ever earned anything.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Result<Found> {
         let seed = rng.random();
         let tried = (0..TRIED).map(|_| {
@@ -178,9 +175,9 @@ impl Expert<'_> {
         if runners.is_empty() {
             return Ok(());
         }
-        let seen: Vec<_> = runners.iter().map(|runner| self.venues.seen(runner.observation, self.conditions)).collect();
+        let seen = runners.iter().map(|runner| self.venues.seen(runner.observation, self.conditions)).collect();
         let actions: Vec<Action> = runners.iter().map(|runner| runner.action).collect();
-        let observed = ObservationBatch::new(self.inputs, &seen)?;
+        let observed = ObservationBatch::new(self.inputs, seen)?;
         let rows = action_rows(self.inputs.space, &actions)?;
         let logits =
             self.networks.critic.forward_frozen(&observed.with_actions(&rows)?)?.flatten_all()?.to_vec1::<f32>()?;

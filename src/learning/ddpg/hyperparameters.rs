@@ -210,12 +210,4 @@ mod tests {
         assert!(refuse(&|hyper| hyper.critic_learning_rate = f64::NAN).contains("NaN"));
         assert!(refuse(&|hyper| hyper.exploration.noise.push(-1.0)).contains("-1"));
     }
-
-    #[test]
-    fn a_file_may_give_some_settings_and_no_unknown_ones() {
-        let some: Hyperparameters =
-            toml::from_str("heads = 2\nexploration = { noise = [0.1], uniform = 0.0 }").unwrap();
-        assert_eq!((some.heads, some.batch), (2, Hyperparameters::default().batch));
-        assert!(toml::from_str::<Hyperparameters>("head = 2").unwrap_err().to_string().contains("head"));
-    }
 }

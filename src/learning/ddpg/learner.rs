@@ -89,20 +89,13 @@ impl Learner for Trainer {
         self.shots
     }
 
-    fn updates(&self) -> u64 {
-        self.updates
-    }
-
-    fn learning_rate(&self) -> f64 {
-        self.lr_schedule() * self.task.hyperparameters.critic_learning_rate
-    }
-
-    fn exploration(&self) -> f64 {
-        self.task.hyperparameters.exploration.uniform
-    }
-
-    fn replay_fill(&self) -> Option<f64> {
-        Some(self.replay.fill())
+    fn progress(&self) -> Progress {
+        Progress {
+            updates: self.updates,
+            learning_rate: self.lr_factor() * self.task.hyperparameters.critic_learning_rate,
+            exploration: self.task.hyperparameters.exploration.uniform,
+            replay_fill: Some(self.replay.fill()),
+        }
     }
 
     fn iterate(&mut self) -> candle_core::Result<Iteration> {

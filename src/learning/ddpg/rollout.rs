@@ -18,7 +18,7 @@ use super::{
     trainer::Trainer,
     venues::{Conditions, Venues},
 };
-use crate::{learning::evaluation::CONTACT_STEPS, platform, table::Layout};
+use crate::{platform, table::Layout};
 
 /// Proposals of a layout that are played where the critic learns to rank them, the best ones: among the others it hardly ever
 /// chooses wrongly. (Six heads make 24 for straight ways.)
@@ -56,7 +56,7 @@ impl Trainer {
     fn add_demonstrations(&mut self, scenes: &[Scene]) {
         let (reward, space) = (self.task.plan.reward, self.space());
         for (layout, _) in scenes {
-            if let Some(shot) = demonstrate(&self.table, reward, space, layout, CONTACT_STEPS, &mut self.rng) {
+            if let Some(shot) = demonstrate(&self.table, reward, space, layout, &mut self.rng) {
                 self.replay.push(shot);
             }
         }
@@ -93,24 +93,14 @@ impl Trainer {
         Ok(())
     }
 
-    /// What networks propose on each of the layouts from every side, with the critic's logits, an observation's heads one after the
-    /// other.
+    /// What networks propose on each of the layouts from every side ([`Networks::proposals`]).
     pub(super) fn judged(&self, networks: &Networks, scenes: &[Scene]) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
-        if scenes.is_empty() {
-            return Ok(Vec::new());
-        }
-        let rails_first = self.task.hyperparameters.rails_first;
+        let inputs = self.task.hyperparameters.inputs();
         let sides = scenes.iter().flat_map(|(layout, conditions)| {
-            let all = Observation::every(self.venues.table(*conditions), layout, rails_first).into_iter();
+            let all = Observation::every(self.venues.table(*conditions), layout, inputs.rails_first).into_iter();
             all.map(|observation| self.venues.seen(observation, *conditions))
         });
-        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &sides.collect::<Vec<_>>())?;
-        let (actions, logits) = networks.judge(&observed)?;
-        let heads = actions.len() / observed.observations().len();
-        let each = actions.len() / scenes.len();
-        let all = actions.into_iter().zip(logits).enumerate();
-        let all = all.map(|(row, (action, logit))| (observed.observations()[row / heads], action, logit));
-        Ok(all.collect::<Vec<_>>().chunks(each).map(<[_]>::to_vec).collect())
+        networks.proposals(inputs, sides.collect(), scenes.len())
     }
 
     /// Plays the averaged networks' best proposals on every layout, as they are. Returns the rewards' sum.
@@ -146,13 +136,13 @@ impl Trainer {
             let (table, rails_first) = (self.venues.table(*conditions), self.task.hyperparameters.rails_first);
             self.venues.seen(Observation::random(table, layout, rails_first, &mut self.rng), *conditions)
         });
-        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &seen.collect::<Vec<_>>())?;
+        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), seen.collect())?;
         let actions = self.agent.online.actions(&observed)?;
         let heads = actions.len() / scenes.len();
         let mut total = 0.0;
         for (index, scene) in scenes.iter().enumerate() {
             let choice = actions[index * heads + self.rng.random_range(0..heads)];
-            total += self.stray(scene, observed.observations()[index], choice);
+            total += self.stray(scene, observed.seen()[index].observation, choice);
         }
         Ok(total)
     }
@@ -174,7 +164,7 @@ impl Trainer {
         let hindsight = self.task.hyperparameters.hindsight;
         if hindsight > 0.0 && success < 1.0 && self.rng.random_bool(hindsight) {
             let shot = (layout, &observation, action);
-            if let Some(point) = relabel(&self.table, reward, shot, CONTACT_STEPS, &mut self.rng) {
+            if let Some(point) = relabel(&self.table, reward, shot, &mut self.rng) {
                 self.replay.push(point);
             }
         }

@@ -51,9 +51,6 @@ const OBSERVATION_NUMBERS: usize = 8;
 const STRAIGHT: f32 = -1.0;
 
 /// Adds the arrays of the trainer's state to a file and returns the rest, its note.
-///
-/// # Errors
-/// Whatever candle or serde reports.
 pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsError> {
     let agent = &trainer.agent;
     for (name, networks) in [("online", &agent.online), ("target", &agent.target)] {

@@ -45,7 +45,7 @@ impl RunResult {
             agent: learner.agent().to_owned(),
             plan: learner.plan(),
             table: learner.table().name.clone(),
-            updates: learner.updates(),
+            updates: learner.progress().updates,
             held_out_reward: score.mean_reward,
             best_of_k: score.best_of_k,
             version: VERSION.to_owned(),

@@ -64,7 +64,7 @@ pub struct RunStatus {
     pub shots_per_second: f64,
     /// Updates a second over the last seconds.
     pub updates_per_second: f64,
-    /// How strongly the agent explores, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
+    /// How strongly the agent explores, see [`Progress`](crate::learning::learner::Progress::exploration).
     pub exploration: f64,
     /// Share of the replay buffer that is filled, for agents that have one.
     #[serde(rename = "memory")]

@@ -106,9 +106,9 @@ impl Training {
 fn interval(learner: &mut dyn Learner, played: &dyn Fn(u64) -> bool) -> Result<Option<Point>, Error> {
     let (start, mut point, mut updates) = (learner.shots(), Point::default(), 0.0);
     while learner.shots() < start + INTERVAL && !learner.is_finished() {
-        let (shots, updates_before) = (learner.shots(), learner.updates());
+        let (shots, updates_before) = (learner.shots(), learner.progress().updates);
         let turn = learner.iterate()?;
-        let (shots, made) = (learner.shots() - shots, (learner.updates() - updates_before) as f64);
+        let (shots, made) = (learner.shots() - shots, (learner.progress().updates - updates_before) as f64);
         if !played(shots) {
             return Ok(None);
         }
