@@ -1,8 +1,8 @@
 //! What a training run needs of an agent, whichever it is.
 
-use std::fmt::Debug;
+use std::fmt::{Debug, Display};
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::Value;
 
 use crate::{
@@ -10,6 +10,7 @@ use crate::{
     learning::{
         evaluation::Score,
         nn::weights::{Reader, WeightsError, Writer},
+        settings::SettingError,
     },
     physics::CueInputs,
     table::{Layout, Table},
@@ -17,7 +18,7 @@ use crate::{
 
 /// A kind of agent: how to create it untrained, and how to restore a saved one.
 #[derive(Clone, Copy, Debug)]
-pub struct Agent {
+pub struct AgentKind {
     /// Name on the command line and in files.
     pub name: &'static str,
     /// What it is, in one line for people.
@@ -39,6 +40,38 @@ pub enum StartError {
     /// candle refuses.
     #[error("the agent cannot start: {0}")]
     Network(#[from] candle_core::Error),
+}
+
+impl StartError {
+    /// Settings that are refused for this reason.
+    pub fn settings(reason: impl Display) -> Self {
+        Self::Settings(reason.to_string())
+    }
+}
+
+/// An agent's settings, from an object of those that differ from its defaults.
+///
+/// # Errors
+/// Where one is unknown or of another type, or `validate` refuses them.
+pub fn settings_from<S: DeserializeOwned>(
+    object: Value,
+    validate: impl FnOnce(&S) -> Result<(), SettingError>,
+) -> Result<S, StartError> {
+    let settings = serde_json::from_value(object).map_err(StartError::settings)?;
+    validate(&settings).map_err(StartError::settings)?;
+    Ok(settings)
+}
+
+/// Refuses settings that are about points where the reward says anything else.
+///
+/// # Errors
+/// [`StartError::Settings`].
+pub fn check_reward(are_about_points: bool, reward: Reward) -> Result<(), StartError> {
+    if are_about_points && reward.rule().is_none() {
+        let reason = "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
+        return Err(StartError::settings(reason));
+    }
+    Ok(())
 }
 
 /// What is to be learnt, and how long; the same for every agent.
@@ -83,7 +116,7 @@ pub struct Progress {
 /// An agent that trains. It can be saved between any two iterations and goes on bit for bit as if it had not been: what it
 /// does depends on nothing but its own state.
 pub trait Learner: Debug + Send {
-    /// Its [`Agent::name`].
+    /// Its [`AgentKind::name`].
     fn agent(&self) -> &'static str;
 
     /// What it learns.
@@ -92,7 +125,7 @@ pub trait Learner: Debug + Send {
     /// Where it plays.
     fn table(&self) -> &Table;
 
-    /// All its settings, as an object that [`Agent::start`] takes.
+    /// All its settings, as an object that [`AgentKind::start`] takes.
     fn settings(&self) -> Value;
 
     /// Shots played so far.

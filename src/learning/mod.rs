@@ -5,7 +5,6 @@
 //! good it is [`evaluation`] tells.
 
 pub mod agents;
-mod calendar;
 mod cue_way;
 pub(crate) mod ddpg;
 pub mod evaluation;
@@ -16,6 +15,5 @@ pub mod run;
 pub mod settings;
 pub mod thesis;
 
-pub use calendar::{moment, timestamp};
 pub use ddpg::policy::{self, Policy, Proposal, file::PolicyError};
 pub use nn::weights;

@@ -5,6 +5,7 @@
 //! those goes out: [`stdout`] and [`stderr`] are the only doors, clippy refuses the others (`clippy.toml`), and both show
 //! such a character as what it is.
 
+mod calendar;
 mod json;
 mod progress;
 mod shown;
@@ -12,6 +13,7 @@ mod version;
 mod visible;
 
 pub use self::{
+    calendar::{moment, now, timestamp},
     json::{json_line, json_text},
     progress::ProgressLine,
     shown::{Shown, clear_line, is_watched, redraw_line, stderr, stdout},

@@ -3,7 +3,7 @@
 use carom::{
     game::Reward,
     learning::{
-        learner::{Agent as Line, Learner, TrainingPlan},
+        learner::{AgentKind, Learner, TrainingPlan},
         thesis::{
             agent::{Agent, EpisodeState},
             ddpg::{PlainDdpg, PlainDdpgSettings},
@@ -103,7 +103,7 @@ fn the_deterministic_policy_gradient_finds_the_optimum() {
 
 fn start(agent: &str, settings: Value) -> Box<dyn Learner> {
     let plan = TrainingPlan { reward: Reward::R1, seed: 4, shots: 650 };
-    (Line::named(agent).unwrap().start)(plan, Table::preset("thesis").unwrap(), settings).unwrap()
+    (AgentKind::named(agent).unwrap().start)(plan, Table::preset("thesis").unwrap(), settings).unwrap()
 }
 
 fn put_aside(learner: &dyn Learner) -> Vec<u8> {
@@ -114,7 +114,7 @@ fn put_aside(learner: &dyn Learner) -> Vec<u8> {
 
 fn taken_up(agent: &str, bytes: &[u8]) -> Box<dyn Learner> {
     let reader = Reader::new(bytes).unwrap();
-    (Line::named(agent).unwrap().restore)(&reader, reader.note().unwrap()).unwrap()
+    (AgentKind::named(agent).unwrap().restore)(&reader, reader.note().unwrap()).unwrap()
 }
 
 const AGENTS: [&str; 3] = ["q-learning", "dqn", "thesis-ddpg"];
@@ -128,7 +128,8 @@ fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped(
     });
     let plan = TrainingPlan { reward: Reward::R3, seed: 5, shots: 650 };
     let start = || {
-        (Line::named("thesis-ddpg").unwrap().start)(plan, Table::preset("thesis").unwrap(), settings.clone()).unwrap()
+        (AgentKind::named("thesis-ddpg").unwrap().start)(plan, Table::preset("thesis").unwrap(), settings.clone())
+            .unwrap()
     };
     let (mut whole, mut parts) = (start(), start());
     let first_rate = whole.progress().learning_rate;
@@ -238,7 +239,7 @@ fn wrong_settings_are_named() {
         ("thesis-ddpg", json!({ "noise_falls_to": 0.0 }), "noise_falls_to = 0"),
         ("thesis-ddpg", json!({ "noise": { "theta": 3.0, "sigma": 0.3, "dt": 1.0 } }), "noise.theta = 3"),
     ] {
-        let error = (Line::named(agent).unwrap().start)(plan, Table::default(), settings).unwrap_err().to_string();
+        let error = (AgentKind::named(agent).unwrap().start)(plan, Table::default(), settings).unwrap_err().to_string();
         assert!(error.contains(word), "{error}");
     }
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::json;
 use crate::storage::{self, replace};
 
 /// The file's name.
@@ -94,6 +95,6 @@ impl RunStatus {
     /// # Errors
     /// Where there is none, or something else.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
-        Ok(serde_json::from_slice(&storage::read(&folder.join(FILE), storage::SMALL)?)?)
+        json::read(&folder.join(FILE), storage::SMALL)
     }
 }

@@ -15,7 +15,9 @@ use super::{
 use crate::{
     learning::{
         evaluation::Score,
-        learner::{self, Iteration, Learner, StartError, TrainingPlan, note_of},
+        learner::{
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, check_reward, note_of, settings_from,
+        },
         nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
@@ -26,14 +28,14 @@ use crate::{
 const SHOTS_PER_ITERATION: u64 = 100;
 
 /// The lines in the list of agents.
-pub const Q_LEARNING: learner::Agent = line::<QLearning>();
+pub const Q_LEARNING: AgentKind = line::<QLearning>();
 /// See [`Q_LEARNING`].
-pub const DQN: learner::Agent = line::<Dqn>();
+pub const DQN: AgentKind = line::<Dqn>();
 /// See [`Q_LEARNING`].
-pub const DDPG: learner::Agent = line::<PlainDdpg>();
+pub const DDPG: AgentKind = line::<PlainDdpg>();
 
-const fn line<A: Agent + 'static>() -> learner::Agent {
-    learner::Agent { name: A::NAME, title: A::TITLE, start: start::<A>, restore: restore::<A>, of_one_start: &[] }
+const fn line<A: Agent + 'static>() -> AgentKind {
+    AgentKind { name: A::NAME, title: A::TITLE, start: start::<A>, restore: restore::<A>, of_one_start: &[] }
 }
 
 fn start<A: Agent + 'static>(
@@ -41,13 +43,8 @@ fn start<A: Agent + 'static>(
     table: Table,
     settings: Value,
 ) -> Result<Box<dyn Learner>, StartError> {
-    let settings: A::Settings =
-        serde_json::from_value(settings).map_err(|error| StartError::Settings(error.to_string()))?;
-    settings.validate().map_err(|error| StartError::Settings(error.to_string()))?;
-    if settings.are_about_points() && plan.reward.rule().is_none() {
-        let refused = "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
-        return Err(StartError::Settings(refused.to_owned()));
-    }
+    let settings = settings_from(settings, A::Settings::validate)?;
+    check_reward(settings.are_about_points(), plan.reward)?;
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
     let game = Carom::new(table, plan.reward, settings.episode());
     let agent = A::new(settings, &mut rng)?;

@@ -39,9 +39,9 @@ pub struct Origin {
     pub table: String,
     /// What it was rewarded for.
     pub reward: Reward,
-    /// What its actions mean ([`ActionSpace::meaning`](crate::learning::ddpg::action::ActionSpace::meaning)).
+    /// What its actions mean (`ActionSpace::meaning`).
     pub actions: String,
-    /// Version of the input features ([`Inputs::version`](crate::learning::ddpg::context::Inputs::version)).
+    /// Version of the input features (`Inputs::version`).
     pub features: String,
     /// Seed of the run.
     pub seed: u64,

@@ -2,6 +2,8 @@
 
 use std::{fmt, path::Path, time::Duration};
 
+use serde::{Serialize, Serializer};
+
 use super::stamp::Stamp;
 use crate::{
     learning::run::{
@@ -46,6 +48,26 @@ impl Condition {
         self == other || matches!((self, other), (Self::Stalled(_), Self::Stalled(_)))
     }
 
+    /// In a word, for lists and for programs.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Is(Phase::Training | Phase::Measuring) => "running",
+            Self::Is(phase) => phase.name(),
+            Self::Stalled(_) => "stalled",
+            Self::Died => "died",
+            Self::Unknown | Self::Missing | Self::Interrupted | Self::Removed => "stopped",
+        }
+    }
+
+    /// Whether a process works on it.
+    pub const fn is_at_work(self) -> bool {
+        match self {
+            Self::Is(phase) => !phase.is_over(),
+            Self::Stalled(_) => true,
+            _ => false,
+        }
+    }
+
     /// Whether nothing more will come unless the run is resumed.
     pub const fn is_over(self) -> bool {
         match self {
@@ -67,6 +89,12 @@ impl fmt::Display for Condition {
             Self::Interrupted => out.write_str("stopped"),
             Self::Removed => out.write_str("removed"),
         }
+    }
+}
+
+impl Serialize for Condition {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.word())
     }
 }
 
