@@ -5,10 +5,10 @@ use rand::{Rng, RngExt};
 
 use super::{
     action::{ACTIONS, Action, ActionSpace},
-    approach::playable,
     observation::{OBSERVATIONS, Observation},
+    randomized_tables::Conditions,
     replay::Transition,
-    venues::Conditions,
+    ways::playable,
 };
 use crate::{
     game::Reward,

@@ -11,8 +11,8 @@ use super::{
     networks::Networks,
     observation::Observation,
     observation_batch::{ObservationBatch, action_rows},
+    randomized_tables::{Conditions, RandomizedTables},
     replay::Transition,
-    venues::{Conditions, Venues},
 };
 use crate::{game::Reward, statistics::normal_pair, table::Layout};
 
@@ -52,7 +52,7 @@ const LOWEST: f32 = -0.3;
 #[derive(Clone, Copy, Debug)]
 pub struct Expert<'a> {
     /// Where runs are played.
-    pub venues: &'a Venues,
+    pub tables: &'a RandomizedTables,
     /// What earns a reward.
     pub reward: Reward,
     /// What the networks' input is made of.
@@ -112,7 +112,7 @@ impl Expert<'_> {
     pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Result<Found> {
         let seed = rng.random();
         let tried = (0..TRIED).map(|_| {
-            let table = self.venues.table(self.conditions);
+            let table = self.tables.table(self.conditions);
             (Observation::random(table, self.layout, self.inputs.rails_first, rng), self.stroke(rng))
         });
         let all: Vec<_> = proposals.iter().copied().chain(tried).collect();
@@ -167,7 +167,7 @@ impl Expert<'_> {
     /// Whether a stroke makes the point where nobody errs.
     fn scores_as_meant(&self, observation: &Observation, action: Action, rng: &mut (impl Rng + ?Sized)) -> bool {
         let steady = Conditions { errors: 0.0, ..self.conditions };
-        self.venues.attempt(self.reward, self.layout, (observation, action), steady, rng) >= 1.0
+        self.tables.attempt(self.reward, self.layout, (observation, action), steady, rng) >= 1.0
     }
 
     /// Puts the critic's favourites first.
@@ -175,7 +175,7 @@ impl Expert<'_> {
         if runners.is_empty() {
             return Ok(());
         }
-        let seen = runners.iter().map(|runner| self.venues.seen(runner.observation, self.conditions)).collect();
+        let seen = runners.iter().map(|runner| self.tables.seen(runner.observation, self.conditions)).collect();
         let actions: Vec<Action> = runners.iter().map(|runner| runner.action).collect();
         let observed = ObservationBatch::new(self.inputs, seen)?;
         let rows = action_rows(self.inputs.space, &actions)?;
@@ -194,7 +194,7 @@ impl Expert<'_> {
             for attempt in runner.attempts..attempts {
                 let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed.wrapping_add(attempt as u64));
                 let shot = (&runner.observation, runner.action);
-                runner.earned += self.venues.attempt(self.reward, self.layout, shot, self.conditions, &mut rng);
+                runner.earned += self.tables.attempt(self.reward, self.layout, shot, self.conditions, &mut rng);
             }
             runner.attempts = runner.attempts.max(attempts);
         }
@@ -249,13 +249,13 @@ mod tests {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
         let hyper = Hyperparameters { actions: ActionSpace::Full, context: true, ..Hyperparameters::default() };
         let (inputs, networks) = (hyper.inputs(), &Networks::random(&hyper, &mut rng).unwrap());
-        let venues = Venues::new(&table, inputs, 1);
+        let tables = RandomizedTables::new(&table, inputs, 1);
         let reward = Reward::R3;
         let [mut proposed, mut found] = [0.0; 2];
         for _ in 0..12 {
             let layout = Layout::random(&table, &mut rng);
-            let conditions = Conditions { venue: 0, errors: 3.7 };
-            let expert = Expert { venues: &venues, reward, inputs, networks, layout: &layout, conditions };
+            let conditions = Conditions { table: 0, errors: 3.7 };
+            let expert = Expert { tables: &tables, reward, inputs, networks, layout: &layout, conditions };
             let proposal = Runner::new(Observation::new(&layout, 0), expert.stroke(&mut rng));
             let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng).unwrap();
             let winner = strokes.best.first().unwrap();

@@ -6,10 +6,10 @@ use glam::DVec2;
 
 use super::{
     action::{Action, Meaning},
-    approach::Ways,
     dual::{Dual, DualVector},
     first_contact::{Approach, FirstContact, TYPICAL_SPEED},
     observation::{Line, Observation, free_path},
+    ways::Ways,
 };
 use crate::table::Table;
 

@@ -6,7 +6,9 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
-use super::{action::Action, approach::playable, observation::Observation, replay::Transition, venues::Conditions};
+use super::{
+    action::Action, observation::Observation, randomized_tables::Conditions, replay::Transition, ways::playable,
+};
 use crate::{
     game::Reward,
     learning::{cue_way::CueWay, evaluation::CONTACT_STEPS},

@@ -6,12 +6,12 @@ use candle_core::{CpuStorage, CustomOp1, Device, Layout, Result, Shape, Tensor, 
 
 use super::{
     action::{ACTIONS, Action, ActionSpace},
-    approach::Ways,
     context::{Inputs, push_context},
     dual::Dual,
     features::{ACTION_FEATURES, leave_chosen, push_action_features, push_state_features},
     first_contact::RAIL_FEATURES,
     observation::Observation,
+    ways::Ways,
 };
 use crate::{
     learning::nn::tensors::{stored_values, values},

@@ -14,9 +14,9 @@ use super::{
     networks::Networks,
     observation::Observation,
     observation_batch::ObservationBatch,
+    randomized_tables::{Conditions, RandomizedTables},
     replay::Transition,
     trainer::Trainer,
-    venues::{Conditions, Venues},
 };
 use crate::{platform, table::Layout};
 
@@ -48,8 +48,8 @@ impl Trainer {
 
     /// A fresh layout and its conditions.
     fn scene(&mut self) -> Scene {
-        let conditions = self.venues.draw(self.task.hyperparameters.perfect, &mut self.rng);
-        (Layout::random(self.venues.table(conditions), &mut self.rng), conditions)
+        let conditions = self.tables.draw(self.task.hyperparameters.perfect, &mut self.rng);
+        (Layout::random(self.tables.table(conditions), &mut self.rng), conditions)
     }
 
     /// Remembers an expert's shot on each layout for which there is one.
@@ -68,18 +68,18 @@ impl Trainer {
         let scenes: Vec<Scene> = (0..self.task.hyperparameters.searched)
             .map(|_| {
                 let (layout, conditions) = self.scene();
-                (layout, Conditions { errors: Venues::errors(&mut self.rng), ..conditions })
+                (layout, Conditions { errors: RandomizedTables::errors(&mut self.rng), ..conditions })
             })
             .collect();
         let proposals = self.judged(&self.agent.target, &scenes)?;
         let tasks: Vec<_> = scenes.into_iter().zip(proposals).map(|task| (task, self.rng.random())).collect();
         let (reward, inputs) = (self.task.plan.reward, self.task.hyperparameters.inputs());
-        let (venues, networks) = (&self.venues, &self.agent.target);
+        let (tables, networks) = (&self.tables, &self.agent.target);
         let found =
             platform::parallel::try_map(platform::threads(), &tasks, |(((layout, conditions), proposals), seed)| {
                 let proposals: Vec<_> =
                     proposals.iter().map(|&(observation, action, _)| (observation, action)).collect();
-                let expert = Expert { venues, reward, inputs, networks, layout, conditions: *conditions };
+                let expert = Expert { tables, reward, inputs, networks, layout, conditions: *conditions };
                 expert.search(&proposals, &mut Xoshiro256PlusPlus::seed_from_u64(*seed))
             })?;
         for Found { best, others } in found {
@@ -97,8 +97,8 @@ impl Trainer {
     pub(super) fn judged(&self, networks: &Networks, scenes: &[Scene]) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
         let inputs = self.task.hyperparameters.inputs();
         let sides = scenes.iter().flat_map(|(layout, conditions)| {
-            let all = Observation::every(self.venues.table(*conditions), layout, inputs.rails_first).into_iter();
-            all.map(|observation| self.venues.seen(observation, *conditions))
+            let all = Observation::every(self.tables.table(*conditions), layout, inputs.rails_first).into_iter();
+            all.map(|observation| self.tables.seen(observation, *conditions))
         });
         networks.proposals(inputs, sides.collect(), scenes.len())
     }
@@ -133,8 +133,8 @@ impl Trainer {
             return Ok(0.0);
         }
         let seen = scenes.iter().map(|(layout, conditions)| {
-            let (table, rails_first) = (self.venues.table(*conditions), self.task.hyperparameters.rails_first);
-            self.venues.seen(Observation::random(table, layout, rails_first, &mut self.rng), *conditions)
+            let (table, rails_first) = (self.tables.table(*conditions), self.task.hyperparameters.rails_first);
+            self.tables.seen(Observation::random(table, layout, rails_first, &mut self.rng), *conditions)
         });
         let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), seen.collect())?;
         let actions = self.agent.online.actions(&observed)?;
@@ -157,7 +157,7 @@ impl Trainer {
     fn rollout(&mut self, (layout, conditions): &Scene, observation: Observation, action: Action) -> f64 {
         let (reward, conditions) = (self.task.plan.reward, *conditions);
         let attempts = if conditions.errors == 0.0 { 1 } else { self.task.hyperparameters.attempts };
-        let attempt = |_| self.venues.attempt(reward, layout, (&observation, action), conditions, &mut self.rng);
+        let attempt = |_| self.tables.attempt(reward, layout, (&observation, action), conditions, &mut self.rng);
         let earned = (0..attempts).map(attempt).sum::<f64>() / attempts as f64;
         let success = (earned / reward.highest()) as f32;
         self.replay.push(Transition { observation, conditions, action, success });

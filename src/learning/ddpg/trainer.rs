@@ -13,8 +13,8 @@ use super::{
     hyperparameters::Hyperparameters,
     observation_batch::ObservationBatch,
     policy::{Policy, calibration::Calibration, file::Origin},
+    randomized_tables::RandomizedTables,
     replay::Transition,
-    venues::Venues,
 };
 use crate::{
     learning::{
@@ -40,7 +40,7 @@ pub struct Task {
 pub struct Trainer {
     pub(super) task: Task,
     pub(super) table: Arc<Table>,
-    pub(super) venues: Venues,
+    pub(super) tables: RandomizedTables,
     pub(super) agent: Ddpg,
     pub(super) replay: ReplayBuffer<Transition>,
     /// The best strokes that searches have found.
@@ -57,8 +57,8 @@ impl Trainer {
         let agent = Ddpg::new(task.hyperparameters.clone(), &mut rng)?;
         let [replay, searched] = [(); 2].map(|()| ReplayBuffer::new(task.hyperparameters.replay));
         let table = Arc::new(table);
-        let venues = Venues::new(&table, task.hyperparameters.inputs(), task.plan.seed);
-        Ok(Self { task, table, venues, agent, replay, searched, rng, shots: 0, updates: 0 })
+        let tables = RandomizedTables::new(&table, task.hyperparameters.inputs(), task.plan.seed);
+        Ok(Self { task, table, tables, agent, replay, searched, rng, shots: 0, updates: 0 })
     }
 
     /// A policy that plays with the averaged networks as they are now. `held_out_reward` is what they have been
@@ -110,7 +110,7 @@ impl Trainer {
 
     /// Shots as the agent learns from them.
     fn batch(&self, shots: &[Transition]) -> Result<ShotBatch> {
-        let seen = shots.iter().map(|shot| self.venues.seen(shot.observation, shot.conditions)).collect();
+        let seen = shots.iter().map(|shot| self.tables.seen(shot.observation, shot.conditions)).collect();
         Ok(ShotBatch {
             observed: ObservationBatch::new(self.task.hyperparameters.inputs(), seen)?,
             actions: shots.iter().map(|shot| shot.action).collect(),

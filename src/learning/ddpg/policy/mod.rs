@@ -14,11 +14,11 @@ pub use self::score::score;
 use crate::{
     learning::ddpg::{
         action::Action,
-        approach::{cue_inputs, playable},
         context::knows,
         networks::Networks,
         observation::Observation,
         observation_batch::Seen,
+        ways::{cue_inputs, playable},
     },
     physics::CueInputs,
     player::Skill,
