@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     game::Rule,
-    learning::policy::kept::{LONGEST_NAME, is_name},
     physics::{CueError, CueInputs, ImpulseError, has_room},
     simulation::ShotError,
+    storage::{LONGEST_NAME, is_name},
     table::{Layout, LayoutError, Table, TableError},
 };
 

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::{Exercise, Record};
 use crate::{
     coach::{Doubt, Shooter, Skill},
-    learning::moment,
     physics::CueInputs,
+    printing::moment,
     table::{CueBall, Layout},
 };
 

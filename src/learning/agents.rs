@@ -1,11 +1,11 @@
 //! The agents that can be trained, by name.
 
-use super::{ddpg::learner as ddpg, learner::Agent, thesis::learner as thesis};
+use super::{ddpg::learner as ddpg, learner::AgentKind, thesis::learner as thesis};
 
 /// The agents that can be trained. To add one: implement [`Learner`](super::learner::Learner) and add its line here.
-pub const AGENTS: [Agent; 4] = [ddpg::AGENT, thesis::Q_LEARNING, thesis::DQN, thesis::DDPG];
+pub const AGENTS: [AgentKind; 4] = [ddpg::AGENT, thesis::Q_LEARNING, thesis::DQN, thesis::DDPG];
 
-impl Agent {
+impl AgentKind {
     /// The agent called `name`.
     ///
     /// # Errors
@@ -27,9 +27,9 @@ mod tests {
     #[test]
     fn agents_are_found_by_name_and_unknown_ones_are_told_the_names() {
         for agent in AGENTS {
-            assert_eq!(Agent::named(agent.name).unwrap().name, agent.name);
+            assert_eq!(AgentKind::named(agent.name).unwrap().name, agent.name);
         }
-        let unknown = Agent::named("sarsa").unwrap_err().to_string();
+        let unknown = AgentKind::named("sarsa").unwrap_err().to_string();
         assert!(unknown.contains("sarsa") && unknown.contains("ddpg"), "{unknown}");
     }
 }

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use crate::{
+    learning::evaluation::CONTACT_STEPS,
     physics::{CueInputs, strike},
     simulation::{Event, EventKind, Observer, Segment, StepBudget, watch},
     table::{Layout, Table},
@@ -23,9 +24,9 @@ pub struct CueWay {
 }
 
 impl CueWay {
-    /// Plays a shot, with at most `patience` steps of resting contacts.
-    pub fn of(table: &Table, layout: &Layout, cue: &CueInputs, patience: u32) -> Self {
-        let mut way = Self { met: None, last: 0.0, segments: Vec::new(), patience: StepBudget(patience) };
+    /// Plays a shot, with at most [`CONTACT_STEPS`] steps of resting contacts.
+    pub fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Self {
+        let mut way = Self { met: None, last: 0.0, segments: Vec::new(), patience: StepBudget(CONTACT_STEPS) };
         watch(table, layout, &strike(table, cue), &mut way);
         way
     }

@@ -34,6 +34,16 @@ pub struct Score {
     pub best_of_k: f64,
 }
 
+impl Score {
+    /// From what the first choice earned on each layout, and whether any proposal earned at least one there.
+    pub fn of(played: &[(f64, bool)]) -> Self {
+        let count = played.len().max(1) as f64;
+        let total = played.iter().fold(0.0, |total, (first, _)| total + first);
+        let reached = played.iter().filter(|(_, is_reached)| *is_reached).count();
+        Self { mean_reward: total / count, best_of_k: reached as f64 / count }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

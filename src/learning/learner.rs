@@ -1,8 +1,8 @@
 //! What a training run needs of an agent, whichever it is.
 
-use std::fmt::Debug;
+use std::fmt::{Debug, Display};
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::Value;
 
 use crate::{
@@ -10,29 +10,24 @@ use crate::{
     learning::{
         evaluation::Score,
         nn::weights::{Reader, WeightsError, Writer},
+        settings::SettingError,
     },
     physics::CueInputs,
     table::{Layout, Table},
 };
 
-/// Creates an untrained agent from a plan, a table and settings.
-pub type Start = fn(TrainingPlan, Table, Value) -> Result<Box<dyn Learner>, StartError>;
-
-/// Takes up a learner from a file.
-pub type Restore = fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>;
-
 /// A kind of agent: how to create it untrained, and how to restore a saved one.
 #[derive(Clone, Copy, Debug)]
-pub struct Agent {
+pub struct AgentKind {
     /// Name on the command line and in files.
     pub name: &'static str,
     /// What it is, in one line for people.
     pub title: &'static str,
     /// An untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
-    pub start: Start,
+    pub start: fn(TrainingPlan, Table, Value) -> Result<Box<dyn Learner>, StartError>,
     /// The learner whose [`Learner::save`] filled the file and returned the note.
-    pub restore: Restore,
-    /// Settings that say how a run takes up others' weights: a run that starts from its weights does not inherit them.
+    pub restore: fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>,
+    /// Settings that apply only when weights are loaded; `--from` does not pass them on.
     pub of_one_start: &'static [&'static str],
 }
 
@@ -45,6 +40,38 @@ pub enum StartError {
     /// candle refuses.
     #[error("the agent cannot start: {0}")]
     Network(#[from] candle_core::Error),
+}
+
+impl StartError {
+    /// Settings that are refused for this reason.
+    pub fn settings(reason: impl Display) -> Self {
+        Self::Settings(reason.to_string())
+    }
+}
+
+/// An agent's settings, from an object of those that differ from its defaults.
+///
+/// # Errors
+/// Where one is unknown or of another type, or `validate` refuses them.
+pub fn settings_from<S: DeserializeOwned>(
+    object: Value,
+    validate: impl FnOnce(&S) -> Result<(), SettingError>,
+) -> Result<S, StartError> {
+    let settings = serde_json::from_value(object).map_err(StartError::settings)?;
+    validate(&settings).map_err(StartError::settings)?;
+    Ok(settings)
+}
+
+/// Refuses settings that are about points where the reward says anything else.
+///
+/// # Errors
+/// [`StartError::Settings`].
+pub fn check_reward(are_about_points: bool, reward: Reward) -> Result<(), StartError> {
+    if are_about_points && reward.rule().is_none() {
+        let reason = "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
+        return Err(StartError::settings(reason));
+    }
+    Ok(())
 }
 
 /// What is to be learnt, and how long; the same for every agent.
@@ -72,10 +99,24 @@ pub struct Iteration {
     pub actor_loss: Option<f64>,
 }
 
+/// How far an agent's learning has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Updates made so far.
+    pub updates: u64,
+    /// Learning rate now, of whatever judges actions.
+    pub learning_rate: f64,
+    /// How strongly it explores now: the probability of a shot that is drawn uniformly from all actions (`ddpg` adds noise to most of
+    /// its other shots, too), or, for `thesis-ddpg`, the standard deviation of its noise in units of half an action's range.
+    pub exploration: f64,
+    /// Share of its replay buffer that is filled, where it has one.
+    pub replay_fill: Option<f64>,
+}
+
 /// An agent that trains. It can be saved between any two iterations and goes on bit for bit as if it had not been: what it
 /// does depends on nothing but its own state.
 pub trait Learner: Debug + Send {
-    /// Its [`Agent::name`].
+    /// Its [`AgentKind::name`].
     fn agent(&self) -> &'static str;
 
     /// What it learns.
@@ -84,24 +125,14 @@ pub trait Learner: Debug + Send {
     /// Where it plays.
     fn table(&self) -> &Table;
 
-    /// All its settings, as an object that [`Agent::start`] takes.
+    /// All its settings, as an object that [`AgentKind::start`] takes.
     fn settings(&self) -> Value;
 
     /// Shots played so far.
     fn shots(&self) -> u64;
 
-    /// Updates made so far.
-    fn updates(&self) -> u64;
-
-    /// Learning rate now, of whatever judges actions.
-    fn learning_rate(&self) -> f64;
-
-    /// How strongly it explores now: the probability of a shot that is not its own choice, or, for an agent that adds
-    /// noise to each, the noise's standard deviation in units of half an action's range.
-    fn exploration(&self) -> f64;
-
-    /// Share of its replay buffer that is filled, where it has one.
-    fn replay_fill(&self) -> Option<f64>;
+    /// How far its learning has come.
+    fn progress(&self) -> Progress;
 
     /// Whether all shots of the plan have been played.
     fn is_finished(&self) -> bool {

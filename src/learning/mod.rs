@@ -1,20 +1,19 @@
 //! Agents that learn to play: what they see, what they do, and how they get better.
 //!
-//! [`ddpg`] is the agent that coaches, with its way of seeing the table; [`thesis`] holds the thesis' own three; both learn
-//! with what [`nn`] has. A [`run`] on disk drives any [`learner`] of the [`agents`]. What comes out is a [`policy`]; how
+//! `ddpg` is the agent that coaches, with its way of seeing the table; [`thesis`] holds the thesis' own three; both learn
+//! with what `nn` has. A [`run`] on disk drives any [`learner`] of the [`agents`]. What comes out is a [`policy`]; how
 //! good it is [`evaluation`] tells.
 
 pub mod agents;
-mod calendar;
 mod cue_way;
-pub mod ddpg;
+pub(crate) mod ddpg;
 pub mod evaluation;
 pub mod learner;
-pub mod nn;
+pub(crate) mod nn;
 pub mod replay;
 pub mod run;
 pub mod settings;
 pub mod thesis;
 
-pub use calendar::{moment, timestamp};
 pub use ddpg::policy::{self, Policy, Proposal, file::PolicyError};
+pub use nn::weights;

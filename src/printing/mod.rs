@@ -5,6 +5,7 @@
 //! those goes out: [`stdout`] and [`stderr`] are the only doors, clippy refuses the others (`clippy.toml`), and both show
 //! such a character as what it is.
 
+mod calendar;
 mod json;
 mod progress;
 mod shell;
@@ -13,6 +14,7 @@ mod version;
 mod visible;
 
 pub use self::{
+    calendar::{moment, now, timestamp},
     json::{json_line, json_text},
     progress::ProgressLine,
     shell::shell_word,

@@ -3,6 +3,7 @@
 mod atomic;
 mod confinement;
 mod lock;
+mod name;
 mod notices;
 mod places;
 mod player;
@@ -14,6 +15,7 @@ pub use atomic::{
 };
 pub use confinement::{confine, may_read};
 pub use lock::Lock;
+pub use name::{LONGEST_NAME, is_letter, is_name};
 pub use notices::notice;
 pub use places::{Places, is_called};
 pub use player::{Player, PlayerNameError};

@@ -1,5 +1,7 @@
 //! The command line through the real binary: answers, JSON, batches, and what happens to bad input.
 
+use std::path::Path;
+
 use assert_cmd::Command;
 use serde_json::Value;
 
@@ -150,6 +152,18 @@ fn self_play_counts_points_and_misses() {
 fn the_networks_alone_answer_without_a_simulation() {
     let answer = json(&["recommend", "--policy-only", "--json"]);
     assert_eq!((&answer["source"], &answer["simulations"]), (&"policy".into(), &0.into()));
+}
+
+#[test]
+fn networks_that_never_saw_anybody_err_say_nothing_of_players_who_do() {
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    let is_told = |model: &str, skill| {
+        let policy = models.join(model).with_extension("safetensors");
+        let policy = ["--rule", "three-cushion", "--policy", policy.to_str().unwrap(), "--skill", skill];
+        json(&[&["recommend", "--policy-only", "--json"][..], &policy].concat())["make_probability"].is_number()
+    };
+    assert!(is_told("match-three-cushion", "perfect") && !is_told("match-three-cushion", "club"));
+    assert!(is_told("context-three-cushion", "club") && !is_told("thesis-three-cushion", "perfect"));
 }
 
 #[test]

@@ -3,16 +3,16 @@
 use carom::{
     game::Reward,
     learning::{
-        learner::{Agent as Line, Learner, TrainingPlan},
-        nn::weights::{Reader, Writer},
+        learner::{AgentKind, Learner, TrainingPlan},
         thesis::{
-            agent::{Agent, Progress},
+            agent::{Agent, EpisodeState},
             ddpg::{PlainDdpg, PlainDdpgSettings},
             dqn::{Dqn, DqnSettings},
             environment::{Action, Environment, Observation, Outcome},
             exploration::{Epsilon, OrnsteinUhlenbeck},
             q_learning::{QLearning, QLearningSettings},
         },
+        weights::{Reader, Writer},
     },
     table::Table,
 };
@@ -59,9 +59,9 @@ impl Environment for Detour {
 fn learnt<A: Agent>(settings: A::Settings, shots: u32, seed: u64) -> f64 {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut agent = A::new(settings, &mut rng).unwrap();
-    let (mut progress, mut game) = (Progress::default(), Detour::default());
+    let (mut episode, mut game) = (EpisodeState::default(), Detour::default());
     for _ in 0..shots {
-        progress.shoot(&mut agent, &mut game, &mut rng).unwrap();
+        episode.shoot(&mut agent, &mut game, &mut rng).unwrap();
     }
     let earned = [-0.5, 0.5].map(|goal| {
         let mut game = Detour { goal, closeness: None };
@@ -103,7 +103,7 @@ fn the_deterministic_policy_gradient_finds_the_optimum() {
 
 fn start(agent: &str, settings: Value) -> Box<dyn Learner> {
     let plan = TrainingPlan { reward: Reward::R1, seed: 4, shots: 650 };
-    (Line::named(agent).unwrap().start)(plan, Table::preset("thesis").unwrap(), settings).unwrap()
+    (AgentKind::named(agent).unwrap().start)(plan, Table::preset("thesis").unwrap(), settings).unwrap()
 }
 
 fn put_aside(learner: &dyn Learner) -> Vec<u8> {
@@ -114,7 +114,7 @@ fn put_aside(learner: &dyn Learner) -> Vec<u8> {
 
 fn taken_up(agent: &str, bytes: &[u8]) -> Box<dyn Learner> {
     let reader = Reader::new(bytes).unwrap();
-    (Line::named(agent).unwrap().restore)(&reader, reader.note().unwrap()).unwrap()
+    (AgentKind::named(agent).unwrap().restore)(&reader, reader.note().unwrap()).unwrap()
 }
 
 const AGENTS: [&str; 3] = ["q-learning", "dqn", "thesis-ddpg"];
@@ -128,15 +128,20 @@ fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped(
     });
     let plan = TrainingPlan { reward: Reward::R3, seed: 5, shots: 650 };
     let start = || {
-        (Line::named("thesis-ddpg").unwrap().start)(plan, Table::preset("thesis").unwrap(), settings.clone()).unwrap()
+        (AgentKind::named("thesis-ddpg").unwrap().start)(plan, Table::preset("thesis").unwrap(), settings.clone())
+            .unwrap()
     };
     let (mut whole, mut parts) = (start(), start());
-    let first_rate = whole.learning_rate();
+    let first_rate = whole.progress().learning_rate;
     while !whole.is_finished() {
         parts = taken_up("thesis-ddpg", &put_aside(parts.as_ref()));
         assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap());
     }
-    assert!((whole.learning_rate() / first_rate - 0.5).abs() < 1e-12, "{} of {first_rate}", whole.learning_rate());
+    assert!(
+        (whole.progress().learning_rate / first_rate - 0.5).abs() < 1e-12,
+        "{} of {first_rate}",
+        whole.progress().learning_rate
+    );
     let bytes = put_aside(whole.as_ref());
     assert!(bytes == put_aside(parts.as_ref()));
     for name in ["hindsight", "demonstrations"] {
@@ -189,7 +194,7 @@ fn an_agent_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
                 assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap(), "{agent}");
             }
             assert_eq!(parts.shots(), 650);
-            assert!(parts.updates() >= 500);
+            assert!(parts.progress().updates >= 500);
             assert!(put_aside(whole.as_ref()) == put_aside(parts.as_ref()), "{agent}");
         }
     }
@@ -234,7 +239,7 @@ fn wrong_settings_are_named() {
         ("thesis-ddpg", json!({ "noise_falls_to": 0.0 }), "noise_falls_to = 0"),
         ("thesis-ddpg", json!({ "noise": { "theta": 3.0, "sigma": 0.3, "dt": 1.0 } }), "noise.theta = 3"),
     ] {
-        let error = (Line::named(agent).unwrap().start)(plan, Table::default(), settings).unwrap_err().to_string();
+        let error = (AgentKind::named(agent).unwrap().start)(plan, Table::default(), settings).unwrap_err().to_string();
         assert!(error.contains(word), "{error}");
     }
 }

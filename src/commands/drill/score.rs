@@ -4,7 +4,7 @@ use std::time::{Duration, UNIX_EPOCH};
 
 use serde::Serialize;
 
-use crate::{commands::output::plural, drills::Record, learning::moment, physics::CueInputs, table::Layout};
+use crate::{commands::output::plural, drills::Record, physics::CueInputs, printing::moment, table::Layout};
 
 /// A record in JSON.
 #[derive(Clone, Debug, Serialize)]

@@ -239,7 +239,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         note_doubts(policy, coach.table(), Some(rule));
         let Proposal { cue, success } = policy.proposals(coach.table(), layout, &args.skill)[0];
         // Others speak of the shot as it is meant, whoever plays it.
-        let told = policy.has_context().then_some(success);
+        let told = policy.speaks_of(&args.skill).then_some(success);
         return Ok(RecommendAnswer {
             cue,
             solved: None,

@@ -61,7 +61,7 @@ fn table(runs: &[Summary]) -> Vec<String> {
             reward(run.best_reward),
             reward(run.last_reward),
             run.changed.clone(),
-            run.state.name().to_owned(),
+            run.state.word().to_owned(),
         ]
     }));
     columns(&rows, &NUMBERS)

@@ -147,7 +147,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let read = spec::read(args)?;
     if args.r#continue && (is_group(&read.folder) || holds_checkpoints(&read.folder)) {
-        spec::same_order(&read, args.seeds)?;
+        spec::same_spec(&read, args.seeds)?;
         return resume(&read.folder, args.jobs, &options);
     }
     if let Some(seeds) = args.seeds {

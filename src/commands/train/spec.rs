@@ -8,15 +8,15 @@ use super::{Args, failure};
 use crate::{
     commands::{Failure, input::table_named, lookup::run_named},
     learning::{
-        learner::{Agent, TrainingPlan},
+        learner::{AgentKind, TrainingPlan},
         run::{
             Config, RunError, Schedule, Start,
             origin::Weights,
             run_name,
             seeds::{TrainingSpec, described, is_group},
         },
-        timestamp,
     },
+    printing::timestamp,
     storage::{self, Places},
 };
 
@@ -25,7 +25,7 @@ pub struct Read {
     pub spec: TrainingSpec,
     pub weights: Option<Weights>,
     pub folder: PathBuf,
-    /// Whether the folder was chosen by whoever gave the order.
+    /// Whether the folder was chosen by whoever gave the command.
     pub is_named: bool,
 }
 
@@ -67,7 +67,7 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     // Another agent's settings mean nothing here; that its weights do not either is said when they are given.
     let mut known =
         weights.as_ref().filter(|weights| weights.start.agent == agent).map(|weights| weights.settings.clone());
-    if let (Some(Value::Object(settings)), Ok(agent)) = (&mut known, Agent::named(&agent)) {
+    if let (Some(Value::Object(settings)), Ok(agent)) = (&mut known, AgentKind::named(&agent)) {
         settings.retain(|name, _| !agent.of_one_start.contains(&name.as_str()));
     }
     let settings = settings(args.config.as_deref(), &args.set, known)?;
@@ -82,10 +82,10 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     Ok(Read { spec, weights, folder, is_named: args.run.is_some() })
 }
 
-/// Whether the run, or the group of seeds, in the folder was started by such an order.
-pub fn same_order(read: &Read, seeds: Option<u64>) -> Result<(), Failure> {
+/// Whether the run, or the group of seeds, in the folder was started with the same specification.
+pub fn same_spec(read: &Read, seeds: Option<u64>) -> Result<(), Failure> {
     // What cannot be read is told by whoever goes on with it.
-    let Some((theirs, from, their_seeds)) = known_order(&read.folder) else { return Ok(()) };
+    let Some((theirs, from, their_seeds)) = known_spec(&read.folder) else { return Ok(()) };
     let ours = &read.spec;
     let source = |start: Option<&Start>| start.map_or_else(|| "none".to_owned(), |start| start.path.clone());
     let count = |seeds: Option<u64>| seeds.map_or_else(|| "none".to_owned(), |seeds| seeds.to_string());
@@ -118,11 +118,11 @@ pub fn same_order(read: &Read, seeds: Option<u64>) -> Result<(), Failure> {
     )))
 }
 
-/// What the run or the group in the folder was started with: the order, whose weights, and how many seeds.
-fn known_order(folder: &Path) -> Option<(TrainingSpec, Option<Start>, Option<u64>)> {
+/// What the run or the group in the folder was started with: what it trains, whose weights, and how many seeds.
+fn known_spec(folder: &Path) -> Option<(TrainingSpec, Option<Start>, Option<u64>)> {
     if is_group(folder) {
-        let (order, seeds, from) = described(folder).ok()?;
-        return Some((order, from, Some(seeds)));
+        let (spec, seeds, from) = described(folder).ok()?;
+        return Some((spec, from, Some(seeds)));
     }
     let Config { agent, plan, settings, schedule, table, from, .. } = Config::read(folder).ok()?;
     Some((TrainingSpec { agent, plan, settings, schedule, table }, from, None))

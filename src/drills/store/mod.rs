@@ -23,10 +23,7 @@ pub use self::{
     transfer::{Imported, Practice},
 };
 use super::{Category, Exercise, ExerciseError, Library, LibraryFile, LibraryFileError, Session};
-use crate::{
-    learning::policy::kept::is_name,
-    storage::{self, Lock, Places, create_atomic, remove_abandoned_files, write_atomic},
-};
+use crate::storage::{self, Lock, Places, create_atomic, is_name, remove_abandoned_files, write_atomic};
 
 /// What a session's file says that it is.
 const SESSION: &str = "carom-session";

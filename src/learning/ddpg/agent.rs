@@ -4,7 +4,7 @@
 //! no part in the critic's target, for a shot is a whole episode and nothing follows it; they are the averaged weights
 //! that play, are evaluated and are shipped.
 
-use candle_core::{DType, Device, Result, Tensor, bail};
+use candle_core::{DType, Device, Result, Tensor};
 use candle_nn::{Module, Optimizer, ops::sigmoid};
 use rand::Rng;
 
@@ -22,11 +22,11 @@ use crate::learning::nn::{
 /// Outputs of the actor beyond which the hyperbolic tangent, 0.96 here, hardly has a slope.
 const SATURATED: f64 = 2.0;
 
-/// What counts in the way from one action to another: a tenth of the ball's half decides over a point, of the speed's range it
-/// seldom does.
+/// Weights of the squared differences in [`Ddpg::imitation_loss`]: a small error of the aim loses the point, the same share of the
+/// speed seldom does.
 const WAY_WEIGHTS: [f32; ACTIONS] = [4.0, 1.0, 1.0, 1.0, 1.0];
 
-/// Shots to learn from.
+/// Shots to learn from: as many observations as actions and successes.
 #[derive(Clone, Debug)]
 pub struct ShotBatch {
     /// What was seen.
@@ -37,28 +37,12 @@ pub struct ShotBatch {
     pub successes: Vec<f32>,
 }
 
-impl ShotBatch {
-    /// Whether there are no shots in it.
-    pub const fn is_empty(&self) -> bool {
-        self.actions.is_empty()
-    }
-
-    fn check(&self) -> Result<()> {
-        let (count, actions, successes) =
-            (self.observed.observations().len(), self.actions.len(), self.successes.len());
-        if actions != count || successes != count {
-            bail!("{count} observations, {actions} actions and {successes} successes are no batch");
-        }
-        Ok(())
-    }
-}
-
 /// What an update reports.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UpdateStats {
     /// Mean cross entropy of the critic, nats.
     pub critic: f64,
-    /// Minus what the actor climbs: the mean over its heads of the critic's probability.
+    /// Minus the critic's mean probability of success over all heads; what the actor climbs has further terms.
     pub actor: f64,
 }
 
@@ -74,17 +58,11 @@ pub struct Ddpg {
 
 impl Ddpg {
     /// An agent that has learnt nothing.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn new(hyper: Hyperparameters, rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
         Self::starting_from(Networks::random(&hyper, rng)?, hyper)
     }
 
     /// An agent that begins to learn with these networks.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn starting_from(online: Networks, hyper: Hyperparameters) -> Result<Self> {
         Ok(Self {
             target: online.duplicate()?,
@@ -107,9 +85,6 @@ impl Ddpg {
     /// # Errors
     /// Where sizes differ, or where the networks no longer give finite numbers.
     pub fn update(&mut self, played: &ShotBatch, searched: Option<&ShotBatch>, lr_factor: f64) -> Result<UpdateStats> {
-        for batch in [Some(played), searched].into_iter().flatten() {
-            batch.check()?;
-        }
         let loss = self.critic_loss(played)?;
         self.critic_optimiser.set_learning_rate(lr_factor * self.hyper.critic_learning_rate);
         self.critic_optimiser.backward_step(&loss)?;
@@ -335,7 +310,7 @@ mod tests {
         }
         let observed = observed(&mut rng);
         let (actions, logits) = agent.target.judge(&observed).unwrap();
-        let heads = actions.len() / observed.observations().len();
+        let heads = actions.len() / observed.seen().len();
         for (actions, logits) in actions.chunks(heads).zip(logits.chunks(heads)) {
             let best = (0..heads).max_by(|a, b| logits[*a].total_cmp(&logits[*b])).unwrap();
             let apart = [0, 1].map(|k| (actions[best][k] - BEST[k]).abs());
@@ -359,12 +334,5 @@ mod tests {
         };
         let [before, alone, drawn] = [way(&start, &sure), after(0.0), after(1.0)];
         assert!(drawn < 0.5 * before && drawn < 0.5 * alone, "{before} before, {alone} alone, {drawn} drawn");
-    }
-
-    #[test]
-    fn a_batch_of_unequal_parts_is_refused() {
-        let (mut agent, batch) = agent_and_batch(ActionSpace::PhiV, 21);
-        let unequal = ShotBatch { actions: batch.actions[1..].to_vec(), ..batch.clone() };
-        assert!(agent.update(&unequal, None, 1.0).is_err() && agent.update(&batch, Some(&unequal), 1.0).is_err());
     }
 }

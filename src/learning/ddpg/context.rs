@@ -12,8 +12,8 @@ use crate::table::{Rail, RailModel, Rails, Table};
 /// Constants of a table that networks are told.
 const CONSTANTS: usize = 12;
 
-/// Errors in multiples of an expert's that are told as nought: about a club player's. Networks are trained with it, so it stays
-/// when levels change.
+/// What errors are divided by before networks are told the logarithm, in multiples of an expert's: about a club player's errors. Networks
+/// were trained with this number, so it stays when the levels of players change.
 const USUAL_ERRORS: f64 = 3.7;
 
 /// Numbers about a table and a player: the constants, which laws the table follows, the way it leans, and the errors.

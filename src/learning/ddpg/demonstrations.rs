@@ -5,13 +5,14 @@ use rand::{Rng, RngExt};
 
 use super::{
     action::{ACTIONS, Action, ActionSpace},
-    approach::playable,
     observation::{OBSERVATIONS, Observation},
+    randomized_tables::Conditions,
     replay::Transition,
-    venues::Conditions,
+    ways::playable,
 };
 use crate::{
     game::Reward,
+    learning::evaluation::CONTACT_STEPS,
     table::{Layout, Table},
 };
 
@@ -24,7 +25,6 @@ pub fn demonstrate(
     reward: Reward,
     space: ActionSpace,
     layout: &Layout,
-    patience: u32,
     rng: &mut (impl Rng + ?Sized),
 ) -> Option<Transition> {
     (0..TRIES).find_map(|_| {
@@ -32,7 +32,7 @@ pub fn demonstrate(
         let mut action: Action = [0.0; ACTIONS];
         action[..space.actions()].fill_with(|| rng.random_range(-1.0..=1.0));
         let cue = playable(table, layout, &observation, action).ok()?;
-        let earned = reward.within(table, layout, &cue, patience);
+        let earned = reward.within(table, layout, &cue, CONTACT_STEPS);
         (earned >= 1.0).then_some(Transition { observation, conditions: Conditions::default(), action, success: 1.0 })
     })
 }
@@ -49,7 +49,7 @@ mod tests {
         let mut shown = 0;
         for _ in 0..30 {
             let layout = Layout::random(&table, &mut rng);
-            let Some(shot) = demonstrate(&table, Reward::R3, ActionSpace::PhiV, &layout, 20, &mut rng) else {
+            let Some(shot) = demonstrate(&table, Reward::R3, ActionSpace::PhiV, &layout, &mut rng) else {
                 continue;
             };
             shown += 1;

@@ -11,8 +11,8 @@ use super::{
     networks::Networks,
     observation::Observation,
     observation_batch::{ObservationBatch, action_rows},
+    randomized_tables::{Conditions, RandomizedTables},
     replay::Transition,
-    venues::{Conditions, Venues},
 };
 use crate::{game::Reward, statistics::normal_pair, table::Layout};
 
@@ -30,9 +30,9 @@ const LEFT_OF_ONE_WAY: usize = 2;
 /// Attempts by which the strokes that did not win are remembered.
 const AGAIN: usize = 8;
 
-/// Strokes beside each that is left, the critic's favourites among all of them, which are raced, and how far they are from where they
-/// began: standard deviations in halves of an action's range. Of strokes about which it errs, a race is not misled as a choice by the
-/// critic alone would be.
+/// Neighbours that are drawn around each stroke that is left, how many of all of them enter the race, and the standard deviations of the
+/// steps to them, in halves of an action's range. The critic only picks which neighbours enter; attempts decide, so its errors cost time,
+/// not correctness.
 const NEIGHBOURS: usize = 24;
 const FAVOURITES: usize = 24;
 const STEPS: [f32; 3] = [0.12, 0.06, 0.03];
@@ -52,7 +52,7 @@ const LOWEST: f32 = -0.3;
 #[derive(Clone, Copy, Debug)]
 pub struct Expert<'a> {
     /// Where runs are played.
-    pub venues: &'a Venues,
+    pub tables: &'a RandomizedTables,
     /// What earns a reward.
     pub reward: Reward,
     /// What the networks' input is made of.
@@ -109,13 +109,10 @@ fn leave(runners: &mut Vec<Runner>, left: usize, of_one_way: usize) -> Vec<Runne
 impl Expert<'_> {
     /// Strokes that went far in the race that began with `proposals`. Each has the share of attempts in which it was made, attempts
     /// that did not decide the race: what wins has had luck. None where no stroke ever earned anything.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Result<Found> {
         let seed = rng.random();
         let tried = (0..TRIED).map(|_| {
-            let table = self.venues.table(self.conditions);
+            let table = self.tables.table(self.conditions);
             (Observation::random(table, self.layout, self.inputs.rails_first, rng), self.stroke(rng))
         });
         let all: Vec<_> = proposals.iter().copied().chain(tried).collect();
@@ -129,8 +126,7 @@ impl Expert<'_> {
         let mut seen = Vec::new();
         for (attempts, left) in ROUNDS {
             self.race(&mut runners, attempts, seed);
-            let out = leave(&mut runners, left, LEFT_OF_ONE_WAY);
-            seen.extend(out.into_iter().filter(|runner| runner.attempts >= ROUNDS[0].0));
+            seen.extend(leave(&mut runners, left, LEFT_OF_ONE_WAY));
         }
         for step in STEPS {
             let parents = runners.clone();
@@ -171,7 +167,7 @@ impl Expert<'_> {
     /// Whether a stroke makes the point where nobody errs.
     fn scores_as_meant(&self, observation: &Observation, action: Action, rng: &mut (impl Rng + ?Sized)) -> bool {
         let steady = Conditions { errors: 0.0, ..self.conditions };
-        self.venues.attempt(self.reward, self.layout, (observation, action), steady, rng) >= 1.0
+        self.tables.attempt(self.reward, self.layout, (observation, action), steady, rng) >= 1.0
     }
 
     /// Puts the critic's favourites first.
@@ -179,9 +175,9 @@ impl Expert<'_> {
         if runners.is_empty() {
             return Ok(());
         }
-        let seen: Vec<_> = runners.iter().map(|runner| self.venues.seen(runner.observation, self.conditions)).collect();
+        let seen = runners.iter().map(|runner| self.tables.seen(runner.observation, self.conditions)).collect();
         let actions: Vec<Action> = runners.iter().map(|runner| runner.action).collect();
-        let observed = ObservationBatch::new(self.inputs, &seen)?;
+        let observed = ObservationBatch::new(self.inputs, seen)?;
         let rows = action_rows(self.inputs.space, &actions)?;
         let logits =
             self.networks.critic.forward_frozen(&observed.with_actions(&rows)?)?.flatten_all()?.to_vec1::<f32>()?;
@@ -191,13 +187,14 @@ impl Expert<'_> {
         Ok(())
     }
 
-    /// Makes attempts at every stroke until each has so many, with the same errors for all, and puts the best first.
+    /// One round of successive halving (Karnin et al. 2013): makes attempts at every stroke until each has so many, with the same errors
+    /// for all, and puts the best first.
     fn race(&self, runners: &mut [Runner], attempts: usize, seed: u64) {
         for runner in runners.iter_mut() {
             for attempt in runner.attempts..attempts {
                 let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed.wrapping_add(attempt as u64));
                 let shot = (&runner.observation, runner.action);
-                runner.earned += self.venues.attempt(self.reward, self.layout, shot, self.conditions, &mut rng);
+                runner.earned += self.tables.attempt(self.reward, self.layout, shot, self.conditions, &mut rng);
             }
             runner.attempts = runner.attempts.max(attempts);
         }
@@ -252,13 +249,13 @@ mod tests {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
         let hyper = Hyperparameters { actions: ActionSpace::Full, context: true, ..Hyperparameters::default() };
         let (inputs, networks) = (hyper.inputs(), &Networks::random(&hyper, &mut rng).unwrap());
-        let venues = Venues::new(&table, inputs, 1);
+        let tables = RandomizedTables::new(&table, inputs, 1);
         let reward = Reward::R3;
         let [mut proposed, mut found] = [0.0; 2];
         for _ in 0..12 {
             let layout = Layout::random(&table, &mut rng);
-            let conditions = Conditions { venue: 0, errors: 3.7 };
-            let expert = Expert { venues: &venues, reward, inputs, networks, layout: &layout, conditions };
+            let conditions = Conditions { table: 0, errors: 3.7 };
+            let expert = Expert { tables: &tables, reward, inputs, networks, layout: &layout, conditions };
             let proposal = Runner::new(Observation::new(&layout, 0), expert.stroke(&mut rng));
             let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng).unwrap();
             let winner = strokes.best.first().unwrap();

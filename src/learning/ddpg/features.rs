@@ -6,10 +6,10 @@ use glam::DVec2;
 
 use super::{
     action::{Action, Meaning},
-    approach::Ways,
     dual::{Dual, DualVector},
     first_contact::{Approach, FirstContact, TYPICAL_SPEED},
     observation::{Line, Observation, free_path},
+    ways::Ways,
 };
 use crate::table::Table;
 
@@ -65,17 +65,17 @@ pub fn push_state_features(table: &Table, observation: &Observation, out: &mut V
     }
 }
 
-/// Numbers about a shot, with their slopes along the action: [`ACTION_FEATURES`] of them, and those about a way by a cushion where they
-/// are asked for.
+/// Numbers about a shot: [`ACTION_FEATURES`] of them, and then [`RAIL_FEATURES`](super::first_contact::RAIL_FEATURES) about a way by a
+/// cushion, with their slopes along the action. Those of a way by a cushion are found only where `slopes` are asked for.
 ///
 /// At the moment of contact the line of centres and the tangent at the first ball decide where the cue ball goes. So
 /// the second ball and its images are given in that frame, as seen from where the cue ball then stands: a network
 /// would need many units to find this rotation by itself, and points are missed by a degree. Where the spin takes the
 /// cue ball from there in the end, its final direction, is the second such frame.
-pub fn push_action_features(ways: &Ways<'_>, action: Action, asked: Asked, out: &mut Vec<Dual>) {
+pub fn push_action_features(ways: &Ways<'_>, action: Action, slopes: bool, out: &mut Vec<Dual>) {
     let Ways { table, observation, lines, .. } = *ways;
     let meaning = Meaning::of(table, action);
-    let Approach { contact: stroke, course, by_rail } = ways.approach(&meaning, asked.slopes);
+    let Approach { contact: stroke, course, by_rail } = ways.approach(&meaning, slopes);
     let offset = meaning.offset;
     let speed = Dual::action(1, f64::from(action[1]));
     out.extend([offset, offset * offset]);
@@ -123,18 +123,7 @@ pub fn push_action_features(ways: &Ways<'_>, action: Action, asked: Asked, out: 
     }
     let DualVector { x, y } = heading;
     out.push(Dual::constant(free_path(table, observation.first, DVec2::new(x.value, y.value)) / table.length));
-    if asked.rails_first {
-        out.extend(by_rail);
-    }
-}
-
-/// What is asked of the features of a stroke.
-#[derive(Clone, Copy, Debug)]
-pub struct Asked {
-    /// Those about the way by a cushion, at the end.
-    pub rails_first: bool,
-    /// The slopes.
-    pub slopes: bool,
+    out.extend(by_rail);
 }
 
 /// Leaves of the action features those that tell the action itself; the others become nought.
@@ -184,11 +173,9 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    const ASKED: Asked = Asked { rails_first: true, slopes: true };
-
     fn features(table: &Table, observation: &Observation, action: Action) -> Vec<Dual> {
         let mut out = Vec::new();
-        push_action_features(&Ways::of(table, observation), action, ASKED, &mut out);
+        push_action_features(&Ways::of(table, observation), action, true, &mut out);
         assert_eq!(out.len(), ACTION_FEATURES + RAIL_FEATURES);
         out
     }

@@ -91,7 +91,7 @@ impl FirstContact {
 mod tests {
     use super::*;
     use crate::{
-        learning::ddpg::{approach::cue_inputs, observation::Observation},
+        learning::ddpg::{observation::Observation, ways::cue_inputs},
         physics::strike,
         simulation::Recording,
         table::Layout,

@@ -6,25 +6,26 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
-use super::{action::Action, approach::playable, observation::Observation, replay::Transition, venues::Conditions};
+use super::{
+    action::Action, observation::Observation, randomized_tables::Conditions, replay::Transition, ways::playable,
+};
 use crate::{
     game::Reward,
-    learning::cue_way::CueWay,
+    learning::{cue_way::CueWay, evaluation::CONTACT_STEPS},
     table::{Layout, Table},
 };
 
 /// The shot of `action` in `observation`, which missed, with the second ball moved to where it makes the point. `None` where the
 /// cue ball met no ball first, or the moved ball is in the way of the others or makes no point. The new outcome is played,
-/// with at most `patience` steps of resting contacts, not supposed.
+/// not supposed.
 pub fn relabel(
     table: &Table,
     reward: Reward,
     (layout, observation, action): (&Layout, &Observation, Action),
-    patience: u32,
     rng: &mut (impl Rng + ?Sized),
 ) -> Option<Transition> {
     let cue = playable(table, layout, observation, action).ok()?;
-    let way = CueWay::of(table, layout, &cue, patience);
+    let way = CueWay::of(table, layout, &cue);
     let (first, begin) = way.met?;
     // The ball that was not met is the one to move; the observation must call it the second.
     let second = 3 - first;
@@ -41,7 +42,7 @@ pub fn relabel(
     let observation = Observation { second: observation.mirror * target, ..*observation };
     // The moved ball may be in the cue's way.
     let is_same = playable(table, &moved, &observation, action) == Ok(cue);
-    let success = is_same && reward.within(table, &moved, &cue, patience) >= 1.0;
+    let success = is_same && reward.within(table, &moved, &cue, CONTACT_STEPS) >= 1.0;
     success.then_some(Transition { observation, conditions: Conditions::default(), action, success: 1.0 })
 }
 
@@ -63,7 +64,7 @@ mod tests {
                     let layout = Layout::random(&table, &mut rng);
                     let observation = Observation::new(&layout, case % OBSERVATIONS);
                     let action = std::array::from_fn(|_| rng.random_range(-1.0..1.0));
-                    let Some(after) = relabel(&table, reward, (&layout, &observation, action), 20, &mut rng) else {
+                    let Some(after) = relabel(&table, reward, (&layout, &observation, action), &mut rng) else {
                         continue;
                     };
                     found += 1;

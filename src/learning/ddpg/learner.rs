@@ -16,7 +16,9 @@ use super::{
 use crate::{
     learning::{
         evaluation::Score,
-        learner::{Agent, Iteration, Learner, StartError, TrainingPlan, note_of},
+        learner::{
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, check_reward, note_of, settings_from,
+        },
         nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
@@ -32,26 +34,20 @@ const ACTOR: usize = 0;
 const CRITIC: usize = 1;
 
 /// The line in the list of agents.
-pub const AGENT: Agent = Agent {
+pub const AGENT: AgentKind = AgentKind {
     name: "ddpg",
     title: "deep deterministic policy gradient with several actor heads",
     start: |plan, table, settings| {
-        let refuse = |reason: &dyn std::fmt::Display| StartError::Settings(reason.to_string());
-        let hyperparameters: Hyperparameters = serde_json::from_value(settings).map_err(|error| refuse(&error))?;
-        hyperparameters.validate().map_err(|error| refuse(&error))?;
+        let hyperparameters = settings_from(settings, Hyperparameters::validate)?;
         let of_points = hyperparameters.hindsight > 0.0 || hyperparameters.demonstrations > 0.0;
-        if of_points && plan.reward.rule().is_none() {
-            let reason =
-                "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
-            return Err(refuse(&reason));
-        }
+        check_reward(of_points, plan.reward)?;
         if of_points && hyperparameters.context {
-            return Err(refuse(
-                &"hindsight and demonstrations know nothing of drawn tables and errors: use them without context",
+            return Err(StartError::settings(
+                "hindsight and demonstrations know nothing of drawn tables and errors: use them without context",
             ));
         }
         if hyperparameters.searched > 0 && !hyperparameters.context {
-            return Err(refuse(&"searches are for players who err: use searched with context = true"));
+            return Err(StartError::settings("searches are for players who err: use searched with context = true"));
         }
         let Hyperparameters { imitation, actor_learning_rate, .. } = hyperparameters;
         if imitation > 0.0 && actor_learning_rate < STANDING_STILL {
@@ -59,7 +55,7 @@ pub const AGENT: Agent = Agent {
                 "an actor_learning_rate of {actor_learning_rate:e}, as --from may bring along, leaves nothing to imitation = {imitation}: \
                  accepted is {STANDING_STILL:e} and more, or no imitation"
             );
-            return Err(refuse(&reason));
+            return Err(StartError::settings(reason));
         }
         Ok(Box::new(Trainer::new(Task { plan, hyperparameters }, table)?))
     },
@@ -89,20 +85,13 @@ impl Learner for Trainer {
         self.shots
     }
 
-    fn updates(&self) -> u64 {
-        self.updates
-    }
-
-    fn learning_rate(&self) -> f64 {
-        self.lr_schedule() * self.task.hyperparameters.critic_learning_rate
-    }
-
-    fn exploration(&self) -> f64 {
-        self.task.hyperparameters.exploration.uniform
-    }
-
-    fn replay_fill(&self) -> Option<f64> {
-        Some(self.replay.fill())
+    fn progress(&self) -> Progress {
+        Progress {
+            updates: self.updates,
+            learning_rate: self.lr_factor() * self.task.hyperparameters.critic_learning_rate,
+            exploration: self.task.hyperparameters.exploration.uniform,
+            replay_fill: Some(self.replay.fill()),
+        }
     }
 
     fn iterate(&mut self) -> candle_core::Result<Iteration> {

@@ -6,7 +6,6 @@
 
 pub mod action;
 pub mod agent;
-mod approach;
 pub mod context;
 pub mod demonstrations;
 mod dual;
@@ -23,9 +22,10 @@ pub mod observation_batch;
 mod own_choice;
 pub mod policy;
 mod rail_first;
+pub mod randomized_tables;
 pub mod replay;
 mod rollout;
 pub mod snapshot;
 mod squash;
 pub mod trainer;
-pub mod venues;
+mod ways;

@@ -5,8 +5,10 @@ use rand::Rng;
 
 use super::{
     action::{Action, aim_at},
+    context::Inputs,
     hyperparameters::Hyperparameters,
-    observation_batch::{ObservationBatch, actions_in},
+    observation::Observation,
+    observation_batch::{ObservationBatch, Seen, actions_in},
     squash::Squash,
 };
 use crate::learning::nn::mlp::{Mlp, Operations};
@@ -26,9 +28,6 @@ pub struct Networks {
 
 impl Networks {
     /// Networks that were made with these settings.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn new(hyper: &Hyperparameters, actor: Mlp, critic: Mlp) -> Result<Self> {
         let squash = Squash::new(hyper, actor.sizes().last().copied().unwrap_or(0))?;
         Ok(Self { actor, critic, squash })
@@ -36,9 +35,6 @@ impl Networks {
 
     /// New networks: the heads start at offsets spread over the ball, at the middle of their speeds, at middle elevation and with
     /// tips here and there; the critic starts at one half.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn random(hyper: &Hyperparameters, rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
         let outputs = hyper.actions.actions();
         let mut start = Vec::with_capacity(hyper.heads * outputs);
@@ -53,9 +49,6 @@ impl Networks {
     }
 
     /// A copy with its own parameters.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn duplicate(&self) -> Result<Self> {
         let (actor, critic) = (self.actor.duplicate()?, self.critic.duplicate()?);
         Ok(Self { actor, critic, squash: self.squash.clone() })
@@ -68,27 +61,37 @@ impl Networks {
     }
 
     /// The heads' actions, the heads of an observation one after the other.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn actions(&self, observed: &ObservationBatch) -> Result<Vec<Action>> {
         actions_in(observed.space(), &self.propose(observed)?)
     }
 
     /// The heads' actions and the critic's logit of success for each.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn judge(&self, observed: &ObservationBatch) -> Result<(Vec<Action>, Vec<f32>)> {
         let actions = self.propose(observed)?;
         let logits = self.critic.forward_frozen(&observed.with_actions(&actions)?)?;
         Ok((actions_in(observed.space(), &actions)?, logits.flatten_all()?.to_vec1()?))
     }
 
+    /// What all heads propose in what is `seen` of so many layouts, of each alike, layout by layout: the observation, the action and the
+    /// critic's logit, an observation's heads one after the other.
+    pub fn proposals(
+        &self,
+        inputs: Inputs,
+        seen: Vec<Seen>,
+        layouts: usize,
+    ) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
+        if layouts == 0 {
+            return Ok(Vec::new());
+        }
+        let observed = ObservationBatch::new(inputs, seen)?;
+        let (actions, logits) = self.judge(&observed)?;
+        let (heads, each) = (actions.len() / observed.seen().len(), actions.len() / layouts);
+        let all = actions.into_iter().zip(logits).enumerate();
+        let all = all.map(|(row, (action, logit))| (observed.seen()[row / heads].observation, action, logit));
+        Ok(all.collect::<Vec<_>>().chunks(each).map(<[_]>::to_vec).collect())
+    }
+
     /// The actions that the actor's outputs stand for, a row each; gradients flow to the outputs.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn squash(&self, outputs: &Tensor) -> Result<Tensor> {
         self.squash.actions(outputs)
     }

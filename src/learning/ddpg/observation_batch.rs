@@ -6,11 +6,12 @@ use candle_core::{CpuStorage, CustomOp1, Device, Layout, Result, Shape, Tensor, 
 
 use super::{
     action::{ACTIONS, Action, ActionSpace},
-    approach::Ways,
     context::{Inputs, push_context},
     dual::Dual,
-    features::{Asked, leave_chosen, push_action_features, push_state_features},
+    features::{ACTION_FEATURES, leave_chosen, push_action_features, push_state_features},
+    first_contact::RAIL_FEATURES,
     observation::Observation,
+    ways::Ways,
 };
 use crate::{
     learning::nn::tensors::{stored_values, values},
@@ -29,9 +30,6 @@ pub struct Seen {
 }
 
 /// Actions as the rows of a tensor, the unused numbers left out.
-///
-/// # Errors
-/// Whatever candle reports.
 pub fn action_rows(space: ActionSpace, actions: &[Action]) -> Result<Tensor> {
     let used = space.actions();
     let values: Vec<f32> = actions.iter().flat_map(|action| action[..used].iter().copied()).collect();
@@ -39,9 +37,6 @@ pub fn action_rows(space: ActionSpace, actions: &[Action]) -> Result<Tensor> {
 }
 
 /// The actions in the rows of a tensor, the unused numbers nought.
-///
-/// # Errors
-/// Whatever candle reports.
 pub fn actions_in(space: ActionSpace, rows: &Tensor) -> Result<Vec<Action>> {
     let values: Vec<f32> = rows.flatten_all()?.to_vec1()?;
     Ok(values.chunks_exact(space.actions()).map(padded).collect())
@@ -57,19 +52,15 @@ fn padded(used: &[f32]) -> Action {
 #[derive(Clone, Debug)]
 pub struct ObservationBatch {
     inputs: Inputs,
-    tables: Arc<[Arc<Table>]>,
-    observations: Arc<[Observation]>,
+    seen: Arc<[Seen]>,
     states: Tensor,
 }
 
 impl ObservationBatch {
     /// A batch for networks with these inputs.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
-    pub fn new(inputs: Inputs, seen: &[Seen]) -> Result<Self> {
+    pub fn new(inputs: Inputs, seen: Vec<Seen>) -> Result<Self> {
         let mut features = Vec::with_capacity(seen.len() * inputs.actor());
-        for Seen { observation, table, errors } in seen {
+        for Seen { observation, table, errors } in &seen {
             push_state_features(table, observation, &mut features);
             if inputs.context {
                 push_context(table, observation.mirror, *errors, &mut features);
@@ -79,24 +70,19 @@ impl ObservationBatch {
             }
         }
         let states = Tensor::from_vec(features, (seen.len(), inputs.actor()), &Device::Cpu)?;
-        let tables = seen.iter().map(|seen| Arc::clone(&seen.table)).collect();
-        let observations = seen.iter().map(|seen| seen.observation).collect();
-        Ok(Self { inputs, tables, observations, states })
+        Ok(Self { inputs, seen: seen.into(), states })
     }
 
     /// A batch of observations on one table for networks without a context and actions in `space`.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn on(table: &Arc<Table>, space: ActionSpace, observations: Vec<Observation>) -> Result<Self> {
         let seen = |observation| Seen { observation, table: Arc::clone(table), errors: 0.0 };
-        let seen: Vec<Seen> = observations.into_iter().map(seen).collect();
-        Self::new(Inputs { space, context: false, closed_form: true, rails_first: false }, &seen)
+        let inputs = Inputs { space, context: false, closed_form: true, rails_first: false };
+        Self::new(inputs, observations.into_iter().map(seen).collect())
     }
 
-    /// The observations.
-    pub fn observations(&self) -> &[Observation] {
-        &self.observations
+    /// What it was made of.
+    pub fn seen(&self) -> &[Seen] {
+        &self.seen
     }
 
     /// What the actions mean.
@@ -110,18 +96,9 @@ impl ObservationBatch {
     }
 
     /// The first `count` observations, or all if there are fewer.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn first(&self, count: usize) -> Result<Self> {
-        let count = count.min(self.observations.len());
-        let states = self.states.narrow(0, 0, count)?;
-        Ok(Self {
-            inputs: self.inputs,
-            tables: self.tables[..count].into(),
-            observations: self.observations[..count].into(),
-            states,
-        })
+        let count = count.min(self.seen.len());
+        Ok(Self { inputs: self.inputs, seen: self.seen[..count].into(), states: self.states.narrow(0, 0, count)? })
     }
 
     /// The critic's input for `actions`, a row for each action (rows x actions of the space); each observation takes the same number of
@@ -149,7 +126,7 @@ impl CustomOp1 for Join {
 
     fn cpu_fwd(&self, storage: &CpuStorage, layout: &Layout) -> Result<(CpuStorage, Shape)> {
         let (rows, columns) = layout.shape().dims2()?;
-        let (observations, inputs) = (self.observed.observations.len(), self.observed.inputs);
+        let (observations, inputs) = (self.observed.seen.len(), self.observed.inputs);
         let (space, state) = (inputs.space, inputs.actor());
         if columns != space.actions() || observations == 0 || rows % observations != 0 {
             bail!(
@@ -161,15 +138,16 @@ impl CustomOp1 for Join {
         let states = stored_values(&state_storage, state_layout)?;
         let mut out = Vec::with_capacity(rows * inputs.critic());
         let mut slopes = Vec::with_capacity(if self.differentiate { rows * inputs.action() } else { 0 });
-        let mut features: Vec<Dual> = Vec::with_capacity(inputs.action());
-        let asked = Asked { rails_first: inputs.rails_first, slopes: self.differentiate };
+        let mut features: Vec<Dual> = Vec::with_capacity(ACTION_FEATURES + RAIL_FEATURES);
         let each = (rows / observations * columns).max(1);
-        let seen = self.observed.tables.iter().zip(&*self.observed.observations).zip(states.chunks_exact(state));
-        for (((table, observation), state), actions) in seen.zip(values(storage, layout)?.chunks_exact(each)) {
-            let ways = Ways::of(table, observation);
+        let seen = self.observed.seen.iter().zip(states.chunks_exact(state));
+        for ((seen, state), actions) in seen.zip(values(storage, layout)?.chunks_exact(each)) {
+            let ways = Ways::of(&seen.table, &seen.observation);
             for action in actions.chunks_exact(columns) {
                 features.clear();
-                push_action_features(&ways, padded(action), asked, &mut features);
+                push_action_features(&ways, padded(action), self.differentiate, &mut features);
+                // Those about a way by a cushion stand last.
+                features.truncate(inputs.action());
                 if !inputs.closed_form {
                     leave_chosen(&mut features);
                 }
@@ -232,8 +210,7 @@ mod tests {
             let gradients = inputs.sum_all().unwrap().backward().unwrap();
             let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();
             let mut features = Vec::new();
-            let asked = Asked { rails_first: false, slopes: true };
-            push_action_features(&Ways::of(&table, &observed.observations()[1]), values[2], asked, &mut features);
+            push_action_features(&Ways::of(&table, &observed.seen()[1].observation), values[2], true, &mut features);
             let expected = features.iter().map(|feature| feature.slope[0] as f32).sum::<f32>();
             assert!((gradient[2][0] - expected).abs() < 1e-4);
             assert!(observed.with_actions(&actions.narrow(0, 0, 3).unwrap()).is_err());

@@ -286,7 +286,7 @@ fn squashed(number: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        learning::ddpg::{action::ACTIONS, approach::cue_inputs},
+        learning::ddpg::{action::ACTIONS, ways::cue_inputs},
         simulation::{EventKind, Recording},
         table::Layout,
     };

@@ -1,6 +1,6 @@
 //! A shot as the replay buffer holds it.
 
-use super::{action::Action, observation::Observation, venues::Conditions};
+use super::{action::Action, observation::Observation, randomized_tables::Conditions};
 
 /// One shot: what was seen, what was done, what it earned. A shot is a whole episode, so there is no next state.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,14 +14,14 @@ use super::{
     networks::Networks,
     observation::Observation,
     observation_batch::ObservationBatch,
+    randomized_tables::{Conditions, RandomizedTables},
     replay::Transition,
     trainer::Trainer,
-    venues::{Conditions, Venues},
 };
-use crate::{learning::evaluation::CONTACT_STEPS, platform, table::Layout};
+use crate::{platform, table::Layout};
 
-/// Proposals of a layout that are played where the critic learns to rank them: the best of the 24 that six heads give. Among the
-/// others it hardly ever chooses wrongly.
+/// Proposals of a layout that are played where the critic learns to rank them, the best ones: among the others it hardly ever
+/// chooses wrongly. (Six heads make 24 for straight ways.)
 const RANKED: usize = 8;
 
 /// A layout, and the conditions under which it is played.
@@ -48,15 +48,15 @@ impl Trainer {
 
     /// A fresh layout and its conditions.
     fn scene(&mut self) -> Scene {
-        let conditions = self.venues.draw(self.task.hyperparameters.perfect, &mut self.rng);
-        (Layout::random(self.venues.table(conditions), &mut self.rng), conditions)
+        let conditions = self.tables.draw(self.task.hyperparameters.perfect, &mut self.rng);
+        (Layout::random(self.tables.table(conditions), &mut self.rng), conditions)
     }
 
     /// Remembers an expert's shot on each layout for which there is one.
     fn add_demonstrations(&mut self, scenes: &[Scene]) {
         let (reward, space) = (self.task.plan.reward, self.space());
         for (layout, _) in scenes {
-            if let Some(shot) = demonstrate(&self.table, reward, space, layout, CONTACT_STEPS, &mut self.rng) {
+            if let Some(shot) = demonstrate(&self.table, reward, space, layout, &mut self.rng) {
                 self.replay.push(shot);
             }
         }
@@ -68,18 +68,18 @@ impl Trainer {
         let scenes: Vec<Scene> = (0..self.task.hyperparameters.searched)
             .map(|_| {
                 let (layout, conditions) = self.scene();
-                (layout, Conditions { errors: Venues::errors(&mut self.rng), ..conditions })
+                (layout, Conditions { errors: RandomizedTables::errors(&mut self.rng), ..conditions })
             })
             .collect();
         let proposals = self.judged(&self.agent.target, &scenes)?;
         let tasks: Vec<_> = scenes.into_iter().zip(proposals).map(|task| (task, self.rng.random())).collect();
         let (reward, inputs) = (self.task.plan.reward, self.task.hyperparameters.inputs());
-        let (venues, networks) = (&self.venues, &self.agent.target);
+        let (tables, networks) = (&self.tables, &self.agent.target);
         let found =
             platform::parallel::try_map(platform::threads(), &tasks, |(((layout, conditions), proposals), seed)| {
                 let proposals: Vec<_> =
                     proposals.iter().map(|&(observation, action, _)| (observation, action)).collect();
-                let expert = Expert { venues, reward, inputs, networks, layout, conditions: *conditions };
+                let expert = Expert { tables, reward, inputs, networks, layout, conditions: *conditions };
                 expert.search(&proposals, &mut Xoshiro256PlusPlus::seed_from_u64(*seed))
             })?;
         for Found { best, others } in found {
@@ -93,24 +93,14 @@ impl Trainer {
         Ok(())
     }
 
-    /// What networks propose on each of the layouts from every side, with the critic's logits, an observation's heads one after the
-    /// other.
+    /// What networks propose on each of the layouts from every side ([`Networks::proposals`]).
     pub(super) fn judged(&self, networks: &Networks, scenes: &[Scene]) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
-        if scenes.is_empty() {
-            return Ok(Vec::new());
-        }
-        let rails_first = self.task.hyperparameters.rails_first;
+        let inputs = self.task.hyperparameters.inputs();
         let sides = scenes.iter().flat_map(|(layout, conditions)| {
-            let all = Observation::every(self.venues.table(*conditions), layout, rails_first).into_iter();
-            all.map(|observation| self.venues.seen(observation, *conditions))
+            let all = Observation::every(self.tables.table(*conditions), layout, inputs.rails_first).into_iter();
+            all.map(|observation| self.tables.seen(observation, *conditions))
         });
-        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &sides.collect::<Vec<_>>())?;
-        let (actions, logits) = networks.judge(&observed)?;
-        let heads = actions.len() / observed.observations().len();
-        let each = actions.len() / scenes.len();
-        let all = actions.into_iter().zip(logits).enumerate();
-        let all = all.map(|(row, (action, logit))| (observed.observations()[row / heads], action, logit));
-        Ok(all.collect::<Vec<_>>().chunks(each).map(<[_]>::to_vec).collect())
+        networks.proposals(inputs, sides.collect(), scenes.len())
     }
 
     /// Plays the averaged networks' best proposals on every layout, as they are. Returns the rewards' sum.
@@ -143,16 +133,16 @@ impl Trainer {
             return Ok(0.0);
         }
         let seen = scenes.iter().map(|(layout, conditions)| {
-            let (table, rails_first) = (self.venues.table(*conditions), self.task.hyperparameters.rails_first);
-            self.venues.seen(Observation::random(table, layout, rails_first, &mut self.rng), *conditions)
+            let (table, rails_first) = (self.tables.table(*conditions), self.task.hyperparameters.rails_first);
+            self.tables.seen(Observation::random(table, layout, rails_first, &mut self.rng), *conditions)
         });
-        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &seen.collect::<Vec<_>>())?;
+        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), seen.collect())?;
         let actions = self.agent.online.actions(&observed)?;
         let heads = actions.len() / scenes.len();
         let mut total = 0.0;
         for (index, scene) in scenes.iter().enumerate() {
             let choice = actions[index * heads + self.rng.random_range(0..heads)];
-            total += self.stray(scene, observed.observations()[index], choice);
+            total += self.stray(scene, observed.seen()[index].observation, choice);
         }
         Ok(total)
     }
@@ -167,14 +157,14 @@ impl Trainer {
     fn rollout(&mut self, (layout, conditions): &Scene, observation: Observation, action: Action) -> f64 {
         let (reward, conditions) = (self.task.plan.reward, *conditions);
         let attempts = if conditions.errors == 0.0 { 1 } else { self.task.hyperparameters.attempts };
-        let attempt = |_| self.venues.attempt(reward, layout, (&observation, action), conditions, &mut self.rng);
+        let attempt = |_| self.tables.attempt(reward, layout, (&observation, action), conditions, &mut self.rng);
         let earned = (0..attempts).map(attempt).sum::<f64>() / attempts as f64;
         let success = (earned / reward.highest()) as f32;
         self.replay.push(Transition { observation, conditions, action, success });
         let hindsight = self.task.hyperparameters.hindsight;
         if hindsight > 0.0 && success < 1.0 && self.rng.random_bool(hindsight) {
             let shot = (layout, &observation, action);
-            if let Some(point) = relabel(&self.table, reward, shot, CONTACT_STEPS, &mut self.rng) {
+            if let Some(point) = relabel(&self.table, reward, shot, &mut self.rng) {
                 self.replay.push(point);
             }
         }

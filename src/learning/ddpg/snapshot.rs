@@ -1,4 +1,4 @@
-//! A trainer as a file: everything that the next turn depends on, so that a run that goes on is the run that never
+//! A trainer as a file: everything that the next iteration depends on, so that a run that goes on is the run that never
 //! stopped.
 
 use std::sync::Arc;
@@ -14,9 +14,9 @@ use super::{
     context::Inputs,
     networks::Networks,
     observation::Observation,
+    randomized_tables::{Conditions, RandomizedTables},
     replay::Transition,
     trainer::{Task, Trainer},
-    venues::{Conditions, Venues},
 };
 use crate::{
     learning::{
@@ -51,9 +51,6 @@ const OBSERVATION_NUMBERS: usize = 8;
 const STRAIGHT: f32 = -1.0;
 
 /// Adds the arrays of the trainer's state to a file and returns the rest, its note.
-///
-/// # Errors
-/// Whatever candle or serde reports.
 pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsError> {
     let agent = &trainer.agent;
     for (name, networks) in [("online", &agent.online), ("target", &agent.target)] {
@@ -112,8 +109,8 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     let searched = ReplayBuffer::restore(hyper.replay, searched, note.searched_next);
     let TrainerState { task, table, rng, shots, updates, .. } = note;
     let table = Arc::new(table);
-    let venues = Venues::new(&table, inputs, task.plan.seed);
-    Ok(Trainer { task, table, venues, agent, replay, searched, rng, shots, updates })
+    let tables = RandomizedTables::new(&table, inputs, task.plan.seed);
+    Ok(Trainer { task, table, tables, agent, replay, searched, rng, shots, updates })
 }
 
 fn view_numbers(observation: &Observation) -> [f64; OBSERVATION_NUMBERS] {
@@ -140,7 +137,7 @@ fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer<Transition>, 
     }
     if inputs.context {
         let conditions: Vec<f32> =
-            held.iter().flat_map(|held| [held.conditions.venue as f32, held.conditions.errors]).collect();
+            held.iter().flat_map(|held| [held.conditions.table as f32, held.conditions.errors]).collect();
         writer.add(format!("{name}.conditions"), &[held.len(), 2], &conditions);
     }
 }
@@ -161,11 +158,11 @@ fn transitions(reader: &Reader<'_>, name: &str, inputs: Inputs) -> Result<Vec<Tr
     }
     let shots = observations.iter().zip(actions).zip(conditions).zip(rails).zip(successes);
     Ok(shots
-        .map(|((((v, action), [venue, errors]), rail), success)| {
+        .map(|((((v, action), [table, errors]), rail), success)| {
             let pair = |index: usize| DVec2::new(v[index], v[index + 1]);
             let rail = Rail::ALL.into_iter().find(|own| number_of(Some(*own)) == rail);
             let observation = Observation { cue: pair(0), first: pair(2), second: pair(4), rail, mirror: pair(6) };
-            let conditions = Conditions { venue: *venue as u32, errors: *errors };
+            let conditions = Conditions { table: *table as u32, errors: *errors };
             Transition { observation, conditions, action: *action, success }
         })
         .collect())

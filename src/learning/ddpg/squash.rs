@@ -18,9 +18,6 @@ pub struct Squash {
 
 impl Squash {
     /// That of an actor with so many outputs and these settings.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn new(hyper: &Hyperparameters, outputs: usize) -> Result<Self> {
         let actions = hyper.actions.actions();
         if hyper.head_speeds.is_empty() {

@@ -4,10 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::learning::learner::Iteration;
 
-/// Sums over turns. They are part of a checkpoint: a line's means must not depend on where a run was interrupted.
+/// Sums over iterations. They are part of a checkpoint: a line's means must not depend on where a run was interrupted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accumulator {
-    turns: u64,
+    #[serde(rename = "turns")]
+    iterations: u64,
     mean_reward: f64,
     q_value: f64,
     critic_loss: f64,
@@ -18,7 +19,7 @@ impl Accumulator {
     /// Adds an iteration. `false` where it has numbers that are not finite.
     #[must_use]
     pub fn add(&mut self, iteration: &Iteration) -> bool {
-        self.turns += 1;
+        self.iterations += 1;
         self.mean_reward += iteration.mean_reward;
         self.q_value += iteration.q_value;
         self.critic_loss += iteration.critic_loss;
@@ -29,15 +30,15 @@ impl Accumulator {
         sums.iter().all(|sum| sum.is_finite())
     }
 
-    /// The means over the turns added since the last call.
+    /// The means over the iterations added since the last call.
     pub fn take(&mut self) -> Iteration {
-        let Self { turns, mean_reward, q_value, critic_loss, actor_loss } = std::mem::take(self);
-        let turns = turns.max(1) as f64;
+        let Self { iterations, mean_reward, q_value, critic_loss, actor_loss } = std::mem::take(self);
+        let count = iterations.max(1) as f64;
         Iteration {
-            mean_reward: mean_reward / turns,
-            q_value: q_value / turns,
-            critic_loss: critic_loss / turns,
-            actor_loss: actor_loss.map(|sum| sum / turns),
+            mean_reward: mean_reward / count,
+            q_value: q_value / count,
+            critic_loss: critic_loss / count,
+            actor_loss: actor_loss.map(|sum| sum / count),
         }
     }
 }
@@ -47,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn means_are_over_the_turns_since_the_last_and_survive_a_file() {
+    fn means_are_over_the_iterations_since_the_last_and_survive_a_file() {
         let iteration = |reward| Iteration { mean_reward: reward, q_value: 0.1, critic_loss: 0.7, actor_loss: None };
         let mut accumulator = Accumulator::default();
         assert!(accumulator.add(&iteration(0.1)) && accumulator.add(&iteration(0.2)));

@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 
 use super::{
     contents::{self, State, restore},
-    damage::{Damage, DamageReason},
-    error::RunError,
+    error::{Damage, DamageReason, RunError},
 };
 use crate::{
-    storage,
-    {learning::learner::Learner, storage::Staged},
+    learning::learner::Learner,
+    storage::{self, Staged},
 };
 
 /// The last checkpoint.

@@ -45,19 +45,19 @@ impl Clock {
     /// nothing of either.
     pub fn record(&mut self, learner: &dyn Learner, means: Iteration, score: Option<Score>, measuring: f64) -> Record {
         let seconds = self.seconds();
-        let shots = learner.shots();
+        let (shots, progress) = (learner.shots(), learner.progress());
         let record = Record {
             shots,
             seconds,
             shots_per_second: (shots - self.last.1) as f64 / (seconds - measuring - self.last.0).max(1e-9),
-            updates: learner.updates(),
-            learning_rate: learner.learning_rate(),
+            updates: progress.updates,
+            learning_rate: progress.learning_rate,
             critic_loss: means.critic_loss,
             actor_loss: means.actor_loss,
             q_value: means.q_value,
             rollout_reward: means.mean_reward,
-            exploration: Some(learner.exploration()),
-            replay_fill: learner.replay_fill(),
+            exploration: Some(progress.exploration),
+            replay_fill: progress.replay_fill,
             held_out_reward: score.map(|score| score.mean_reward),
             best_of_k: score.map(|score| score.best_of_k),
         };

@@ -5,15 +5,12 @@ use std::{fmt::Display, path::Path};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::error::{RunError, file};
+use super::{error::RunError, json};
 use crate::{
     game::Reward,
-    learning::{
-        calendar::now,
-        learner::{Learner, TrainingPlan},
-    },
-    printing::{SOURCE, VERSION},
-    storage::{self, write_atomic},
+    learning::learner::{Learner, TrainingPlan},
+    printing::{SOURCE, VERSION, now},
+    storage,
     table::Table,
 };
 
@@ -115,7 +112,7 @@ impl Config {
     /// # Errors
     /// Where there is none, or something else.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
-        Ok(serde_json::from_slice(&storage::read(&folder.join(FILE), storage::SMALL)?)?)
+        json::read(&folder.join(FILE), storage::SMALL)
     }
 
     /// Writes it for the run in `folder`.
@@ -123,9 +120,7 @@ impl Config {
     /// # Errors
     /// Whatever the file system reports.
     pub fn write(&self, folder: &Path) -> Result<(), RunError> {
-        let path = folder.join(FILE);
-        let text = serde_json::to_string_pretty(self).map_err(|error| file(&path)(error.into()))?;
-        write_atomic(&path, (text + "\n").as_bytes()).map_err(file(&path))
+        json::write(&folder.join(FILE), self)
     }
 
     /// The version of the carom that started the run, where it is newer than this one.
@@ -163,7 +158,7 @@ pub fn run_name(moment: &str, agent: &str, table: &str, reward: Reward, seed: im
 /// A sentence on the configuration in `folder`, which cannot be read for this reason.
 pub fn unreadable(folder: &Path, reason: &std::io::Error) -> String {
     let version = || {
-        let config: Value = serde_json::from_slice(&storage::read(&folder.join(FILE), storage::SMALL).ok()?).ok()?;
+        let config: Value = json::read(&folder.join(FILE), storage::SMALL).ok()?;
         let version = config.get("version")?.as_str()?.to_owned();
         (version != VERSION).then_some(version)
     };

@@ -9,11 +9,11 @@ use super::{
     accumulator::Accumulator,
     checksum::{NO_CHECKSUM, is_whole, write_checksum},
     config::{Schedule, Start},
-    damage::{DamageReason, FORMAT},
+    error::{DamageReason, FORMAT},
 };
 use crate::{
     learning::{
-        learner::{Agent, Learner},
+        learner::{AgentKind, Learner},
         nn::weights::{Reader, WeightsError, Writer},
     },
     storage,
@@ -79,7 +79,7 @@ pub fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> 
         return Err(DamageReason::Format(format));
     }
     let Header { agent, state, learner, .. } = reader.note()?;
-    let agent = Agent::named(&agent).map_err(|_| DamageReason::Agent(agent))?;
+    let agent = AgentKind::named(&agent).map_err(|_| DamageReason::Agent(agent))?;
     Ok(((agent.restore)(&reader, learner)?, state))
 }
 

@@ -4,9 +4,12 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::json;
 use crate::{
-    storage,
-    {learning::learner::Learner, physics::CueInputs, storage::replace, table::Layout},
+    learning::learner::Learner,
+    physics::CueInputs,
+    storage::{self, replace},
+    table::Layout,
 };
 
 /// The file's name.
@@ -61,6 +64,6 @@ impl Examples {
     /// # Errors
     /// Where there are none, or something else.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
-        Ok(serde_json::from_slice(&storage::read(&folder.join(FILE), storage::LARGE)?)?)
+        json::read(&folder.join(FILE), storage::LARGE)
     }
 }

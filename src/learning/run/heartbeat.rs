@@ -10,7 +10,7 @@ use super::{
     request::Request,
     status::{Phase, RunStatus},
 };
-use crate::learning::learner::Learner;
+use crate::learning::learner::{Learner, Progress};
 
 /// Time between two beats. A run that misses many of them counts as stalled.
 pub const BEAT: Duration = Duration::from_secs(1);
@@ -76,7 +76,7 @@ impl Heartbeat {
     }
 
     fn tell(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {
-        let (shots, updates) = (learner.shots(), learner.updates());
+        let (shots, Progress { updates, exploration, replay_fill, .. }) = (learner.shots(), learner.progress());
         if phase == Phase::Paused {
             self.track.clear();
             (self.status.shots_per_second, self.status.updates_per_second) = (0.0, 0.0);
@@ -96,7 +96,7 @@ impl Heartbeat {
         }
         self.status.phase = phase;
         (self.status.shots, self.status.updates, self.status.seconds) = (shots, updates, seconds);
-        (self.status.exploration, self.status.replay_fill) = (learner.exploration(), learner.replay_fill());
+        (self.status.exploration, self.status.replay_fill) = (exploration, replay_fill);
         // Nobody has to watch: a full disk stops checkpoints, and says so, but not this.
         let _ = self.status.write(&self.folder);
         self.beaten = Some(Instant::now());
@@ -129,7 +129,7 @@ mod tests {
         })
     }
 
-    /// Holds the run up between two turns, so that it does not end before it is asked.
+    /// Holds the run up between two iterations, so that it does not end before it is asked.
     const SLOW: Limits<'_> = Limits { time: None, stop: &linger };
 
     fn linger() -> bool {

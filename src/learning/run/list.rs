@@ -4,7 +4,7 @@ use std::{
     collections::HashMap,
     io,
     path::{Path, PathBuf},
-    time::SystemTime,
+    time::{Duration, SystemTime},
 };
 
 use serde::Serialize;
@@ -16,63 +16,9 @@ use super::{
     config::{self, Config},
     follow::{Condition, Signs, Stamp, condition},
     holds_checkpoints,
-    status::{self, Phase, RunStatus},
+    status::{self, RunStatus},
 };
-use crate::{game::Reward, learning::calendar::moment};
-
-/// How a run is, in a word for lists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Stage {
-    /// A process is training it.
-    Running,
-    /// Its process waits for a request to go on.
-    Paused,
-    /// Its process is there and says nothing.
-    Stalled,
-    /// All shots have been played.
-    Finished,
-    /// It was stopped and can go on.
-    Stopped,
-    /// It broke down.
-    Failed,
-    /// Its process is gone without a word.
-    Died,
-}
-
-impl Stage {
-    /// In a word.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Running => "running",
-            Self::Paused => "paused",
-            Self::Stalled => "stalled",
-            Self::Finished => "finished",
-            Self::Stopped => "stopped",
-            Self::Failed => "failed",
-            Self::Died => "died",
-        }
-    }
-
-    /// Whether a process works on it.
-    pub const fn is_at_work(self) -> bool {
-        matches!(self, Self::Running | Self::Paused | Self::Stalled)
-    }
-}
-
-impl From<Condition> for Stage {
-    fn from(condition: Condition) -> Self {
-        match condition {
-            Condition::Is(Phase::Training | Phase::Measuring) => Self::Running,
-            Condition::Is(Phase::Paused) => Self::Paused,
-            Condition::Stalled(_) => Self::Stalled,
-            Condition::Is(Phase::Finished) => Self::Finished,
-            Condition::Is(Phase::Failed) => Self::Failed,
-            Condition::Died => Self::Died,
-            _ => Self::Stopped,
-        }
-    }
-}
+use crate::{game::Reward, printing::moment};
 
 /// A run in a line.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -99,8 +45,8 @@ pub struct Summary {
     pub started: String,
     /// When it last wrote something, UTC.
     pub changed: String,
-    /// How it is.
-    pub state: Stage,
+    /// How it is; of one that is stalled not since when, which changes every second.
+    pub state: Condition,
     /// Its folder.
     #[serde(skip)]
     pub folder: PathBuf,
@@ -180,7 +126,10 @@ impl RunsFolder {
             last_reward: last,
             changed: last_written(folder).map_or_else(|| started.clone(), moment),
             started,
-            state: condition(&signs).into(),
+            state: match condition(&signs) {
+                Condition::Stalled(_) => Condition::Stalled(Duration::ZERO),
+                state => state,
+            },
             folder: folder.to_owned(),
         }
     }

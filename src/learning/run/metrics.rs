@@ -44,7 +44,7 @@ pub struct Record {
     /// Mean reward of the shots played, exploration included.
     #[serde(rename = "rollout/ep_rew_mean", with = "number")]
     pub rollout_reward: f64,
-    /// How strongly the agent explores, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
+    /// How strongly the agent explores, see [`Progress`](crate::learning::learner::Progress::exploration).
     #[serde(
         rename = "rollout/exploration_rate",
         with = "number::option",

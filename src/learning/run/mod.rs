@@ -10,14 +10,13 @@ mod checksum;
 mod clock;
 mod config;
 mod contents;
-mod damage;
-mod discard;
 mod error;
 mod event_file;
 pub mod examples;
 pub mod follow;
 mod heartbeat;
 pub mod history;
+mod json;
 pub mod list;
 pub mod metrics;
 mod number;
@@ -29,7 +28,10 @@ pub mod seeds;
 pub mod status;
 mod training;
 
-use std::path::{Path, PathBuf};
+use std::{
+    io::ErrorKind,
+    path::{Path, PathBuf},
+};
 
 use self::{
     accumulator::Accumulator,
@@ -40,7 +42,6 @@ use self::{
 };
 pub use self::{
     config::{Config, Schedule, Start, run_name},
-    discard::discard,
     error::{OriginError, RunError},
     training::{Ending, Limits, Watcher},
 };
@@ -181,6 +182,27 @@ impl Run {
 /// Whether `folder` holds a run: something to go on from.
 pub fn holds_checkpoints(folder: &Path) -> bool {
     [checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(|name| folder.join(name).exists())
+}
+
+/// Ends a run that shall not be kept: removes what it has written into its folder, and the folder if nothing else is in
+/// it.
+///
+/// # Errors
+/// [`RunError::Missing`], [`RunError::Busy`], or whatever the file system reports.
+pub fn discard(folder: &Path) -> Result<(), RunError> {
+    if !holds_checkpoints(folder) {
+        return Err(RunError::Missing(folder.display().to_string()));
+    }
+    let _lock = lock(folder)?;
+    for name in FILES {
+        match std::fs::remove_file(folder.join(name)) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(file(&folder.join(name))(error)),
+            _ => {}
+        }
+    }
+    // Somebody may have put something else there, which is not ours to remove.
+    let _ = std::fs::remove_dir(folder);
+    Ok(())
 }
 
 /// Refuses a folder in which anything is: a run, or files that no run has written. A run would write over some of them.

@@ -1,9 +1,10 @@
 //! Numbers in files of JSON, those that are not finite by their names: JSON has no sign for them, and a run that breaks
 //! down is to be seen breaking down.
 
-use std::fmt;
-
-use serde::{Deserialize, Deserializer, Serializer, de};
+use serde::{
+    Deserialize, Deserializer, Serializer,
+    de::{Error as _, Unexpected},
+};
 
 /// The names, as protobuf's JSON writes them too.
 const NAN: &str = "NaN";
@@ -28,42 +29,27 @@ pub fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S:
 /// # Errors
 /// Anything else.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    deserializer.deserialize_any(Number)
-}
-
-struct Number;
-
-impl de::Visitor<'_> for Number {
-    type Value = f64;
-
-    fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "a number, \"{NAN}\", \"{ABOVE}\" or \"{BELOW}\"")
-    }
-
-    fn visit_f64<E: de::Error>(self, value: f64) -> Result<f64, E> {
-        Ok(value)
-    }
-
-    fn visit_u64<E: de::Error>(self, value: u64) -> Result<f64, E> {
-        Ok(value as f64)
-    }
-
-    fn visit_i64<E: de::Error>(self, value: i64) -> Result<f64, E> {
-        Ok(value as f64)
-    }
-
-    fn visit_unit<E: de::Error>(self) -> Result<f64, E> {
-        Ok(f64::NAN)
-    }
-
-    fn visit_str<E: de::Error>(self, name: &str) -> Result<f64, E> {
-        match name {
+    match Number::deserialize(deserializer)? {
+        Number::Finite(number) => Ok(number),
+        Number::None(()) => Ok(f64::NAN),
+        Number::Name(name) => match name.as_str() {
             NAN => Ok(f64::NAN),
             ABOVE => Ok(f64::INFINITY),
             BELOW => Ok(f64::NEG_INFINITY),
-            _ => Err(E::invalid_value(de::Unexpected::Str(name), &self)),
-        }
+            _ => Err(D::Error::invalid_value(Unexpected::Str(&name), &EXPECTED)),
+        },
     }
+}
+
+/// What errors say is taken.
+const EXPECTED: &str = "a number, \"NaN\", \"Infinity\" or \"-Infinity\"";
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number, \"NaN\", \"Infinity\" or \"-Infinity\"")]
+enum Number {
+    Finite(f64),
+    Name(String),
+    None(()),
 }
 
 /// The same for numbers that may be missing: those are left out of the file.

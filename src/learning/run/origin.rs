@@ -45,7 +45,8 @@ impl Weights {
         if is_checkpoint(&bytes) {
             return Ok(Self::of_checkpoint(path, checkpoint::load(path, bytes)?));
         }
-        let policy = Policy::load(path)?;
+        // From the same bytes: a run may replace the file at any moment.
+        let policy = Policy::from_bytes(&bytes, &path.display().to_string())?;
         let origin = policy.origin();
         let start = Start {
             path: path.display().to_string(),

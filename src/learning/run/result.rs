@@ -4,14 +4,13 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::error::{RunError, file};
+use super::{error::RunError, json};
 use crate::{
     learning::{
         evaluation::Score,
         learner::{Learner, TrainingPlan},
     },
     printing::VERSION,
-    storage::write_atomic,
 };
 
 /// The file's name in a run's folder; it is there once the run is finished, and taken away when it goes on.
@@ -45,7 +44,7 @@ impl RunResult {
             agent: learner.agent().to_owned(),
             plan: learner.plan(),
             table: learner.table().name.clone(),
-            updates: learner.updates(),
+            updates: learner.progress().updates,
             held_out_reward: score.mean_reward,
             best_of_k: score.best_of_k,
             version: VERSION.to_owned(),
@@ -57,8 +56,6 @@ impl RunResult {
     /// # Errors
     /// Whatever the file system reports.
     pub fn write(&self, folder: &Path) -> Result<(), RunError> {
-        let path = folder.join(FILE);
-        let text = serde_json::to_string_pretty(self).map_err(|error| file(&path)(error.into()))?;
-        write_atomic(&path, (text + "\n").as_bytes()).map_err(file(&path))
+        json::write(&folder.join(FILE), self)
     }
 }

@@ -13,11 +13,11 @@ use super::{
     METRICS, Run, RunError,
     config::{Schedule, Start},
     error::file,
-    holds_checkpoints,
+    holds_checkpoints, json,
     origin::Weights,
 };
 use crate::{
-    learning::learner::{Agent, Learner, TrainingPlan},
+    learning::learner::{AgentKind, Learner, TrainingPlan},
     storage::{self, Lock, write_atomic},
     table::Table,
 };
@@ -66,7 +66,7 @@ impl TrainingSpec {
     }
 
     fn untrained(&self, seed: u64, weights: Option<&Weights>) -> Result<Box<dyn Learner>, RunError> {
-        let agent = Agent::named(&self.agent)?;
+        let agent = AgentKind::named(&self.agent)?;
         let mut learner = (agent.start)(TrainingPlan { seed, ..self.plan }, self.table.clone(), self.settings.clone())?;
         if let Some(weights) = weights {
             weights.give_to(learner.as_mut())?;
@@ -81,14 +81,13 @@ struct GroupFile {
     seeds: u64,
     from: Option<Start>,
     #[serde(flatten)]
-    order: TrainingSpec,
+    spec: TrainingSpec,
 }
 
 impl GroupFile {
     fn read(folder: &Path) -> Result<Self, RunError> {
         let path = folder.join(FILE);
-        let text = storage::read(&path, storage::SMALL).map_err(file(&path))?;
-        serde_json::from_slice(&text).map_err(|error| file(&path)(error.into()))
+        json::read(&path, storage::SMALL).map_err(file(&path))
     }
 }
 
@@ -97,8 +96,8 @@ impl GroupFile {
 /// # Errors
 /// Where its description cannot be read.
 pub fn described(folder: &Path) -> Result<(TrainingSpec, u64, Option<Start>), RunError> {
-    let GroupFile { seeds, order, from } = GroupFile::read(folder)?;
-    Ok((order, seeds, from))
+    let GroupFile { seeds, spec, from } = GroupFile::read(folder)?;
+    Ok((spec, seeds, from))
 }
 
 /// Runs that differ in their seed alone, in folders of one folder.
@@ -115,19 +114,17 @@ impl Group {
     ///
     /// # Errors
     /// [`RunError::Occupied`] where it holds runs already, and whatever [`TrainingSpec::start`] would refuse.
-    pub fn create(folder: &Path, order: TrainingSpec, seeds: u64, weights: Option<Weights>) -> Result<Self, RunError> {
+    pub fn create(folder: &Path, spec: TrainingSpec, seeds: u64, weights: Option<Weights>) -> Result<Self, RunError> {
         // What is refused is refused before anything is written.
-        order.untrained(order.plan.seed, weights.as_ref())?;
+        spec.untrained(spec.plan.seed, weights.as_ref())?;
         std::fs::create_dir_all(folder).map_err(file(folder))?;
         let lock = super::lock(folder)?;
         super::refuse_taken(folder)?;
         if let Some(weights) = &weights {
             weights.write(&folder.join(WEIGHTS))?;
         }
-        let note = GroupFile { seeds, from: weights.as_ref().map(|weights| weights.start.clone()), order };
-        let path = folder.join(FILE);
-        let text = serde_json::to_string_pretty(&note).map_err(|error| file(&path)(error.into()))?;
-        write_atomic(&path, (text + "\n").as_bytes()).map_err(file(&path))?;
+        let note = GroupFile { seeds, from: weights.as_ref().map(|weights| weights.start.clone()), spec };
+        json::write(&folder.join(FILE), &note)?;
         Ok(Self { folder: folder.to_owned(), note, weights, _lock: lock })
     }
 
@@ -153,7 +150,7 @@ impl Group {
 
     /// The seeds, in order.
     pub fn seeds(&self) -> impl Iterator<Item = u64> {
-        let first = self.note.order.plan.seed;
+        let first = self.note.spec.plan.seed;
         (0..self.note.seeds).map(move |index| first.wrapping_add(index))
     }
 
@@ -167,7 +164,7 @@ impl Group {
         if holds_checkpoints(&folder) {
             return Run::resume(&folder);
         }
-        Ok((self.note.order.start(&folder, seed, self.weights.as_ref())?, Vec::new()))
+        Ok((self.note.spec.start(&folder, seed, self.weights.as_ref())?, Vec::new()))
     }
 
     fn member(&self, seed: u64) -> PathBuf {

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::json;
 use crate::storage::{self, replace};
 
 /// The file's name.
@@ -64,7 +65,7 @@ pub struct RunStatus {
     pub shots_per_second: f64,
     /// Updates a second over the last seconds.
     pub updates_per_second: f64,
-    /// How strongly the agent explores, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
+    /// How strongly the agent explores, see [`Progress`](crate::learning::learner::Progress::exploration).
     pub exploration: f64,
     /// Share of the replay buffer that is filled, for agents that have one.
     #[serde(rename = "memory")]
@@ -94,6 +95,6 @@ impl RunStatus {
     /// # Errors
     /// Where there is none, or something else.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
-        Ok(serde_json::from_slice(&storage::read(&folder.join(FILE), storage::SMALL)?)?)
+        json::read(&folder.join(FILE), storage::SMALL)
     }
 }

@@ -32,7 +32,7 @@ impl Watcher for Told {
     }
 }
 
-/// A run of ten turns, a line after every other one and a measurement after every fourth.
+/// A run of ten iterations, a line after every other one and a measurement after every fourth.
 pub fn small_run(folder: &Path) -> Run {
     let learner = Trainer::new(small_task(), Table::default()).unwrap();
     let schedule = Schedule { log_every: 32, evaluate_every: 64, evaluation_layouts: 20 };
@@ -73,7 +73,7 @@ fn a_run_leaves_its_configuration_metrics_checkpoint_and_policy() {
 /// What must not depend on where a run was stopped: the policy, the checkpoint, and the metrics but for the clock.
 type Files = (Option<Vec<u8>>, Vec<u8>, Vec<Record>);
 
-/// The files of a run that is stopped after so many turns, and again, and then finishes.
+/// The files of a run that is stopped after so many iterations, and again, and then finishes.
 fn files_of(start: &dyn Fn(&Path) -> Run, stops: &[u32]) -> Files {
     let folder = tempfile::tempdir().unwrap();
     let mut run = start(folder.path());
@@ -93,7 +93,7 @@ fn files_of(start: &dyn Fn(&Path) -> Run, stops: &[u32]) -> Files {
 }
 
 #[test]
-fn a_run_that_is_stopped_at_any_turn_goes_on_to_the_same_files() {
+fn a_run_that_is_stopped_at_any_iteration_goes_on_to_the_same_files() {
     let whole = files_of(&small_run, &[]);
     assert_eq!(whole.2.len(), 5);
     for stops in [[0, 0, 1], [1, 2, 3], [3, 1, 5], [4, 4, 1]] {

@@ -7,10 +7,13 @@ use serde_json::Value;
 
 use super::{
     carom::Episode,
-    environment::{Action, Environment, Observation},
+    environment::{Action, Environment, Observation, discrete_action},
 };
-use crate::learning::nn::weights::{Reader, WeightsError, Writer};
-use crate::learning::settings::SettingError;
+use crate::learning::{
+    learner::Progress,
+    nn::weights::{Reader, WeightsError, Writer},
+    settings::SettingError,
+};
 
 /// What an agent does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -19,6 +22,13 @@ pub struct Choice {
     pub action: Action,
     /// Its number, for agents with discrete actions.
     pub index: u32,
+}
+
+impl Choice {
+    /// The discrete action number `index`.
+    pub fn discrete(index: u32) -> Self {
+        Self { action: discrete_action(index), index }
+    }
 }
 
 /// One shot as an agent learns from it.
@@ -82,17 +92,8 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     /// Its settings.
     fn settings(&self) -> &Self::Settings;
 
-    /// Updates made so far.
-    fn updates(&self) -> u64;
-
-    /// Learning rate now.
-    fn learning_rate(&self) -> f64;
-
-    /// How strongly it explores now, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
-    fn exploration(&self) -> f64;
-
-    /// Share of its memory that is filled, where it has one.
-    fn replay_fill(&self) -> Option<f64>;
+    /// How far its learning has come.
+    fn progress(&self) -> Progress;
 
     /// What it does while it learns.
     ///
@@ -143,12 +144,12 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
 
 /// Where an agent and its environment are in their episodes.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub struct Progress {
+pub struct EpisodeState {
     /// Whether an episode is going on.
     running: bool,
 }
 
-impl Progress {
+impl EpisodeState {
     /// Plays a shot and learns (Algorithms 2 to 4), beginning an episode where none is going on. Returns the shot's reward and
     /// what was learnt after it.
     ///

@@ -23,7 +23,7 @@ use crate::learning::settings::{
     SettingError, check, check_batch, check_count, check_layers, check_positive, check_share,
 };
 use crate::learning::{
-    learner::note_of,
+    learner::{Progress, note_of},
     nn::weights::{Reader, WeightsError, Writer},
     replay::ReplayBuffer,
 };
@@ -252,22 +252,16 @@ impl Agent for PlainDdpg {
         &self.settings
     }
 
-    fn updates(&self) -> u64 {
-        u64::from(self.networks.updates())
-    }
-
-    fn learning_rate(&self) -> f64 {
-        let left = self.settings.left(self.settings.learning_rate_falls_to, self.shots);
-        left * self.settings.learning_rate
-    }
-
-    fn exploration(&self) -> f64 {
-        let left = self.settings.left(self.settings.noise_falls_to, self.shots);
-        left * self.settings.noise.deviation(self.settings.noise_restarts)
-    }
-
-    fn replay_fill(&self) -> Option<f64> {
-        Some(self.replay.fill())
+    fn progress(&self) -> Progress {
+        let settings = &self.settings;
+        let [rate, noise] =
+            [settings.learning_rate_falls_to, settings.noise_falls_to].map(|last| settings.left(last, self.shots));
+        Progress {
+            updates: u64::from(self.networks.updates()),
+            learning_rate: rate * settings.learning_rate,
+            exploration: noise * settings.noise.deviation(settings.noise_restarts),
+            replay_fill: Some(self.replay.fill()),
+        }
     }
 
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {

@@ -11,14 +11,14 @@ use super::{
     agent::{Agent, Choice, Settings, Transition, UpdateStats},
     batch::{Batch, number},
     carom::Episode,
-    environment::{DISCRETE_ACTIONS, Observation, STATES, discrete_action},
+    environment::{DISCRETE_ACTIONS, Observation, STATES},
     exploration::Epsilon,
     q_learning::{check_episode, check_epsilon},
     replay::{self, MEMORY, StoredTransition},
 };
 use crate::learning::settings::{SettingError, check_batch, check_count, check_layers, check_positive, check_share};
 use crate::learning::{
-    learner::note_of,
+    learner::{Progress, note_of},
     nn::{
         adam::{Adam, AdamConfig},
         mlp::Mlp,
@@ -130,10 +130,6 @@ impl Dqn {
     }
 }
 
-fn choice(index: u32) -> Choice {
-    Choice { action: discrete_action(index), index }
-}
-
 impl Agent for Dqn {
     const NAME: &'static str = "dqn";
     const TITLE: &'static str = "the thesis' deep Q-learning";
@@ -157,32 +153,25 @@ impl Agent for Dqn {
         &self.settings
     }
 
-    fn updates(&self) -> u64 {
-        u64::from(self.updates)
-    }
-
-    fn learning_rate(&self) -> f64 {
-        self.settings.learning_rate
-    }
-
-    fn exploration(&self) -> f64 {
-        self.settings.epsilon.after(self.shots)
-    }
-
-    fn replay_fill(&self) -> Option<f64> {
-        Some(self.replay.fill())
+    fn progress(&self) -> Progress {
+        Progress {
+            updates: u64::from(self.updates),
+            learning_rate: self.settings.learning_rate,
+            exploration: self.settings.epsilon.after(self.shots),
+            replay_fill: Some(self.replay.fill()),
+        }
     }
 
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
         if rng.random_bool(self.settings.epsilon.after(self.shots)) {
-            return Ok(choice(rng.random_range(0..DISCRETE_ACTIONS)));
+            return Ok(Choice::discrete(rng.random_range(0..DISCRETE_ACTIONS)));
         }
         self.best(seen)
     }
 
     fn best(&self, seen: &Observation) -> Result<Choice, Error> {
         let state = Tensor::from_slice(&seen.state, (1, STATES), &Device::Cpu)?;
-        Ok(choice(self.online.forward_frozen(&state)?.flatten_all()?.argmax(0)?.to_scalar()?))
+        Ok(Choice::discrete(self.online.forward_frozen(&state)?.flatten_all()?.argmax(0)?.to_scalar()?))
     }
 
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {

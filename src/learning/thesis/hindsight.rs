@@ -32,7 +32,7 @@ pub fn layouts(
     cue: &CueInputs,
     rng: &mut (impl Rng + ?Sized),
 ) -> Vec<Layout> {
-    let way = CueWay::of(table, layout, cue, CONTACT_STEPS);
+    let way = CueWay::of(table, layout, cue);
     let Some((first, begin)) = way.met else { return Vec::new() };
     let mut place = || {
         let [moment, speed, across] = rng.random::<[f64; 3]>();

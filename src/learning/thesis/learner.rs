@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    agent::{Agent, Progress, Settings},
+    agent::{Agent, EpisodeState, Settings},
     carom::{Carom, cue_inputs},
     ddpg::PlainDdpg,
     dqn::Dqn,
@@ -15,7 +15,9 @@ use super::{
 use crate::{
     learning::{
         evaluation::Score,
-        learner::{self, Iteration, Learner, StartError, TrainingPlan, note_of},
+        learner::{
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, check_reward, note_of, settings_from,
+        },
         nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
@@ -26,14 +28,14 @@ use crate::{
 const SHOTS_PER_ITERATION: u64 = 100;
 
 /// The lines in the list of agents.
-pub const Q_LEARNING: learner::Agent = line::<QLearning>();
+pub const Q_LEARNING: AgentKind = line::<QLearning>();
 /// See [`Q_LEARNING`].
-pub const DQN: learner::Agent = line::<Dqn>();
+pub const DQN: AgentKind = line::<Dqn>();
 /// See [`Q_LEARNING`].
-pub const DDPG: learner::Agent = line::<PlainDdpg>();
+pub const DDPG: AgentKind = line::<PlainDdpg>();
 
-const fn line<A: Agent + 'static>() -> learner::Agent {
-    learner::Agent { name: A::NAME, title: A::TITLE, start: start::<A>, restore: restore::<A>, of_one_start: &[] }
+const fn line<A: Agent + 'static>() -> AgentKind {
+    AgentKind { name: A::NAME, title: A::TITLE, start: start::<A>, restore: restore::<A>, of_one_start: &[] }
 }
 
 fn start<A: Agent + 'static>(
@@ -41,25 +43,20 @@ fn start<A: Agent + 'static>(
     table: Table,
     settings: Value,
 ) -> Result<Box<dyn Learner>, StartError> {
-    let settings: A::Settings =
-        serde_json::from_value(settings).map_err(|error| StartError::Settings(error.to_string()))?;
-    settings.validate().map_err(|error| StartError::Settings(error.to_string()))?;
-    if settings.are_about_points() && plan.reward.rule().is_none() {
-        let refused = "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
-        return Err(StartError::Settings(refused.to_owned()));
-    }
+    let settings = settings_from(settings, A::Settings::validate)?;
+    check_reward(settings.are_about_points(), plan.reward)?;
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
     let game = Carom::new(table, plan.reward, settings.episode());
     let agent = A::new(settings, &mut rng)?;
-    Ok(Box::new(TrainingLoop { plan, agent, game, progress: Progress::default(), rng, shots: 0 }))
+    Ok(Box::new(TrainingLoop { plan, agent, game, episode: EpisodeState::default(), rng, shots: 0 }))
 }
 
 fn restore<A: Agent + 'static>(reader: &Reader<'_>, note: Value) -> Result<Box<dyn Learner>, WeightsError> {
     let note: TrainingLoopState<A::Settings> = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
     note.settings.validate().map_err(|_| WeightsError::Foreign)?;
     let agent = A::restore(note.settings, reader, note.agent)?;
-    let TrainingLoopState { plan, game, progress, rng, shots, .. } = note;
-    Ok(Box::new(TrainingLoop { plan, agent, game, progress, rng, shots }))
+    let TrainingLoopState { plan, game, episode, rng, shots, .. } = note;
+    Ok(Box::new(TrainingLoop { plan, agent, game, episode, rng, shots }))
 }
 
 /// An agent and its game.
@@ -68,7 +65,7 @@ struct TrainingLoop<A> {
     plan: TrainingPlan,
     agent: A,
     game: Carom,
-    progress: Progress,
+    episode: EpisodeState,
     rng: Xoshiro256PlusPlus,
     shots: u64,
 }
@@ -80,7 +77,8 @@ struct TrainingLoopState<S> {
     settings: S,
     agent: Value,
     game: Carom,
-    progress: Progress,
+    #[serde(rename = "progress")]
+    episode: EpisodeState,
     rng: Xoshiro256PlusPlus,
     shots: u64,
 }
@@ -107,27 +105,15 @@ impl<A: Agent> Learner for TrainingLoop<A> {
         self.shots
     }
 
-    fn updates(&self) -> u64 {
-        self.agent.updates()
-    }
-
-    fn learning_rate(&self) -> f64 {
-        self.agent.learning_rate()
-    }
-
-    fn exploration(&self) -> f64 {
-        self.agent.exploration()
-    }
-
-    fn replay_fill(&self) -> Option<f64> {
-        self.agent.replay_fill()
+    fn progress(&self) -> Progress {
+        self.agent.progress()
     }
 
     fn iterate(&mut self) -> candle_core::Result<Iteration> {
         let shots = self.plan.shots.saturating_sub(self.shots).clamp(1, SHOTS_PER_ITERATION);
         let (mut iteration, mut updates) = (Iteration::default(), 0_u32);
         for _ in 0..shots {
-            let (reward, learnt) = self.progress.shoot(&mut self.agent, &mut self.game, &mut self.rng)?;
+            let (reward, learnt) = self.episode.shoot(&mut self.agent, &mut self.game, &mut self.rng)?;
             iteration.mean_reward += reward / shots as f64;
             if let Some(stats) = learnt {
                 iteration.critic_loss += stats.loss;
@@ -142,15 +128,12 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
-        let (mut total, mut reached) = (0.0, 0_usize);
-        for layout in layouts {
+        let play = |layout| {
             let choice = self.agent.best(&self.game.observation(layout))?;
             let reward = self.game.reward_of(layout, choice.action);
-            total += reward;
-            reached += usize::from(reward >= 1.0);
-        }
-        let count = layouts.len().max(1) as f64;
-        Ok(Score { mean_reward: total / count, best_of_k: reached as f64 / count })
+            Ok((reward, reward >= 1.0))
+        };
+        Ok(Score::of(&layouts.iter().map(play).collect::<candle_core::Result<Vec<_>>>()?))
     }
 
     fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
@@ -169,7 +152,7 @@ impl<A: Agent> Learner for TrainingLoop<A> {
             settings: self.agent.settings().clone(),
             agent,
             game: self.game.clone(),
-            progress: self.progress,
+            episode: self.episode,
             rng: self.rng.clone(),
             shots: self.shots,
         })

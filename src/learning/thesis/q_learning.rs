@@ -11,12 +11,12 @@ use serde_json::Value;
 use super::{
     agent::{Agent, Choice, Settings, Transition, UpdateStats},
     carom::Episode,
-    environment::{DISCRETE_ACTIONS, Observation, discrete_action},
+    environment::{DISCRETE_ACTIONS, Observation},
     exploration::Epsilon,
 };
 use crate::learning::settings::{SettingError, check, check_positive, check_share};
 use crate::learning::{
-    learner::note_of,
+    learner::{Progress, note_of},
     nn::weights::{Reader, WeightsError, Writer},
 };
 
@@ -103,10 +103,6 @@ impl QLearning {
     }
 }
 
-fn choice(index: u32) -> Choice {
-    Choice { action: discrete_action(index), index }
-}
-
 impl Agent for QLearning {
     const NAME: &'static str = "q-learning";
     const TITLE: &'static str = "the thesis' Q-learning with a table of squares";
@@ -120,33 +116,26 @@ impl Agent for QLearning {
         &self.settings
     }
 
-    fn updates(&self) -> u64 {
-        self.shots
-    }
-
-    fn learning_rate(&self) -> f64 {
-        self.settings.learning_rate
-    }
-
-    fn exploration(&self) -> f64 {
-        self.settings.epsilon.after(self.shots)
-    }
-
-    fn replay_fill(&self) -> Option<f64> {
-        None
+    fn progress(&self) -> Progress {
+        Progress {
+            updates: self.shots,
+            learning_rate: self.settings.learning_rate,
+            exploration: self.settings.epsilon.after(self.shots),
+            replay_fill: None,
+        }
     }
 
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
         let any = rng.random_bool(self.settings.epsilon.after(self.shots));
         let index = if any { None } else { self.favourite(seen.cell).map(|(index, _)| index) };
         // Among equals, chance decides.
-        Ok(choice(index.unwrap_or_else(|| rng.random_range(0..DISCRETE_ACTIONS))))
+        Ok(Choice::discrete(index.unwrap_or_else(|| rng.random_range(0..DISCRETE_ACTIONS))))
     }
 
     fn best(&self, seen: &Observation) -> Result<Choice, Error> {
         // Among equals, a chance that is the same whenever the state is met.
         let any = || Xoshiro256PlusPlus::seed_from_u64(u64::from(seen.cell)).random_range(0..DISCRETE_ACTIONS);
-        Ok(choice(self.favourite(seen.cell).map_or_else(any, |(index, _)| index)))
+        Ok(Choice::discrete(self.favourite(seen.cell).map_or_else(any, |(index, _)| index)))
     }
 
     fn learn(&mut self, transition: &Transition, _rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {

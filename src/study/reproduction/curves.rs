@@ -9,7 +9,7 @@ use crate::{
     game::Reward,
     learning::{
         evaluation::{HELD_OUT_SEED, held_out_layouts},
-        learner::{Agent, Learner, StartError, TrainingPlan},
+        learner::{AgentKind, Learner, StartError, TrainingPlan},
         thesis::carom::{Carom, Episode},
     },
     table::{Layout, Table},
@@ -82,7 +82,7 @@ impl Training {
     /// # Errors
     /// Where the agent cannot start.
     pub fn run(&self, table: &Table, played: &dyn Fn(u64) -> bool) -> Result<Option<Curve>, StartError> {
-        let agent = Agent::named(self.agent).map_err(|error| StartError::Settings(error.to_string()))?;
+        let agent = AgentKind::named(self.agent).map_err(StartError::settings)?;
         let plan = TrainingPlan { reward: self.reward, seed: self.seed, shots: self.shots };
         let mut learner = (agent.start)(plan, table.clone(), self.reading.settings(self.shots))?;
         let mut curve = Curve::default();
@@ -106,9 +106,9 @@ impl Training {
 fn interval(learner: &mut dyn Learner, played: &dyn Fn(u64) -> bool) -> Result<Option<Point>, Error> {
     let (start, mut point, mut updates) = (learner.shots(), Point::default(), 0.0);
     while learner.shots() < start + INTERVAL && !learner.is_finished() {
-        let (shots, updates_before) = (learner.shots(), learner.updates());
+        let (shots, updates_before) = (learner.shots(), learner.progress().updates);
         let turn = learner.iterate()?;
-        let (shots, made) = (learner.shots() - shots, (learner.updates() - updates_before) as f64);
+        let (shots, made) = (learner.shots() - shots, (learner.progress().updates - updates_before) as f64);
         if !played(shots) {
             return Ok(None);
         }

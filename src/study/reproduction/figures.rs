@@ -242,7 +242,7 @@ mod tests {
         use crate::{learning::learner, table::Table};
         for figure in FIGURES {
             assert_eq!(Figure::named(figure.name), Ok(figure));
-            let agent = learner::Agent::named(figure.agent).unwrap();
+            let agent = learner::AgentKind::named(figure.agent).unwrap();
             for reading in figure.readings {
                 let plan = learner::TrainingPlan { reward: figure.reward, seed: 1, shots: 1 };
                 let learner = (agent.start)(plan, Table::default(), reading.settings(1)).unwrap();

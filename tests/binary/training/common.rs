@@ -15,7 +15,7 @@ use crate::program::{self, Kept, Outcome, outcome};
 pub const SMALL: &str =
     "actor_layers = [16]\ncritic_layers = [16]\nbatch = 32\nactor_batch = 8\nshots_per_update = 16\nreplay = 5000\n";
 
-/// A run of 40 turns with ten measurements.
+/// A run of 40 iterations with ten measurements.
 pub const SHORT: &str = "train --config small.toml --steps 640 --evaluate-every 64 --evaluation-layouts 20 --seed 3";
 
 /// A folder with the small agent's settings.

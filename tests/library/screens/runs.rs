@@ -7,7 +7,7 @@ use carom::{
         Config,
         examples::{Example, Examples},
         follow::{Condition, Update},
-        list::{Listing, Stage, Summary},
+        list::{Listing, Summary},
         metrics::Record,
         status::{Phase, RunStatus},
     },
@@ -22,7 +22,7 @@ pub const RUNS: &str = "/runs";
 pub const NAME: &str = "20261120-091500-ddpg-match-r3-1";
 pub const OTHER: &str = "20261119-180102-ddpg-match-r3-2";
 
-pub fn summary(name: &str, shots: u64, best: Option<f64>, state: Stage) -> Summary {
+pub fn summary(name: &str, shots: u64, best: Option<f64>, state: Condition) -> Summary {
     Summary {
         name: name.into(),
         agent: "ddpg".into(),
@@ -42,9 +42,9 @@ pub fn summary(name: &str, shots: u64, best: Option<f64>, state: Stage) -> Summa
 
 pub fn listing() -> Listing {
     let runs = vec![
-        summary(OTHER, 5_000_000, Some(0.931), Stage::Finished),
-        summary(NAME, 1_200_000, Some(0.874), Stage::Running),
-        summary("20261118-three-cushions/seed-1", 40_000, None, Stage::Stopped),
+        summary(OTHER, 5_000_000, Some(0.931), Condition::Is(Phase::Finished)),
+        summary(NAME, 1_200_000, Some(0.874), Condition::Is(Phase::Training)),
+        summary("20261118-three-cushions/seed-1", 40_000, None, Condition::Is(Phase::Stopped)),
     ];
     Listing { runs, ..Listing::default() }
 }

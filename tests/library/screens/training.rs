@@ -13,7 +13,7 @@ use carom::{
         Policy,
         run::{
             follow::{Condition, Update},
-            list::{Listing, Stage},
+            list::Listing,
             request::Request,
             status::Phase,
         },
@@ -51,7 +51,7 @@ fn the_list_of_runs() {
 fn the_newest_run_comes_first_and_the_mark_stays_at_its_run() {
     let player = Player::listing(TRUE_COLOUR).press("Down");
     let mut more = listing();
-    more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Stage::Running));
+    more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::Is(Phase::Training)));
     let player = player.report(Report::Runs(Ok(more))).press("Enter");
     assert_eq!(player.app.wanted().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
 }
@@ -240,7 +240,7 @@ fn a_run_is_started_once_however_long_the_key_is_held() {
     let player = died().press("r r r");
     assert_eq!(player.effects.len(), 1);
     player.says("the run is being started");
-    let listed = Listing { runs: vec![summary(NAME, 9, None, Stage::Stopped)], ..Listing::default() };
+    let listed = Listing { runs: vec![summary(NAME, 9, None, Condition::Is(Phase::Stopped))], ..Listing::default() };
     let player = player.press("Esc").report(Report::Runs(Ok(listed)));
     assert_eq!(player.press("r r").effects.len(), 1, "nor from the list");
     let again = died().press("r").condition(Condition::Is(Phase::Training), None).condition(Condition::Died, None);

@@ -39,9 +39,9 @@ pub struct Origin {
     pub table: String,
     /// What it was rewarded for.
     pub reward: Reward,
-    /// What its actions mean ([`ActionSpace::meaning`](crate::learning::ddpg::action::ActionSpace::meaning)).
+    /// What its actions mean (`ActionSpace::meaning`).
     pub actions: String,
-    /// Version of the input features ([`Inputs::version`](crate::learning::ddpg::context::Inputs::version)).
+    /// Version of the input features (`Inputs::version`).
     pub features: String,
     /// Seed of the run.
     pub seed: u64,
@@ -53,7 +53,7 @@ pub struct Origin {
     pub version: String,
     /// Mean reward of its first choice on the run's held-out layouts.
     pub held_out_reward: f64,
-    /// What is told by what the critic says.
+    /// Platt scaling from the critic's logit to the probability that is reported.
     #[serde(default)]
     pub calibration: Calibration,
     /// Settings of the run.
@@ -135,13 +135,19 @@ impl Policy {
     /// # Errors
     /// Where the file is missing, damaged, from another program, or for other features or actions.
     pub fn load(path: &Path) -> Result<Self, PolicyError> {
+        Self::load_with_bytes(path).map(|(policy, _)| policy)
+    }
+
+    /// The same, and the bytes that it was read from: a run may have replaced the file before it is read again.
+    pub(super) fn load_with_bytes(path: &Path) -> Result<(Self, Vec<u8>), PolicyError> {
         let origin = path.display().to_string();
         let bytes =
             storage::read(path, storage::LARGE).map_err(|reason| PolicyError::Read { path: origin.clone(), reason })?;
-        Self::from_bytes(&bytes, &origin)
+        Ok((Self::from_bytes(&bytes, &origin)?, bytes))
     }
 
-    fn from_bytes(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
+    /// The policy in a file's bytes; `name` is what errors call the file.
+    pub(in crate::learning) fn from_bytes(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
         let content = |reason| PolicyError::Content { origin: name.to_owned(), reason };
         let reader = Reader::new(bytes).map_err(content)?;
         let origin: Origin = reader.note().map_err(content)?;

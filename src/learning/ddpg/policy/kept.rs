@@ -6,13 +6,10 @@ use std::{
 };
 
 use super::{Policy, file::PolicyError};
-use crate::storage::{self, write_atomic};
+use crate::storage::{LONGEST_NAME, is_name, write_atomic};
 
 /// What the files are called after their names.
 const EXTENSION: &str = "safetensors";
-
-/// Longest name, bytes; file systems take some more.
-pub const LONGEST_NAME: usize = 100;
 
 /// Why a policy cannot be kept.
 #[derive(Debug, thiserror::Error)]
@@ -57,24 +54,13 @@ pub fn keep(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<
     if kept.exists() && !replaces {
         return Err(KeepError::Taken(name.to_owned()));
     }
-    Policy::load(policy)?;
-    let copy = || write_atomic(&kept, &storage::read(policy, storage::LARGE)?);
-    copy().map_err(|reason| KeepError::File { path: kept.display().to_string(), reason })?;
+    let (_, bytes) = Policy::load_with_bytes(policy)?;
+    write_atomic(&kept, &bytes).map_err(|reason| KeepError::File { path: kept.display().to_string(), reason })?;
     Ok(kept)
 }
 
 fn file(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.{EXTENSION}"))
-}
-
-/// Whether a policy may be called so.
-pub fn is_name(name: &str) -> bool {
-    (1..=LONGEST_NAME).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_letter)
-}
-
-/// Whether the letter may stand in a policy's name.
-pub fn is_letter(letter: char) -> bool {
-    letter.is_alphanumeric() || "-_.".contains(letter)
 }
 
 #[cfg(test)]

@@ -10,19 +10,17 @@ use crate::{
 
 /// Plays one shot on every layout.
 pub fn score(policy: &Policy, table: &Table, reward: Reward, layouts: &[Layout]) -> Score {
-    let (mut total, mut reached) = (0.0, 0usize);
+    let mut played = Vec::with_capacity(layouts.len());
     // Small batches stay in the processor's cache.
     for layouts in layouts.chunks(64) {
         for (layout, proposals) in layouts.iter().zip(policy.proposals_for(table, layouts, &Skill::PERFECT)) {
             let first = reward.of(table, layout, &proposals[0].cue);
-            total += first;
             let made = |earned: f64| earned >= 1.0;
             // On the `thesis` table a few proposals would take all the time, and next to none of those earn anything.
             let value = |proposal: &Proposal| reward.within(table, layout, &proposal.cue, CONTACT_STEPS);
             let rest = || proposals[1..].iter().any(|proposal| made(value(proposal)));
-            reached += usize::from(made(first) || rest());
+            played.push((first, made(first) || rest()));
         }
     }
-    let count = layouts.len().max(1) as f64;
-    Score { mean_reward: total / count, best_of_k: reached as f64 / count }
+    Score::of(&played)
 }

@@ -2,6 +2,8 @@
 
 use std::{fmt, path::Path, time::Duration};
 
+use serde::{Serialize, Serializer};
+
 use super::stamp::Stamp;
 use crate::{
     learning::run::{
@@ -17,7 +19,7 @@ const HEARTBEAT_TIMEOUT: Duration = Duration::from_secs(15);
 /// The same while it plays the held-out layouts, which may be many.
 const MEASURING_TIMEOUT: Duration = Duration::from_secs(600);
 
-/// Time in which a process begins, or ends, to hold the lock and to say what it does: the two are not seen at one moment.
+/// Locking and writing `state.json` are two steps; for so long their disagreement means nothing.
 const FRESH: Duration = Duration::from_secs(2);
 
 /// How a run is.
@@ -46,6 +48,26 @@ impl Condition {
         self == other || matches!((self, other), (Self::Stalled(_), Self::Stalled(_)))
     }
 
+    /// In a word, for lists and for programs.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Is(Phase::Training | Phase::Measuring) => "running",
+            Self::Is(phase) => phase.name(),
+            Self::Stalled(_) => "stalled",
+            Self::Died => "died",
+            Self::Unknown | Self::Missing | Self::Interrupted | Self::Removed => "stopped",
+        }
+    }
+
+    /// Whether a process works on it.
+    pub const fn is_at_work(self) -> bool {
+        match self {
+            Self::Is(phase) => !phase.is_over(),
+            Self::Stalled(_) => true,
+            _ => false,
+        }
+    }
+
     /// Whether nothing more will come unless the run is resumed.
     pub const fn is_over(self) -> bool {
         match self {
@@ -67,6 +89,12 @@ impl fmt::Display for Condition {
             Self::Interrupted => out.write_str("stopped"),
             Self::Removed => out.write_str("removed"),
         }
+    }
+}
+
+impl Serialize for Condition {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.word())
     }
 }
 

@@ -3,7 +3,7 @@
 
 use crate::{
     drills::{Category, Exercise, Library},
-    learning::policy::kept::is_name,
+    storage::is_name,
     table::PRESETS,
     terminal::{
         DrillTask, Effect,

@@ -4,9 +4,10 @@ use std::time::Instant;
 
 use crate::{
     learning::{
-        policy::kept::{KeepError, is_name},
+        policy::kept::KeepError,
         run::{follow::Condition as RunCondition, request::Request},
     },
+    storage::is_name,
     terminal::{
         Effect, Keeping, Launch, TrainingAction as Action, TrainingCondition as Condition,
         pages::training::{Form, Question, Screen, TrainingPage, Watch, watch::Named},

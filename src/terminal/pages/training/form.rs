@@ -10,8 +10,8 @@ use crate::{
     learning::{
         agents::AGENTS,
         run::{list::Summary, run_name},
-        timestamp,
     },
+    printing::timestamp,
     terminal::{Launch, pages::training::charts::around},
 };
 

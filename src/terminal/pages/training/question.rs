@@ -1,7 +1,7 @@
 //! What the training screen asks before it does something.
 
 use crate::{
-    learning::policy::kept::{LONGEST_NAME, is_letter},
+    storage::{LONGEST_NAME, is_letter},
     terminal::{
         TrainingCondition,
         pages::training::watch::Watch,
@@ -87,7 +87,7 @@ fn proposed_name(run: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::policy::kept::is_name;
+    use crate::storage::is_name;
 
     #[test]
     fn every_run_is_proposed_a_name_that_is_accepted() {

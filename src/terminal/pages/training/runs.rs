@@ -1,6 +1,10 @@
 //! The list of runs and the mark in it.
 
-use crate::learning::run::list::{Listing, Stage, Summary};
+use crate::learning::run::{
+    follow::Condition,
+    list::{Listing, Summary},
+    status::Phase,
+};
 
 /// The list of runs.
 #[derive(Debug, Default)]
@@ -77,7 +81,9 @@ impl RunList {
         match self.marked().map(|run| run.state) {
             None => Some("there is no run yet; n starts one"),
             Some(state) if state.is_at_work() => Some("this run is at work; Enter watches it"),
-            Some(Stage::Finished) => Some("this run is finished; n starts a new one, with its weights if you like"),
+            Some(Condition::Is(Phase::Finished)) => {
+                Some("this run is finished; n starts a new one, with its weights if you like")
+            }
             Some(_) => None,
         }
     }

@@ -118,14 +118,14 @@ impl Watch {
         }
     }
 
-    /// Where charts end: at the plan, or where the last turn of the run ended, which may be a few shots beyond.
+    /// Where charts end: at the plan, or where the last iteration of the run ended, which may be a few shots beyond.
     fn planned_end(&self) -> Option<u64> {
         self.planned().map(|planned| planned.max(self.own.run.shots()))
     }
 
     /// Whether a process works on it.
     pub const fn is_at_work(&self) -> bool {
-        is_at_work(self.condition())
+        self.condition().is_at_work()
     }
 
     /// Whether it is paused until a request to go on.
@@ -196,15 +196,6 @@ impl Watch {
 
 /// Shots that a run plays a second, on average; 0 while it does not train.
 fn speed(run: &Followed) -> f64 {
-    let status = run.status.as_ref().filter(|_| is_at_work(run.condition));
+    let status = run.status.as_ref().filter(|_| run.condition.is_at_work());
     status.map_or(0.0, |status| status.shots as f64 / status.seconds.max(1.0))
-}
-
-/// Whether a process works on a run that is so.
-const fn is_at_work(condition: Condition) -> bool {
-    match condition {
-        Condition::Is(phase) => !phase.is_over(),
-        Condition::Stalled(_) => true,
-        _ => false,
-    }
 }

@@ -11,10 +11,8 @@ use ratatui::{
 
 use crate::{
     drills::{Goal, Record, Session, Venue},
-    learning::{
-        moment,
-        run::history::{NonFinite, Point, Span as Values},
-    },
+    learning::run::history::{NonFinite, Point, Span as Values},
+    printing::moment,
     terminal::{
         pages::drills::{
             DrillsPage, Estimate, record_of,

@@ -8,7 +8,7 @@ use ratatui::{
 };
 
 use crate::{
-    learning::run::list::{Stage, Summary},
+    learning::run::{follow::Condition, list::Summary, status::Phase},
     terminal::{
         pages::{
             Target,
@@ -40,7 +40,7 @@ const COLUMNS: [Column; 9] = [
     Column { heading: "%", is_number: true, dispensable: 0, text: |run| percent(run) },
     Column { heading: "best", is_number: true, dispensable: 0, text: |run| reward(run.best_reward) },
     Column { heading: "last", is_number: true, dispensable: 1, text: |run| reward(run.last_reward) },
-    Column { heading: "state", is_number: false, dispensable: 0, text: |run| run.state.name().to_owned() },
+    Column { heading: "state", is_number: false, dispensable: 0, text: |run| run.state.word().to_owned() },
 ];
 
 fn percent(run: &Summary) -> String {
@@ -89,9 +89,9 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
         let run = &runs[n];
         let style = match run.state {
             _ if n == mark => ui.theme.accent(),
-            Stage::Running | Stage::Paused => ui.theme.good(),
-            Stage::Stalled | Stage::Failed | Stage::Died => ui.theme.warning(),
-            Stage::Finished | Stage::Stopped => ui.theme.text(),
+            Condition::Stalled(_) | Condition::Died | Condition::Is(Phase::Failed) => ui.theme.warning(),
+            state if state.is_at_work() => ui.theme.good(),
+            _ => ui.theme.text(),
         };
         if n == mark {
             ui.buffer.set_string(area.x + 1, y, ui.caps.pick("▸", ">"), ui.theme.accent());

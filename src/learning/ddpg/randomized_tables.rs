@@ -1,11 +1,12 @@
-//! Where training with a context is played, and by whom: tables that are not quite what the agent is told, and hands that err.
+//! Domain randomization (Tobin et al. 2017) for training with a context: tables that are not quite what the agent is told, and hands
+//! that err.
 
 use std::sync::Arc;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{action::Action, approach::playable, context::Inputs, observation::Observation, observation_batch::Seen};
+use super::{action::Action, context::Inputs, observation::Observation, observation_batch::Seen, ways::playable};
 use crate::{
     game::Reward,
     learning::evaluation::CONTACT_STEPS,
@@ -15,7 +16,7 @@ use crate::{
 };
 
 /// Tables that are drawn for a run, and how many each of them may really be.
-const VENUES: usize = 4096;
+const TABLES: usize = 4096;
 const REAL: usize = 4;
 
 /// One in so many is the run's own table, and one in so many is like `textbook`; the others are drawn around the run's own.
@@ -31,14 +32,14 @@ const ERRORS: [f64; 2] = [0.5, 15.0];
 /// Standard deviation of each coordinate of each ball for players who err, m: as the coach takes it to be.
 const PLACING: f64 = 3e-3;
 
-/// Tells the numbers of venues from all else that is drawn from a run's seed.
+/// Tells the random numbers of these tables from all others that are drawn from a run's seed.
 const STREAM: u64 = 0x7665_6e75_6573;
 
 /// Under which conditions a shot is played: what an agent with a context is told.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Conditions {
-    /// The number of the venue.
-    pub venue: u32,
+    /// The number of the table.
+    pub table: u32,
     /// The player's errors as a multiple of an expert's, 0 for none.
     pub errors: f32,
 }
@@ -47,27 +48,27 @@ impl Conditions {
     /// The same on the run's own table.
     #[must_use]
     pub const fn at_home(self) -> Self {
-        Self { venue: self.venue - self.venue % OWN as u32, ..self }
+        Self { table: self.table - self.table % OWN as u32, ..self }
     }
 }
 
 /// A table as it is told, and as it may really be.
 #[derive(Clone, Debug)]
-struct Venue {
+struct RandomizedTable {
     told: Arc<Table>,
     /// Where players who err play; a player without errors has no doubts either.
     real: Vec<Table>,
 }
 
-/// All venues of a run.
+/// All tables of a run.
 #[derive(Clone, Debug)]
-pub struct Venues(Vec<Venue>);
+pub struct RandomizedTables(Vec<RandomizedTable>);
 
-impl Venues {
+impl RandomizedTables {
     /// Those for a run on `table`: it alone, or with a context many, which depend on nothing but the seed.
     pub fn new(table: &Arc<Table>, inputs: Inputs, seed: u64) -> Self {
         if !inputs.context {
-            return Self(vec![Venue { told: Arc::clone(table), real: Vec::new() }]);
+            return Self(vec![RandomizedTable { told: Arc::clone(table), real: Vec::new() }]);
         }
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ STREAM);
         let textbook = Table::preset("textbook").unwrap_or_default();
@@ -79,8 +80,8 @@ impl Venues {
         let own = TableDoubt::of(table);
         // Under other laws of the rails its constants would be those of this very table.
         let near = TableDoubt { laws: Vec::new(), ..own.clone() };
-        let mut all = Vec::with_capacity(VENUES);
-        for number in 0..VENUES {
+        let mut all = Vec::with_capacity(TABLES);
+        for number in 0..TABLES {
             let mut normal = || normal_pair(&mut rng)[0];
             let is_like_textbook = number % TEXTBOOK == 1;
             let told = match &around[usize::from(is_like_textbook)] {
@@ -92,19 +93,19 @@ impl Venues {
             let doubt = if number % OWN == 0 { &own } else { &near };
             let sampler = TableSampler::new(&told, doubt, 1.0);
             let real = sampler.map_or_else(Vec::new, |sampler| (0..REAL).map(|_| sampler.draw(&mut normal)).collect());
-            all.push(Venue { told: Arc::new(told), real });
+            all.push(RandomizedTable { told: Arc::new(told), real });
         }
         Self(all)
     }
 
-    /// Conditions of a shot to come; the player has no errors with the probability `perfect`. Where there is one venue, nothing is drawn.
+    /// Conditions of a shot to come; the player has no errors with the probability `perfect`. Where there is one table, nothing is drawn.
     pub fn draw(&self, perfect: f64, rng: &mut (impl Rng + ?Sized)) -> Conditions {
         if self.0.len() < 2 {
             return Conditions::default();
         }
-        let venue = rng.random_range(0..self.0.len()) as u32;
+        let table = rng.random_range(0..self.0.len()) as u32;
         let errors = if rng.random_bool(perfect) { 0.0 } else { Self::errors(rng) };
-        Conditions { venue, errors }
+        Conditions { table, errors }
     }
 
     /// The errors of a player who errs, as a multiple of an expert's.
@@ -115,7 +116,7 @@ impl Venues {
 
     /// The table that is told under these conditions.
     pub fn table(&self, conditions: Conditions) -> &Arc<Table> {
-        &self.0[conditions.venue as usize % self.0.len()].told
+        &self.0[conditions.table as usize % self.0.len()].told
     }
 
     /// What an agent sees of a layout under these conditions.
@@ -132,7 +133,7 @@ impl Venues {
         conditions: Conditions,
         rng: &mut (impl Rng + ?Sized),
     ) -> f64 {
-        let Venue { told, real } = &self.0[conditions.venue as usize % self.0.len()];
+        let RandomizedTable { told, real } = &self.0[conditions.table as usize % self.0.len()];
         let Ok(cue) = playable(told, layout, observation, action) else { return 0.0 };
         if conditions.errors == 0.0 {
             return reward.within(told, layout, &cue, CONTACT_STEPS);
@@ -156,16 +157,17 @@ mod tests {
     fn with_a_context_there_are_many_tables_that_depend_on_the_seed_alone_and_without_there_is_one() {
         let table = Arc::new(Table::default());
         let inputs = |context| Inputs { space: ActionSpace::Full, context, closed_form: true, rails_first: false };
-        let alone = Venues::new(&table, inputs(false), 1);
+        let alone = RandomizedTables::new(&table, inputs(false), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         assert_eq!((alone.0.len(), alone.draw(0.35, &mut rng)), (1, Conditions::default()));
-        let [one, same, other] = [1, 1, 2].map(|seed| Venues::new(&table, inputs(true), seed));
-        let told = |venues: &Venues| venues.0.iter().map(|venue| Table::clone(&venue.told)).collect::<Vec<_>>();
+        let [one, same, other] = [1, 1, 2].map(|seed| RandomizedTables::new(&table, inputs(true), seed));
+        let told =
+            |tables: &RandomizedTables| tables.0.iter().map(|table| Table::clone(&table.told)).collect::<Vec<_>>();
         assert_eq!(told(&one), told(&same));
         assert_ne!(told(&one), told(&other));
-        let known = one.0.iter().filter(|venue| knows(&venue.told)).count();
-        assert!(known > VENUES * 9 / 10, "{known} of {VENUES}");
-        assert!(one.0.iter().all(|venue| venue.real.len() == REAL));
+        let known = one.0.iter().filter(|table| knows(&table.told)).count();
+        assert!(known > TABLES * 9 / 10, "{known} of {TABLES}");
+        assert!(one.0.iter().all(|table| table.real.len() == REAL));
         let perfect = (0..1000).filter(|_| one.draw(0.35, &mut rng).errors == 0.0).count();
         assert!((300..400).contains(&perfect), "{perfect}");
     }
@@ -173,7 +175,7 @@ mod tests {
     #[test]
     fn who_errs_more_makes_fewer_points() {
         let table = Arc::new(Table::default());
-        let venues = Venues::new(
+        let tables = RandomizedTables::new(
             &table,
             Inputs { space: ActionSpace::Full, context: true, closed_form: true, rails_first: false },
             1,
@@ -185,13 +187,13 @@ mod tests {
                 let layout = Layout::random(&table, &mut rng);
                 // At the first ball, rather full, at middle speed: met by everybody whose hand is steady.
                 let (observation, action) = (Observation::new(&layout, 0), [-0.2, -0.2, 0.0, 0.0, -1.0]);
-                let conditions = Conditions { venue: 0, errors };
-                venues.attempt(Reward::R1, &layout, (&observation, action), conditions, &mut rng)
+                let conditions = Conditions { table: 0, errors };
+                tables.attempt(Reward::R1, &layout, (&observation, action), conditions, &mut rng)
             });
             points.sum::<f64>()
         });
         assert!(made[0] >= made[1] && made[1] > made[2] + 20.0, "{made:?}");
-        let again = venues.draw(0.35, &mut rng);
+        let again = tables.draw(0.35, &mut rng);
         assert!(again.errors == 0.0 || (0.5..15.0).contains(&again.errors));
     }
 }
