@@ -34,14 +34,27 @@ pub struct CueInputs {
     pub speed: f64,
 }
 
-/// The JSON form of [`CueInputs`]: degrees, as people read and write them.
-#[derive(Clone, Copy, Serialize, Deserialize)]
-struct CueDegrees {
-    a: f64,
-    b: f64,
-    theta_deg: f64,
-    phi_deg: f64,
-    speed: f64,
+/// The five inputs as [`CueInputs`], but with the angles in degrees, as people read and write them: turning radians back into degrees
+/// would lose the last bit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CueDegrees {
+    /// Horizontal offset of the tip in units of R.
+    pub a: f64,
+    /// Vertical offset of the tip in units of R.
+    pub b: f64,
+    /// Elevation of the cue, degrees.
+    pub theta_deg: f64,
+    /// Direction of the stroke, degrees.
+    pub phi_deg: f64,
+    /// Speed of the cue, m/s.
+    pub speed: f64,
+}
+
+impl CueDegrees {
+    /// A level stroke through the ball's centre.
+    pub const fn centre(phi_deg: f64, speed: f64) -> Self {
+        Self { a: 0.0, b: 0.0, theta_deg: 0.0, phi_deg, speed }
+    }
 }
 
 impl From<CueDegrees> for CueInputs {

@@ -13,7 +13,7 @@ pub use contact::{
     ActiveSet, Contact, Contacts, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Resolved, accelerations, factorize,
     forces, resolve, stop_by_impulses, substitute, yielding,
 };
-pub use cue::{CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
+pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
 #[cfg(test)]
 pub use cue_room::tests::collides;
 pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};

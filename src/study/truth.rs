@@ -154,7 +154,7 @@ mod tests {
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
             for _ in 0..adversarial_shots {
                 let shot = adversarial::shot(&table, &mut rng);
-                let cue = shot.cue.inputs();
+                let cue = physics::CueInputs::from(shot.cue);
                 judge(&table, &StudyShot { layout: shot.layout, cue, impulse: physics::strike(&table, &cue) });
             }
         }

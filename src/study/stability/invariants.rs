@@ -222,7 +222,8 @@ fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
 mod tests {
     use super::*;
     use crate::{
-        study::stability::{Limits, Stroke, Violation},
+        physics::CueDegrees,
+        study::stability::{Limits, Violation},
         table::Layout,
     };
 
@@ -230,7 +231,7 @@ mod tests {
     fn violations(tamper: impl Fn(&mut Trace)) -> Vec<Violation> {
         let table = Table::preset("textbook").unwrap();
         let layout = Layout::new([DVec2::new(-0.5, 0.01), DVec2::ZERO, DVec2::new(1.0, 0.5)]);
-        let shot = Shot { layout, cue: Stroke { b: 0.3, ..Stroke::centre(0.0, 4.0) } };
+        let shot = Shot { layout, cue: CueDegrees { b: 0.3, ..CueDegrees::centre(0.0, 4.0) } };
         let mut trace = Trace::new(&table);
         trace.play(&table, &shot);
         tamper(&mut trace);
