@@ -209,6 +209,13 @@ impl Segment {
         match course {
             Course::Contact(Curve { position: [c3, c4, c5], .. }) => {
                 let bend = self.half_acceleration + t * (c3 + t * (c4 + t * c5));
+    /// Coefficients of the position along the cloth about the start, those of `t⁰` first, m, m/s and so on: not of a ball in the air.
+    #[inline]
+    pub fn coefficients(&self) -> [DVec2; 6] {
+        let [c3, c4, c5] = self.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
+        [self.position, self.velocity, self.half_acceleration, c3, c4, c5]
+    }
+
                 self.position + t * (self.velocity + t * bend)
             }
             Course::Hops(hops) => hops.state_after(t).position.truncate(),

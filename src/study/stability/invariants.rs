@@ -69,7 +69,7 @@ fn is_finite(trace: &Trace) -> bool {
         segment.start.is_finite()
             && piece.end.is_finite()
             && segment.spin.is_finite()
-            && coefficients(segment).iter().all(|c| c.is_finite())
+            && segment.coefficients().iter().all(|c| c.is_finite())
             && segment.curve().is_none_or(|curve| curve.spin.iter().all(|c| c.is_finite()))
     };
     trace.pieces.iter().flatten().all(piece_is_finite)
@@ -107,7 +107,7 @@ fn jumps(shot: &Shot, trace: &Trace, figures: &mut Figures) {
 /// How far a piece leads beyond the cushions.
 fn outside(constants: &Constants, piece: &Piece, figures: &mut Figures) {
     let Piece { segment, end } = piece;
-    let course = coefficients(segment);
+    let course = segment.coefficients();
     let count = if segment.curve().is_some() { 6 } else { 3 };
     let time = end - segment.start;
     for axis in 0..2 {
@@ -196,14 +196,9 @@ fn contacts(trace: &Trace, figures: &mut Figures) {
     }
 }
 
-fn coefficients(segment: &Segment) -> [DVec2; 6] {
-    let [c3, c4, c5] = segment.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
-    [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5]
-}
-
 /// A course's coefficients about the time `now`.
 fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
-    let mut c = coefficients(segment);
+    let mut c = segment.coefficients();
     let shift = now - segment.start;
     let highest = if segment.curve().is_some() { 5 } else { 2 };
     if shift != 0.0 {
