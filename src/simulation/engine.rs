@@ -261,7 +261,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     /// still, off its line.
     #[inline(never)]
     pub(super) fn rolls_out(&self, index: usize, segment: &Segment) -> bool {
-        if self.constants.tilt != DVec2::ZERO {
+        if !self.constants.level {
             return false;
         }
         let speed = segment.velocity.length();

@@ -108,7 +108,7 @@ impl Segment {
         if slip_squared > SLIP_ROUNDING * SLIP_ROUNDING * (speed_squared + spin_squared) {
             let speed = slip_squared.sqrt();
             segment.motion = Motion::Sliding;
-            if constants.even || constants.tilt == DVec2::ZERO {
+            if constants.level {
                 segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
                 return (segment, speed * constants.slide_time);
             }
@@ -132,7 +132,7 @@ impl Segment {
             self.half_acceleration = self.velocity * (-0.5 * constants.rolling.least / speed);
             return (self, speed * constants.roll_time);
         }
-        if constants.tilt != DVec2::ZERO {
+        if !constants.level {
             let roll = roll_on_slope(&constants.rolling, constants.tilt, self.velocity);
             self.half_acceleration = roll.half_acceleration;
             return (self, roll.lasts);
@@ -149,7 +149,7 @@ impl Segment {
         if constants.even {
             return true;
         }
-        if constants.tilt == DVec2::ZERO {
+        if constants.level {
             return constants.rolling.is_last(self.velocity.length());
         }
         is_last_on_slope(&constants.rolling, constants.tilt, self.velocity)
@@ -170,14 +170,14 @@ impl Segment {
             let next = Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) };
             if velocity == DVec2::ZERO { (next, f64::INFINITY) } else { next.roll(constants) }
         } else if !self.rolls_to_rest(constants) {
-            let velocity = if constants.tilt == DVec2::ZERO {
+            let velocity = if constants.level {
                 self.velocity_after(duration)
             } else {
                 roll_on_slope(&constants.rolling, constants.tilt, self.velocity).velocity
             };
             Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) }.roll(constants)
         } else {
-            let position = if constants.tilt == DVec2::ZERO {
+            let position = if constants.level {
                 self.position + 0.5 * duration * self.velocity
             } else {
                 self.position_after(duration)
