@@ -216,10 +216,11 @@ pub fn settles(
     }
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
     // Coupled contacts need not bounce ever more softly: all that is known is how softly they do.
+    let cube = |x: f64| x * x * x;
     let negligible = if alone { tolerance.negligible } else { tolerance.negligible_coupled };
     let ends = |pull: f64| {
         let chatter = 2.0 * speed / (pull * (1.0 - restitution));
-        let moment = 4.0 * speed.powi(3) / (3.0 * pull * pull * (1.0 - restitution.powi(3)));
+        let moment = 4.0 * cube(speed) / (3.0 * pull * pull * (1.0 - cube(restitution)));
         chatter <= slide && 0.5 * moment <= negligible * slide * slide
     };
     // Most bounces are too fast for any pull that the cloth can give.
