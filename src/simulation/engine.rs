@@ -27,9 +27,10 @@ pub(super) const MOMENT: f64 = 1e-15;
 /// then on. The stability table counts the shots that come to it.
 const MOST_WORK: u32 = 40_000;
 
-/// Events after which a shot ends where it is. This is a guard, not physics, for what repeats in the air without end; a shot has some
-/// ten events, and one in a chatter some hundred.
-const MOST_EVENTS: u32 = 50_000;
+/// Turns of the general loop after which a shot ends where it is: ends of motions, impacts, and bounces and steps of resting contacts that
+/// are not told as events. This is a guard, not physics, for what repeats in the air without end; a shot takes some ten turns, and one
+/// with a chatter some hundred.
+const MOST_TURNS: u32 = 50_000;
 
 /// Work after which tolerances grow, each time as much: see [`super::tolerance::Tolerance::coarser`]. Of 10⁶ random shots on "thesis"
 /// some ten take so much. Before the guard stops what is left, they grow fast with every bounce: those that never fade are given up.
@@ -212,9 +213,9 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         if S::ALONE && S::KEPT_PREDICTIONS && flow.is_continue() && self.moves_alone(0) {
             flow = self.play_alone(0, &mut now);
         }
-        let mut events = 0;
-        while flow.is_continue() && events < MOST_EVENTS {
-            events += 1;
+        let mut turns = 0;
+        while flow.is_continue() && turns < MOST_TURNS {
+            turns += 1;
             let (mut next, mut source) = (f64::INFINITY, usize::MAX);
             for (index, &time) in self.times.iter().enumerate() {
                 if time < next {
