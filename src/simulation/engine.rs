@@ -163,7 +163,7 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
 
 impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     pub(super) fn new(table: &'a Table, layout: &Layout, observer: &'a mut O) -> Self {
-        let restitution = table.ball_restitution.max(table.rail.largest_restitution(table.rail_restitution));
+        let restitution = table.largest_restitution();
         Self {
             table,
             constants: Constants::of(table),

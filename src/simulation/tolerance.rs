@@ -1,7 +1,10 @@
 //! Every number that decides when something counts as nothing: each derived from the table, with its unit, its reason and
 //! what goes wrong where it is chosen badly.
 
-use crate::{physics::FIRST_BOUNCE, table::Table};
+use crate::{
+    physics::{FIRST_BOUNCE, rolling_deceleration},
+    table::Table,
+};
 
 /// What counts as nothing on one table. Lengths grow with the table's length `L`, since coordinates are rounded to a share
 /// of it; speeds with `√(g R)`, accelerations with `g`.
@@ -73,7 +76,7 @@ pub struct Tolerance {
 /// How many times as many bounces a chatter has as at a restitution of 0.95, from as many up to ten times: in inverse proportion
 /// to what is lost. Without loss none ends.
 fn liveliness(table: &Table) -> f64 {
-    let lost = 1.0 - table.ball_restitution.max(table.rail.largest_restitution(table.rail_restitution));
+    let lost = 1.0 - table.largest_restitution();
     if lost > 0.0 { (0.05 / lost).clamp(1.0, 10.0) } else { 1.0 }
 }
 
@@ -82,7 +85,6 @@ impl Tolerance {
     pub fn of(table: &Table) -> Self {
         let speed = (table.gravity * table.radius).sqrt();
         let friction = table.sliding_friction.max(table.spinning_friction) * table.gravity;
-        let rolling = 5.0 / 7.0 * table.rolling_friction * table.gravity;
         Self {
             touching: 16.0 * f64::EPSILON * table.length.max(table.width),
             surely_apart: 1.6e5 * f64::EPSILON * table.length.max(table.width),
@@ -92,7 +94,7 @@ impl Tolerance {
             slip: 2e-10 * speed,
             ending_slip: 4e-10 * speed,
             yielding: 1e-5 * speed,
-            still: (2e-11 * rolling).sqrt(),
+            still: (2e-11 * rolling_deceleration(table)).sqrt(),
             shortest_step: (8e-13 * speed / friction).min(1e-13),
             shortest_quintic: 8.7e10 * f64::EPSILON * table.length.max(table.width) / speed,
             step: 2e-13 * speed.max(table.radius),
