@@ -1,5 +1,5 @@
-//! Every number that decides when something counts as nothing: each derived from the table, with its unit, its reason and
-//! what goes wrong where it is chosen badly.
+//! The numbers that decide when something counts as nothing and depend on the table: each with its unit, its reason and what goes wrong
+//! where it is chosen badly. Those that depend on no table stand beside what uses them.
 
 use crate::{
     physics::{FIRST_BOUNCE, rolling_deceleration},
@@ -56,14 +56,15 @@ pub struct Tolerance {
     /// A chatter ends at this bounce speed whatever presses the ball, m/s: a slip about to end, or another ball behind it.
     /// Its bounces are 1e-19 m high, and what is left of them moves a ball by less than 1e-9 m.
     pub slowest_bounce: f64,
-    /// The same of bounces that lose nothing and go on as long as the ball is pressed, m/s: they are less than 1e-16 m high, and
+    /// A chatter of several coupled contacts ends at this bounce speed, m/s, where the bounces make slips: the places are then right to as
+    /// many metres.
+    pub slowest_coupled_bounce: f64,
+    /// The `slowest_bounce` of bounces that lose nothing and go on as long as the ball is pressed, m/s: they are less than 1e-16 m high, and
     /// there are tens of millions of them a second. Larger: a ball that is pressed no more has lost the speed with which it would
     /// leave.
     pub slowest_lossless_bounce: f64,
     /// No bounce in the air, on a nose or on another ball, is slower than this, m/s: it is a quarter of a micrometre high.
     pub slowest_in_air: f64,
-    /// The same where several contacts are coupled and make slips, m/s: the places are then right to as many metres.
-    pub slowest_coupled_bounce: f64,
     /// Balls that never slip and that no forces hold together begin to bounce at this speed, m/s: above the slowest bounce,
     /// so that the chatter does not end at once.
     pub first_bounce: f64,
