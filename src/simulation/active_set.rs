@@ -3,7 +3,7 @@
 
 use glam::DVec2;
 
-use super::{Constants, contacts::close, extrapolation::State, segment::slides, tolerance::Tolerance};
+use super::{Constants, contacts::close_gaps, extrapolation::State, segment::slides, tolerance::Tolerance};
 use crate::{
     physics::{
         ActiveSet, BallState, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, resolve, rolling_spin, slip,
@@ -57,6 +57,14 @@ impl Ended<'_> {
     }
 }
 
+/// Balls without the slips that end, and what holds then.
+struct Stopped {
+    begin: State,
+    resolved: Resolved,
+    /// Whether a slip begins again that has been taken to end.
+    departs: bool,
+}
+
 /// The state without the slips that end here, and the active set that holds then; none where no contact presses a ball that
 /// moves. `balls` become what they are where they stay free, and `contacts` what may rest.
 ///
@@ -86,7 +94,7 @@ pub fn lawful(
         if let Some(previous) = previous.filter(|previous| previous.set.yields()) {
             previous.goes_on_yielding(table.radius, tolerance, &begin, touching, &mut set);
         }
-        settle(table, constants, &mut begin, touching, &set);
+        remove_rounding(table, constants, &mut begin, touching, &set);
         // Where forces are not unique, those near to the ones before are taken: after an interruption that has changed no contact, and after
         // many steps in a row that have begun anew.
         let same =
@@ -95,18 +103,18 @@ pub fn lawful(
         let similar = previous.filter(same).map(of_these);
         let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref())?;
         if resolved.is_paradox() {
-            return Some((begin, resolved, false));
+            return Some(Stopped { begin, resolved, departs: false });
         }
         if let Some(sticking) = resolved.sticking {
             set = sticking;
-            settle(table, constants, &mut begin, touching, &set);
+            remove_rounding(table, constants, &mut begin, touching, &set);
             resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref())?;
         }
         let departs = resolved.set != set && {
             let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);
             resolved.set.cloth.iter().chain(&resolved.set.roll).chain(&resolved.set.contact).any(starts)
         };
-        Some((begin, resolved, departs))
+        Some(Stopped { begin, resolved, departs })
     };
     let (mut pressing, mut now) = (*contacts, *balls);
     loop {
@@ -114,9 +122,9 @@ pub fn lawful(
             return None;
         }
         let ended = stopped(tolerance.ending_slip, &now, &pressing)?;
-        if ended.1.is_paradox() {
+        if ended.resolved.is_paradox() {
             let part = |index: usize, contact: &Contact, balls: &mut State| {
-                if ended.1.paradox[index] {
+                if ended.resolved.paradox[index] {
                     part(balls, contact, tolerance.first_bounce);
                 }
             };
@@ -126,20 +134,21 @@ pub fn lawful(
             }
             contacts.retain(|_, contact| {
                 let index = pressing.as_slice().iter().position(|pressing| pressing == contact);
-                index.is_none_or(|index| !ended.1.paradox[index])
+                index.is_none_or(|index| !ended.resolved.paradox[index])
             });
-            pressing.retain(|index, _| !ended.1.paradox[index]);
+            pressing.retain(|index, _| !ended.resolved.paradox[index]);
             continue;
         }
         // Balls that lie still may go on pushing each other, held by the cloth; nothing comes of it.
         let still = |(ball, state): (usize, &BallState)| {
             !pressing.hold(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
         };
-        if !ended.2 && ended.0.iter().enumerate().all(still) {
+        if !ended.departs && ended.begin.iter().enumerate().all(still) {
             return None;
         }
         // What would begin to slip again at once has not ended.
-        let (begin, resolved, _) = if ended.2 { stopped(tolerance.slip, &now, &pressing)? } else { ended };
+        let Stopped { begin, resolved, .. } =
+            if ended.departs { stopped(tolerance.slip, &now, &pressing)? } else { ended };
         // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
         if resolved.contacts.as_slice().len() == pressing.as_slice().len() {
             return Some((begin, resolved));
@@ -219,7 +228,7 @@ pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State,
     };
     let mut ended = *balls;
     if balls.iter().enumerate().any(ends) {
-        settle(table, constants, &mut ended, contacts.as_slice(), &set);
+        remove_rounding(table, constants, &mut ended, contacts.as_slice(), &set);
     }
     ended
 }
@@ -232,8 +241,8 @@ fn closes(constants: &Constants, balls: &State, contacts: &Contacts) -> bool {
 
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or
 /// spinning by `set` has stopped exactly.
-pub fn settle(table: &Table, constants: &Constants, balls: &mut State, contacts: &[Contact], set: &ActiveSet) {
-    close(constants, balls, contacts);
+pub fn remove_rounding(table: &Table, constants: &Constants, balls: &mut State, contacts: &[Contact], set: &ActiveSet) {
+    close_gaps(constants, balls, contacts);
     stop_by_impulses(table, balls, contacts, set, &[0.0; MAX_CONTACTS]);
     for (ball, state) in balls.iter_mut().enumerate() {
         if !contacts.iter().any(|contact| contact.has(ball)) {

@@ -10,7 +10,7 @@
 
 use super::{
     Constants,
-    contacts::{PAIRS_OF, contacts_where, nearly_touching},
+    contacts::{PAIRS_OF, contacts_where},
 };
 use crate::{
     physics::{ActiveSet, BallState, Contact, Contacts, ImpactLaw, resolve, slip},
@@ -152,7 +152,8 @@ fn coupled(
     let slow = COUPLING * speed.abs();
     let high =
         (0.5 * slow * slow / constants.sliding).clamp(constants.tolerance.touching, constants.tolerance.coupled_gap);
-    let mut contacts = nearly_touching(constants, balls, on_cloth, high, |opening| opening.abs() <= slow);
+    let is_coupled = |gap: f64, other: &Contact| gap <= high && other.opening_speed(balls).abs() <= slow;
+    let mut contacts = contacts_where(constants, balls, on_cloth, is_coupled);
     // It has met, whatever rounding says of its gap.
     contacts.retain(|_, other| other != contact);
     contacts.push(*contact);
@@ -160,7 +161,7 @@ fn coupled(
 }
 
 /// The end of a chatter.
-pub struct Settled {
+pub struct ChatterEnd {
     /// The contacts that rest from now on.
     pub contacts: Contacts,
     /// How long the bounces that are left out would have gone on, s; none where they are too slow to be missed.
@@ -170,7 +171,7 @@ pub struct Settled {
 /// The contacts that come to rest together with one that has just bounced, and opens in the state `balls`: forces press them
 /// once their bounces have ended, and what is left of those can no longer be told. None if it goes on. `shrinking` is by how much the last flight was
 /// shorter than the one before.
-pub fn settles(
+pub fn chatter_end(
     table: &Table,
     constants: &Constants,
     law: &ImpactLaw,
@@ -178,7 +179,7 @@ pub fn settles(
     balls: &[BallState; BALLS],
     on_cloth: [bool; BALLS],
     shrinking: f64,
-) -> Option<Settled> {
+) -> Option<ChatterEnd> {
     let tolerance = &constants.tolerance;
     let speed = contact.opening_speed(balls);
     let restitution = law.restitution(contact);
@@ -187,7 +188,7 @@ pub fn settles(
     if speed <= slowest {
         let mut alone = Contacts::NONE;
         alone.push(*contact);
-        return Some(Settled { contacts: alone, lasts: 0.0 });
+        return Some(ChatterEnd { contacts: alone, lasts: 0.0 });
     }
     // What the bounces open holds on average, and slips that they make are none.
     let mut contacts = coupled(constants, balls, on_cloth, contact, speed);
@@ -246,7 +247,7 @@ pub fn settles(
     let is_missed = speed > tolerance.slowest_coupled_bounce;
     let lasts = if is_missed { 2.0 * speed / (pull * (1.0 - restitution)) } else { 0.0 };
     let is_cut_short = is_missed && meets_another(constants, balls, on_cloth, &resolved.contacts, lasts);
-    (!is_cut_short).then_some(Settled { contacts: resolved.contacts, lasts })
+    (!is_cut_short).then_some(ChatterEnd { contacts: resolved.contacts, lasts })
 }
 
 /// Whether a ball of the contacts meets anything else within a `time`, s, in which the bounces that are left out are not over: it would
@@ -339,7 +340,7 @@ mod tests {
             balls[0].velocity.x = -1e-6;
             balls[0].spin.y = 100.0;
             balls[1].velocity.x = 0.1;
-            settles(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3).is_some()
+            chatter_end(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3).is_some()
         };
         assert!(ends(1e-6) && !ends(1e-8));
     }
@@ -359,7 +360,7 @@ mod tests {
                 velocity: glam::DVec2::new(-1e-9, -up),
                 spin: glam::DVec3::new(-100.0, 100.0, 0.0),
             };
-            settles(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3)
+            chatter_end(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3)
                 .expect("the chatter ends")
                 .contacts
                 .as_slice()

@@ -131,7 +131,7 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) constants: Constants,
     pub(super) law: ImpactLaw,
     /// Whether nothing bounces on this table.
-    pub(super) dead: bool,
+    pub(super) inelastic: bool,
     /// Work that a bounce of a chatter on the cloth counts as. Where bounces lose nothing, a ball that is pressed bounces until
     /// its spin has died down: there are more of them, and they are the simplest.
     bounce_work: u32,
@@ -169,7 +169,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             constants: Constants::of(table),
             law: ImpactLaw::of(table),
             bounce_work: if restitution < 1.0 { 2 } else { 1 },
-            dead: restitution == 0.0,
+            inelastic: restitution == 0.0,
             cloth: Cloth::of(table),
             observer,
             balls: layout.balls.map(Ball::at_rest),
@@ -284,7 +284,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         let ended = ball.segment.motion;
         let (mut segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
         segment.start = now;
-        self.close(index, now);
+        self.end_segment(index, now);
         // Of a ball that bounces it is told once its contact is known to have ended.
         let bounces = self.balls[index].mode == ContactMode::Bouncing;
         if ended == Motion::Sliding && !bounces {
@@ -355,7 +355,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     /// Hands a finished segment to an observer that records.
     #[inline]
-    pub(super) fn close(&mut self, index: usize, end: f64) {
+    pub(super) fn end_segment(&mut self, index: usize, end: f64) {
         if self.observer.wants_segments() {
             self.observer.segment(index, &self.balls[index].segment, end);
         }
@@ -363,7 +363,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     pub(super) fn finish(mut self, time: f64) -> End {
         for index in 0..BALLS {
-            self.close(index, time);
+            self.end_segment(index, time);
         }
         let balls = std::array::from_fn(|index| {
             let mut state = self.state(index, time);

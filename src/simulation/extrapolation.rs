@@ -113,8 +113,8 @@ pub fn extrapolate(
         let error_before = best.error;
         done += count as f64;
         let mut newer = match stiff {
-            Some(stiff) => leap_damped(begin, first, &mut slope, stiff, members, (count, h)),
-            None => leap(begin, first, &mut slope, members, (count, h)),
+            Some(stiff) => semi_implicit_midpoint(begin, first, &mut slope, stiff, members, (count, h)),
+            None => modified_midpoint(begin, first, &mut slope, members, (count, h)),
         };
         for column in 1..=round {
             let ratio = count as f64 / counts[round - column] as f64;
@@ -154,7 +154,7 @@ pub fn extrapolate(
 
 /// Gragg's method: `count` leaps of length `h` over the midpoint, smoothed at the end.
 #[inline(always)]
-fn leap(
+fn modified_midpoint(
     begin: &Phase,
     first: &Phase,
     slope: &mut impl FnMut(&Phase) -> Phase,
@@ -172,7 +172,7 @@ fn leap(
 }
 
 /// Bader's and Deuflhard's method: the same with the stiff part of the slope implicit.
-fn leap_damped(
+fn semi_implicit_midpoint(
     begin: &Phase,
     first: &Phase,
     slope: &mut impl FnMut(&Phase) -> Phase,

@@ -71,7 +71,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn stay_on_cloth(&mut self, index: usize, time: &mut f64) -> ControlFlow<()> {
         let now = *time;
         let Some(end) = self.balls[index].segment.hops().map(Hops::end) else { return ControlFlow::Continue(()) };
-        self.close(index, now);
+        self.end_segment(index, now);
         self.launch(index, now, &end);
         self.tell(now, EventKind::Lands(index))?;
         match self.balls[index].segment.motion {
@@ -96,7 +96,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         climb: f64,
         freed: bool,
     ) -> ControlFlow<()> {
-        self.close(index, now);
+        self.end_segment(index, now);
         let rail = self.balls[index].rail;
         self.tell(now, EventKind::BallRail(index, rail))?;
         self.lift(index, now, state, climb)?;
@@ -118,7 +118,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let c = self.constants;
         let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
         self.land_first(&mut state);
-        self.close(index, now);
+        self.end_segment(index, now);
         let cushion = *self.law.cushions.at(rail);
         let to_nose = Nose::of(&cushion, c.radius).way_from(&c, rail, state.position);
         if to_nose.truncate().dot(rail.normal()) >= 0.0 {
@@ -162,7 +162,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let Some(cloth) = self.cloth else { return ControlFlow::Continue(()) };
         let approach = self.law.balls.resolve_over_cloth(c.radius, slowest, &cloth, &mut one, &mut other);
         for index in [first, second] {
-            self.close(index, now);
+            self.end_segment(index, now);
         }
         let told = self.is_told(now, &Contact::of_balls(first, second), approach);
         self.tell_impact(now, EventKind::BallBall(first, second), told)?;

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use super::{
     Event, EventKind, Observer, Rail,
-    chatter::{Chatters, settles},
+    chatter::{Chatters, chatter_end},
     contact_mode::ContactMode,
-    contacts::{close, is_in_corner, touching},
-    engine::{Ball, Engine, MOMENT, Meeting, either, only},
+    contacts::{close_gaps, is_in_corner, put_at_cushion, touching},
+    engine::{Ball, Engine, MOMENT, Meeting, only},
     savings::Savings,
 };
 use crate::{
@@ -40,8 +40,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             Some(states) => states[index],
             None => self.balls[index].segment.state_after(&self.constants, rail_after),
         };
-        // The ball stands exactly at the cushion: the prediction's rounding must not leave a gap to fall through.
-        state.position += (-n.abs().dot(self.constants.reach) - state.position.dot(n)) * n;
+        put_at_cushion(&self.constants, n, &mut state.position);
         let c = &self.constants;
         let before = state;
         let impulse = self.law.cushions.at(rail).resolve(c.radius, n, &mut state);
@@ -52,7 +51,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
             let contact = Contact::with_cushion(index, n);
             told = self.slow_bounce(now, &contact)?;
-            if let Some(rests) = self.settles(now, freed.as_ref(), &contact, &[(index, state)]) {
+            if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(index, state)]) {
                 return self.end_chatter(
                     now,
                     freed,
@@ -63,7 +62,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 );
             }
         }
-        self.close(index, now);
+        self.end_segment(index, now);
         self.launch(index, now, &state);
         self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
         if freed.is_some() {
@@ -101,13 +100,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if opening <= c.diameter * c.tolerance.slow_bounce {
             let contact = Contact::of_balls(first, second);
             told = self.slow_bounce(now, &contact)?;
-            if let Some(rests) = self.settles(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
+            if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
                 let before = [(first, before.0), (second, before.1)];
                 return self.end_chatter(now, freed, &before, &rests, EventKind::BallBall(first, second), told);
             }
         }
-        self.close(first, now);
-        self.close(second, now);
+        self.end_segment(first, now);
+        self.end_segment(second, now);
         self.launch(first, now, &a);
         self.launch(second, now, &b);
         self.tell_impact(now, EventKind::BallBall(first, second), told)?;
@@ -123,7 +122,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for time in self.times {
             at_once += u32::from(time <= now + MOMENT);
         }
-        at_once > 1 || self.dead || self.rounds > MOST_ROUNDS
+        at_once > 1 || self.inelastic || self.rounds > MOST_ROUNDS
     }
 
     /// All contacts that close now collide together, if there are several.
@@ -138,7 +137,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         });
         let c = self.constants;
         // Without any restitution the rounds would go on for ever; their limit is one impact of all that touches.
-        let collapsed = self.dead || self.rounds > MOST_ROUNDS;
+        let collapsed = self.inelastic || self.rounds > MOST_ROUNDS;
         let contacts = touching(&c, &states, self.on_cloth(), |opening| {
             opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
         });
@@ -172,7 +171,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             told.push(!slow || self.slow_bounce(now, contact)?);
         }
         for index in (0..BALLS).filter(|&index| changed[index]) {
-            self.close(index, now);
+            self.end_segment(index, now);
             self.launch(index, now, &states[index]);
         }
         for ((contact, _), told) in met().zip(told) {
@@ -185,7 +184,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(true)
     }
 
-    /// Tells an impact, or only who keeps accounts of it where it belongs to a chatter.
+    /// Tells an impact as an event, or as a bounce if it belongs to a chatter.
     #[inline(always)]
     pub(super) fn tell_impact(&mut self, now: f64, kind: EventKind, told: bool) -> ControlFlow<()> {
         if told {
@@ -215,7 +214,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// The contacts that come to rest with one that has just bounced; `bounced` are its balls after the bounce.
     #[cold]
-    pub(super) fn settles(
+    pub(super) fn chatter_end(
         &self,
         now: f64,
         freed: Option<&[BallState; BALLS]>,
@@ -224,8 +223,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     ) -> Option<Contacts> {
         let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
         let states = self.states_with(now, freed, bounced);
-        let settled = settles(self.table, &self.constants, &self.law, contact, &states, self.on_cloth(), shrinking)?;
-        (now + settled.lasts < self.next_meeting_aloft()).then_some(settled.contacts)
+        let end = chatter_end(self.table, &self.constants, &self.law, contact, &states, self.on_cloth(), shrinking)?;
+        (now + end.lasts < self.next_meeting_aloft()).then_some(end.contacts)
     }
 
     /// When two balls next meet of which one at least is in the air, s: it may throw others back into the contacts that they have left.
@@ -269,7 +268,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let mut states = self.states_with(now, freed.as_ref(), before);
         let c = self.constants;
         let contacts = rests.as_slice();
-        close(&c, &mut states, contacts);
+        close_gaps(&c, &mut states, contacts);
         let law = self.law.inelastic();
         let mut given = [0.0; MAX_CONTACTS];
         for round in 0..MOST_ROUNDS {
@@ -292,7 +291,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         stop_by_impulses(self.table, &mut states, ended.as_slice(), &ActiveSet::SLIPPING, &given_there);
         let changed = std::array::from_fn(|ball| rests.hold(ball));
         for index in (0..BALLS).filter(|&index| changed[index]) {
-            self.close(index, now);
+            self.end_segment(index, now);
             self.launch(index, now, &states[index]);
         }
         self.tell_impact(now, impact, told)?;

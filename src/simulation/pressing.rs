@@ -36,7 +36,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             resting.end.iter_mut().zip(resting.members).filter_map(|(ball, member)| member.then_some(ball)).collect();
         still(self.constants.tolerance.still, self.constants.radius, &mut members);
         for index in (0..BALLS).filter(|&index| resting.members[index]) {
-            self.close(index, now);
+            self.end_segment(index, now);
             self.launch(index, now, &resting.end[index]);
         }
         // Whether they go on resting is asked of all contacts together.
@@ -59,7 +59,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.cut(now);
         let states = self.resting.as_ref()?.end;
         for index in (0..BALLS).filter(|&index| members[index] && !changed[index]) {
-            self.close(index, now);
+            self.end_segment(index, now);
             self.launch(index, now, &states[index]);
         }
         self.pressed = true;
@@ -134,7 +134,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 for index in (0..BALLS).filter(|&index| !resting.members[index]) {
                     if resting.begin[index] != states[index] {
                         states[index] = resting.begin[index];
-                        self.close(index, now);
+                        self.end_segment(index, now);
                         self.launch(index, now, &states[index]);
                         changed[index] = true;
                     }
@@ -144,7 +144,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             Outcome::Free(ended, balls) => {
                 // A slip that ends here ends for good.
                 for index in (0..BALLS).filter(|&index| balls[index]) {
-                    self.close(index, now);
+                    self.end_segment(index, now);
                     self.launch(index, now, &ended[index]);
                     changed[index] = true;
                 }
@@ -166,7 +166,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.balls[index].mode = ContactMode::Bouncing;
                 // A ball whose contact ended by what another did is still on its common course.
                 if self.balls[index].segment.motion == Motion::Resting {
-                    self.close(index, now);
+                    self.end_segment(index, now);
                     self.launch(index, now, &states[index]);
                     changed[index] = true;
                 }
@@ -223,7 +223,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             course: Some(Box::new(Course::Contact(curve))),
         };
         if self.balls[index].segment.start < now {
-            self.close(index, now);
+            self.end_segment(index, now);
         }
         self.set(index, segment, step);
     }

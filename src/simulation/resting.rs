@@ -14,8 +14,8 @@ use glam::{DVec2, DVec3};
 
 use super::{
     Constants, Rail,
-    active_set::{Ended, lawful, settle, transient_pressing, without_ending_slips},
-    contacts::{close, touching},
+    active_set::{Ended, lawful, remove_rounding, transient_pressing, without_ending_slips},
+    contacts::{close_gaps, touching},
     extrapolation::{Phase, State, Step, extrapolate},
     segment::is_still,
     tolerance::Tolerance,
@@ -249,10 +249,10 @@ impl Resting {
         let rate = self.time_rate(table.radius, &end.balls);
         self.next_step = if changes { f64::INFINITY } else { trial.step.best_length * rate };
         self.end = if self.goes_on {
-            close(&self.constants, &mut end.balls, self.contacts.as_slice());
+            close_gaps(&self.constants, &mut end.balls, self.contacts.as_slice());
             end.balls
         } else {
-            self.settled(table, end.balls)
+            self.without_rounding(table, end.balls)
         };
     }
 
@@ -444,11 +444,11 @@ impl Resting {
         slip.length() / from
     }
 
-    /// Takes the rounding out of a later state.
-    fn settled(&self, table: &Table, mut balls: State) -> State {
+    /// A later state without its rounding.
+    fn without_rounding(&self, table: &Table, mut balls: State) -> State {
         let contacts = self.contacts.as_slice();
         let set = ActiveSet::of(table, &balls, contacts, self.constants.tolerance.slip).slipping_where(&self.set);
-        settle(table, &self.constants, &mut balls, contacts, &set);
+        remove_rounding(table, &self.constants, &mut balls, contacts, &set);
         balls
     }
 

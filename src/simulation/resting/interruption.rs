@@ -13,7 +13,7 @@ const SPENT: f64 = 1e-9;
 impl Resting {
     /// State `time` seconds after the start of the step, by one shorter step of the same method.
     pub fn after(&self, table: &Table, time: f64) -> State {
-        if time >= self.step { self.end } else { self.settled(table, self.until(table, time).step.end.balls) }
+        if time >= self.step { self.end } else { self.without_rounding(table, self.until(table, time).step.end.balls) }
     }
 
     /// Ends the step `time` seconds after its start: its course is that of the shorter step.
@@ -24,7 +24,7 @@ impl Resting {
         let trial = self.until(table, time);
         self.interrupted = true;
         (self.step, self.last) = (time, trial.forces);
-        (self.end, self.goes_on) = (self.settled(table, trial.step.end.balls), false);
+        (self.end, self.goes_on) = (self.without_rounding(table, trial.step.end.balls), false);
         if time > 0.0 {
             // What comes next is likely to be interrupted as soon.
             self.next_step = GROWTH_AFTER_INTERRUPTION * time;
