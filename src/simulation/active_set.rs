@@ -79,7 +79,7 @@ pub fn lawful(
     least_push: f64,
     previous: Option<Ended<'_>>,
 ) -> Option<(State, Resolved)> {
-    if stand_on_slope(constants, balls, |ball| contacts.hold(ball)) {
+    if stand_on_slope(constants, balls, contacts) {
         return None;
     }
     let tolerance = &constants.tolerance;
@@ -177,9 +177,7 @@ fn part(balls: &mut State, contact: &Contact, speed: f64) {
 
 /// Whether this is the beginning of a contact of balls that never slip.
 fn begins_without_slip(table: &Table, contact: &Contact, previous: Option<Ended<'_>>) -> bool {
-    table.ball_friction.is_none()
-        && contact.second.is_some()
-        && !previous.is_some_and(|previous| previous.contacts.as_slice().contains(contact))
+    contact.never_slips(table) && !previous.is_some_and(|previous| previous.contacts.as_slice().contains(contact))
 }
 
 /// Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17), where the
@@ -210,13 +208,13 @@ pub fn transient_pressing(constants: &Constants, balls: &State, contacts: &Conta
     members.map(|(_, ball)| idle(ball)).fold(0.0, f64::max)
 }
 
-/// Whether balls stand still on a table that is not level: what lies below goes on pressing them, but they are at rest.
-pub fn stand_on_slope(constants: &Constants, balls: &State, takes_part: impl Fn(usize) -> bool) -> bool {
+/// Whether the balls of contacts stand still on a table that is not level: what lies below goes on pressing them, but they are at rest.
+fn stand_on_slope(constants: &Constants, balls: &State, contacts: &Contacts) -> bool {
     let none = constants.tolerance.still;
     let stands = |ball: &BallState| {
         ball.velocity.length() < none && constants.radius * ball.spin.truncate().length() < none && ball.spin.z == 0.0
     };
-    constants.tilt != DVec2::ZERO && (0..BALLS).all(|ball| !takes_part(ball) || stands(&balls[ball]))
+    !constants.level && (0..BALLS).all(|ball| !contacts.hold(ball) || stands(&balls[ball]))
 }
 
 /// The balls of contacts that do not press, without slips on the cloth that end at once: what a resting contact would count

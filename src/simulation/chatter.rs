@@ -216,8 +216,8 @@ pub fn chatter_end(
         return None;
     }
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
-    // Coupled contacts need not bounce ever more softly: all that is known is how softly they do.
     let cube = |x: f64| x * x * x;
+    // Coupled contacts need not bounce ever more softly: all that is known is how softly they do.
     let negligible = if alone { tolerance.negligible } else { tolerance.negligible_coupled };
     let ends = |pull: f64| {
         let chatter = 2.0 * speed / (pull * (1.0 - restitution));
@@ -236,8 +236,7 @@ pub fn chatter_end(
     // Balls that never slip lose with each impact the slip that their flight has made, which the other contacts feel as a
     // bounce.
     let kick = 2.0 * speed / pull * GRIPPED_SLIP * constants.sliding;
-    let grips =
-        !alone && table.ball_friction.is_none() && contacts.as_slice().iter().any(|other| other.second.is_some());
+    let grips = !alone && contacts.as_slice().iter().any(|other| other.never_slips(table));
     if grips && kick > tolerance.slowest_coupled_bounce {
         return None;
     }

@@ -14,8 +14,8 @@ use super::{
     savings::{All, Savings},
 };
 use crate::{
-    physics::{BallState, Cloth, ImpactLaw, Impulse, Motion, SpatialState},
-    table::{BALLS, Layout, Table},
+    physics::{BallState, Cloth, ImpactLaw, Impulse, Motion},
+    table::{BALLS, Layout, PAIRS, Table},
 };
 
 /// Impacts that follow each other within this time are at the same moment, s: a ball moves by less than a gap that counts as
@@ -139,9 +139,9 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) cloth: Option<Cloth>,
     pub(super) observer: &'a mut O,
     pub(super) balls: [Ball; BALLS],
-    pub(super) pairs: [Meeting; 3],
+    pub(super) pairs: [Meeting; PAIRS.len()],
     /// When each ball, and then each pair, has its next event, s; infinity for none.
-    pub(super) times: [f64; 2 * BALLS],
+    pub(super) times: [f64; BALLS + PAIRS.len()],
     pub(super) resting: Option<Box<Resting>>,
     /// The step that has just ended, until it is known what presses behind it.
     pub(super) ended: Option<Box<Resting>>,
@@ -173,8 +173,8 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             cloth: Cloth::of(table),
             observer,
             balls: layout.balls.map(Ball::at_rest),
-            pairs: [Meeting::unseen(0.0, false); 3],
-            times: [f64::INFINITY; 2 * BALLS],
+            pairs: [Meeting::unseen(0.0, false); PAIRS.len()],
+            times: [f64::INFINITY; BALLS + PAIRS.len()],
             resting: None,
             ended: None,
             next_step: f64::INFINITY,
@@ -194,9 +194,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             BallState { position: self.balls[0].segment.position, velocity: impulse.velocity, spin: impulse.spin };
         let mut flow = ControlFlow::Continue(());
         if impulse.lift > 0.0 {
-            let mut cue_ball = SpatialState::from(cue_ball);
-            cue_ball.velocity.z = impulse.lift;
-            flow = self.launch_in_space(0, 0.0, &cue_ball);
+            flow = self.lift(0, 0.0, cue_ball, impulse.lift);
         } else {
             self.launch(0, 0.0, &cue_ball);
         }
@@ -379,8 +377,4 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
 pub(super) fn only(index: usize) -> [bool; BALLS] {
     std::array::from_fn(|other| other == index)
-}
-
-pub(super) fn either(freed: bool, of_contact: [bool; BALLS], changed: [bool; BALLS]) -> [bool; BALLS] {
-    if freed { std::array::from_fn(|index| changed[index] || of_contact[index]) } else { changed }
 }

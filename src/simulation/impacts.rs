@@ -66,7 +66,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.launch(index, now, &state);
         self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
         if freed.is_some() {
-            self.look_ahead(now, either(true, self.freed_members(), only(index)))
+            self.look_ahead(now, self.with_freed(true, only(index)))
         } else {
             self.look_ahead_of(now, index)
         }
@@ -110,7 +110,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.launch(first, now, &a);
         self.launch(second, now, &b);
         self.tell_impact(now, EventKind::BallBall(first, second), told)?;
-        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
+        self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }
 
     /// Whether other impacts happen at this very moment, or too many have.
@@ -180,7 +180,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for (contact, impulse) in met().filter(|(_, impulse)| climbs(impulse)) {
             self.lift(contact.first, now, states[contact.first], impulse.climb)?;
         }
-        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))?;
+        self.look_ahead(now, self.with_freed(freed.is_some(), changed))?;
         ControlFlow::Continue(true)
     }
 
@@ -301,7 +301,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let told = self.slow_bounce(now, contact)?;
             self.tell_impact(now, kind(contact), told)?;
         }
-        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
+        self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }
 }
 

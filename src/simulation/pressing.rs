@@ -10,7 +10,7 @@ use super::{
     engine::Engine,
     resting::{Outcome, Resting},
     savings::Savings,
-    segment::{Course, still},
+    segment::Course,
 };
 use crate::{
     physics::{BallState, Motion},
@@ -32,9 +32,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             self.look_ahead_of_pressed(now, members);
             return ControlFlow::Continue(());
         }
-        let mut members: Vec<&mut BallState> =
-            resting.end.iter_mut().zip(resting.members).filter_map(|(ball, member)| member.then_some(ball)).collect();
-        still(self.constants.tolerance.still, self.constants.radius, &mut members);
+        resting.come_to_rest();
         for index in (0..BALLS).filter(|&index| resting.members[index]) {
             self.end_segment(index, now);
             self.launch(index, now, &resting.end[index]);
@@ -89,6 +87,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// The balls of the resting contact that is still on record.
     pub(super) fn freed_members(&self) -> [bool; BALLS] {
         self.resting.as_ref().map_or([false; BALLS], |resting| resting.members)
+    }
+
+    /// The `changed` balls, and with them those of the resting contact that is still on record if it has been `freed`.
+    pub(super) fn with_freed(&self, freed: bool, changed: [bool; BALLS]) -> [bool; BALLS] {
+        let members = self.freed_members();
+        std::array::from_fn(|index| changed[index] || (freed && members[index]))
     }
 
     /// Puts the balls that press and are pressed on their common course, and frees those that no longer are.

@@ -10,23 +10,6 @@ use crate::physics::{
 /// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Whether a ball neither moves nor rolls as fast as `limit`, m/s.
-#[inline(always)]
-pub fn is_still(limit: f64, radius: f64, ball: &BallState) -> bool {
-    ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < limit * limit
-}
-
-/// Brings balls to rest if all of them are slower than `limit`, m/s.
-#[inline(always)]
-pub fn still(limit: f64, radius: f64, balls: &mut [&mut BallState]) {
-    if balls.iter().all(|ball| is_still(limit, radius, ball)) {
-        for ball in balls {
-            ball.velocity = DVec2::ZERO;
-            ball.spin = DVec3::new(0.0, 0.0, ball.spin.z);
-        }
-    }
-}
-
 /// A ball's course from `start` on, until something changes it.
 #[derive(Clone, Debug)]
 pub struct Segment {
@@ -209,13 +192,6 @@ impl Segment {
         match course {
             Course::Contact(Curve { position: [c3, c4, c5], .. }) => {
                 let bend = self.half_acceleration + t * (c3 + t * (c4 + t * c5));
-    /// Coefficients of the position along the cloth about the start, those of `t⁰` first, m, m/s and so on: not of a ball in the air.
-    #[inline]
-    pub fn coefficients(&self) -> [DVec2; 6] {
-        let [c3, c4, c5] = self.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
-        [self.position, self.velocity, self.half_acceleration, c3, c4, c5]
-    }
-
                 self.position + t * (self.velocity + t * bend)
             }
             Course::Hops(hops) => hops.state_after(t).position.truncate(),
@@ -231,6 +207,13 @@ impl Segment {
             }
             Course::Hops(hops) => hops.state_after(t).velocity.truncate(),
         }
+    }
+
+    /// Coefficients of the position along the cloth about the start, those of `t⁰` first, m, m/s and so on: not of a ball in the air.
+    #[inline]
+    pub fn coefficients(&self) -> [DVec2; 6] {
+        let [c3, c4, c5] = self.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
+        [self.position, self.velocity, self.half_acceleration, c3, c4, c5]
     }
 
     /// The curve of a resting contact.

@@ -1,6 +1,6 @@
 //! The end of a step before its time: another event comes first.
 
-use super::{MAX_GUESSES, Phase, Resting, State, Step, Trial};
+use super::{MAX_GUESSES, Resting, State, Trial};
 use crate::table::Table;
 
 /// After an interruption a step is tried that is so many times as long as the one that was interrupted.
@@ -33,9 +33,7 @@ impl Resting {
 
     /// The step that ends after `time` seconds.
     fn until(&self, table: &Table, time: f64) -> Trial {
-        let begin = Phase { balls: self.begin, time: 0.0 };
-        let begin = Step { end: begin, error: 0.0, best_length: 0.0 };
-        let mut trial = self.reach(table, &Trial { span: 0.0, step: begin, forces: self.first }, time);
+        let mut trial = self.reach(table, &self.beginning(), time);
         if self.time_scale.is_some() {
             // Newton's steps: how fast time runs is known.
             for _ in 0..MAX_GUESSES {
