@@ -47,7 +47,7 @@ impl Ended<'_> {
             }
         }
         for (index, contact) in contacts.iter().enumerate() {
-            let before = self.contacts.as_slice().iter().position(|before| before == contact);
+            let before = self.contacts.iter().position(|before| before == contact);
             if before.is_some_and(|before| self.set.contact[before] == Friction::Yields)
                 && small(contact.slip(radius, balls))
             {
@@ -83,10 +83,10 @@ pub fn lawful(
         return None;
     }
     let tolerance = &constants.tolerance;
-    let begun = contacts.as_slice().iter().any(|contact| begins_without_slip(table, contact, previous));
+    let begun = contacts.iter().any(|contact| begins_without_slip(table, contact, previous));
     let stopped = |none: f64, balls: &State, contacts: &Contacts| {
         let mut begin = *balls;
-        let touching = contacts.as_slice();
+        let touching: &[Contact] = contacts;
         if begun {
             stop_slips(table, &mut begin, touching);
         }
@@ -98,8 +98,8 @@ pub fn lawful(
         // Where forces are not unique, those near to the ones before are taken: after an interruption that has changed no contact, and after
         // many steps in a row that have begun anew.
         let same =
-            |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts.as_slice() == touching;
-        let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts.as_slice(), touching);
+            |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts[..] == *touching;
+        let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts, touching);
         let similar = previous.filter(same).map(of_these);
         let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref())?;
         if resolved.is_paradox() {
@@ -118,7 +118,7 @@ pub fn lawful(
     };
     let (mut pressing, mut now) = (*contacts, *balls);
     loop {
-        if pressing.as_slice().is_empty() {
+        if pressing.is_empty() {
             return None;
         }
         let ended = stopped(tolerance.ending_slip, &now, &pressing)?;
@@ -128,12 +128,12 @@ pub fn lawful(
                     part(balls, contact, tolerance.first_bounce);
                 }
             };
-            for (index, contact) in pressing.as_slice().iter().enumerate() {
+            for (index, contact) in pressing.iter().enumerate() {
                 part(index, contact, &mut now);
                 part(index, contact, balls);
             }
             contacts.retain(|_, contact| {
-                let index = pressing.as_slice().iter().position(|pressing| pressing == contact);
+                let index = pressing.iter().position(|pressing| pressing == contact);
                 index.is_none_or(|index| !ended.resolved.paradox[index])
             });
             pressing.retain(|index, _| !ended.resolved.paradox[index]);
@@ -150,7 +150,7 @@ pub fn lawful(
         let Stopped { begin, resolved, .. } =
             if ended.departs { stopped(tolerance.slip, &now, &pressing)? } else { ended };
         // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
-        if resolved.contacts.as_slice().len() == pressing.as_slice().len() {
+        if resolved.contacts.len() == pressing.len() {
             return Some((begin, resolved));
         }
         for ball in (0..BALLS).filter(|&ball| pressing.hold(ball) && !resolved.contacts.hold(ball)) {
@@ -177,7 +177,7 @@ fn part(balls: &mut State, contact: &Contact, speed: f64) {
 
 /// Whether this is the beginning of a contact of balls that never slip.
 fn begins_without_slip(table: &Table, contact: &Contact, previous: Option<Ended<'_>>) -> bool {
-    contact.never_slips(table) && !previous.is_some_and(|previous| previous.contacts.as_slice().contains(contact))
+    contact.never_slips(table) && !previous.is_some_and(|previous| previous.contacts.contains(contact))
 }
 
 /// Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17), where the
@@ -220,13 +220,13 @@ fn stand_on_slope(constants: &Constants, balls: &State, contacts: &Contacts) -> 
 /// The balls of contacts that do not press, without slips on the cloth that end at once: what a resting contact would count
 /// as rolling must not slide when it is free.
 pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> State {
-    let set = ActiveSet::of(table, balls, contacts.as_slice(), constants.tolerance.ending_slip);
+    let set = ActiveSet::of(table, balls, contacts, constants.tolerance.ending_slip);
     let ends = |(ball, state): (usize, &BallState)| {
         contacts.hold(ball) && set.cloth[ball] == Friction::Sticks && slides(table.radius, state)
     };
     let mut ended = *balls;
     if balls.iter().enumerate().any(ends) {
-        remove_rounding(table, constants, &mut ended, contacts.as_slice(), &set);
+        remove_rounding(table, constants, &mut ended, contacts, &set);
     }
     ended
 }
@@ -234,7 +234,7 @@ pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State,
 /// Whether a contact closes by as much as, together with what rounding does, would be a bounce: a ball that another drives on does not
 /// stand still.
 fn closes(constants: &Constants, balls: &State, contacts: &Contacts) -> bool {
-    contacts.as_slice().iter().any(|contact| contact.opening_speed(balls) < -0.1 * constants.tolerance.opening)
+    contacts.iter().any(|contact| contact.opening_speed(balls) < -0.1 * constants.tolerance.opening)
 }
 
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or

@@ -211,7 +211,7 @@ pub fn chatter_end(
         }
     }
     // A slip that the bounces make turns with each of them: what they do is of their own size.
-    let alone = contacts.as_slice().len() == 1;
+    let alone = contacts.len() == 1;
     if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slowest_coupled_bounce } {
         return None;
     }
@@ -229,14 +229,14 @@ pub fn chatter_end(
     if !ends(MOST_PULL * bodies * (constants.sliding + constants.tilt.length())) {
         return None;
     }
-    let set = ActiveSet::of(table, balls, contacts.as_slice(), none);
+    let set = ActiveSet::of(table, balls, &contacts, none);
     let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None)?;
-    let index = resolved.contacts.as_slice().iter().position(|pressing| pressing == contact)?;
+    let index = resolved.contacts.iter().position(|pressing| pressing == contact)?;
     let pull = bodies * resolved.forces.normal[index];
     // Balls that never slip lose with each impact the slip that their flight has made, which the other contacts feel as a
     // bounce.
     let kick = 2.0 * speed / pull * GRIPPED_SLIP * constants.sliding;
-    let grips = !alone && contacts.as_slice().iter().any(|other| other.never_slips(table));
+    let grips = !alone && contacts.iter().any(|other| other.never_slips(table));
     if grips && kick > tolerance.slowest_coupled_bounce {
         return None;
     }
@@ -262,10 +262,10 @@ fn meets_another(
         let closing = -other.opening_speed(balls);
         closing > constants.tolerance.opening
             && gap <= time * (closing + constants.sliding * time)
-            && !contacts.as_slice().contains(other)
-            && contacts.as_slice().iter().any(|contact| contact.shares_a_ball(other))
+            && !contacts.contains(other)
+            && contacts.iter().any(|contact| contact.shares_a_ball(other))
     };
-    !contacts_where(constants, balls, on_cloth, meets).as_slice().is_empty()
+    !contacts_where(constants, balls, on_cloth, meets).is_empty()
 }
 
 #[cfg(test)]
@@ -362,7 +362,6 @@ mod tests {
             chatter_end(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3)
                 .expect("the chatter ends")
                 .contacts
-                .as_slice()
                 .to_vec()
         };
         let other = Contact::with_cushion(0, glam::DVec2::NEG_Y);

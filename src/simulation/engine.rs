@@ -334,7 +334,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     /// Takes note of a step of resting contacts, by what the last one was like.
     pub(super) fn contact_step(&mut self, last: Option<&Resting>) -> ControlFlow<()> {
-        let contacts = last.map_or(1, |last| last.contacts.as_slice().len() as u32);
+        let contacts = last.map_or(1, |last| last.contacts.len() as u32);
         let is_solved = last.is_none_or(Resting::is_solved);
         self.add_work(if is_solved { STEP_WORK * contacts } else { UNSOLVED_WORK }, COARSER_STEPS);
         self.observer.contact_step()

@@ -141,14 +141,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let contacts = touching(&c, &states, self.on_cloth(), |opening| {
             opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
         });
-        if contacts.as_slice().len() < 2 {
+        if contacts.len() < 2 {
             return ControlFlow::Continue(false);
         }
         let mut changed = [false; BALLS];
         for (ball, changed) in changed.iter_mut().enumerate() {
             *changed = contacts.hold(ball);
         }
-        for contact in contacts.as_slice() {
+        for contact in contacts.iter() {
             // Exactly at the cushion, as in a single impact.
             let n = contact.cushion_normal;
             let ball = &mut states[contact.first];
@@ -157,8 +157,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }
         }
         let law = if collapsed { self.law.inelastic() } else { self.law.clone() };
-        let impulses = collide_together(c.radius, &law, &mut states, contacts.as_slice());
-        let met = || contacts.as_slice().iter().zip(&impulses).filter(|(_, impulse)| impulse.normal > 0.0);
+        let impulses = collide_together(c.radius, &law, &mut states, &contacts);
+        let met = || contacts.iter().zip(&impulses).filter(|(_, impulse)| impulse.normal > 0.0);
         if met().next().is_none() {
             // Balls that stand where they touch: what has met now is something else.
             return ControlFlow::Continue(false);
@@ -267,7 +267,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     ) -> ControlFlow<()> {
         let mut states = self.states_with(now, freed.as_ref(), before);
         let c = self.constants;
-        let contacts = rests.as_slice();
+        let contacts: &[Contact] = rests;
         close_gaps(&c, &mut states, contacts);
         let law = self.law.inelastic();
         let mut given = [0.0; MAX_CONTACTS];
@@ -284,11 +284,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let (mut ended, mut given_there) = (Contacts::NONE, [0.0; MAX_CONTACTS]);
         for (contact, given) in contacts.iter().zip(given) {
             if contact.opening_speed(&states) < c.tolerance.slowest_coupled_bounce {
-                given_there[ended.as_slice().len()] = given;
+                given_there[ended.len()] = given;
                 ended.push(*contact);
             }
         }
-        stop_by_impulses(self.table, &mut states, ended.as_slice(), &ActiveSet::SLIPPING, &given_there);
+        stop_by_impulses(self.table, &mut states, &ended, &ActiveSet::SLIPPING, &given_there);
         let changed = std::array::from_fn(|ball| rests.hold(ball));
         for index in (0..BALLS).filter(|&index| changed[index]) {
             self.end_segment(index, now);

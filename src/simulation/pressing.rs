@@ -119,7 +119,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let previous = self.resting.take().or(self.ended.take());
         self.contact_step(previous.as_deref())?;
         if let (Some(chatters), Some(previous)) = (&mut self.chatters, &previous) {
-            previous.contacts.as_slice().iter().for_each(|contact| chatters.rest(contact, now));
+            previous.contacts.iter().for_each(|contact| chatters.rest(contact, now));
         }
         let on_cloth = self.on_cloth();
         self.resting = match Resting::begin(
@@ -134,7 +134,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             Outcome::Rests(resting) => {
                 self.next_step = resting.next_step;
                 let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
-                resting.contacts.as_slice().iter().for_each(|contact| chatters.begin_rest(contact, now));
+                resting.contacts.iter().for_each(|contact| chatters.begin_rest(contact, now));
                 for index in (0..BALLS).filter(|&index| !resting.members[index]) {
                     if resting.begin[index] != states[index] {
                         states[index] = resting.begin[index];

@@ -241,7 +241,7 @@ impl Resting {
         let rate = self.time_rate(table.radius, &end.balls);
         self.next_step = if changes { f64::INFINITY } else { trial.step.best_length * rate };
         self.end = if self.goes_on {
-            close_gaps(&self.constants, &mut end.balls, self.contacts.as_slice());
+            close_gaps(&self.constants, &mut end.balls, &self.contacts);
             end.balls
         } else {
             self.without_rounding(table, end.balls)
@@ -285,7 +285,7 @@ impl Resting {
                 each(Place::Roll(ball), state.velocity, rate.velocity);
             }
         }
-        for (index, contact) in self.contacts.as_slice().iter().enumerate() {
+        for (index, contact) in self.contacts.iter().enumerate() {
             if slips(self.set.contact[index]) {
                 each(Place::Contact(index), contact.slip(radius, balls), contact.slip(radius, &rates));
             }
@@ -307,7 +307,7 @@ impl Resting {
     fn attempt(&self, table: &Table, from: &Trial, span: f64) -> Trial {
         let begin = &from.step.end;
         let mut last = from.forces;
-        let contacts = self.contacts.as_slice();
+        let contacts = &self.contacts;
         let yields = self.set.yields() || self.seeks();
         let slope = |phase: &Phase| {
             let (linear, angular) = if yields {
@@ -395,7 +395,7 @@ impl Resting {
         resolve(table, end, &self.contacts, &self.set, self.constants.tolerance.slack, Some(&trial.forces)).is_some_and(
             |lawful| {
                 trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * self.constants.tolerance.slack
-                    && lawful.contacts.as_slice() == self.contacts.as_slice()
+                    && lawful.contacts[..] == self.contacts[..]
                     && !lawful.set.lets_go(&self.set)
             },
         )
@@ -441,14 +441,14 @@ impl Resting {
         let slip = match place {
             Place::Cloth(ball) => slip(radius, balls[ball].velocity, balls[ball].spin),
             Place::Roll(ball) => balls[ball].velocity,
-            Place::Contact(index) => self.contacts.as_slice()[index].slip(radius, balls),
+            Place::Contact(index) => self.contacts[index].slip(radius, balls),
         };
         slip.length() / from
     }
 
     /// A later state without its rounding.
     fn without_rounding(&self, table: &Table, mut balls: State) -> State {
-        let contacts = self.contacts.as_slice();
+        let contacts = &self.contacts;
         let set = ActiveSet::of(table, &balls, contacts, self.constants.tolerance.slip).slipping_where(&self.set);
         remove_rounding(table, &self.constants, &mut balls, contacts, &set);
         balls
@@ -456,7 +456,7 @@ impl Resting {
 
     /// The forces in an active set; they have to be sought from `near` ones on where a friction yields.
     fn forces(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
-        let contacts = self.contacts.as_slice();
+        let contacts = &self.contacts;
         if set.yields() || self.seeks() {
             return yielding(table, state, contacts, set, near);
         }
@@ -475,11 +475,11 @@ impl Resting {
 
     /// Whether these two balls press each other.
     pub fn holds_together(&self, (first, second): (usize, usize)) -> bool {
-        self.contacts.as_slice().iter().any(|contact| (contact.first, contact.second) == (first, Some(second)))
+        self.contacts.iter().any(|contact| (contact.first, contact.second) == (first, Some(second)))
     }
 
     /// Whether this cushion holds the ball.
     pub fn holds_at(&self, ball: usize, rail: Rail) -> bool {
-        self.contacts.as_slice().contains(&Contact::with_cushion(ball, rail.normal()))
+        self.contacts.contains(&Contact::with_cushion(ball, rail.normal()))
     }
 }

@@ -1,5 +1,7 @@
 //! Which contacts push and which frictions hold: what is constant from one change of it to the next.
 
+use std::ops::Deref;
+
 use glam::DVec2;
 
 use super::{
@@ -45,14 +47,17 @@ impl Contacts {
         }
     }
 
-    /// The contacts.
-    pub fn as_slice(&self) -> &[Contact] {
-        &self.list[..self.count]
-    }
-
     /// Whether a ball takes part in any.
     pub fn hold(&self, ball: usize) -> bool {
-        self.as_slice().iter().any(|contact| contact.has(ball))
+        self.iter().any(|contact| contact.has(ball))
+    }
+}
+
+impl Deref for Contacts {
+    type Target = [Contact];
+
+    fn deref(&self) -> &[Contact] {
+        &self.list[..self.count]
     }
 }
 

@@ -91,7 +91,7 @@ pub(super) fn read_off(
         sticking: None,
         paradox: [false; MAX_CONTACTS],
     };
-    let never_slips = |index: usize| contacts.as_slice()[index].never_slips(table);
+    let never_slips = |index: usize| contacts[index].never_slips(table);
     for (index, (unknown, side)) in problem.unknowns.iter().zip(&solution.sides).enumerate() {
         if *side == Side::Holds {
             // Balls that never slip stop at once, others slide on against their friction.
@@ -124,11 +124,11 @@ pub(super) fn read_off(
     let pushes: [bool; MAX_CONTACTS] =
         std::array::from_fn(|index| resolved.forces.normal[index] > slack && !resolved.paradox[index]);
     resolved.contacts.retain(|index, _| pushes[index]);
-    if resolved.contacts.as_slice().is_empty() && !resolved.is_paradox() {
+    if resolved.contacts.is_empty() && !resolved.is_paradox() {
         return None;
     }
     let mut kept = [Friction::Sticks; MAX_CONTACTS];
-    let pushing = (0..contacts.as_slice().len()).filter(|&index| pushes[index]);
+    let pushing = (0..contacts.len()).filter(|&index| pushes[index]);
     for (friction, index) in kept.iter_mut().zip(pushing) {
         *friction = resolved.set.contact[index];
     }
@@ -293,7 +293,7 @@ impl Forces {
 
     /// The largest friction in a contact per ball mass, m/s².
     pub fn friction_limit(&self, table: &Table, contacts: &Contacts, index: usize) -> f64 {
-        coefficient(table, &contacts.as_slice()[index]) * self.normal[index]
+        coefficient(table, &contacts[index]) * self.normal[index]
     }
 
     /// The largest difference of accelerations, m/s²; `radius` in metres turns angular into linear ones.

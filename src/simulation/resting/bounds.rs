@@ -98,7 +98,7 @@ impl Resting {
             let slip = slip(table.radius, state.velocity, state.spin);
             largest.max(yields(self.set.cloth[ball], slip)).max(yields(self.set.roll[ball], state.velocity))
         });
-        let contacts = self.contacts.as_slice().iter().zip(self.set.contact);
+        let contacts = self.contacts.iter().zip(self.set.contact);
         let contacts = contacts.filter(|(contact, _)| !contact.never_slips(table));
         contacts.fold(on_cloth, |largest, (contact, does)| largest.max(yields(does, contact.slip(table.radius, balls))))
     }

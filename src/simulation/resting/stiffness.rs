@@ -72,7 +72,7 @@ impl Resting {
             }
             Place::Contact(index) => {
                 turned(&mut set.contact[index]);
-                let contact = &self.contacts.as_slice()[index];
+                let contact = &self.contacts[index];
                 let t = contact.normal(balls).perp();
                 let spin = table.radius * (across.y * t).extend(-across.x);
                 (row.balls[contact.first].velocity, row.balls[contact.first].spin) = (across.x * t, spin);
