@@ -68,7 +68,7 @@ pub struct LeastElevation {
     pub over: Option<Obstacle>,
 }
 
-/// The cue cannot be held anyhow: something is in its way at every elevation.
+/// The cue cannot be held at all: something is in its way at every elevation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the cue has no room for this stroke at any elevation: {obstacle} is in the way; strike higher or from elsewhere"

@@ -1,4 +1,4 @@
-//! The formulas of motion and impact, one file a chapter: they know no time and no table edge.
+//! The formulas of motion, impact and contact, one file a chapter, and where the cue has room: none of them knows when things happen.
 
 mod contact;
 mod cue;
@@ -13,14 +13,12 @@ pub use contact::{
     ActiveSet, Contact, Contacts, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Resolved, accelerations, factorize,
     forces, resolve, stop_by_impulses, substitute, yielding,
 };
-pub use cue::{CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
+pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
 #[cfg(test)]
 pub use cue_room::tests::collides;
 pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};
 pub use flight::{Cloth, SpatialState, turned_by_cloth};
-pub use impact::{
-    BallImpact, Cushion, Cushions, ImpactImpulse, ImpactLaw, collide_balls, collide_rail, collide_together,
-};
+pub use impact::{BallImpact, Cushion, Cushions, ImpactImpulse, ImpactLaw, collide_together};
 pub use motion::{
     BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, sliding_deceleration, slip, spin_deceleration,
 };

@@ -3,7 +3,7 @@
 
 use glam::DVec2;
 
-use super::{Constants, contacts::close, extrapolation::State, segment::slides, tolerance::Tolerance};
+use super::{Constants, contacts::close_gaps, extrapolation::State, segment::slides, tolerance::Tolerance};
 use crate::{
     physics::{
         ActiveSet, BallState, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, resolve, rolling_spin, slip,
@@ -47,7 +47,7 @@ impl Ended<'_> {
             }
         }
         for (index, contact) in contacts.iter().enumerate() {
-            let before = self.contacts.as_slice().iter().position(|before| before == contact);
+            let before = self.contacts.iter().position(|before| before == contact);
             if before.is_some_and(|before| self.set.contact[before] == Friction::Yields)
                 && small(contact.slip(radius, balls))
             {
@@ -55,6 +55,14 @@ impl Ended<'_> {
             }
         }
     }
+}
+
+/// Balls without the slips that end, and what holds then.
+struct Stopped {
+    begin: State,
+    resolved: Resolved,
+    /// Whether a slip begins again that has been taken to end.
+    departs: bool,
 }
 
 /// The state without the slips that end here, and the active set that holds then; none where no contact presses a ball that
@@ -71,14 +79,14 @@ pub fn lawful(
     least_push: f64,
     previous: Option<Ended<'_>>,
 ) -> Option<(State, Resolved)> {
-    if stand_on_slope(constants, balls, |ball| contacts.hold(ball)) {
+    if stand_on_slope(constants, balls, contacts) {
         return None;
     }
     let tolerance = &constants.tolerance;
-    let begun = contacts.as_slice().iter().any(|contact| begins_without_slip(table, contact, previous));
+    let begun = contacts.iter().any(|contact| begins_without_slip(table, contact, previous));
     let stopped = |none: f64, balls: &State, contacts: &Contacts| {
         let mut begin = *balls;
-        let touching = contacts.as_slice();
+        let touching: &[Contact] = contacts;
         if begun {
             stop_slips(table, &mut begin, touching);
         }
@@ -86,62 +94,63 @@ pub fn lawful(
         if let Some(previous) = previous.filter(|previous| previous.set.yields()) {
             previous.goes_on_yielding(table.radius, tolerance, &begin, touching, &mut set);
         }
-        settle(table, constants, &mut begin, touching, &set);
+        remove_rounding(table, constants, &mut begin, touching, &set);
         // Where forces are not unique, those near to the ones before are taken: after an interruption that has changed no contact, and after
         // many steps in a row that have begun anew.
         let same =
-            |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts.as_slice() == touching;
-        let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts.as_slice(), touching);
+            |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts[..] == *touching;
+        let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts, touching);
         let similar = previous.filter(same).map(of_these);
         let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref())?;
         if resolved.is_paradox() {
-            return Some((begin, resolved, false));
+            return Some(Stopped { begin, resolved, departs: false });
         }
         if let Some(sticking) = resolved.sticking {
             set = sticking;
-            settle(table, constants, &mut begin, touching, &set);
+            remove_rounding(table, constants, &mut begin, touching, &set);
             resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref())?;
         }
         let departs = resolved.set != set && {
             let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);
             resolved.set.cloth.iter().chain(&resolved.set.roll).chain(&resolved.set.contact).any(starts)
         };
-        Some((begin, resolved, departs))
+        Some(Stopped { begin, resolved, departs })
     };
     let (mut pressing, mut now) = (*contacts, *balls);
     loop {
-        if pressing.as_slice().is_empty() {
+        if pressing.is_empty() {
             return None;
         }
         let ended = stopped(tolerance.ending_slip, &now, &pressing)?;
-        if ended.1.is_paradox() {
+        if ended.resolved.is_paradox() {
             let part = |index: usize, contact: &Contact, balls: &mut State| {
-                if ended.1.paradox[index] {
+                if ended.resolved.paradox[index] {
                     part(balls, contact, tolerance.first_bounce);
                 }
             };
-            for (index, contact) in pressing.as_slice().iter().enumerate() {
+            for (index, contact) in pressing.iter().enumerate() {
                 part(index, contact, &mut now);
                 part(index, contact, balls);
             }
             contacts.retain(|_, contact| {
-                let index = pressing.as_slice().iter().position(|pressing| pressing == contact);
-                index.is_none_or(|index| !ended.1.paradox[index])
+                let index = pressing.iter().position(|pressing| pressing == contact);
+                index.is_none_or(|index| !ended.resolved.paradox[index])
             });
-            pressing.retain(|index, _| !ended.1.paradox[index]);
+            pressing.retain(|index, _| !ended.resolved.paradox[index]);
             continue;
         }
         // Balls that lie still may go on pushing each other, held by the cloth; nothing comes of it.
         let still = |(ball, state): (usize, &BallState)| {
             !pressing.hold(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
         };
-        if !ended.2 && ended.0.iter().enumerate().all(still) {
+        if !ended.departs && ended.begin.iter().enumerate().all(still) {
             return None;
         }
         // What would begin to slip again at once has not ended.
-        let (begin, resolved, _) = if ended.2 { stopped(tolerance.slip, &now, &pressing)? } else { ended };
+        let Stopped { begin, resolved, .. } =
+            if ended.departs { stopped(tolerance.slip, &now, &pressing)? } else { ended };
         // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
-        if resolved.contacts.as_slice().len() == pressing.as_slice().len() {
+        if resolved.contacts.len() == pressing.len() {
             return Some((begin, resolved));
         }
         for ball in (0..BALLS).filter(|&ball| pressing.hold(ball) && !resolved.contacts.hold(ball)) {
@@ -168,9 +177,7 @@ fn part(balls: &mut State, contact: &Contact, speed: f64) {
 
 /// Whether this is the beginning of a contact of balls that never slip.
 fn begins_without_slip(table: &Table, contact: &Contact, previous: Option<Ended<'_>>) -> bool {
-    table.ball_friction.is_none()
-        && contact.second.is_some()
-        && !previous.is_some_and(|previous| previous.contacts.as_slice().contains(contact))
+    contact.never_slips(table) && !previous.is_some_and(|previous| previous.contacts.contains(contact))
 }
 
 /// Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17), where the
@@ -201,25 +208,25 @@ pub fn transient_pressing(constants: &Constants, balls: &State, contacts: &Conta
     members.map(|(_, ball)| idle(ball)).fold(0.0, f64::max)
 }
 
-/// Whether balls stand still on a table that is not level: what lies below goes on pressing them, but they are at rest.
-pub fn stand_on_slope(constants: &Constants, balls: &State, takes_part: impl Fn(usize) -> bool) -> bool {
+/// Whether the balls of contacts stand still on a table that is not level: what lies below goes on pressing them, but they are at rest.
+fn stand_on_slope(constants: &Constants, balls: &State, contacts: &Contacts) -> bool {
     let none = constants.tolerance.still;
     let stands = |ball: &BallState| {
         ball.velocity.length() < none && constants.radius * ball.spin.truncate().length() < none && ball.spin.z == 0.0
     };
-    constants.tilt != DVec2::ZERO && (0..BALLS).all(|ball| !takes_part(ball) || stands(&balls[ball]))
+    !constants.level && (0..BALLS).all(|ball| !contacts.hold(ball) || stands(&balls[ball]))
 }
 
 /// The balls of contacts that do not press, without slips on the cloth that end at once: what a resting contact would count
 /// as rolling must not slide when it is free.
 pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> State {
-    let set = ActiveSet::of(table, balls, contacts.as_slice(), constants.tolerance.ending_slip);
+    let set = ActiveSet::of(table, balls, contacts, constants.tolerance.ending_slip);
     let ends = |(ball, state): (usize, &BallState)| {
         contacts.hold(ball) && set.cloth[ball] == Friction::Sticks && slides(table.radius, state)
     };
     let mut ended = *balls;
     if balls.iter().enumerate().any(ends) {
-        settle(table, constants, &mut ended, contacts.as_slice(), &set);
+        remove_rounding(table, constants, &mut ended, contacts, &set);
     }
     ended
 }
@@ -227,13 +234,13 @@ pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State,
 /// Whether a contact closes by as much as, together with what rounding does, would be a bounce: a ball that another drives on does not
 /// stand still.
 fn closes(constants: &Constants, balls: &State, contacts: &Contacts) -> bool {
-    contacts.as_slice().iter().any(|contact| contact.opening_speed(balls) < -0.1 * constants.tolerance.opening)
+    contacts.iter().any(|contact| contact.opening_speed(balls) < -0.1 * constants.tolerance.opening)
 }
 
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or
 /// spinning by `set` has stopped exactly.
-pub fn settle(table: &Table, constants: &Constants, balls: &mut State, contacts: &[Contact], set: &ActiveSet) {
-    close(constants, balls, contacts);
+pub fn remove_rounding(table: &Table, constants: &Constants, balls: &mut State, contacts: &[Contact], set: &ActiveSet) {
+    close_gaps(constants, balls, contacts);
     stop_by_impulses(table, balls, contacts, set, &[0.0; MAX_CONTACTS]);
     for (ball, state) in balls.iter_mut().enumerate() {
         if !contacts.iter().any(|contact| contact.has(ball)) {

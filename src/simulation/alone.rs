@@ -11,7 +11,7 @@ use super::{
     EventKind, Observer, Rail, Segment,
     ball_ball::Triangle,
     contact_mode::ContactMode,
-    contacts::{PAIRS_OF, is_in_corner},
+    contacts::{PAIRS_OF, is_in_corner, put_at_cushion},
     cushions::cushion_ahead,
     engine::{Ball, Engine},
     predict::Ahead,
@@ -51,7 +51,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             if rail_after < lasts {
                 let n = rail.normal();
                 let mut state = segment.state_after(constants, *rail_after);
-                state.position += (-n.abs().dot(constants.reach) - state.position.dot(n)) * n;
+                put_at_cushion(constants, n, &mut state.position);
                 let impulse = self.law.cushions.at(*rail).resolve(constants.radius, n, &mut state);
                 // What might be part of a chatter, meets two cushions at once, or leaves the cloth.
                 if state.velocity.dot(n) <= constants.tolerance.slow_bounce

@@ -42,7 +42,7 @@ pub fn balls_ahead<S: Savings>(
         return Ahead::Nothing;
     }
     // On a slope a roll bends.
-    let rolls_straight = constants.tilt == DVec2::ZERO
+    let rolls_straight = constants.level
         && matches!(
             (first.motion, second.motion),
             (Motion::Rolling, Motion::Stationary) | (Motion::Stationary, Motion::Rolling)

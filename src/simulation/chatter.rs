@@ -10,7 +10,7 @@
 
 use super::{
     Constants,
-    contacts::{PAIRS_OF, contacts_where, nearly_touching},
+    contacts::{PAIRS_OF, contacts_where},
 };
 use crate::{
     physics::{ActiveSet, BallState, Contact, Contacts, ImpactLaw, resolve, slip},
@@ -152,7 +152,8 @@ fn coupled(
     let slow = COUPLING * speed.abs();
     let high =
         (0.5 * slow * slow / constants.sliding).clamp(constants.tolerance.touching, constants.tolerance.coupled_gap);
-    let mut contacts = nearly_touching(constants, balls, on_cloth, high, |opening| opening.abs() <= slow);
+    let is_coupled = |gap: f64, other: &Contact| gap <= high && other.opening_speed(balls).abs() <= slow;
+    let mut contacts = contacts_where(constants, balls, on_cloth, is_coupled);
     // It has met, whatever rounding says of its gap.
     contacts.retain(|_, other| other != contact);
     contacts.push(*contact);
@@ -160,7 +161,7 @@ fn coupled(
 }
 
 /// The end of a chatter.
-pub struct Settled {
+pub struct ChatterEnd {
     /// The contacts that rest from now on.
     pub contacts: Contacts,
     /// How long the bounces that are left out would have gone on, s; none where they are too slow to be missed.
@@ -170,7 +171,7 @@ pub struct Settled {
 /// The contacts that come to rest together with one that has just bounced, and opens in the state `balls`: forces press them
 /// once their bounces have ended, and what is left of those can no longer be told. None if it goes on. `shrinking` is by how much the last flight was
 /// shorter than the one before.
-pub fn settles(
+pub fn chatter_end(
     table: &Table,
     constants: &Constants,
     law: &ImpactLaw,
@@ -178,7 +179,7 @@ pub fn settles(
     balls: &[BallState; BALLS],
     on_cloth: [bool; BALLS],
     shrinking: f64,
-) -> Option<Settled> {
+) -> Option<ChatterEnd> {
     let tolerance = &constants.tolerance;
     let speed = contact.opening_speed(balls);
     let restitution = law.restitution(contact);
@@ -187,7 +188,7 @@ pub fn settles(
     if speed <= slowest {
         let mut alone = Contacts::NONE;
         alone.push(*contact);
-        return Some(Settled { contacts: alone, lasts: 0.0 });
+        return Some(ChatterEnd { contacts: alone, lasts: 0.0 });
     }
     // What the bounces open holds on average, and slips that they make are none.
     let mut contacts = coupled(constants, balls, on_cloth, contact, speed);
@@ -210,16 +211,17 @@ pub fn settles(
         }
     }
     // A slip that the bounces make turns with each of them: what they do is of their own size.
-    let alone = contacts.as_slice().len() == 1;
+    let alone = contacts.len() == 1;
     if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slowest_coupled_bounce } {
         return None;
     }
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
+    let cube = |x: f64| x * x * x;
     // Coupled contacts need not bounce ever more softly: all that is known is how softly they do.
     let negligible = if alone { tolerance.negligible } else { tolerance.negligible_coupled };
     let ends = |pull: f64| {
         let chatter = 2.0 * speed / (pull * (1.0 - restitution));
-        let moment = 4.0 * speed.powi(3) / (3.0 * pull * pull * (1.0 - restitution.powi(3)));
+        let moment = 4.0 * cube(speed) / (3.0 * pull * pull * (1.0 - cube(restitution)));
         chatter <= slide && 0.5 * moment <= negligible * slide * slide
     };
     // Most bounces are too fast for any pull that the cloth can give.
@@ -227,15 +229,14 @@ pub fn settles(
     if !ends(MOST_PULL * bodies * (constants.sliding + constants.tilt.length())) {
         return None;
     }
-    let set = ActiveSet::of(table, balls, contacts.as_slice(), none);
+    let set = ActiveSet::of(table, balls, &contacts, none);
     let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None)?;
-    let index = resolved.contacts.as_slice().iter().position(|pressing| pressing == contact)?;
+    let index = resolved.contacts.iter().position(|pressing| pressing == contact)?;
     let pull = bodies * resolved.forces.normal[index];
     // Balls that never slip lose with each impact the slip that their flight has made, which the other contacts feel as a
     // bounce.
     let kick = 2.0 * speed / pull * GRIPPED_SLIP * constants.sliding;
-    let grips =
-        !alone && table.ball_friction.is_none() && contacts.as_slice().iter().any(|other| other.second.is_some());
+    let grips = !alone && contacts.iter().any(|other| other.never_slips(table));
     if grips && kick > tolerance.slowest_coupled_bounce {
         return None;
     }
@@ -245,7 +246,7 @@ pub fn settles(
     let is_missed = speed > tolerance.slowest_coupled_bounce;
     let lasts = if is_missed { 2.0 * speed / (pull * (1.0 - restitution)) } else { 0.0 };
     let is_cut_short = is_missed && meets_another(constants, balls, on_cloth, &resolved.contacts, lasts);
-    (!is_cut_short).then_some(Settled { contacts: resolved.contacts, lasts })
+    (!is_cut_short).then_some(ChatterEnd { contacts: resolved.contacts, lasts })
 }
 
 /// Whether a ball of the contacts meets anything else within a `time`, s, in which the bounces that are left out are not over: it would
@@ -261,10 +262,10 @@ fn meets_another(
         let closing = -other.opening_speed(balls);
         closing > constants.tolerance.opening
             && gap <= time * (closing + constants.sliding * time)
-            && !contacts.as_slice().contains(other)
-            && contacts.as_slice().iter().any(|contact| contact.shares_a_ball(other))
+            && !contacts.contains(other)
+            && contacts.iter().any(|contact| contact.shares_a_ball(other))
     };
-    !contacts_where(constants, balls, on_cloth, meets).as_slice().is_empty()
+    !contacts_where(constants, balls, on_cloth, meets).is_empty()
 }
 
 #[cfg(test)]
@@ -338,7 +339,7 @@ mod tests {
             balls[0].velocity.x = -1e-6;
             balls[0].spin.y = 100.0;
             balls[1].velocity.x = 0.1;
-            settles(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3).is_some()
+            chatter_end(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3).is_some()
         };
         assert!(ends(1e-6) && !ends(1e-8));
     }
@@ -358,10 +359,9 @@ mod tests {
                 velocity: glam::DVec2::new(-1e-9, -up),
                 spin: glam::DVec3::new(-100.0, 100.0, 0.0),
             };
-            settles(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3)
+            chatter_end(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3)
                 .expect("the chatter ends")
                 .contacts
-                .as_slice()
                 .to_vec()
         };
         let other = Contact::with_cushion(0, glam::DVec2::NEG_Y);

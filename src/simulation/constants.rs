@@ -31,6 +31,8 @@ pub struct Constants {
     pub roll_time: f64,
     /// Whether the table is level and a rolling ball slows down evenly, as in the thesis.
     pub even: bool,
+    /// Whether the table is level.
+    pub level: bool,
     /// Acceleration of a table that is not level, m/s².
     pub tilt: DVec2,
     /// `5 mu_sp g / 2R`, rad/s².
@@ -46,6 +48,7 @@ impl Constants {
     pub fn of(table: &Table) -> Self {
         let tolerance = Tolerance::of(table);
         let sliding = sliding_deceleration(table);
+        let level = table.tilt == DVec2::ZERO;
         Self {
             length: table.length,
             radius: table.radius,
@@ -56,7 +59,8 @@ impl Constants {
             slide_time: 1.0 / (3.5 * sliding),
             rolling: Rolling::of(table),
             roll_time: 1.0 / rolling_deceleration(table),
-            even: table.tilt == DVec2::ZERO && table.rolling_growth == 0.0,
+            even: level && table.rolling_growth == 0.0,
+            level,
             tilt: table.tilt,
             spinning: spin_deceleration(table),
             lifts: if table.flight.is_some() { tolerance.least_lift } else { f64::INFINITY },

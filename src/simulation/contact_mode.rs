@@ -1,4 +1,4 @@
-//! How a ball is in contact: the one place that knows it.
+//! Whether a ball is free, bounces slowly, or rests against something.
 
 /// What a ball's contacts do.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,18 +18,8 @@ pub fn touching(
     on_cloth: [bool; BALLS],
     wanted: impl Fn(f64) -> bool,
 ) -> Contacts {
-    nearly_touching(constants, balls, on_cloth, constants.tolerance.touching, wanted)
-}
-
-/// The same for gaps up to some size, m.
-pub fn nearly_touching(
-    constants: &Constants,
-    balls: &State,
-    on_cloth: [bool; BALLS],
-    widest: f64,
-    wanted: impl Fn(f64) -> bool,
-) -> Contacts {
-    contacts_where(constants, balls, on_cloth, |gap, contact| gap <= widest && wanted(contact.opening_speed(balls)))
+    let touches = |gap: f64| gap <= constants.tolerance.touching;
+    contacts_where(constants, balls, on_cloth, |gap, contact| touches(gap) && wanted(contact.opening_speed(balls)))
 }
 
 /// Whether a ball touches two cushions: of those that it meets at once it has only foreseen one.
@@ -38,7 +28,7 @@ pub fn is_in_corner(constants: &Constants, position: DVec2) -> bool {
     (constants.reach - position.abs()).max_element() <= constants.tolerance.touching
 }
 
-/// Those of all that the balls `on_cloth` may have which are `wanted` with their gap, m.
+/// Of all contacts that the balls `on_cloth` could have, those that are `wanted` with the gap that they have now, m.
 pub fn contacts_where(
     constants: &Constants,
     balls: &State,
@@ -79,11 +69,17 @@ pub fn cushion_gap(constants: &Constants, normal: DVec2, place: DVec2) -> f64 {
     normal.abs().dot(constants.reach) + place.dot(normal)
 }
 
+/// Puts a ball exactly at a cushion with this normal: the rounding of a prediction must not leave a gap to fall through.
+#[inline(always)]
+pub fn put_at_cushion(constants: &Constants, normal: DVec2, position: &mut DVec2) {
+    *position += (-normal.abs().dot(constants.reach) - position.dot(normal)) * normal;
+}
+
 /// Rounds in which gaps are closed: what one contact needs opens others a little.
 const CLOSING_ROUNDS: usize = 6;
 
 /// Moves balls by the gaps of their contacts, which are as small as the bounces that are given up.
-pub fn close(constants: &Constants, balls: &mut State, contacts: &[Contact]) {
+pub fn close_gaps(constants: &Constants, balls: &mut State, contacts: &[Contact]) {
     for _ in 0..CLOSING_ROUNDS {
         for contact in contacts {
             let (gap, n) = (gap(constants, balls, contact), contact.normal(balls));

@@ -1,7 +1,5 @@
 //! When a free ball will meet a cushion, if nothing else happens first.
 
-use glam::DVec2;
-
 use super::{
     Constants, Rail, Segment,
     predict::{Ahead, lesser},
@@ -16,7 +14,7 @@ use crate::physics::Motion;
 #[inline(always)]
 pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
     // On a slope a roll bends.
-    if segment.motion == Motion::Rolling && (constants.even || constants.tilt == DVec2::ZERO) {
+    if segment.motion == Motion::Rolling && constants.level {
         return cushion_ahead_of_rolling::<S>(constants, segment, horizon);
     }
     let (p, v, k) = (segment.position, segment.velocity, segment.half_acceleration);

@@ -14,8 +14,8 @@ use super::{
     savings::{All, Savings},
 };
 use crate::{
-    physics::{BallState, Cloth, ImpactLaw, Impulse, Motion, SpatialState},
-    table::{BALLS, Layout, Table},
+    physics::{BallState, Cloth, ImpactLaw, Impulse, Motion},
+    table::{BALLS, Layout, PAIRS, Table},
 };
 
 /// Impacts that follow each other within this time are at the same moment, s: a ball moves by less than a gap that counts as
@@ -27,9 +27,10 @@ pub(super) const MOMENT: f64 = 1e-15;
 /// then on. The stability table counts the shots that come to it.
 const MOST_WORK: u32 = 40_000;
 
-/// Events after which a shot ends where it is. This is a guard, not physics, for what repeats in the air without end; a shot has some
-/// ten events, and one in a chatter some hundred.
-const MOST_EVENTS: u32 = 50_000;
+/// Turns of the general loop after which a shot ends where it is: ends of motions, impacts, and bounces and steps of resting contacts that
+/// are not told as events. This is a guard, not physics, for what repeats in the air without end; a shot takes some ten turns, and one
+/// with a chatter some hundred.
+const MOST_TURNS: u32 = 50_000;
 
 /// Work after which tolerances grow, each time as much: see [`super::tolerance::Tolerance::coarser`]. Of 10⁶ random shots on "thesis"
 /// some ten take so much. Before the guard stops what is left, they grow fast with every bounce: those that never fade are given up.
@@ -130,7 +131,7 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) constants: Constants,
     pub(super) law: ImpactLaw,
     /// Whether nothing bounces on this table.
-    pub(super) dead: bool,
+    pub(super) inelastic: bool,
     /// Work that a bounce of a chatter on the cloth counts as. Where bounces lose nothing, a ball that is pressed bounces until
     /// its spin has died down: there are more of them, and they are the simplest.
     bounce_work: u32,
@@ -138,9 +139,9 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) cloth: Option<Cloth>,
     pub(super) observer: &'a mut O,
     pub(super) balls: [Ball; BALLS],
-    pub(super) pairs: [Meeting; 3],
+    pub(super) pairs: [Meeting; PAIRS.len()],
     /// When each ball, and then each pair, has its next event, s; infinity for none.
-    pub(super) times: [f64; 2 * BALLS],
+    pub(super) times: [f64; BALLS + PAIRS.len()],
     pub(super) resting: Option<Box<Resting>>,
     /// The step that has just ended, until it is known what presses behind it.
     pub(super) ended: Option<Box<Resting>>,
@@ -162,18 +163,18 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
 
 impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     pub(super) fn new(table: &'a Table, layout: &Layout, observer: &'a mut O) -> Self {
-        let restitution = table.ball_restitution.max(table.rail.largest_restitution(table.rail_restitution));
+        let restitution = table.largest_restitution();
         Self {
             table,
             constants: Constants::of(table),
             law: ImpactLaw::of(table),
             bounce_work: if restitution < 1.0 { 2 } else { 1 },
-            dead: restitution == 0.0,
+            inelastic: restitution == 0.0,
             cloth: Cloth::of(table),
             observer,
             balls: layout.balls.map(Ball::at_rest),
-            pairs: [Meeting::unseen(0.0, false); 3],
-            times: [f64::INFINITY; 2 * BALLS],
+            pairs: [Meeting::unseen(0.0, false); PAIRS.len()],
+            times: [f64::INFINITY; BALLS + PAIRS.len()],
             resting: None,
             ended: None,
             next_step: f64::INFINITY,
@@ -193,9 +194,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             BallState { position: self.balls[0].segment.position, velocity: impulse.velocity, spin: impulse.spin };
         let mut flow = ControlFlow::Continue(());
         if impulse.lift > 0.0 {
-            let mut cue_ball = SpatialState::from(cue_ball);
-            cue_ball.velocity.z = impulse.lift;
-            flow = self.launch_in_space(0, 0.0, &cue_ball);
+            flow = self.lift(0, 0.0, cue_ball, impulse.lift);
         } else {
             self.launch(0, 0.0, &cue_ball);
         }
@@ -212,9 +211,9 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         if S::ALONE && S::KEPT_PREDICTIONS && flow.is_continue() && self.moves_alone(0) {
             flow = self.play_alone(0, &mut now);
         }
-        let mut events = 0;
-        while flow.is_continue() && events < MOST_EVENTS {
-            events += 1;
+        let mut turns = 0;
+        while flow.is_continue() && turns < MOST_TURNS {
+            turns += 1;
             let (mut next, mut source) = (f64::INFINITY, usize::MAX);
             for (index, &time) in self.times.iter().enumerate() {
                 if time < next {
@@ -261,7 +260,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     /// still, off its line.
     #[inline(never)]
     pub(super) fn rolls_out(&self, index: usize, segment: &Segment) -> bool {
-        if self.constants.tilt != DVec2::ZERO {
+        if !self.constants.level {
             return false;
         }
         let speed = segment.velocity.length();
@@ -283,7 +282,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         let ended = ball.segment.motion;
         let (mut segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
         segment.start = now;
-        self.close(index, now);
+        self.end_segment(index, now);
         // Of a ball that bounces it is told once its contact is known to have ended.
         let bounces = self.balls[index].mode == ContactMode::Bouncing;
         if ended == Motion::Sliding && !bounces {
@@ -335,7 +334,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     /// Takes note of a step of resting contacts, by what the last one was like.
     pub(super) fn contact_step(&mut self, last: Option<&Resting>) -> ControlFlow<()> {
-        let contacts = last.map_or(1, |last| last.contacts.as_slice().len() as u32);
+        let contacts = last.map_or(1, |last| last.contacts.len() as u32);
         let is_solved = last.is_none_or(Resting::is_solved);
         self.add_work(if is_solved { STEP_WORK * contacts } else { UNSOLVED_WORK }, COARSER_STEPS);
         self.observer.contact_step()
@@ -354,7 +353,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     /// Hands a finished segment to an observer that records.
     #[inline]
-    pub(super) fn close(&mut self, index: usize, end: f64) {
+    pub(super) fn end_segment(&mut self, index: usize, end: f64) {
         if self.observer.wants_segments() {
             self.observer.segment(index, &self.balls[index].segment, end);
         }
@@ -362,7 +361,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     pub(super) fn finish(mut self, time: f64) -> End {
         for index in 0..BALLS {
-            self.close(index, time);
+            self.end_segment(index, time);
         }
         let balls = std::array::from_fn(|index| {
             let mut state = self.state(index, time);
@@ -378,8 +377,4 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
 pub(super) fn only(index: usize) -> [bool; BALLS] {
     std::array::from_fn(|other| other == index)
-}
-
-pub(super) fn either(freed: bool, of_contact: [bool; BALLS], changed: [bool; BALLS]) -> [bool; BALLS] {
-    if freed { std::array::from_fn(|index| changed[index] || of_contact[index]) } else { changed }
 }

@@ -2,6 +2,8 @@
 //! (Gragg 1965, Bulirsch and Stoer 1966), and of the semi-implicit one (Bader and Deuflhard 1983) where the equation is
 //! stiff.
 
+use glam::DVec2;
+
 use crate::{
     physics::{BallState, factorize, substitute},
     table::BALLS,
@@ -70,6 +72,9 @@ impl Stiff {
 }
 
 impl Phase {
+    /// Nothing at all: what a sum begins with.
+    pub const ZERO: Self = Self { balls: [BallState::at_rest(DVec2::ZERO); BALLS], time: 0.0 };
+
     /// Scalar product of velocities and spins.
     pub fn dot(&self, other: &Self) -> f64 {
         self.balls.iter().zip(&other.balls).map(|(a, b)| a.velocity.dot(b.velocity) + a.spin.dot(b.spin)).sum()
@@ -113,8 +118,8 @@ pub fn extrapolate(
         let error_before = best.error;
         done += count as f64;
         let mut newer = match stiff {
-            Some(stiff) => leap_damped(begin, first, &mut slope, stiff, members, (count, h)),
-            None => leap(begin, first, &mut slope, members, (count, h)),
+            Some(stiff) => semi_implicit_midpoint(begin, first, &mut slope, stiff, members, (count, h)),
+            None => modified_midpoint(begin, first, &mut slope, members, (count, h)),
         };
         for column in 1..=round {
             let ratio = count as f64 / counts[round - column] as f64;
@@ -154,7 +159,7 @@ pub fn extrapolate(
 
 /// Gragg's method: `count` leaps of length `h` over the midpoint, smoothed at the end.
 #[inline(always)]
-fn leap(
+fn modified_midpoint(
     begin: &Phase,
     first: &Phase,
     slope: &mut impl FnMut(&Phase) -> Phase,
@@ -172,7 +177,7 @@ fn leap(
 }
 
 /// Bader's and Deuflhard's method: the same with the stiff part of the slope implicit.
-fn leap_damped(
+fn semi_implicit_midpoint(
     begin: &Phase,
     first: &Phase,
     slope: &mut impl FnMut(&Phase) -> Phase,
@@ -180,17 +185,16 @@ fn leap_damped(
     members: [bool; BALLS],
     (count, h): (usize, f64),
 ) -> Phase {
-    let nothing = Phase { balls: [BallState::at_rest(glam::DVec2::ZERO); BALLS], time: 0.0 };
     let plus = |base: &Phase, slope: &Phase, factor: f64| plus(base, slope, factor, members);
     let damped = stiff.damper(h, members);
-    let mut change = damped(&plus(&nothing, first, h));
+    let mut change = damped(&plus(&Phase::ZERO, first, h));
     let mut now = plus(begin, &change, 1.0);
     for _ in 1..count {
-        let missing = plus(&plus(&nothing, &slope(&now), h), &change, -1.0);
+        let missing = plus(&plus(&Phase::ZERO, &slope(&now), h), &change, -1.0);
         change = plus(&change, &damped(&missing), 2.0);
         now = plus(&now, &change, 1.0);
     }
-    let missing = plus(&plus(&nothing, &slope(&now), h), &change, -1.0);
+    let missing = plus(&plus(&Phase::ZERO, &slope(&now), h), &change, -1.0);
     plus(&now, &damped(&missing), 1.0)
 }
 
@@ -217,7 +221,7 @@ fn distance(one: &Phase, other: &Phase, members: [bool; BALLS], radius: f64) -> 
 
 #[cfg(test)]
 mod tests {
-    use glam::{DVec2, DVec3};
+    use glam::DVec3;
 
     use super::*;
 
@@ -246,10 +250,9 @@ mod tests {
             let pull = if phase.time < 0.3 { DVec2::X } else { DVec2::NEG_X };
             Phase { balls: phase.balls.map(|_| BallState { velocity: pull, ..BallState::at_rest(pull) }), time: 1.0 }
         };
-        let still = Phase { balls: [BallState::at_rest(DVec2::ZERO); BALLS], time: 0.0 };
         let first =
             Phase { balls: [BallState { velocity: DVec2::X, ..BallState::at_rest(DVec2::X) }; BALLS], time: 1.0 };
-        let step = extrapolate(&still, &first, kinked, None, [true; BALLS], 0.5, (1.0, 1e-12));
+        let step = extrapolate(&Phase::ZERO, &first, kinked, None, [true; BALLS], 0.5, (1.0, 1e-12));
         assert!(step.error > 1e-12 && step.best_length < 0.5, "{step:?}");
         // All rounds take 72.
         assert!(slopes < 30, "{slopes}");
@@ -268,8 +271,7 @@ mod tests {
             }),
             time: 1.0,
         };
-        let still = Phase { balls: [BallState::at_rest(DVec2::ZERO); BALLS], time: 0.0 };
-        let (mut begin, mut row, mut column) = (still, still, still);
+        let [mut begin, mut row, mut column] = [Phase::ZERO; 3];
         begin.balls[1].velocity = wanted(0.0);
         row.balls[1].velocity = DVec2::X;
         column.balls[1].velocity = DVec2::NEG_X * RATE;

@@ -8,7 +8,7 @@ use super::{
     chatter::Chatters,
     contact_mode::ContactMode,
     contacts::PAIRS_OF,
-    engine::{Ball, Engine, Meeting, either, only},
+    engine::{Ball, Engine, Meeting, only},
     hops::Hops,
     savings::Savings,
     segment::Course,
@@ -71,7 +71,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn stay_on_cloth(&mut self, index: usize, time: &mut f64) -> ControlFlow<()> {
         let now = *time;
         let Some(end) = self.balls[index].segment.hops().map(Hops::end) else { return ControlFlow::Continue(()) };
-        self.close(index, now);
+        self.end_segment(index, now);
         self.launch(index, now, &end);
         self.tell(now, EventKind::Lands(index))?;
         match self.balls[index].segment.motion {
@@ -96,11 +96,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         climb: f64,
         freed: bool,
     ) -> ControlFlow<()> {
-        self.close(index, now);
+        self.end_segment(index, now);
         let rail = self.balls[index].rail;
         self.tell(now, EventKind::BallRail(index, rail))?;
         self.lift(index, now, state, climb)?;
-        self.look_ahead(now, either(freed, self.freed_members(), only(index)))
+        self.look_ahead(now, self.with_freed(freed, only(index)))
     }
 
     /// Sends a ball off the cloth with the upward velocity `climb`, m/s.
@@ -118,7 +118,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let c = self.constants;
         let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
         self.land_first(&mut state);
-        self.close(index, now);
+        self.end_segment(index, now);
         let cushion = *self.law.cushions.at(rail);
         let to_nose = Nose::of(&cushion, c.radius).way_from(&c, rail, state.position);
         if to_nose.truncate().dot(rail.normal()) >= 0.0 {
@@ -162,7 +162,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let Some(cloth) = self.cloth else { return ControlFlow::Continue(()) };
         let approach = self.law.balls.resolve_over_cloth(c.radius, slowest, &cloth, &mut one, &mut other);
         for index in [first, second] {
-            self.close(index, now);
+            self.end_segment(index, now);
         }
         let told = self.is_told(now, &Contact::of_balls(first, second), approach);
         self.tell_impact(now, EventKind::BallBall(first, second), told)?;
@@ -173,7 +173,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.tell(now, EventKind::ContactBegins(index))?;
             }
         }
-        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
+        self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }
 
     /// Whether an impact in the air is told, and not one of many with which a ball slides off another or off a nose.
@@ -262,8 +262,8 @@ mod tests {
         (count.0, end)
     }
 
-    /// What a soft blow made the lower ball's was lost in the cloth, and what the upper one needed to rise came out of its motion across:
-    /// it crept where it was, in ever shorter bounces without end.
+    /// The speed that a soft blow gave the lower ball was once lost in the cloth, and the speed with which the upper one rose came out of
+    /// its motion across: it stayed where it was, in ever shorter bounces without end.
     #[test]
     fn a_ball_slides_off_anothers_top_however_softly_it_comes_to_lie_there() {
         for (preset, restitution) in

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use super::{
     Event, EventKind, Observer, Rail,
-    chatter::{Chatters, settles},
+    chatter::{Chatters, chatter_end},
     contact_mode::ContactMode,
-    contacts::{close, is_in_corner, touching},
-    engine::{Ball, Engine, MOMENT, Meeting, either, only},
+    contacts::{close_gaps, is_in_corner, put_at_cushion, touching},
+    engine::{Ball, Engine, MOMENT, Meeting, only},
     savings::Savings,
 };
 use crate::{
@@ -47,8 +47,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             Some(states) => states[index],
             None => self.balls[index].segment.state_after(&self.constants, rail_after),
         };
-        // The ball stands exactly at the cushion: the prediction's rounding must not leave a gap to fall through.
-        state.position += (-n.abs().dot(self.constants.reach) - state.position.dot(n)) * n;
+        put_at_cushion(&self.constants, n, &mut state.position);
         let c = &self.constants;
         let before = state;
         let impulse = self.law.cushions.at(rail).resolve(c.radius, n, &mut state);
@@ -59,7 +58,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
             let contact = Contact::with_cushion(index, n);
             told = self.slow_bounce(now, &contact)?;
-            if let Some(rests) = self.settles(now, freed.as_ref(), &contact, &[(index, state)]) {
+            if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(index, state)]) {
                 return self.end_chatter(
                     now,
                     freed,
@@ -70,11 +69,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 );
             }
         }
-        self.close(index, now);
+        self.end_segment(index, now);
         self.launch(index, now, &state);
         self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
         if freed.is_some() {
-            self.look_ahead(now, either(true, self.freed_members(), only(index)))
+            self.look_ahead(now, self.with_freed(true, only(index)))
         } else {
             self.look_ahead_of(now, index)
         }
@@ -108,17 +107,17 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if opening <= c.diameter * c.tolerance.slow_bounce {
             let contact = Contact::of_balls(first, second);
             told = self.slow_bounce(now, &contact)?;
-            if let Some(rests) = self.settles(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
+            if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
                 let before = [(first, before.0), (second, before.1)];
                 return self.end_chatter(now, freed, &before, &rests, EventKind::BallBall(first, second), told);
             }
         }
-        self.close(first, now);
-        self.close(second, now);
+        self.end_segment(first, now);
+        self.end_segment(second, now);
         self.launch(first, now, &a);
         self.launch(second, now, &b);
         self.tell_impact(now, EventKind::BallBall(first, second), told)?;
-        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
+        self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }
 
     /// Whether other impacts happen at this very moment, or too many have.
@@ -130,7 +129,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for time in self.times {
             at_once += u32::from(time <= now + MOMENT);
         }
-        at_once > 1 || self.dead || self.rounds > MOST_ROUNDS
+        at_once > 1 || self.inelastic || self.rounds > MOST_ROUNDS
     }
 
     /// All contacts that close now collide together, if there are several.
@@ -145,11 +144,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         });
         let c = self.constants;
         // Without any restitution the rounds would go on for ever; their limit is one impact of all that touches.
-        let collapsed = self.dead || self.rounds > MOST_ROUNDS;
+        let collapsed = self.inelastic || self.rounds > MOST_ROUNDS;
         let contacts = touching(&c, &states, self.on_cloth(), |opening| {
             opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
         });
-        if contacts.as_slice().len() < 2 {
+        if contacts.len() < 2 {
             return ControlFlow::Continue(false);
         }
         let mut changed = [false; BALLS];
@@ -157,7 +156,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             *changed = contacts.hold(ball);
         }
         let room = if self.rounds > JAMMED_ROUNDS { ROOM_FOR_JAMMED * c.tolerance.touching } else { 0.0 };
-        for contact in contacts.as_slice() {
+        for contact in contacts.iter() {
             // Exactly at the cushion, as in a single impact.
             let n = contact.cushion_normal;
             let ball = &mut states[contact.first];
@@ -166,8 +165,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }
         }
         let law = if collapsed { self.law.inelastic() } else { self.law.clone() };
-        let impulses = collide_together(c.radius, &law, &mut states, contacts.as_slice());
-        let met = || contacts.as_slice().iter().zip(&impulses).filter(|(_, impulse)| impulse.normal > 0.0);
+        let impulses = collide_together(c.radius, &law, &mut states, &contacts);
+        let met = || contacts.iter().zip(&impulses).filter(|(_, impulse)| impulse.normal > 0.0);
         if met().next().is_none() {
             // Balls that stand where they touch: what has met now is something else.
             return ControlFlow::Continue(false);
@@ -180,7 +179,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             told.push(!slow || self.slow_bounce(now, contact)?);
         }
         for index in (0..BALLS).filter(|&index| changed[index]) {
-            self.close(index, now);
+            self.end_segment(index, now);
             self.launch(index, now, &states[index]);
         }
         for ((contact, _), told) in met().zip(told) {
@@ -189,11 +188,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for (contact, impulse) in met().filter(|(_, impulse)| climbs(impulse)) {
             self.lift(contact.first, now, states[contact.first], impulse.climb)?;
         }
-        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))?;
+        self.look_ahead(now, self.with_freed(freed.is_some(), changed))?;
         ControlFlow::Continue(true)
     }
 
-    /// Tells an impact, or only who keeps accounts of it where it belongs to a chatter.
+    /// Tells an impact as an event, or as a bounce if it belongs to a chatter.
     #[inline(always)]
     pub(super) fn tell_impact(&mut self, now: f64, kind: EventKind, told: bool) -> ControlFlow<()> {
         if told {
@@ -223,7 +222,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// The contacts that come to rest with one that has just bounced; `bounced` are its balls after the bounce.
     #[cold]
-    pub(super) fn settles(
+    pub(super) fn chatter_end(
         &self,
         now: f64,
         freed: Option<&[BallState; BALLS]>,
@@ -232,8 +231,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     ) -> Option<Contacts> {
         let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
         let states = self.states_with(now, freed, bounced);
-        let settled = settles(self.table, &self.constants, &self.law, contact, &states, self.on_cloth(), shrinking)?;
-        (now + settled.lasts < self.next_meeting_aloft()).then_some(settled.contacts)
+        let end = chatter_end(self.table, &self.constants, &self.law, contact, &states, self.on_cloth(), shrinking)?;
+        (now + end.lasts < self.next_meeting_aloft()).then_some(end.contacts)
     }
 
     /// When two balls next meet of which one at least is in the air, s: it may throw others back into the contacts that they have left.
@@ -276,8 +275,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     ) -> ControlFlow<()> {
         let mut states = self.states_with(now, freed.as_ref(), before);
         let c = self.constants;
-        let contacts = rests.as_slice();
-        close(&c, &mut states, contacts);
+        let contacts: &[Contact] = rests;
+        close_gaps(&c, &mut states, contacts);
         let law = self.law.inelastic();
         let mut given = [0.0; MAX_CONTACTS];
         for round in 0..MOST_ROUNDS {
@@ -293,14 +292,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let (mut ended, mut given_there) = (Contacts::NONE, [0.0; MAX_CONTACTS]);
         for (contact, given) in contacts.iter().zip(given) {
             if contact.opening_speed(&states) < c.tolerance.slowest_coupled_bounce {
-                given_there[ended.as_slice().len()] = given;
+                given_there[ended.len()] = given;
                 ended.push(*contact);
             }
         }
-        stop_by_impulses(self.table, &mut states, ended.as_slice(), &ActiveSet::SLIPPING, &given_there);
+        stop_by_impulses(self.table, &mut states, &ended, &ActiveSet::SLIPPING, &given_there);
         let changed = std::array::from_fn(|ball| rests.hold(ball));
         for index in (0..BALLS).filter(|&index| changed[index]) {
-            self.close(index, now);
+            self.end_segment(index, now);
             self.launch(index, now, &states[index]);
         }
         self.tell_impact(now, impact, told)?;
@@ -310,7 +309,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let told = self.slow_bounce(now, contact)?;
             self.tell_impact(now, kind(contact), told)?;
         }
-        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
+        self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }
 }
 

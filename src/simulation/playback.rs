@@ -57,15 +57,19 @@ impl Recording {
 
     /// The shot of what was found possible.
     fn simulated(table: &Table, layout: &Layout, impulse: Impulse) -> Self {
-        let mut recording = Self::before(table, impulse);
-        let end = simulate_with::<All, _>(table, layout, &impulse, &mut recording.kept);
-        recording.end_with(&end);
-        recording
+        Self::record(table, impulse, |impulse, kept| (simulate_with::<All, _>(table, layout, impulse, kept), ())).0
     }
 
-    /// Before anything is played.
-    fn before(table: &Table, impulse: Impulse) -> Self {
-        Self { constants: Constants::of(table), impulse, kept: Recorder::with_room(), duration: 0.0 }
+    /// Records what `play` plays, and lets all balls rest where they have come to.
+    fn record<T>(table: &Table, impulse: Impulse, play: impl FnOnce(&Impulse, &mut Recorder) -> (End, T)) -> (Self, T) {
+        let mut kept = Recorder::with_room();
+        let (end, more) = play(&impulse, &mut kept);
+        for (ball, segments) in kept.segments.iter_mut().enumerate() {
+            let BallState { position, spin, .. } = end.balls[ball];
+            let motion = if end.off_table[ball] { Motion::OffTable } else { Motion::Stationary };
+            segments.push(Segment { start: end.time, spin, motion, ..Segment::at_rest(position) });
+        }
+        (Self { constants: Constants::of(table), impulse, kept, duration: end.time }, more)
     }
 
     /// Checks a shot and lets `play` play it, by whatever method: it gets what the stroke gives the cue ball, tells the
@@ -96,20 +100,7 @@ impl Recording {
     ) -> Result<(Self, T), ShotError> {
         layout.validate(table)?;
         impulse.validate()?;
-        let mut recording = Self::before(table, *impulse);
-        let (end, more) = play(impulse, &mut recording.kept);
-        recording.end_with(&end);
-        Ok((recording, more))
-    }
-
-    /// Lets all balls rest where they have come to.
-    fn end_with(&mut self, end: &End) {
-        for (ball, segments) in self.kept.segments.iter_mut().enumerate() {
-            let BallState { position, spin, .. } = end.balls[ball];
-            let motion = if end.off_table[ball] { Motion::OffTable } else { Motion::Stationary };
-            segments.push(Segment { start: end.time, spin, motion, ..Segment::at_rest(position) });
-        }
-        self.duration = end.time;
+        Ok(Self::record(table, *impulse, play))
     }
 
     /// What the stroke gave the cue ball.

@@ -39,7 +39,7 @@ pub fn curved_cushion_ahead(
     let tolerance = &constants.tolerance;
     let mut nearest = (Ahead::Nothing, Rail::Left);
     let mut earliest = horizon;
-    let course = coefficients(segment);
+    let course = segment.coefficients();
     for rail in Rail::ALL.into_iter().filter(|&rail| !holds(rail)) {
         let inward = rail.normal();
         let mut gap = course.map(|c| c.dot(inward));
@@ -53,11 +53,6 @@ pub fn curved_cushion_ahead(
         }
     }
     nearest
-}
-
-fn coefficients(segment: &Segment) -> [DVec2; 6] {
-    let [c3, c4, c5] = segment.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
-    [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5]
 }
 
 /// Two balls of which one at least is in a resting contact. Whether they rest against each other is known to the
@@ -119,7 +114,7 @@ pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], touching: bool, sca
 
 /// A segment's coefficients about the time `now`.
 pub fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
-    let mut c = coefficients(segment);
+    let mut c = segment.coefficients();
     let shift = now - segment.start;
     if shift != 0.0 {
         // Repeated synthetic division.

@@ -10,7 +10,7 @@ use super::{
     engine::Engine,
     resting::{Outcome, Resting},
     savings::Savings,
-    segment::{Course, still},
+    segment::Course,
 };
 use crate::{
     physics::{BallState, Motion},
@@ -32,11 +32,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             self.look_ahead_of_pressed(now, members);
             return ControlFlow::Continue(());
         }
-        let mut members: Vec<&mut BallState> =
-            resting.end.iter_mut().zip(resting.members).filter_map(|(ball, member)| member.then_some(ball)).collect();
-        still(self.constants.tolerance.still, self.constants.radius, &mut members);
+        resting.come_to_rest();
         for index in (0..BALLS).filter(|&index| resting.members[index]) {
-            self.close(index, now);
+            self.end_segment(index, now);
             self.launch(index, now, &resting.end[index]);
         }
         // Whether they go on resting is asked of all contacts together.
@@ -59,7 +57,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.cut(now);
         let states = self.resting.as_ref()?.end;
         for index in (0..BALLS).filter(|&index| members[index] && !changed[index]) {
-            self.close(index, now);
+            self.end_segment(index, now);
             self.launch(index, now, &states[index]);
         }
         self.pressed = true;
@@ -91,6 +89,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.resting.as_ref().map_or([false; BALLS], |resting| resting.members)
     }
 
+    /// The `changed` balls, and with them those of the resting contact that is still on record if it has been `freed`.
+    pub(super) fn with_freed(&self, freed: bool, changed: [bool; BALLS]) -> [bool; BALLS] {
+        let members = self.freed_members();
+        std::array::from_fn(|index| changed[index] || (freed && members[index]))
+    }
+
     /// Puts the balls that press and are pressed on their common course, and frees those that no longer are.
     #[cold]
     pub(super) fn press(&mut self, now: f64, changed: &mut [bool; BALLS]) -> ControlFlow<()> {
@@ -115,7 +119,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let previous = self.resting.take().or(self.ended.take());
         self.contact_step(previous.as_deref())?;
         if let (Some(chatters), Some(previous)) = (&mut self.chatters, &previous) {
-            previous.contacts.as_slice().iter().for_each(|contact| chatters.rest(contact, now));
+            previous.contacts.iter().for_each(|contact| chatters.rest(contact, now));
         }
         let on_cloth = self.on_cloth();
         self.resting = match Resting::begin(
@@ -130,11 +134,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             Outcome::Rests(resting) => {
                 self.next_step = resting.next_step;
                 let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
-                resting.contacts.as_slice().iter().for_each(|contact| chatters.begin_rest(contact, now));
+                resting.contacts.iter().for_each(|contact| chatters.begin_rest(contact, now));
                 for index in (0..BALLS).filter(|&index| !resting.members[index]) {
                     if resting.begin[index] != states[index] {
                         states[index] = resting.begin[index];
-                        self.close(index, now);
+                        self.end_segment(index, now);
                         self.launch(index, now, &states[index]);
                         changed[index] = true;
                     }
@@ -144,7 +148,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             Outcome::Free(ended, balls) => {
                 // A slip that ends here ends for good.
                 for index in (0..BALLS).filter(|&index| balls[index]) {
-                    self.close(index, now);
+                    self.end_segment(index, now);
                     self.launch(index, now, &ended[index]);
                     changed[index] = true;
                 }
@@ -166,7 +170,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.balls[index].mode = ContactMode::Bouncing;
                 // A ball whose contact ended by what another did is still on its common course.
                 if self.balls[index].segment.motion == Motion::Resting {
-                    self.close(index, now);
+                    self.end_segment(index, now);
                     self.launch(index, now, &states[index]);
                     changed[index] = true;
                 }
@@ -223,7 +227,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             course: Some(Box::new(Course::Contact(curve))),
         };
         if self.balls[index].segment.start < now {
-            self.close(index, now);
+            self.end_segment(index, now);
         }
         self.set(index, segment, step);
     }

@@ -9,15 +9,15 @@ mod bounds;
 mod course;
 mod interruption;
 mod stiffness;
+mod stillness;
 
 use glam::{DVec2, DVec3};
 
 use super::{
     Constants, Rail,
-    active_set::{Ended, lawful, settle, transient_pressing, without_ending_slips},
-    contacts::{close, touching},
+    active_set::{Ended, lawful, remove_rounding, transient_pressing, without_ending_slips},
+    contacts::{close_gaps, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    segment::is_still,
     tolerance::Tolerance,
 };
 use crate::{
@@ -31,10 +31,9 @@ use crate::{
 /// A slip may fall to this power of `e` in a step: to a tenth.
 const FALL: f64 = 1.3;
 
-/// How far a course may stray from the polynomial of degree five as which it is handed on while a slip turns or ends, m. In a step of
-/// `h` seconds along which a slip turns in `turn` seconds under accelerations `a` it strays by about `a h⁶/(2000 turn⁴)`; half-way it may
-/// not show.
-const STRAY: f64 = 1e-10;
+/// How far the course of a pressed ball may stray from the polynomial of degree five as which it is handed on, m: a tenth of what counts
+/// as an overlap.
+const MOST_STRAY: f64 = 1e-10;
 
 /// Longest change of speed by the cloth's friction in a step, m/s: where nothing tells how long one may be, this much is tried.
 const LONGEST_CURVE: f64 = 0.08;
@@ -185,10 +184,7 @@ impl Resting {
 
     /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
     pub fn go_on(&mut self, table: &Table) -> bool {
-        // A ball that only spins about its vertical counts as still: if it presses, its contact begins anew.
-        let limit = self.constants.tolerance.still;
-        let moves = |ball: usize| self.members[ball] && !is_still(limit, table.radius, &self.end[ball]);
-        if self.goes_on && (0..BALLS).any(moves) {
+        if self.goes_on && !self.is_still() {
             (self.start, self.begin, self.first) = (self.start + self.step, self.end, self.last);
             self.restarts = 0;
             self.advance(table);
@@ -200,15 +196,11 @@ impl Resting {
     /// Chooses the step and takes it.
     fn advance(&mut self, table: &Table) {
         let shortest = self.constants.tolerance.shortest_step;
-        let begin = Trial {
-            span: 0.0,
-            step: Step { end: Phase { balls: self.begin, time: 0.0 }, error: 0.0, best_length: 0.0 },
-            forces: self.first,
-        };
+        let begin = self.beginning();
         let mut span = self.longest_step(table.radius).min(self.next_step).max(shortest);
         let (trial, broken) = loop {
             let mut trial = self.attempt(table, &begin, span);
-            let middle = self.forces(table, &self.half_way(&trial), &trial.forces);
+            let middle = self.forces(table, &self.set, &self.half_way(&trial), &trial.forces);
             let course = self.longest_course(&trial, &middle);
             trial.step.best_length = trial.step.best_length.min(course);
             let Some(shorter) = self.shorter(table, &trial, course).filter(|_| span > shortest) else {
@@ -249,10 +241,10 @@ impl Resting {
         let rate = self.time_rate(table.radius, &end.balls);
         self.next_step = if changes { f64::INFINITY } else { trial.step.best_length * rate };
         self.end = if self.goes_on {
-            close(&self.constants, &mut end.balls, self.contacts.as_slice());
+            close_gaps(&self.constants, &mut end.balls, &self.contacts);
             end.balls
         } else {
-            self.settled(table, end.balls)
+            self.without_rounding(table, end.balls)
         };
     }
 
@@ -293,7 +285,7 @@ impl Resting {
                 each(Place::Roll(ball), state.velocity, rate.velocity);
             }
         }
-        for (index, contact) in self.contacts.as_slice().iter().enumerate() {
+        for (index, contact) in self.contacts.iter().enumerate() {
             if slips(self.set.contact[index]) {
                 each(Place::Contact(index), contact.slip(radius, balls), contact.slip(radius, &rates));
             }
@@ -305,11 +297,17 @@ impl Resting {
         self.short_steps > MOST_SHORT_STEPS
     }
 
+    /// Where the step begins.
+    const fn beginning(&self) -> Trial {
+        let step = Step { end: Phase { balls: self.begin, time: 0.0 }, error: 0.0, best_length: 0.0 };
+        Trial { span: 0.0, step, forces: self.first }
+    }
+
     /// What is reached after `span`, by a step that begins at `from`.
     fn attempt(&self, table: &Table, from: &Trial, span: f64) -> Trial {
         let begin = &from.step.end;
         let mut last = from.forces;
-        let contacts = self.contacts.as_slice();
+        let contacts = &self.contacts;
         let yields = self.set.yields() || self.seeks();
         let slope = |phase: &Phase| {
             let (linear, angular) = if yields {
@@ -325,7 +323,7 @@ impl Resting {
         let (length, tolerance) = (span - from.span, self.constants.tolerance.step);
         let stiff = self.stiff(table, from, length);
         let step = extrapolate(begin, &first, slope, stiff.as_ref(), self.members, length, (table.radius, tolerance));
-        Trial { span, step, forces: self.forces(table, &step.end.balls, &from.forces) }
+        Trial { span, step, forces: self.forces(table, &self.set, &step.end.balls, &from.forces) }
     }
 
     /// Shortens a step at whose end a law of its active set is broken to just after the moment when that happened.
@@ -397,7 +395,7 @@ impl Resting {
         resolve(table, end, &self.contacts, &self.set, self.constants.tolerance.slack, Some(&trial.forces)).is_some_and(
             |lawful| {
                 trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * self.constants.tolerance.slack
-                    && lawful.contacts.as_slice() == self.contacts.as_slice()
+                    && lawful.contacts[..] == self.contacts[..]
                     && !lawful.set.lets_go(&self.set)
             },
         )
@@ -407,7 +405,11 @@ impl Resting {
     fn longest_step(&mut self, radius: f64) -> f64 {
         self.time_scale = None;
         let sliding = self.constants.sliding;
-        let strays = |turn: f64| libm::pow(2000.0 * STRAY / sliding * turn.powi(4), 1.0 / 6.0);
+        // While a slip turns in `turn` seconds under accelerations `a`, a step of `h` seconds strays by about `a h⁶/(2000 turn⁴)`.
+        let strays = |turn: f64| {
+            let square = turn * turn;
+            libm::pow(2000.0 * MOST_STRAY / sliding * (square * square), 1.0 / 6.0)
+        };
         let mut longest = LONGEST_CURVE / sliding;
         let (mut soonest, mut time_scale) = (f64::INFINITY, None);
         self.slips(radius, &self.begin, &self.first, |place, slip, rate| {
@@ -439,26 +441,22 @@ impl Resting {
         let slip = match place {
             Place::Cloth(ball) => slip(radius, balls[ball].velocity, balls[ball].spin),
             Place::Roll(ball) => balls[ball].velocity,
-            Place::Contact(index) => self.contacts.as_slice()[index].slip(radius, balls),
+            Place::Contact(index) => self.contacts[index].slip(radius, balls),
         };
         slip.length() / from
     }
 
-    /// Takes the rounding out of a later state.
-    fn settled(&self, table: &Table, mut balls: State) -> State {
-        let contacts = self.contacts.as_slice();
+    /// A later state without its rounding.
+    fn without_rounding(&self, table: &Table, mut balls: State) -> State {
+        let contacts = &self.contacts;
         let set = ActiveSet::of(table, &balls, contacts, self.constants.tolerance.slip).slipping_where(&self.set);
-        settle(table, &self.constants, &mut balls, contacts, &set);
+        remove_rounding(table, &self.constants, &mut balls, contacts, &set);
         balls
     }
 
-    /// The forces in this step's active set; they have to be sought from `near` ones on where a friction yields.
-    fn forces(&self, table: &Table, state: &State, near: &Forces) -> Forces {
-        self.forces_in(table, &self.set, state, near)
-    }
-
-    fn forces_in(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
-        let contacts = self.contacts.as_slice();
+    /// The forces in an active set; they have to be sought from `near` ones on where a friction yields.
+    fn forces(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
+        let contacts = &self.contacts;
         if set.yields() || self.seeks() {
             return yielding(table, state, contacts, set, near);
         }
@@ -477,11 +475,11 @@ impl Resting {
 
     /// Whether these two balls press each other.
     pub fn holds_together(&self, (first, second): (usize, usize)) -> bool {
-        self.contacts.as_slice().iter().any(|contact| (contact.first, contact.second) == (first, Some(second)))
+        self.contacts.iter().any(|contact| (contact.first, contact.second) == (first, Some(second)))
     }
 
     /// Whether this cushion holds the ball.
     pub fn holds_at(&self, ball: usize, rail: Rail) -> bool {
-        self.contacts.as_slice().contains(&Contact::with_cushion(ball, rail.normal()))
+        self.contacts.contains(&Contact::with_cushion(ball, rail.normal()))
     }
 }

@@ -9,7 +9,7 @@ use super::{
     contact_mode::ContactMode,
     contacts::PAIRS_OF,
     cushions::cushion_ahead,
-    engine::{Ball, Engine, Meeting},
+    engine::{Ball, Engine, Meeting, only},
     predict::{Ahead, curved_cushion_ahead},
     savings::Savings,
 };
@@ -71,7 +71,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[inline(always)]
     pub(super) fn look_ahead_of(&mut self, now: f64, index: usize) -> ControlFlow<()> {
         if !S::KEPT_PREDICTIONS || self.pressed || self.resting.is_some() {
-            return self.look_ahead(now, std::array::from_fn(|other| other == index));
+            return self.look_ahead(now, only(index));
         }
         let ball = &self.balls[index];
         let still = ball.segment.motion == Motion::Stationary;
@@ -94,7 +94,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         if self.pressed {
             // Only now is it known that balls press each other.
-            return self.look_ahead(now, std::array::from_fn(|other| other == index));
+            return self.look_ahead(now, only(index));
         }
         ControlFlow::Continue(())
     }

@@ -10,23 +10,6 @@ use crate::physics::{
 /// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Whether a ball neither moves nor rolls as fast as `limit`, m/s.
-#[inline(always)]
-pub fn is_still(limit: f64, radius: f64, ball: &BallState) -> bool {
-    ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < limit * limit
-}
-
-/// Brings balls to rest if all of them are slower than `limit`, m/s.
-#[inline(always)]
-pub fn still(limit: f64, radius: f64, balls: &mut [&mut BallState]) {
-    if balls.iter().all(|ball| is_still(limit, radius, ball)) {
-        for ball in balls {
-            ball.velocity = DVec2::ZERO;
-            ball.spin = DVec3::new(0.0, 0.0, ball.spin.z);
-        }
-    }
-}
-
 /// A ball's course from `start` on, until something changes it.
 #[derive(Clone, Debug)]
 pub struct Segment {
@@ -108,7 +91,7 @@ impl Segment {
         if slip_squared > SLIP_ROUNDING * SLIP_ROUNDING * (speed_squared + spin_squared) {
             let speed = slip_squared.sqrt();
             segment.motion = Motion::Sliding;
-            if constants.even || constants.tilt == DVec2::ZERO {
+            if constants.level {
                 segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
                 return (segment, speed * constants.slide_time);
             }
@@ -132,7 +115,7 @@ impl Segment {
             self.half_acceleration = self.velocity * (-0.5 * constants.rolling.least / speed);
             return (self, speed * constants.roll_time);
         }
-        if constants.tilt != DVec2::ZERO {
+        if !constants.level {
             let roll = roll_on_slope(&constants.rolling, constants.tilt, self.velocity);
             self.half_acceleration = roll.half_acceleration;
             return (self, roll.lasts);
@@ -149,7 +132,7 @@ impl Segment {
         if constants.even {
             return true;
         }
-        if constants.tilt == DVec2::ZERO {
+        if constants.level {
             return constants.rolling.is_last(self.velocity.length());
         }
         is_last_on_slope(&constants.rolling, constants.tilt, self.velocity)
@@ -170,14 +153,14 @@ impl Segment {
             let next = Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) };
             if velocity == DVec2::ZERO { (next, f64::INFINITY) } else { next.roll(constants) }
         } else if !self.rolls_to_rest(constants) {
-            let velocity = if constants.tilt == DVec2::ZERO {
+            let velocity = if constants.level {
                 self.velocity_after(duration)
             } else {
                 roll_on_slope(&constants.rolling, constants.tilt, self.velocity).velocity
             };
             Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) }.roll(constants)
         } else {
-            let position = if constants.tilt == DVec2::ZERO {
+            let position = if constants.level {
                 self.position + 0.5 * duration * self.velocity
             } else {
                 self.position_after(duration)
@@ -224,6 +207,13 @@ impl Segment {
             }
             Course::Hops(hops) => hops.state_after(t).velocity.truncate(),
         }
+    }
+
+    /// Coefficients of the position along the cloth about the start, those of `t⁰` first, m, m/s and so on: not of a ball in the air.
+    #[inline]
+    pub fn coefficients(&self) -> [DVec2; 6] {
+        let [c3, c4, c5] = self.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
+        [self.position, self.velocity, self.half_acceleration, c3, c4, c5]
     }
 
     /// The curve of a resting contact.

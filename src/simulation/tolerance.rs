@@ -1,7 +1,10 @@
-//! Every number that decides when something counts as nothing: each derived from the table, with its unit, its reason and
-//! what goes wrong where it is chosen badly.
+//! The numbers that decide when something counts as nothing and depend on the table: each with its unit, its reason and what goes wrong
+//! where it is chosen badly. Those that depend on no table stand beside what uses them.
 
-use crate::{physics::FIRST_BOUNCE, table::Table};
+use crate::{
+    physics::{FIRST_BOUNCE, rolling_deceleration},
+    table::Table,
+};
 
 /// What counts as nothing on one table. Lengths grow with the table's length `L`, since coordinates are rounded to a share
 /// of it; speeds with `√(g R)`, accelerations with `g`.
@@ -53,14 +56,15 @@ pub struct Tolerance {
     /// A chatter ends at this bounce speed whatever presses the ball, m/s: a slip about to end, or another ball behind it.
     /// Its bounces are 1e-19 m high, and what is left of them moves a ball by less than 1e-9 m.
     pub slowest_bounce: f64,
-    /// The same of bounces that lose nothing and go on as long as the ball is pressed, m/s: they are less than 1e-16 m high, and
+    /// A chatter of several coupled contacts ends at this bounce speed, m/s, where the bounces make slips: the places are then right to as
+    /// many metres.
+    pub slowest_coupled_bounce: f64,
+    /// The `slowest_bounce` of bounces that lose nothing and go on as long as the ball is pressed, m/s: they are less than 1e-16 m high, and
     /// there are tens of millions of them a second. Larger: a ball that is pressed no more has lost the speed with which it would
     /// leave.
     pub slowest_lossless_bounce: f64,
     /// No bounce in the air, on a nose or on another ball, is slower than this, m/s: it is a quarter of a micrometre high.
     pub slowest_in_air: f64,
-    /// The same where several contacts are coupled and make slips, m/s: the places are then right to as many metres.
-    pub slowest_coupled_bounce: f64,
     /// Balls that never slip and that no forces hold together begin to bounce at this speed, m/s: above the slowest bounce,
     /// so that the chatter does not end at once.
     pub first_bounce: f64,
@@ -73,7 +77,7 @@ pub struct Tolerance {
 /// How many times as many bounces a chatter has as at a restitution of 0.95, from as many up to ten times: in inverse proportion
 /// to what is lost. Without loss none ends.
 fn liveliness(table: &Table) -> f64 {
-    let lost = 1.0 - table.ball_restitution.max(table.rail.largest_restitution(table.rail_restitution));
+    let lost = 1.0 - table.largest_restitution();
     if lost > 0.0 { (0.05 / lost).clamp(1.0, 10.0) } else { 1.0 }
 }
 
@@ -82,7 +86,6 @@ impl Tolerance {
     pub fn of(table: &Table) -> Self {
         let speed = (table.gravity * table.radius).sqrt();
         let friction = table.sliding_friction.max(table.spinning_friction) * table.gravity;
-        let rolling = 5.0 / 7.0 * table.rolling_friction * table.gravity;
         Self {
             touching: 16.0 * f64::EPSILON * table.length.max(table.width),
             surely_apart: 1.6e5 * f64::EPSILON * table.length.max(table.width),
@@ -92,7 +95,7 @@ impl Tolerance {
             slip: 2e-10 * speed,
             ending_slip: 4e-10 * speed,
             yielding: 1e-5 * speed,
-            still: (2e-11 * rolling).sqrt(),
+            still: (2e-11 * rolling_deceleration(table)).sqrt(),
             shortest_step: (8e-13 * speed / friction).min(1e-13),
             shortest_quintic: 8.7e10 * f64::EPSILON * table.length.max(table.width) / speed,
             step: 2e-13 * speed.max(table.radius),

@@ -1,9 +1,6 @@
 //! How far a method is off on one shot, each kind of error apart.
 
-use super::{
-    methods::Run,
-    truth::{Truth, is_collision},
-};
+use super::{methods::Run, truth::Truth};
 use crate::{
     game::{Rule, Tally},
     simulation::{Event, EventKind},
@@ -61,7 +58,7 @@ impl Errors {
 fn without_chatter(events: &[(f64, EventKind)]) -> Vec<(f64, EventKind)> {
     let mut last = [None; crate::table::BALLS];
     let mut kept = Vec::new();
-    for &(time, kind) in events.iter().filter(|(_, kind)| is_collision(*kind)) {
+    for &(time, kind) in events.iter().filter(|(_, kind)| kind.is_contact()) {
         let (first, second) = kind.balls();
         let balls = [Some(first), second];
         if balls.iter().flatten().any(|&ball| last[ball] != Some(kind)) {

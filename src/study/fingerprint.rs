@@ -12,7 +12,7 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// What [`hash`] finds on `textbook`, on every machine. It changes where results change on purpose.
+/// What [`hash`] finds on `textbook` for balls that stay on the cloth, on every machine. It changes where results change on purpose.
 pub const TEXTBOOK: u64 = 0x714d_1dc1_8e09_286c;
 
 /// Shots whose bits the number is made of.
@@ -62,9 +62,14 @@ pub fn shots(table: &Table, seed: u64, count: usize) -> Vec<(Layout, Impulse)> {
     impulses.into_iter().map(|impulse| (Layout::random(table, &mut rng), impulse)).collect()
 }
 
-/// The number of [`SHOTS`] shots on a table: FNV-1a of 64 bits (Fowler, Noll and Vo).
-pub fn hash(table: &Table) -> u64 {
-    shots(table, SEED, SHOTS)
+/// The number of [`SHOTS`] shots on a table: FNV-1a of 64 bits (Fowler, Noll and Vo). The cue ball leaves the cloth with up to `lift`
+/// m/s, a little faster from shot to shot.
+pub fn hash(table: &Table, lift: f64) -> u64 {
+    let mut shots = shots(table, SEED, SHOTS);
+    for (number, (_, impulse)) in shots.iter_mut().enumerate() {
+        impulse.lift = lift * (number as f64 / SHOTS as f64);
+    }
+    shots
         .iter()
         .flat_map(|(layout, impulse)| trace::<All>(table, layout, impulse).bits)
         .flat_map(u64::to_le_bytes)

@@ -9,7 +9,6 @@ use super::{
     truth::Truth,
 };
 use crate::{
-    physics::CueInputs,
     simulation::{EventKind, Rail, Recording},
     table::Layout,
 };
@@ -83,15 +82,7 @@ fn check(reference: &Reference) -> Checked {
     let table = reference.table();
     let known_end = table.as_ref().map_or(reference.end, |table| reference.end_on(table));
     let truth = table.as_ref().and_then(|table| Truth::of_reference(table, reference).ok()).map(|(truth, _)| truth);
-    let written = reference.cue;
-    let cue = CueInputs {
-        a: written.a,
-        b: written.b,
-        theta: written.theta_deg.to_radians(),
-        phi: written.phi_deg.to_radians(),
-        speed: written.speed,
-    };
-    let recording = table.and_then(|table| Recording::new(&table, &reference.layout, &cue).ok());
+    let recording = table.and_then(|table| Recording::new(&table, &reference.layout, &reference.cue.into()).ok());
     let has_events = !reference.events.is_empty();
     let differs = |kinds: &mut dyn Iterator<Item = EventKind>| {
         let kinds: Vec<EventKind> = kinds.collect();

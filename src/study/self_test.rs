@@ -66,7 +66,7 @@ pub enum SelfTestError {
 /// # Errors
 /// A damaged table.
 pub fn engine() -> Result<EngineTest, SelfTestError> {
-    let hash = hash(&Table::preset("textbook")?);
+    let hash = hash(&Table::preset("textbook")?, 0.0);
     Ok(EngineTest { shots: SHOTS, hash, is_right: hash == TEXTBOOK })
 }
 

@@ -7,7 +7,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::Deserialize;
 
 use crate::{
-    physics::{CueInputs, Impulse, strike},
+    physics::{CueDegrees, CueInputs, Impulse, strike},
     simulation::EventKind,
     table::{Flight, Layout, Table},
 };
@@ -104,7 +104,7 @@ pub struct Reference {
     /// The balls.
     pub layout: Layout,
     /// The stroke as it is written, angles in degrees.
-    pub cue: WrittenCue,
+    pub cue: CueDegrees,
     /// When all balls are at rest, s.
     pub duration: f64,
     /// How far the end moves per unit of relative change in speed or angle, m. Not known of resting contacts.
@@ -116,21 +116,6 @@ pub struct Reference {
     /// Where the balls come to rest.
     #[serde(rename = "final")]
     pub end: Layout,
-}
-
-/// A stroke as the reference files write it.
-#[derive(Clone, Copy, Debug, Deserialize)]
-pub struct WrittenCue {
-    /// Offset of the tip to the side, in ball radii.
-    pub a: f64,
-    /// Offset of the tip upwards, in ball radii.
-    pub b: f64,
-    /// Elevation in degrees.
-    pub theta_deg: f64,
-    /// Direction in degrees.
-    pub phi_deg: f64,
-    /// Speed, m/s.
-    pub speed: f64,
 }
 
 /// An event as the reference files write it.

@@ -117,15 +117,10 @@ fn ends(table: &Table, shot: &Shot<DoubleDouble>) -> [Vector<DoubleDouble>; BALL
 }
 
 fn chatters(events: &[(f64, EventKind)]) -> bool {
-    let meetings: Vec<_> = events.iter().filter(|(_, kind)| is_collision(*kind)).collect();
+    let meetings: Vec<_> = events.iter().filter(|(_, kind)| kind.is_contact()).collect();
     meetings.iter().enumerate().any(|(index, (time, kind))| {
         meetings[index + 1..].iter().take_while(|(later, _)| later - time < CHATTER).any(|(_, other)| other == kind)
     })
-}
-
-/// Whether two bodies collide in an event.
-pub fn is_collision(kind: EventKind) -> bool {
-    matches!(kind, EventKind::BallBall(..) | EventKind::BallRail(..))
 }
 
 #[cfg(test)]
@@ -154,7 +149,7 @@ mod tests {
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
             for _ in 0..adversarial_shots {
                 let shot = adversarial::shot(&table, &mut rng);
-                let cue = shot.cue.inputs();
+                let cue = physics::CueInputs::from(shot.cue);
                 judge(&table, &StudyShot { layout: shot.layout, cue, impulse: physics::strike(&table, &cue) });
             }
         }

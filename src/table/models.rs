@@ -64,11 +64,6 @@ impl Rails {
         own.unwrap_or_default()
     }
 
-    /// The largest restitution of any rail, where those without one of their own have `common`.
-    pub fn largest_restitution(&self, common: f64) -> f64 {
-        Rail::ALL.iter().map(|rail| self.own(*rail).e.unwrap_or(common)).fold(0.0, f64::max)
-    }
-
     /// The place of what a rail has of its own.
     pub const fn own_mut(&mut self, rail: Rail) -> &mut Option<OneRail> {
         match rail {

@@ -4,7 +4,7 @@ use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
 use super::{
-    DoubtError, Flight, Opening, Room, TableDoubt, flaws,
+    DoubtError, Flight, Opening, Rail, Room, TableDoubt, flaws,
     models::{Fade, Rails, SlipFriction, is_zero},
 };
 
@@ -237,6 +237,12 @@ impl Table {
     /// Corner of the rectangle that ball centres may reach, m.
     pub fn reach(&self) -> DVec2 {
         DVec2::new(self.half_length(), self.half_width())
+    }
+
+    /// The largest restitution of two balls and of any rail.
+    pub fn largest_restitution(&self) -> f64 {
+        let rails = Rail::ALL.map(|rail| self.rail.own(rail).e.unwrap_or(self.rail_restitution));
+        rails.into_iter().fold(self.ball_restitution, f64::max)
     }
 
     /// The table as it is for who stands at its other end.

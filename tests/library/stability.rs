@@ -3,10 +3,10 @@
 use std::{fs::File, io::Write};
 
 use carom::{
-    physics::CueInputs,
+    physics::{CueDegrees, CueInputs},
     printing::ProgressLine,
     simulation::Recording,
-    study::stability::{Case, Limits, Plan, Row, Shot, Stroke, Trace, cases, examine, markdown, rows},
+    study::stability::{Case, Limits, Plan, Row, Shot, Trace, cases, examine, markdown, rows},
     table::{Layout, Table, TableError},
 };
 use glam::DVec2;
@@ -219,13 +219,13 @@ fn the_checks_see_what_is_wrong() {
     let table = Table::default();
     let mut trace = Trace::new(&table);
     let layout = Layout::new([DVec2::ZERO, DVec2::new(0.06, 0.0), DVec2::new(1.0, 0.5)]);
-    let shot = Shot { layout, cue: Stroke::centre(90.0, 1.0) };
+    let shot = Shot { layout, cue: CueDegrees::centre(90.0, 1.0) };
     let overlap = examine(&table, &shot, &mut trace).overlap.value;
     assert!((overlap - (2.0 * table.radius - 0.06)).abs() < 1e-12, "{overlap:e}");
     let small = Table { width: 1.0, ..table.clone() };
     let layout = Layout::new([DVec2::ZERO, DVec2::new(1.0, 0.0), DVec2::new(1.0, 0.3)]);
     let mut trace = Trace::new(&small);
-    let shot = Shot { layout, cue: Stroke::centre(90.0, 2.0) };
+    let shot = Shot { layout, cue: CueDegrees::centre(90.0, 2.0) };
     let outside = examine(&table, &shot, &mut trace).outside.value;
     assert!((outside - (table.half_width() - small.half_width())).abs() < 1e-12, "{outside:e}");
 }

@@ -1,8 +1,13 @@
 //! Which contacts push and which frictions hold: what is constant from one change of it to the next.
 
+use std::ops::Deref;
+
 use glam::DVec2;
 
-use super::{Contact, problem::coefficient};
+use super::{
+    Contact,
+    problem::{Place, coefficient},
+};
 use crate::{
     physics::{BallState, slip},
     table::{BALLS, Table},
@@ -42,14 +47,17 @@ impl Contacts {
         }
     }
 
-    /// The contacts.
-    pub fn as_slice(&self) -> &[Contact] {
-        &self.list[..self.count]
-    }
-
     /// Whether a ball takes part in any.
     pub fn hold(&self, ball: usize) -> bool {
-        self.as_slice().iter().any(|contact| contact.has(ball))
+        self.iter().any(|contact| contact.has(ball))
+    }
+}
+
+impl Deref for Contacts {
+    type Target = [Contact];
+
+    fn deref(&self) -> &[Contact] {
+        &self.list[..self.count]
     }
 }
 
@@ -121,7 +129,7 @@ impl ActiveSet {
             // What has no friction cannot stick.
             let none = if coefficient(table, contact) > 0.0 { none } else { -1.0 };
             *friction = Friction::of(contact.slip(radius, balls), none);
-            if table.ball_friction.is_none() && contact.second.is_some() && *friction != Friction::Sticks {
+            if contact.never_slips(table) && *friction != Friction::Sticks {
                 *friction = Friction::Yields;
             }
         }
@@ -169,6 +177,17 @@ impl ActiveSet {
     /// The first ball whose resistance to rolling eases, if there is one.
     pub(super) fn eased(&self) -> Option<usize> {
         self.roll.iter().position(|friction| *friction == Friction::Eases)
+    }
+
+    /// The friction of a place; none where the place is that of a normal force.
+    pub(super) const fn friction_mut(&mut self, place: Place) -> Option<&mut Friction> {
+        match place {
+            Place::Normal(_) => None,
+            Place::Cloth(ball) => Some(&mut self.cloth[ball]),
+            Place::Roll(ball) => Some(&mut self.roll[ball]),
+            Place::Spin(ball) => Some(&mut self.spin[ball]),
+            Place::Contact(index) => Some(&mut self.contact[index]),
+        }
     }
 
     /// Whether any friction yields.

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::{
     ActiveSet, Contact, Contacts, Friction, MAX_CONTACTS,
     margin::{rates, with_margin},
-    problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown, coefficient, never_slips},
+    problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown, coefficient},
     solve::{Side, Solution, solve, solve_near},
 };
 use crate::{
@@ -91,13 +91,11 @@ pub(super) fn read_off(
         sticking: None,
         paradox: [false; MAX_CONTACTS],
     };
-    let mut kept = [Friction::Sticks; MAX_CONTACTS];
-    let mut count = 0;
+    let never_slips = |index: usize| contacts[index].never_slips(table);
     for (index, (unknown, side)) in problem.unknowns.iter().zip(&solution.sides).enumerate() {
         if *side == Side::Holds {
             // Balls that never slip stop at once, others slide on against their friction.
-            let stops =
-                matches!(unknown.place, Place::Contact(index) if never_slips(table, &contacts.as_slice()[index]));
+            let stops = matches!(unknown.place, Place::Contact(index) if never_slips(index));
             let ends = if stops { Friction::Sticks } else { Friction::Slips(DVec2::ZERO) };
             resolved.sticking =
                 sticking_at(&resolved.sticking.unwrap_or(*set), unknown.place, ends).or(resolved.sticking);
@@ -115,27 +113,24 @@ pub(super) fn read_off(
         };
         match unknown.place {
             _ if holds => {}
-            Place::Normal(_) => {}
-            Place::Cloth(ball) => resolved.set.cloth[ball] = starts,
-            Place::Roll(ball) => resolved.set.roll[ball] = starts,
-            Place::Spin(ball) => resolved.set.spin[ball] = starts,
-            Place::Contact(index) if never_slips(table, &contacts.as_slice()[index]) => resolved.paradox[index] = true,
-            Place::Contact(index) => resolved.set.contact[index] = starts,
+            Place::Contact(index) if never_slips(index) => resolved.paradox[index] = true,
+            place => {
+                if let Some(friction) = resolved.set.friction_mut(place) {
+                    *friction = starts;
+                }
+            }
         }
     }
-    let paradox = resolved.paradox;
-    let pushes = |index: usize| resolved.forces.normal[index] > slack && !paradox[index];
-    for index in 0..contacts.as_slice().len() {
-        if pushes(index) {
-            kept[count] = resolved.set.contact[index];
-            count += 1;
-        }
-    }
-    let mut pressing = *contacts;
-    pressing.retain(|index, _| pushes(index));
-    resolved.contacts = pressing;
-    if count == 0 && resolved.paradox == [false; MAX_CONTACTS] {
+    let pushes: [bool; MAX_CONTACTS] =
+        std::array::from_fn(|index| resolved.forces.normal[index] > slack && !resolved.paradox[index]);
+    resolved.contacts.retain(|index, _| pushes[index]);
+    if resolved.contacts.is_empty() && !resolved.is_paradox() {
         return None;
+    }
+    let mut kept = [Friction::Sticks; MAX_CONTACTS];
+    let pushing = (0..contacts.len()).filter(|&index| pushes[index]);
+    for (friction, index) in kept.iter_mut().zip(pushing) {
+        *friction = resolved.set.contact[index];
     }
     resolved.set.contact = kept;
     resolved.forces.slack = spin_slack(table.radius, balls, &resolved.set).min(slack_of(problem, &solution.sizes));
@@ -153,7 +148,7 @@ pub(super) fn solved(
 ) -> (Problem, Solution) {
     let mut problem = Problem::new(table, balls, contacts, set);
     let mut solution = seek(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)));
-    let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.place, side), (Place::Contact(index), Side::Limited(_)) if never_slips(table, &contacts[index]));
+    let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.place, side), (Place::Contact(index), Side::Limited(_)) if contacts[index].never_slips(table));
     if problem.unknowns.iter().zip(&solution.sides).any(reaches_its_limit) {
         problem.grip(contacts);
         let gripped = solve_near(&problem, &solution.sizes);
@@ -167,12 +162,7 @@ pub(super) fn solved(
 /// The set in which a friction that yields does something else; none where it does not yield.
 fn sticking_at(set: &ActiveSet, place: Place, does: Friction) -> Option<ActiveSet> {
     let mut set = *set;
-    let friction = match place {
-        Place::Normal(_) | Place::Spin(_) => return None,
-        Place::Cloth(ball) => &mut set.cloth[ball],
-        Place::Roll(ball) => &mut set.roll[ball],
-        Place::Contact(index) => &mut set.contact[index],
-    };
+    let friction = set.friction_mut(place)?;
     if *friction != Friction::Yields {
         return None;
     }
@@ -303,7 +293,7 @@ impl Forces {
 
     /// The largest friction in a contact per ball mass, m/s².
     pub fn friction_limit(&self, table: &Table, contacts: &Contacts, index: usize) -> f64 {
-        coefficient(table, &contacts.as_slice()[index]) * self.normal[index]
+        coefficient(table, &contacts[index]) * self.normal[index]
     }
 
     /// The largest difference of accelerations, m/s²; `radius` in metres turns angular into linear ones.

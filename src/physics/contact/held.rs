@@ -2,7 +2,7 @@
 //! small linear system in the contacts' forces. What the cloth holds is taken out beforehand: a ball that rolls or stands
 //! answers to a force with less motion than one that slides.
 
-/// An expression in which a constant is the least room that the contacts need, of those that there are code for.
+/// Evaluates an expression with `ROOM` as the smallest compiled size (1, 2, 3 or all) that holds the contacts.
 macro_rules! in_room {
     ($contacts:ident, $room:ident => $value:expr) => {
         match $contacts.len() {
@@ -28,17 +28,13 @@ use self::joint::{Joint, Movement, Triple};
 pub use self::stopping::stop_by_impulses;
 use super::{
     ActiveSet, Contact, Forces, Friction, MAX_CONTACTS,
-    linear::{factorize, substitute},
-    problem::{coefficient, never_slips, rolling_resistance},
+    linear::{PROXIMITY, factorize, substitute},
+    problem::{coefficient, rolling_resistance},
 };
 use crate::{
     physics::{BallState, slip},
     table::{BALLS, Table},
 };
-
-/// Added to a diagonal whose entries are 1 to 10, where forces are not unique: a ball that is held by several things at once.
-/// It picks the forces nearest to what they were; further steps take its effect out again.
-const PROXIMITY: f64 = 1e-7;
 
 /// A system with pivots below this share of the largest has no unique solution.
 const SINGULAR: f64 = 1e-6;
@@ -123,7 +119,7 @@ struct Held<const ROOM: usize> {
     sizes: [Triple; ROOM],
     /// Whether they are known not to be unique: something is held more often than needed.
     redundant: bool,
-    /// At which rate a contact opens, m/s², since bends tear apart what is held so often.
+    /// The rate at which a contact opens, m/s², where the bends of the courses tear apart what is held more often than needed; else zero.
     torn: f64,
 }
 
@@ -398,7 +394,7 @@ impl<const ROOM: usize> Solved<ROOM> {
             let [normal, along, up] = system.force(index);
             (forces.normal[index], forces.friction[index]) = (normal, DVec2::new(along, up));
             limit(normal, 0.0);
-            if system.joints[index].unknowns == 3 && !never_slips(table, contact) {
+            if system.joints[index].unknowns == 3 && !contact.never_slips(table) {
                 limit(coefficient(table, contact) * normal, libm::hypot(along, up));
             }
         }

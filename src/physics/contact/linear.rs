@@ -1,6 +1,10 @@
 //! A small dense linear system, solved by elimination with partial pivoting. It works on the caller's memory: these systems
 //! are solved so often that moving them would cost more than solving them.
 
+/// Added to the diagonal of a system of forces, whose entries are 1 to 10, where these are not unique: a ball that sticks to several
+/// things at once is held more often than needed. It picks the forces nearest to what they were; further steps take its effect out again.
+pub const PROXIMITY: f64 = 1e-7;
+
 /// Factorizes the square matrix with these rows, one after another: `L` below the diagonal, `U` on and above it; `pivots`
 /// become the rows that stood in each place when it was eliminated. Returns the smallest pivot's size, zero for a matrix that
 /// is singular to the last bit, which cannot be used.

@@ -121,7 +121,7 @@ mod tests {
         contacts.push(Contact::with_cushion(1, DVec2::NEG_X));
         contacts.push(Contact::with_cushion(1, DVec2::Y));
         contacts.push(Contact::of_balls(0, 1));
-        let set = ActiveSet::of(&table, &balls, contacts.as_slice(), 1e-10);
+        let set = ActiveSet::of(&table, &balls, &contacts, 1e-10);
         let resolved = resolve(&table, &balls, &contacts, &set, 1e-11, None).unwrap();
         assert!(resolved.forces.converged && !resolved.shared);
         assert!(resolved.forces.slack > 1e-3 * table.gravity, "{}", resolved.forces.slack);

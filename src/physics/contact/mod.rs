@@ -17,7 +17,7 @@ mod solve;
 use glam::{DVec2, DVec3};
 
 use super::BallState;
-use crate::table::BALLS;
+use crate::table::{BALLS, Table};
 pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
 pub use forces::{Forces, Resolved, yielding};
 pub use held::{accelerations, forces, stop_by_impulses};
@@ -68,6 +68,11 @@ impl Contact {
     /// Whether a ball takes part in both contacts.
     pub fn shares_a_ball(&self, other: &Self) -> bool {
         other.has(self.first) || self.second.is_some_and(|second| other.has(second))
+    }
+
+    /// Whether it is one of balls that never slip on each other, since they have no coefficient of friction (17).
+    pub const fn never_slips(&self, table: &Table) -> bool {
+        table.ball_friction.is_none() && self.second.is_some()
     }
 
     /// Speed at which the contact opens, m/s.

@@ -87,11 +87,6 @@ impl Row {
 /// with forces in every state. Where they reach it, [`Problem::grip`] takes the limit away.
 const NO_SLIP: f64 = 1e3;
 
-/// Whether a contact has no coefficient of friction and never slips.
-pub fn never_slips(table: &Table, contact: &Contact) -> bool {
-    table.ball_friction.is_none() && contact.second.is_some()
-}
-
 /// What rolling resists, per mass, m/s²: the force on the centre of a ball that rolls, which slows it down by five sevenths of itself.
 ///
 /// It is that of a ball which begins to roll freely here: where the two differ, balls whose contact opens by the one close again by the

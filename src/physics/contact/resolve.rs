@@ -37,7 +37,7 @@ pub fn resolve(
     slack: f64,
     similar: Option<&Forces>,
 ) -> Option<Resolved> {
-    let (mut problem, mut solution) = solved(table, balls, contacts.as_slice(), set, similar, solve);
+    let (mut problem, mut solution) = solved(table, balls, contacts, set, similar, solve);
     if let Some(eased) = easing(table, balls, contacts, set, slack, (&mut problem, &mut solution)) {
         return Some(eased);
     }
@@ -80,7 +80,7 @@ fn easing(
                 .iter_mut()
                 .filter(|friction| friction.begins())
                 .for_each(|begins| *begins = Friction::Sticks);
-            let forces = forces(table, balls, resolved.contacts.as_slice(), &resolved.set, Some(&resolved.forces))
+            let forces = forces(table, balls, &resolved.contacts, &resolved.set, Some(&resolved.forces))
                 .filter(|held| held.slack >= -ROUNDING * table.gravity)?;
             Some(Resolved { forces, shared: false, ..resolved })
         };
@@ -151,7 +151,7 @@ mod tests {
     }
 
     fn resolved(table: &Table, (balls, contacts): &([BallState; 3], Contacts)) -> Resolved {
-        let set = ActiveSet::of(table, balls, contacts.as_slice(), 1e-4);
+        let set = ActiveSet::of(table, balls, contacts, 1e-4);
         resolve(table, balls, contacts, &set, 1e-11, None).expect("they press each other")
     }
 
@@ -164,7 +164,7 @@ mod tests {
         assert!((eased.cloth[0].length() - limit).abs() < 1e-12, "{:?} of {limit}", eased.cloth[0]);
         assert!(slip(table.radius, eased.linear[0], eased.angular[0]).length() < 1e-12 && eased.slack > -1e-12);
         let whole = ActiveSet { roll: [Friction::Slips(DVec2::ZERO); 3], ..set };
-        assert!(forces(table, &scene.0, scene.1.as_slice(), &whole, Some(&eased)).expect("forces").slack < -1e-4);
+        assert!(forces(table, &scene.0, &scene.1, &whole, Some(&eased)).expect("forces").slack < -1e-4);
         let smooth = Table { rolling_friction: 1e-3 * table.rolling_friction, ..table.clone() };
         let Resolved { set, .. } = resolved(&smooth, scene);
         assert_eq!((set.cloth[0], set.roll[0]), (Friction::Sticks, Friction::Slips(DVec2::ZERO)));

@@ -8,7 +8,7 @@
 use glam::DVec2;
 
 use super::{
-    linear::{factorize, substitute},
+    linear::{PROXIMITY, factorize, substitute},
     problem::{Limit, MOST_UNKNOWNS, NO_SIZES, Place, Problem, Sizes, Unknown},
 };
 
@@ -39,11 +39,6 @@ const FIRST_SWEEPS: usize = 8;
 /// Errors below this share of the largest force that a round has not halved are left as they are: such forces are at the edge of what
 /// may hold them, and no round finds better ones.
 const NEARLY: f64 = 1e-7;
-
-/// Added to the system's diagonal, whose entries are 1 to 10. A ball that sticks to several things at once is held more
-/// often than needed, so that forces are not unique; this picks those nearest to what they were. Further steps take its
-/// effect out again.
-const PROXIMITY: f64 = 1e-7;
 
 /// What a law asks at present.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -224,12 +219,22 @@ impl<'a> System<'a> {
         self.bias.iter().chain(sizes).fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()))
     }
 
+    /// How strongly an unknown's rates answer to its force: the same for both rows of a friction, which keeps its direction.
+    fn response(&self, unknown: &Unknown) -> f64 {
+        let rows = unknown.first..unknown.first + unknown.count;
+        rows.map(|index| self.row(index)[index]).fold(f64::MIN_POSITIVE, f64::max)
+    }
+
+    /// The force of which a law takes the projection: `z = f - rate/w` with the response `w`.
+    fn wanted(&self, sizes: &Sizes, index: usize, response: f64) -> f64 {
+        sizes[index] - self.rate(index, sizes) / response
+    }
+
     /// How a law answers to its rates: the projected force, and which side it is on.
     fn project(&self, unknown: &Unknown, sizes: &Sizes) -> (DVec2, Side) {
         let first = unknown.first;
-        // One step for both rows of a friction keeps its direction.
-        let response = (first..first + unknown.count).map(|i| self.row(i)[i]).fold(f64::MIN_POSITIVE, f64::max);
-        let wanted = |i: usize| sizes[i] - self.rate(i, sizes) / response;
+        let response = self.response(unknown);
+        let wanted = |index: usize| self.wanted(sizes, index, response);
         if let Place::Normal(_) = unknown.place {
             let force = wanted(first);
             let pushes = force > 0.0 && !matches!(unknown.limit, Limit::Fixed(0.0));
@@ -302,8 +307,7 @@ impl<'a> System<'a> {
     /// direction turns with `z`.
     fn limited(&self, unknown: &Unknown, axis: usize, direction: DVec2, sizes: &Sizes, entries: &mut [f64]) {
         let n = self.count;
-        let response =
-            (unknown.first..unknown.first + unknown.count).map(|i| self.row(i)[i]).fold(f64::MIN_POSITIVE, f64::max);
+        let response = self.response(unknown);
         let mut limit = 0.0;
         match unknown.limit {
             Limit::Fixed(fixed) => limit = fixed,
@@ -314,7 +318,7 @@ impl<'a> System<'a> {
         }
         entries[unknown.first + axis] += 1.0;
         if unknown.count == 2 {
-            let z = |i: usize| sizes[i] - self.rate(i, sizes) / response;
+            let z = |index: usize| self.wanted(sizes, index, response);
             let length = DVec2::new(z(unknown.first), z(unknown.first + 1)).length();
             for other in 0..2 {
                 let across = f64::from(u8::from(axis == other)) - direction[axis] * direction[other];

@@ -156,7 +156,7 @@ fn a_frozen_cue_ball_is_played_away_from_its_rail_with_a_raised_cue_and_from_the
 }
 
 #[test]
-fn a_cue_that_cannot_be_held_anyhow_is_refused_and_a_table_without_limits_refuses_nothing() {
+fn a_cue_that_cannot_be_held_at_all_is_refused_and_a_table_without_limits_refuses_nothing() {
     let (table, layout) = near_the_bottom(0.0);
     let error = with_room(&table, &layout, &up(-0.2)).unwrap_err();
     assert!(error.to_string().contains("the bottom rail"), "{error}");

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::{super::SpatialState, BallImpact};
+use super::{super::SpatialState, BallImpact, direction, opening_in_space};
 use crate::physics::Cloth;
 
 impl BallImpact {
@@ -54,17 +54,13 @@ impl BallImpact {
         upper: &mut SpatialState,
         lower: &mut SpatialState,
     ) {
-        let mut n = (upper.position - lower.position).normalize();
-        if n.truncate() == glam::DVec2::ZERO {
-            // A ball exactly on the top would stay there for ever.
-            n.x = f64::EPSILON;
-        }
+        let n = direction(lower.position, upper.position);
         lower.velocity.z = 0.0;
         let along_table = n.with_z(0.0);
         let approach = (lower.velocity - upper.velocity).dot(n);
         // What the balls and then the cloth give back, and nothing lost of a slow one.
         let restitution = self.restitution_at(approach) * cloth.restitution;
-        let opening = (restitution * approach).max(approach.min(slowest));
+        let opening = opening_in_space(approach, restitution, slowest);
         let push = (approach + opening) / (1.0 + along_table.length_squared());
         upper.velocity += push * n;
         lower.velocity -= push * along_table;

@@ -3,14 +3,11 @@
 
 use glam::DVec2;
 
-use super::{Resting, State, Trial};
+use super::{MOST_STRAY, Resting, State, Trial};
 use crate::{
-    physics::{BallState, Contact, Forces, Friction, slip},
+    physics::{BallState, Forces, Friction, slip},
     table::{BALLS, Table},
 };
-
-/// How far the course of a pressed ball may be from the polynomial as which it is handed on, m: a tenth of what counts as an overlap.
-const MOST_STRAY: f64 = 1e-10;
 
 /// A step is tried again if it is so much longer than one whose course strays by half of that: `2^(-1/6)`.
 const ROOM_TO_STRAY: f64 = 0.89;
@@ -101,8 +98,8 @@ impl Resting {
             let slip = slip(table.radius, state.velocity, state.spin);
             largest.max(yields(self.set.cloth[ball], slip)).max(yields(self.set.roll[ball], state.velocity))
         });
-        let rubs = |contact: &Contact| table.ball_friction.is_some() || contact.second.is_none();
-        let contacts = self.contacts.as_slice().iter().zip(self.set.contact).filter(|(contact, _)| rubs(contact));
+        let contacts = self.contacts.iter().zip(self.set.contact);
+        let contacts = contacts.filter(|(contact, _)| !contact.never_slips(table));
         contacts.fold(on_cloth, |largest, (contact, does)| largest.max(yields(does, contact.slip(table.radius, balls))))
     }
 }

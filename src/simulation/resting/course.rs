@@ -13,11 +13,13 @@ impl Resting {
         let (a0, a1) = (self.first.linear[ball], self.last.linear[ball]);
         let moved = p1.position - p0.position;
         let (v0, v1) = (p0.velocity, p1.velocity);
+        let square = h * h;
+        let (cube, fourth) = (h * square, square * square);
         let position = if h > self.constants.tolerance.shortest_quintic {
             [
-                (20.0 * moved - h * (8.0 * v1 + 12.0 * v0) - h * h * (3.0 * a0 - a1)) / (2.0 * h.powi(3)),
-                (-30.0 * moved + h * (14.0 * v1 + 16.0 * v0) + h * h * (3.0 * a0 - 2.0 * a1)) / (2.0 * h.powi(4)),
-                (12.0 * moved - 6.0 * h * (v1 + v0) - h * h * (a0 - a1)) / (2.0 * h.powi(5)),
+                (20.0 * moved - h * (8.0 * v1 + 12.0 * v0) - h * h * (3.0 * a0 - a1)) / (2.0 * cube),
+                (-30.0 * moved + h * (14.0 * v1 + 16.0 * v0) + h * h * (3.0 * a0 - 2.0 * a1)) / (2.0 * fourth),
+                (12.0 * moved - 6.0 * h * (v1 + v0) - h * h * (a0 - a1)) / (2.0 * (h * fourth)),
             ]
         } else {
             let mean = (v1 - v0) / h;

@@ -1,6 +1,6 @@
 //! The end of a step before its time: another event comes first.
 
-use super::{MAX_GUESSES, Phase, Resting, State, Step, Trial};
+use super::{MAX_GUESSES, Resting, State, Trial};
 use crate::table::Table;
 
 /// After an interruption a step is tried that is so many times as long as the one that was interrupted.
@@ -13,7 +13,7 @@ const SPENT: f64 = 1e-9;
 impl Resting {
     /// State `time` seconds after the start of the step, by one shorter step of the same method.
     pub fn after(&self, table: &Table, time: f64) -> State {
-        if time >= self.step { self.end } else { self.settled(table, self.until(table, time).step.end.balls) }
+        if time >= self.step { self.end } else { self.without_rounding(table, self.until(table, time).step.end.balls) }
     }
 
     /// Ends the step `time` seconds after its start: its course is that of the shorter step.
@@ -24,7 +24,7 @@ impl Resting {
         let trial = self.until(table, time);
         self.interrupted = true;
         (self.step, self.last) = (time, trial.forces);
-        (self.end, self.goes_on) = (self.settled(table, trial.step.end.balls), false);
+        (self.end, self.goes_on) = (self.without_rounding(table, trial.step.end.balls), false);
         if time > 0.0 {
             // What comes next is likely to be interrupted as soon.
             self.next_step = GROWTH_AFTER_INTERRUPTION * time;
@@ -33,9 +33,7 @@ impl Resting {
 
     /// The step that ends after `time` seconds.
     fn until(&self, table: &Table, time: f64) -> Trial {
-        let begin = Phase { balls: self.begin, time: 0.0 };
-        let begin = Step { end: begin, error: 0.0, best_length: 0.0 };
-        let mut trial = self.reach(table, &Trial { span: 0.0, step: begin, forces: self.first }, time);
+        let mut trial = self.reach(table, &self.beginning(), time);
         if self.time_scale.is_some() {
             // Newton's steps: how fast time runs is known.
             for _ in 0..MAX_GUESSES {

@@ -8,9 +8,9 @@ use glam::DVec2;
 
 use super::{Phase, Place, Resting, STIFF, Trial};
 use crate::{
-    physics::{BallState, Forces, Friction},
+    physics::{Forces, Friction},
     simulation::extrapolation::{Mode, Stiff},
-    table::{BALLS, Table},
+    table::Table,
 };
 
 /// Steps are implicit in all directions that follow the forces at least so often in them, as soon as one is stiff.
@@ -53,14 +53,13 @@ impl Resting {
     /// How the slip at one place turns, and what a turn of its friction changes.
     fn mode(&self, table: &Table, from: &Trial, place: Place, slip: DVec2) -> Mode {
         let balls = &from.step.end.balls;
-        let still = Phase { balls: [BallState::at_rest(DVec2::ZERO); BALLS], time: 0.0 };
         let across = slip.perp().normalize();
         let turned = |friction: &mut Friction| {
             if let Friction::Slips(start) = friction {
                 *start += TURN * slip.perp();
             }
         };
-        let (mut set, mut row) = (self.set, still);
+        let (mut set, mut row) = (self.set, Phase::ZERO);
         match place {
             Place::Cloth(ball) => {
                 turned(&mut set.cloth[ball]);
@@ -73,7 +72,7 @@ impl Resting {
             }
             Place::Contact(index) => {
                 turned(&mut set.contact[index]);
-                let contact = &self.contacts.as_slice()[index];
+                let contact = &self.contacts[index];
                 let t = contact.normal(balls).perp();
                 let spin = table.radius * (across.y * t).extend(-across.x);
                 (row.balls[contact.first].velocity, row.balls[contact.first].spin) = (across.x * t, spin);
@@ -83,8 +82,8 @@ impl Resting {
             }
         }
         let slope = |forces: &Forces| self.slope(table.radius, balls, (&forces.linear, &forces.angular));
-        let (before, after) = (slope(&from.forces), slope(&self.forces_in(table, &set, balls, &from.forces)));
-        let mut column = still;
+        let (before, after) = (slope(&from.forces), slope(&self.forces(table, &set, balls, &from.forces)));
+        let mut column = Phase::ZERO;
         for ((column, before), after) in column.balls.iter_mut().zip(before.balls).zip(after.balls) {
             column.velocity = (after.velocity - before.velocity) / (TURN * slip.length());
             column.spin = (after.spin - before.spin) / (TURN * slip.length());

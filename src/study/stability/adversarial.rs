@@ -6,8 +6,11 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
-use super::{Shot, Stroke, draw};
-use crate::table::{BALLS, Layout, Table};
+use super::{Shot, draw};
+use crate::{
+    physics::CueDegrees,
+    table::{BALLS, Layout, Table},
+};
 
 /// A shot that leans to everything that is hard.
 pub fn shot<R: Rng>(table: &Table, rng: &mut R) -> Shot {
@@ -79,7 +82,7 @@ fn hard_place(table: &Table, others: &[DVec2], rng: &mut impl Rng) -> DVec2 {
     }
 }
 
-fn stroke(table: &Table, layout: &Layout, rng: &mut impl Rng) -> Stroke {
+fn stroke(table: &Table, layout: &Layout, rng: &mut impl Rng) -> CueDegrees {
     let cue = draw::stroke(rng);
     let tiny = draw::one_of(rng, &[-1.0, 1.0]) * draw::log_uniform(rng, 1e-16, 1e-9);
     // Struck level at 2/5 of the radius above the centre, a ball rolls at once.
@@ -97,7 +100,7 @@ fn stroke(table: &Table, layout: &Layout, rng: &mut impl Rng) -> Stroke {
         1..4 => aim(table, layout, rng),
         _ => cue.phi_deg,
     };
-    Stroke { a, b, theta_deg, phi_deg, speed: cue.speed }
+    CueDegrees { a, b, theta_deg, phi_deg, speed: cue.speed }
 }
 
 /// Degrees towards another ball: full, grazing its edge to any depth, or just missing it.

@@ -2,7 +2,7 @@
 //!
 //! Between two landings a centre's course is a parabola in space, so that the least distances are bounded as on the cloth.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::{
     figures::Figures,
@@ -53,9 +53,8 @@ fn stretches(table: &Table, pieces: &[Piece]) -> Vec<Stretch> {
     for Piece { segment, end } in pieces {
         let motion = segment.motion;
         let Some(hops) = segment.hops() else {
-            let [c3, c4, c5] = segment.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
-            let place = [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5];
-            found.push(Stretch { begin: segment.start, end: *end, place: place.map(|c| c.extend(0.0)), motion });
+            let place = segment.coefficients().map(|c| c.extend(0.0));
+            found.push(Stretch { begin: segment.start, end: *end, place, motion });
             continue;
         };
         for landings in 0..MOST_LANDINGS {

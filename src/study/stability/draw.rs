@@ -5,8 +5,10 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
-use super::Stroke;
-use crate::table::{BALLS, Layout, Table};
+use crate::{
+    physics::CueDegrees,
+    table::{BALLS, Layout, Table},
+};
 
 /// A number whose decimal exponent is drawn evenly.
 pub fn log_uniform(rng: &mut (impl Rng + ?Sized), low: f64, high: f64) -> f64 {
@@ -31,11 +33,11 @@ pub fn tip(rng: &mut (impl Rng + ?Sized)) -> (f64, f64) {
 }
 
 /// A stroke from the full range of every input.
-pub fn stroke(rng: &mut (impl Rng + ?Sized)) -> Stroke {
+pub fn stroke(rng: &mut (impl Rng + ?Sized)) -> CueDegrees {
     let (a, b) = tip(rng);
     let speed = if rng.random_bool(0.5) { rng.random_range(0.3..8.0) } else { log_uniform(rng, 1e-6, 60.0) };
     let theta_deg = if rng.random_bool(0.5) { rng.random_range(0.0..20.0) } else { rng.random_range(0.0..89.9) };
-    Stroke { a, b, theta_deg, phi_deg: rng.random_range(-180.0..180.0), speed }
+    CueDegrees { a, b, theta_deg, phi_deg: rng.random_range(-180.0..180.0), speed }
 }
 
 /// A place for a ball's centre on the table.

@@ -69,7 +69,7 @@ fn is_finite(trace: &Trace) -> bool {
         segment.start.is_finite()
             && piece.end.is_finite()
             && segment.spin.is_finite()
-            && coefficients(segment).iter().all(|c| c.is_finite())
+            && segment.coefficients().iter().all(|c| c.is_finite())
             && segment.curve().is_none_or(|curve| curve.spin.iter().all(|c| c.is_finite()))
     };
     trace.pieces.iter().flatten().all(piece_is_finite)
@@ -107,7 +107,7 @@ fn jumps(shot: &Shot, trace: &Trace, figures: &mut Figures) {
 /// How far a piece leads beyond the cushions.
 fn outside(constants: &Constants, piece: &Piece, figures: &mut Figures) {
     let Piece { segment, end } = piece;
-    let course = coefficients(segment);
+    let course = segment.coefficients();
     let count = if segment.curve().is_some() { 6 } else { 3 };
     let time = end - segment.start;
     for axis in 0..2 {
@@ -196,14 +196,9 @@ fn contacts(trace: &Trace, figures: &mut Figures) {
     }
 }
 
-fn coefficients(segment: &Segment) -> [DVec2; 6] {
-    let [c3, c4, c5] = segment.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
-    [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5]
-}
-
 /// A course's coefficients about the time `now`.
 fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
-    let mut c = coefficients(segment);
+    let mut c = segment.coefficients();
     let shift = now - segment.start;
     let highest = if segment.curve().is_some() { 5 } else { 2 };
     if shift != 0.0 {
@@ -222,7 +217,8 @@ fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
 mod tests {
     use super::*;
     use crate::{
-        study::stability::{Limits, Stroke, Violation},
+        physics::CueDegrees,
+        study::stability::{Limits, Violation},
         table::Layout,
     };
 
@@ -230,7 +226,7 @@ mod tests {
     fn violations(tamper: impl Fn(&mut Trace)) -> Vec<Violation> {
         let table = Table::preset("textbook").unwrap();
         let layout = Layout::new([DVec2::new(-0.5, 0.01), DVec2::ZERO, DVec2::new(1.0, 0.5)]);
-        let shot = Shot { layout, cue: Stroke { b: 0.3, ..Stroke::centre(0.0, 4.0) } };
+        let shot = Shot { layout, cue: CueDegrees { b: 0.3, ..CueDegrees::centre(0.0, 4.0) } };
         let mut trace = Trace::new(&table);
         trace.play(&table, &shot);
         tamper(&mut trace);

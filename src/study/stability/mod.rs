@@ -23,6 +23,6 @@ pub use finding::Finding;
 pub use invariants::examine;
 pub use progress::rows_with_progress;
 pub use report::{Plan, Row, markdown, page, rows, text};
-pub use shot::{Shot, Stroke};
+pub use shot::Shot;
 pub use sweep::{Check, Generator, Progress, Sweep};
 pub use trace::Trace;

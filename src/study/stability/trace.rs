@@ -82,7 +82,7 @@ impl Trace {
 
     /// Plays `shot`, which is taken as it is, and keeps its course.
     pub fn play(&mut self, table: &Table, shot: &Shot) {
-        let impulse = strike(table, &shot.cue.inputs());
+        let impulse = strike(table, &shot.cue.into());
         self.record(&shot.layout, &impulse, |trace| simulate(table, &shot.layout, &impulse, trace));
     }
 

@@ -35,25 +35,28 @@ impl Stepper<'_> {
         self.balls[index].segment.motion == Motion::Flying
     }
 
-    /// The way from a ball in the air to the nose of `rail`, m; straight at the rail for one that is deep within it.
+    /// The way from a ball in the air to the nose of `rail`, m.
+    fn way_to_nose(&self, state: &SpatialState, rail: Rail) -> DVec3 {
+        Nose::of(self.law.cushions.at(rail), self.constants.radius).way_from(&self.constants, rail, state.position)
+    }
+
+    /// The same; straight at the rail for one that is deep within it.
     pub(super) fn to_nose(&self, state: &SpatialState, rail: Rail) -> DVec3 {
-        let nose = Nose::of(self.law.cushions.at(rail), self.constants.radius);
-        let way = nose.way_from(&self.constants, rail, state.position);
+        let way = self.way_to_nose(state, rail);
         let n = rail.normal();
         if way.truncate().dot(n) < 0.0 { way } else { -self.constants.radius * n.extend(0.0) }
     }
 
     /// Whether the centre of a ball in the air is over the rail behind its nose. One that is lower has gone through it.
     pub(super) fn is_over(&self, state: &SpatialState, rail: Rail) -> bool {
-        let way =
-            Nose::of(self.law.cushions.at(rail), self.constants.radius).way_from(&self.constants, rail, state.position);
+        let way = self.way_to_nose(state, rail);
         way.truncate().dot(rail.normal()) >= 0.0 && way.z < 0.0
     }
 
     /// How far a ball in the air is from the nose, or behind it from the top of the rail, m.
     pub(super) fn nose_gap(&self, state: &SpatialState, rail: Rail) -> f64 {
         let radius = self.constants.radius;
-        let way = Nose::of(self.law.cushions.at(rail), radius).way_from(&self.constants, rail, state.position);
+        let way = self.way_to_nose(state, rail);
         let is_passed = way.truncate().dot(rail.normal()) >= 0.0;
         if is_passed { -way.z - radius } else { way.length() - radius }
     }

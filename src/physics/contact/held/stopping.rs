@@ -42,7 +42,7 @@ fn stopped_in<const ROOM: usize>(
     given: &[f64; MAX_CONTACTS],
 ) -> Option<Movement> {
     // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
-    let has_friction = |contact: &Contact| table.ball_friction.is_some() || contact.second.is_none();
+    let has_friction = |contact: &Contact| !contact.never_slips(table);
     let mut system = Held::<ROOM>::new(table, balls, contacts, &set.slipping_where(set), has_friction);
     let speeds =
         Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };

@@ -9,7 +9,7 @@ use super::{super::contact_twist, BallState};
 ///
 /// Equations (22) and (23), with Coulomb's law up to the no-slip limit 2/7.
 #[inline]
-pub fn collide_rail(radius: f64, restitution: f64, friction: f64, n: DVec2, ball: &mut BallState) -> f64 {
+pub(super) fn collide_rail(radius: f64, restitution: f64, friction: f64, n: DVec2, ball: &mut BallState) -> f64 {
     let normal = -(1.0 + restitution) * ball.velocity.dot(n);
     if normal <= 0.0 {
         return normal;

@@ -110,7 +110,7 @@ pub(super) fn collide(
 ) -> f64 {
     let approach = -ball.velocity.dot(n);
     if approach <= 0.0 {
-        return -approach.abs();
+        return approach;
     }
     let t = n.perp();
     let into = |v: DVec2| DVec2::new(v.dot(n), v.dot(t));

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 
 use super::{super::SpatialState, BallState};
 use crate::table::{Fade, Rail, RailModel, Rails, Table};
-pub use equator::collide_rail;
+use equator::collide_rail;
 use nose::StickSlip;
 
 /// One cushion, as an impact needs it.

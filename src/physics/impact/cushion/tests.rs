@@ -61,6 +61,29 @@ proptest! {
     }
 
     #[test]
+    fn at_the_height_of_the_centre_the_ball_leaves_by_the_restitution_and_its_slip_does_not_turn_round(
+        ball in moving(), e in 0.0..=1.0f64, mu in 0.0..1.0f64,
+    ) {
+        let (n, mut after) = (DVec2::NEG_X, ball);
+        collide_rail(RADIUS, e, mu, n, &mut after);
+        prop_assert!((after.velocity.x + e * ball.velocity.x).abs() < 1e-13);
+        let slip = |ball: &BallState| ball.velocity.dot(n.perp()) - RADIUS * ball.spin.z;
+        prop_assert!(slip(&ball) * slip(&after) > -1e-12);
+        prop_assert!(after.specific_energy(RADIUS) <= ball.specific_energy(RADIUS) * (1.0 + 1e-14));
+    }
+
+    /// Without loss an impact is undone by the same impact of the reversed velocities.
+    #[test]
+    fn what_loses_nothing_at_the_height_of_the_centre_runs_backwards(ball in moving()) {
+        let there = |mut ball: BallState| {
+            collide_rail(RADIUS, 1.0, 0.0, DVec2::NEG_X, &mut ball);
+            BallState { velocity: -ball.velocity, spin: -ball.spin, ..ball }
+        };
+        let back = there(there(ball));
+        prop_assert!(back.velocity.distance(ball.velocity) < 1e-12 && back.spin.distance(ball.spin) < 1e-10);
+    }
+
+    #[test]
     fn smooth_friction_never_exceeds_coulomb_nor_its_most(ball in moving()) {
         let [smooth, sharp] = [RailModel::Smooth, RailModel::Nose].map(|model| hit(&cushion(model, 0.0365), &ball));
         let taken = |after: BallState| (after.spin - ball.spin).length();

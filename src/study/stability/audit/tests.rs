@@ -6,9 +6,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::*;
 use crate::{
-    physics::BallState,
+    physics::{BallState, CueDegrees},
     simulation::{Course, Rail},
-    study::stability::{Shot, Stroke, cases, random},
+    study::stability::{Shot, cases, random},
     table::{Flight, JUDGED, Layout},
 };
 
@@ -25,7 +25,10 @@ fn unexplained(table: &Table, shot: &Shot, tamper: impl FnOnce(&mut Trace)) -> f
 /// Over two cushions and a ball.
 fn lively() -> (Table, Shot) {
     let layout = Layout::new([DVec2::new(-0.5, 0.01), DVec2::ZERO, DVec2::new(1.0, 0.5)]);
-    (Table::preset("textbook").unwrap(), Shot { layout, cue: Stroke { a: 0.2, b: 0.3, ..Stroke::centre(0.0, 4.0) } })
+    (
+        Table::preset("textbook").unwrap(),
+        Shot { layout, cue: CueDegrees { a: 0.2, b: 0.3, ..CueDegrees::centre(0.0, 4.0) } },
+    )
 }
 
 /// A shot on the thesis' table whose cue ball is pressed against a cushion for a while.
@@ -177,7 +180,7 @@ fn in_the_air_impacts_and_landings_that_take_what_their_laws_do_not_are_seen() {
     let flight = Flight { restitution: 0.5, friction: Some(0.2) };
     let table = Table { flight: Some(flight), ..Table::preset("textbook").unwrap() };
     let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(-0.36, 0.01), DVec2::new(1.0, 0.5)]);
-    let shot = Shot { layout, cue: Stroke { theta_deg: 20.0, ..Stroke::centre(0.0, 3.0) } };
+    let shot = Shot { layout, cue: CueDegrees { theta_deg: 20.0, ..CueDegrees::centre(0.0, 3.0) } };
     let mut trace = Trace::new(&table);
     trace.play(&table, &shot);
     assert!(trace.events.iter().any(|event| event.kind == EventKind::BallBall(0, 1)));

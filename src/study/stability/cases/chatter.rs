@@ -7,8 +7,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, Size, variant};
 use crate::{
+    physics::CueDegrees,
     simulation::{Event, EventKind, Rail},
-    study::stability::{Limits, Shot, Stroke, Trace, draw},
+    study::stability::{Limits, Shot, Trace, draw},
     table::{JUDGED, Layout, Table},
 };
 
@@ -42,10 +43,10 @@ fn lively(e: f64) -> Vec<Table> {
 }
 
 /// So steep that the spin by far outlasts the speed: the ball leaves, comes back, and is pressed for a long time.
-fn masse(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> Stroke {
+fn masse(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> CueDegrees {
     let (a, b) = (rng.random_range(-0.1..0.1), rng.random_range(-0.3..0.3));
     let theta_deg = 90.0 - draw::log_uniform(rng, 0.02, 5.0);
-    Stroke { a, b, theta_deg, phi_deg, speed: draw::log_uniform(rng, 0.3, 6.0) }
+    CueDegrees { a, b, theta_deg, phi_deg, speed: draw::log_uniform(rng, 0.3, 6.0) }
 }
 
 /// The third ball stands out of the way.

@@ -8,8 +8,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, on_presets};
 use crate::{
+    physics::CueDegrees,
     simulation::{EventKind, Rail},
-    study::stability::{Shot, Stroke, Trace, draw},
+    study::stability::{Shot, Trace, draw},
     table::{Layout, Table},
 };
 
@@ -51,7 +52,7 @@ fn driving(table: &Table, target: DVec2, towards: DVec2, rng: &mut Xoshiro256Plu
     let direction = DVec2::from_angle(rng.random_range(-0.5..0.5)).rotate(towards);
     let from = target - 2.0 * table.radius * towards - rng.random_range(0.0..0.6) * direction;
     let b = draw::one_of(rng, &[-0.5, 0.0, 0.4, 0.9]);
-    let cue = Stroke { b, ..Stroke::centre(direction.to_angle().to_degrees(), rng.random_range(0.5..8.0)) };
+    let cue = CueDegrees { b, ..CueDegrees::centre(direction.to_angle().to_degrees(), rng.random_range(0.5..8.0)) };
     let layout = Layout::new([from, target, draw::place(table, rng)]);
     layout.validate(table).is_ok().then_some(Shot { layout, cue })
 }
@@ -117,7 +118,7 @@ fn cue_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let (from, rail) = on_cushion(table, rng);
     let direction = DVec2::from_angle(rng.random_range(-PI..PI)).rotate(rail.normal());
     let layout = draw::with_others(table, &[from], rng);
-    Shot { layout, cue: Stroke { phi_deg: direction.to_angle().to_degrees(), ..draw::stroke(rng) } }
+    Shot { layout, cue: CueDegrees { phi_deg: direction.to_angle().to_degrees(), ..draw::stroke(rng) } }
 }
 
 fn leaves(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
@@ -155,7 +156,7 @@ fn into_corner(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     };
     let phi_deg = if signs.x > 0.0 { 45.0 * signs.y } else { 135.0 * signs.y };
     let b = draw::one_of(rng, &[-0.3, 0.0, 0.2, 0.4]);
-    Shot { layout, cue: Stroke { b, ..Stroke::centre(phi_deg, rng.random_range(2.0..8.0)) } }
+    Shot { layout, cue: CueDegrees { b, ..CueDegrees::centre(phi_deg, rng.random_range(2.0..8.0)) } }
 }
 
 fn hits_both(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {

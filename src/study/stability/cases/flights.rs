@@ -6,9 +6,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, Size, variant};
 use crate::{
-    physics::{Cushions, strike},
+    physics::{CueDegrees, Cushions, strike},
     simulation::{EventKind, Rail},
-    study::stability::{Limits, Shot, Stroke, Trace, adversarial, draw},
+    study::stability::{Limits, Shot, Trace, adversarial, draw},
     table::{Flight, Layout, Rails, Table},
 };
 
@@ -70,13 +70,13 @@ fn lively() -> Vec<Table> {
 }
 
 /// A stroke along x that makes the cue ball jump, with the velocity that it gives it.
-fn jump(table: &Table, rng: &mut Xoshiro256PlusPlus, speeds: std::ops::Range<f64>) -> (Stroke, DVec2, f64) {
-    let stroke = Stroke {
+fn jump(table: &Table, rng: &mut Xoshiro256PlusPlus, speeds: std::ops::Range<f64>) -> (CueDegrees, DVec2, f64) {
+    let stroke = CueDegrees {
         b: rng.random_range(-0.2..0.2),
         theta_deg: rng.random_range(15.0..55.0),
-        ..Stroke::centre(0.0, rng.random_range(speeds))
+        ..CueDegrees::centre(0.0, rng.random_range(speeds))
     };
-    let impulse = strike(table, &stroke.inputs());
+    let impulse = strike(table, &stroke.into());
     (stroke, impulse.velocity, impulse.lift)
 }
 
@@ -103,7 +103,7 @@ fn graze(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 }
 
 fn hit_or_missed(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
-    let impulse = strike(table, &shot.cue.inputs());
+    let impulse = strike(table, &shot.cue.into());
     let (time, height) = (impulse.lift / table.gravity, 0.5 * impulse.lift * impulse.lift / table.gravity);
     let way = shot.layout.balls[1] - shot.layout.balls[0] - time * impulse.velocity;
     let depth = 1.0 - way.length().hypot(height) / (2.0 * table.radius);
@@ -160,18 +160,18 @@ const STEEPEST: f64 = 60.0;
 
 fn raised(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let theta_deg = rng.random_range(0.0..STEEPEST);
-    Shot { layout: Layout::random(table, rng), cue: Stroke { theta_deg, ..draw::stroke(rng) } }
+    Shot { layout: Layout::random(table, rng), cue: CueDegrees { theta_deg, ..draw::stroke(rng) } }
 }
 
 fn raised_at_touching(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let theta_deg = rng.random_range(0.0..STEEPEST);
     let shot = adversarial::shot(table, rng);
-    Shot { cue: Stroke { theta_deg, ..shot.cue }, ..shot }
+    Shot { cue: CueDegrees { theta_deg, ..shot.cue }, ..shot }
 }
 
 fn hops(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let stroke =
-        Stroke { theta_deg: rng.random_range(3.0..60.0), speed: rng.random_range(0.3..5.0), ..draw::stroke(rng) };
+        CueDegrees { theta_deg: rng.random_range(3.0..60.0), speed: rng.random_range(0.3..5.0), ..draw::stroke(rng) };
     Shot { layout: Layout::random(table, rng), cue: stroke }
 }
 
@@ -180,9 +180,11 @@ fn corner(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     loop {
         let way = rng.random_range(0.15..0.9) * table.reach().y;
         let from = table.reach() - DVec2::splat(way);
-        let stroke =
-            Stroke { theta_deg: rng.random_range(5.0..50.0), ..Stroke::centre(45.0, rng.random_range(1.0..5.0)) };
-        let impulse = strike(table, &stroke.inputs());
+        let stroke = CueDegrees {
+            theta_deg: rng.random_range(5.0..50.0),
+            ..CueDegrees::centre(45.0, rng.random_range(1.0..5.0))
+        };
+        let impulse = strike(table, &stroke.into());
         if impulse.lift * impulse.lift < 2.0 * table.gravity * 2.0 * table.radius {
             return Shot { layout: draw::with_others(table, &[from], rng), cue: stroke };
         }
@@ -191,6 +193,6 @@ fn corner(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 
 fn masse(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let (a, b) = draw::tip(rng);
-    let stroke = Stroke { a, b, theta_deg: 89.0, phi_deg: rng.random_range(-180.0..180.0), speed: 8.0 };
+    let stroke = CueDegrees { a, b, theta_deg: 89.0, phi_deg: rng.random_range(-180.0..180.0), speed: 8.0 };
     Shot { layout: Layout::random(table, rng), cue: stroke }
 }

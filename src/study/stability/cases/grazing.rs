@@ -6,8 +6,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, Size, presets};
 use crate::{
+    physics::CueDegrees,
     simulation::EventKind,
-    study::stability::{Limits, Shot, Stroke, Trace, draw},
+    study::stability::{Limits, Shot, Trace, draw},
     table::{Layout, Table},
 };
 
@@ -37,7 +38,7 @@ fn shot(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let speed = rng.random_range(1.5..8.0);
     Shot {
         layout: Layout::new([struck, DVec2::new(0.0, beside), other]),
-        cue: Stroke { b, ..Stroke::centre(0.0, speed) },
+        cue: CueDegrees { b, ..CueDegrees::centre(0.0, speed) },
     }
 }
 

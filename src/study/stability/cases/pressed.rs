@@ -8,8 +8,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, Size, presets, rail_course, variant};
 use crate::{
+    physics::CueDegrees,
     simulation::Rail,
-    study::stability::{Limits, Shot, Stroke, draw},
+    study::stability::{Limits, Shot, draw},
     table::{JUDGED, Layout, Table},
 };
 
@@ -47,8 +48,8 @@ fn smooth() -> Vec<Table> {
 }
 
 /// Follow and some side: the slip at the cloth presses the ball on to what it has met.
-fn pressing(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> Stroke {
-    Stroke {
+fn pressing(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> CueDegrees {
+    CueDegrees {
         a: rng.random_range(-0.4..0.4),
         b: rng.random_range(0.4..0.9),
         theta_deg: draw::one_of(rng, &[0.0, 5.0, 20.0]),
@@ -116,5 +117,5 @@ fn against_smooth_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let far = (0.9 * table.reach()) * rail.normal();
     let layout = Layout::new([from, far, far + 4.0 * table.radius * rail.normal().perp()]);
     let speed = rng.random_range(0.05..0.8);
-    Shot { layout, cue: Stroke { speed, ..pressing(direction.to_angle().to_degrees(), rng) } }
+    Shot { layout, cue: CueDegrees { speed, ..pressing(direction.to_angle().to_degrees(), rng) } }
 }

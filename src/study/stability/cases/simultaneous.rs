@@ -6,8 +6,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, Size, presets};
 use crate::{
+    physics::CueDegrees,
     simulation::{EventKind, Rail},
-    study::stability::{Limits, Shot, Stroke, Trace, draw},
+    study::stability::{Limits, Shot, Trace, draw},
     table::{Layout, Table},
 };
 
@@ -42,7 +43,7 @@ fn fork(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let b = draw::one_of(rng, &[-0.3, 0.0, 0.4]);
     Shot {
         layout: Layout::new([from, DVec2::new(0.0, beside), DVec2::new(0.0, -beside)]),
-        cue: Stroke { b, ..Stroke::centre(0.0, rng.random_range(2.0..8.0)) },
+        cue: CueDegrees { b, ..CueDegrees::centre(0.0, rng.random_range(2.0..8.0)) },
     }
 }
 
@@ -67,7 +68,7 @@ fn ball_at_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let phi_deg = direction.to_angle().to_degrees();
     Shot {
         layout: Layout::new([from, at + beside, other]),
-        cue: Stroke { b, ..Stroke::centre(phi_deg, rng.random_range(2.0..8.0)) },
+        cue: CueDegrees { b, ..CueDegrees::centre(phi_deg, rng.random_range(2.0..8.0)) },
     }
 }
 

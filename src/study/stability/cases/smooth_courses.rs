@@ -6,7 +6,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, Size, variant};
 use crate::{
-    study::stability::{Limits, Shot, Stroke, Trace, draw},
+    physics::CueDegrees,
+    study::stability::{Limits, Shot, Trace, draw},
     table::{JUDGED, Layout, Table},
 };
 
@@ -47,8 +48,8 @@ fn smooth() -> Vec<Table> {
 }
 
 /// Level, with follow: the slip at the cloth drives the ball on.
-fn follow(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> Stroke {
-    Stroke { b: rng.random_range(0.45..0.95), ..Stroke::centre(phi_deg, draw::log_uniform(rng, 0.02, 1.0)) }
+fn follow(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> CueDegrees {
+    CueDegrees { b: rng.random_range(0.45..0.95), ..CueDegrees::centre(phi_deg, draw::log_uniform(rng, 0.02, 1.0)) }
 }
 
 /// Straight at a ball that it touches, far from every cushion.

@@ -5,7 +5,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, Size, lone, presets};
 use crate::{
-    study::stability::{Limits, Shot, Stroke, draw},
+    physics::CueDegrees,
+    study::stability::{Limits, Shot, draw},
     table::{Layout, Table},
 };
 
@@ -32,7 +33,7 @@ pub const CASES: &[Case] = &[
 ];
 
 /// A random layout; half of the strokes so soft that the ball often meets nothing.
-fn with(table: &Table, rng: &mut Xoshiro256PlusPlus, stroke: Stroke) -> Shot {
+fn with(table: &Table, rng: &mut Xoshiro256PlusPlus, stroke: CueDegrees) -> Shot {
     Shot { layout: Layout::random(table, rng), cue: stroke }
 }
 
@@ -47,24 +48,24 @@ fn tiny(rng: &mut Xoshiro256PlusPlus, low: f64, high: f64) -> f64 {
 /// Struck level at 2/5 of the radius above the centre, a ball rolls at once.
 fn next_to_no_slip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let b = 0.4 * (1.0 + tiny(rng, 1e-16, 1e-6));
-    let stroke = Stroke { b, ..Stroke::centre(rng.random_range(-180.0..180.0), speed(rng)) };
+    let stroke = CueDegrees { b, ..CueDegrees::centre(rng.random_range(-180.0..180.0), speed(rng)) };
     with(table, rng, stroke)
 }
 
 fn tiny_spins(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let (a, b, theta_deg) = (tiny(rng, 1e-16, 1e-9), tiny(rng, 1e-16, 1e-9), draw::log_uniform(rng, 1e-16, 1e-9));
     let b = if rng.random_bool(0.5) { b } else { 0.4 };
-    let stroke = Stroke { a, b, theta_deg, phi_deg: rng.random_range(-180.0..180.0), speed: speed(rng) };
+    let stroke = CueDegrees { a, b, theta_deg, phi_deg: rng.random_range(-180.0..180.0), speed: speed(rng) };
     with(table, rng, stroke)
 }
 
 fn all_speeds(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
-    let stroke = Stroke { speed: draw::log_uniform(rng, 1e-6, 60.0), ..draw::stroke(rng) };
+    let stroke = CueDegrees { speed: draw::log_uniform(rng, 1e-6, 60.0), ..draw::stroke(rng) };
     with(table, rng, stroke)
 }
 
 fn masse(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
-    let stroke = Stroke { theta_deg: rng.random_range(89.0..89.999), ..draw::stroke(rng) };
+    let stroke = CueDegrees { theta_deg: rng.random_range(89.0..89.999), ..draw::stroke(rng) };
     with(table, rng, stroke)
 }
 
@@ -75,6 +76,6 @@ fn rim(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     while a * a + b * b > 1.0 {
         (a, b) = (a * (1.0 - f64::EPSILON), b * (1.0 - f64::EPSILON));
     }
-    let stroke = Stroke { a, b, speed: speed(rng), ..draw::stroke(rng) };
+    let stroke = CueDegrees { a, b, speed: speed(rng), ..draw::stroke(rng) };
     with(table, rng, stroke)
 }

@@ -5,8 +5,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, Size, variant};
 use crate::{
-    physics::Motion,
-    study::stability::{Limits, Shot, Stroke, Trace, adversarial, draw, random},
+    physics::{CueDegrees, Motion},
+    study::stability::{Limits, Shot, Trace, adversarial, draw, random},
     table::{BALLS, JUDGED, Table},
 };
 
@@ -96,7 +96,7 @@ fn shot(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let speed = if rng.random_bool(0.5) { rng.random_range(0.3..8.0) } else { draw::log_uniform(rng, 1e-4, 8.0) };
     let Shot { layout, cue } =
         if rng.random_bool(0.5) { random::shot(table, rng) } else { adversarial::shot(table, rng) };
-    Shot { layout, cue: Stroke { speed, ..cue } }
+    Shot { layout, cue: CueDegrees { speed, ..cue } }
 }
 
 /// Rounding of an energy in a collision, in ε.

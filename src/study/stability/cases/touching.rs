@@ -8,8 +8,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, on_presets};
 use crate::{
+    physics::CueDegrees,
     simulation::EventKind,
-    study::stability::{Shot, Stroke, Trace, draw},
+    study::stability::{Shot, Trace, draw},
     table::{BALLS, Layout, Table},
 };
 
@@ -28,8 +29,8 @@ fn middle(table: &Table, rng: &mut Xoshiro256PlusPlus) -> DVec2 {
     draw::place(table, rng) * 0.6
 }
 
-fn any_stroke(rng: &mut Xoshiro256PlusPlus) -> Stroke {
-    Stroke { speed: rng.random_range(0.3..8.0), ..draw::stroke(rng) }
+fn any_stroke(rng: &mut Xoshiro256PlusPlus) -> CueDegrees {
+    CueDegrees { speed: rng.random_range(0.3..8.0), ..draw::stroke(rng) }
 }
 
 fn two(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
@@ -60,7 +61,7 @@ fn line(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let b = draw::one_of(rng, &[-0.4, 0.0, 0.4]);
     Shot {
         layout: Layout::new([from, second, third]),
-        cue: Stroke { b, ..Stroke::centre(angle.to_degrees(), rng.random_range(0.3..8.0)) },
+        cue: CueDegrees { b, ..CueDegrees::centre(angle.to_degrees(), rng.random_range(0.3..8.0)) },
     }
 }
 
@@ -71,7 +72,7 @@ fn gap(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let b = draw::one_of(rng, &[-0.4, 0.0, 0.4]);
     Shot {
         layout: draw::with_others(table, &[from, second], rng),
-        cue: Stroke { b, ..Stroke::centre(along.to_angle().to_degrees(), rng.random_range(0.3..8.0)) },
+        cue: CueDegrees { b, ..CueDegrees::centre(along.to_angle().to_degrees(), rng.random_range(0.3..8.0)) },
     }
 }
 
