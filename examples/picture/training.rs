@@ -30,7 +30,7 @@ pub fn screen(caps: Capabilities) -> Result<App, Box<dyn Error>> {
     let runs = folder.path().join("runs");
     let place = runs.join("first-steps");
     let plan = TrainingPlan { reward: Reward::R3, seed: 1, shots: PLANNED };
-    let learner = (AGENTS[0].start)(plan, Table::default(), serde_json::json!({}))?;
+    let learner = (AGENTS[0].start)(plan, Table::default(), &serde_json::json!({}))?;
     let mut run = Run::create(&place, learner, Schedule::new(10_000, 1_000), None)?;
     let mut camera = Camera { runs, place, caps, app: None };
     let is_taken = std::cell::Cell::new(false);

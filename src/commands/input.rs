@@ -123,14 +123,18 @@ pub fn seed(text: &str) -> Result<u64, String> {
 /// The time that `--minutes` gives, fractions of a minute too.
 ///
 /// # Errors
-/// What is no number above 0, or beyond all clocks.
+/// What is no number above 0, or more than a thousand years.
 pub fn minutes(value: f64) -> Result<Duration, Failure> {
-    let accepted = value > 0.0;
-    let duration = Duration::try_from_secs_f64(60.0 * value).ok().filter(|_| accepted);
-    duration.ok_or_else(|| {
-        Failure::wrong_input(format_args!("--minutes {value} is not a time; accepted is a number above 0"))
-    })
+    if value > 0.0 && value <= MOST_MINUTES {
+        return Ok(Duration::from_secs_f64(60.0 * value));
+    }
+    Err(Failure::wrong_input(format_args!(
+        "--minutes {value:?} is no time; accepted is a number above 0 and at most {MOST_MINUTES:e}"
+    )))
 }
+
+/// Longest time that is waited for, minutes: a thousand years.
+const MOST_MINUTES: f64 = 5e8;
 
 /// What a line that is refused gets instead of an answer.
 #[derive(Serialize)]

@@ -16,6 +16,12 @@ use crate::{
     table::{Layout, Table},
 };
 
+/// Creates an untrained agent from a plan, a table and settings.
+pub type Start = fn(TrainingPlan, Table, &Value) -> Result<Box<dyn Learner>, StartError>;
+
+/// Takes up a learner from a file.
+pub type Restore = fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>;
+
 /// A kind of agent: how to create it untrained, and how to restore a saved one.
 #[derive(Clone, Copy, Debug)]
 pub struct AgentKind {
@@ -24,9 +30,9 @@ pub struct AgentKind {
     /// What it is, in one line for people.
     pub title: &'static str,
     /// An untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
-    pub start: fn(TrainingPlan, Table, Value) -> Result<Box<dyn Learner>, StartError>,
+    pub start: Start,
     /// The learner whose [`Learner::save`] filled the file and returned the note.
-    pub restore: fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>,
+    pub restore: Restore,
     /// Settings that apply only when weights are loaded; `--from` does not pass them on.
     pub of_one_start: &'static [&'static str],
 }
@@ -54,12 +60,26 @@ impl StartError {
 /// # Errors
 /// Where one is unknown or of another type, or `validate` refuses them.
 pub fn settings_from<S: DeserializeOwned>(
-    object: Value,
+    object: &Value,
     validate: impl FnOnce(&S) -> Result<(), SettingError>,
 ) -> Result<S, StartError> {
-    let settings = serde_json::from_value(object).map_err(StartError::settings)?;
+    let settings = S::deserialize(object).map_err(|error| {
+        // Which of them it is, where one alone cannot be read either.
+        let alone = |(name, value): (&String, &Value)| {
+            let error = S::deserialize(serde_json::json!({ name: value })).err()?;
+            Some(format!("{name} = {value}: {error}"))
+        };
+        let named = object.as_object().and_then(|settings| settings.iter().find_map(alone));
+        StartError::settings(in_plain_words(named.unwrap_or_else(|| error.to_string())))
+    })?;
     validate(&settings).map_err(StartError::settings)?;
     Ok(settings)
+}
+
+/// A message of serde with the types that it expects in words.
+fn in_plain_words(message: String) -> String {
+    let types = [("expected usize", "expected a whole number from 0 on"), ("expected f64", "expected a number")];
+    types.iter().fold(message, |message, (name, words)| message.replace(name, words))
 }
 
 /// Refuses settings that are about points where the reward says anything else.

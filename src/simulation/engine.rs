@@ -43,6 +43,10 @@ const COARSER_STEPS: usize = 3;
 const STEP_WORK: u32 = 6;
 const UNSOLVED_WORK: u32 = 2_000;
 
+/// Bounces that take as long as a search for forces by the solver, at most. They count for the guard alone: what is sought says nothing of
+/// how fine tolerances should be.
+const SEARCH_WORK: u32 = 10;
+
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct End {
@@ -154,6 +158,8 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) rounds: u32,
     /// Bounces of chatters so far, and steps of resting contacts as if they were bounces.
     pub(super) work: u32,
+    /// Searches for forces so far, as if they were bounces.
+    search_work: u32,
     /// How often tolerances have grown.
     grown: usize,
     /// The slow bounces, once there is one.
@@ -182,6 +188,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             last_impact: f64::NEG_INFINITY,
             rounds: 0,
             work: 0,
+            search_work: 0,
             grown: 0,
             chatters: None,
             savings: PhantomData,
@@ -309,7 +316,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     /// Whether the shot has taken more work than any should.
     pub(super) const fn is_exhausted(&self) -> bool {
-        self.work > MOST_WORK
+        self.work + self.search_work > MOST_WORK
     }
 
     /// As if the shot had taken more work than any should.
@@ -336,6 +343,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     pub(super) fn contact_step(&mut self, last: Option<&Resting>) -> ControlFlow<()> {
         let contacts = last.map_or(1, |last| last.contacts.len() as u32);
         let is_solved = last.is_none_or(Resting::is_solved);
+        self.search_work += SEARCH_WORK * last.map_or(0, |last| last.searches.take());
         self.add_work(if is_solved { STEP_WORK * contacts } else { UNSOLVED_WORK }, COARSER_STEPS);
         self.observer.contact_step()
     }

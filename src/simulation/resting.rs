@@ -11,6 +11,8 @@ mod interruption;
 mod stiffness;
 mod stillness;
 
+use std::cell::Cell;
+
 use glam::{DVec2, DVec3};
 
 use super::{
@@ -96,6 +98,8 @@ pub struct Resting {
     restarts: u32,
     /// Whether all that holds at the end is what held at the beginning.
     goes_on: bool,
+    /// How often forces have been sought by the solver since that was asked last.
+    pub(super) searches: Cell<u32>,
     /// Whether something else has ended the step.
     pub(super) interrupted: bool,
     /// Step that is tried, s; behind the step the one to try next.
@@ -158,6 +162,7 @@ impl Resting {
             short_steps: previous.map_or(0, |previous| previous.short_steps),
             restarts: previous.map_or(0, |previous| previous.restarts + 1),
             goes_on: false,
+            searches: Cell::new(0),
             interrupted: false,
             next_step,
             constants: *constants,
@@ -311,7 +316,7 @@ impl Resting {
         let yields = self.set.yields() || self.seeks();
         let slope = |phase: &Phase| {
             let (linear, angular) = if yields {
-                last = yielding(table, &phase.balls, contacts, &self.set, &last);
+                last = self.sought(table, &self.set, &phase.balls, &last);
                 (last.linear, last.angular)
             } else {
                 accelerations(table, &phase.balls, contacts, &self.set, &self.first)
@@ -456,11 +461,16 @@ impl Resting {
 
     /// The forces in an active set; they have to be sought from `near` ones on where a friction yields.
     fn forces(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
-        let contacts = &self.contacts;
         if set.yields() || self.seeks() {
-            return yielding(table, state, contacts, set, near);
+            return self.sought(table, set, state, near);
         }
-        forces(table, state, contacts, set, Some(&self.first)).unwrap_or(self.first)
+        forces(table, state, &self.contacts, set, Some(&self.first)).unwrap_or(self.first)
+    }
+
+    /// The forces in an active set by the solver.
+    fn sought(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
+        self.searches.set(self.searches.get() + 1);
+        yielding(table, state, &self.contacts, set, near)
     }
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {

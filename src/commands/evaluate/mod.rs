@@ -23,7 +23,7 @@ use super::{
 use crate::{
     coach::{Doubt, Request, Skill},
     game::{Reward, Rule},
-    learning::{Policy, evaluation::EVALUATION_SEED},
+    learning::{Policy, evaluation::EVALUATION_SEED, policy::kept::BUNDLED},
     table::Table,
 };
 
@@ -192,7 +192,7 @@ fn request(args: &Args, skill: Skill) -> Request {
 
 /// The bundled policy for `rule` on `table` and a player who `errs` or does not, or the one in the file.
 fn policy_named(name: &str, table: &Table, rule: Rule, errs: bool) -> Result<Policy, Failure> {
-    let policy = if name == "bundled" {
+    let policy = if name == BUNDLED {
         Policy::bundled_for(table, rule, errs).ok_or_else(|| {
             Failure::wrong_input(format_args!(
                 "no policy is bundled for this table \"{}\"; use --table match, textbook or thesis, or --policy FILE with one from \

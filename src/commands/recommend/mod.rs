@@ -26,7 +26,7 @@ use super::{
 use crate::{
     coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Shooter, Skill, Source, systems::Guide},
     game::Rule,
-    learning::Proposal,
+    learning::{Proposal, policy::kept::BUNDLED},
     physics::{CueInputs, strike},
     printing,
     simulation::ShotError,
@@ -211,7 +211,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 /// The coach for `table` with the bundled policy, or with that of a file.
 pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
     let coach = Coach::new(table);
-    if policy == "bundled" {
+    if policy == BUNDLED {
         return Ok(coach);
     }
     Ok(coach.with_policy(policy_called(policy).map_err(Failure::failed)?))

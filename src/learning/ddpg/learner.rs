@@ -302,11 +302,13 @@ mod tests {
     #[test]
     fn settings_come_back_and_wrong_ones_are_named() {
         let plan = TrainingPlan { reward: crate::game::Reward::R1, seed: 1, shots: 10 };
-        let start = |settings: Value| (AGENT.start)(plan, Table::default(), settings);
+        let start = |settings: Value| (AGENT.start)(plan, Table::default(), &settings);
         let some = start(serde_json::json!({ "heads": 2 })).unwrap().settings();
         assert_eq!(start(some.clone()).unwrap().settings(), some);
         assert_eq!(some["heads"], 2);
         assert!(start(serde_json::json!({ "head": 2 })).unwrap_err().to_string().contains("head"));
+        let wrong = start(serde_json::json!({ "heads": 2, "ranking": "abc" })).unwrap_err().to_string();
+        assert!(wrong.contains("ranking = \"abc\": invalid type") && wrong.ends_with("expected a number"), "{wrong}");
         assert!(start(serde_json::json!({ "hindsight": 0.5 })).unwrap_err().to_string().contains("hindsight"));
         assert!(start(serde_json::json!({ "searched": 1 })).unwrap_err().to_string().contains("context = true"));
         // Expert iteration that began from a round in which the critic alone learnt went on so for ten rounds unnoticed.

@@ -116,8 +116,6 @@ impl Run {
             return Err(RunError::Missing(folder.display().to_string()));
         }
         let lock = lock(folder)?;
-        // What an earlier process said of itself holds no more.
-        let _ = std::fs::remove_file(folder.join(status::FILE));
         let (checkpoints, Loaded { learner, state, fallback, .. }) = Checkpoints::open(folder)?;
         let mut notices = Vec::new();
         if let Some(damage) = fallback {
@@ -132,6 +130,8 @@ impl Run {
         if !learner.is_finished() {
             notices.extend(config.other_program());
         }
+        // What an earlier process said of itself holds no more, now that one goes on.
+        let _ = std::fs::remove_file(folder.join(status::FILE));
         let folder = folder.to_owned();
         Ok((Self { folder, config, learner, state, checkpoints, _lock: lock }, notices))
     }

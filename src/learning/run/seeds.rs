@@ -67,7 +67,7 @@ impl TrainingSpec {
 
     fn untrained(&self, seed: u64, weights: Option<&Weights>) -> Result<Box<dyn Learner>, RunError> {
         let agent = AgentKind::named(&self.agent)?;
-        let mut learner = (agent.start)(TrainingPlan { seed, ..self.plan }, self.table.clone(), self.settings.clone())?;
+        let mut learner = (agent.start)(TrainingPlan { seed, ..self.plan }, self.table.clone(), &self.settings)?;
         if let Some(weights) = weights {
             weights.give_to(learner.as_mut())?;
         }

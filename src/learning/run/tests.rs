@@ -106,7 +106,7 @@ fn every_agent_goes_on_to_the_same_files() {
     for agent in AGENTS {
         let start = |folder: &Path| {
             let plan = TrainingPlan { reward: Reward::R1, seed: 3, shots: 1_000 };
-            let learner = (agent.start)(plan, Table::default(), serde_json::json!({})).unwrap();
+            let learner = (agent.start)(plan, Table::default(), &serde_json::json!({})).unwrap();
             let schedule = Schedule { log_every: 150, evaluate_every: 400, evaluation_layouts: 5 };
             Run::create(folder, learner, schedule, None).unwrap()
         };

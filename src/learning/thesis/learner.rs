@@ -41,7 +41,7 @@ const fn line<A: Agent + 'static>() -> AgentKind {
 fn start<A: Agent + 'static>(
     plan: TrainingPlan,
     table: Table,
-    settings: Value,
+    settings: &Value,
 ) -> Result<Box<dyn Learner>, StartError> {
     let settings = settings_from(settings, A::Settings::validate)?;
     check_reward(settings.are_about_points(), plan.reward)?;

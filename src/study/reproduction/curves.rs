@@ -84,7 +84,7 @@ impl Training {
     pub fn run(&self, table: &Table, played: &dyn Fn(u64) -> bool) -> Result<Option<Curve>, StartError> {
         let agent = AgentKind::named(self.agent).map_err(StartError::settings)?;
         let plan = TrainingPlan { reward: self.reward, seed: self.seed, shots: self.shots };
-        let mut learner = (agent.start)(plan, table.clone(), self.reading.settings(self.shots))?;
+        let mut learner = (agent.start)(plan, table.clone(), &self.reading.settings(self.shots))?;
         let mut curve = Curve::default();
         while !learner.is_finished() {
             match interval(learner.as_mut(), played) {

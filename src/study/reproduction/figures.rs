@@ -245,7 +245,7 @@ mod tests {
             let agent = learner::AgentKind::named(figure.agent).unwrap();
             for reading in figure.readings {
                 let plan = learner::TrainingPlan { reward: figure.reward, seed: 1, shots: 1 };
-                let learner = (agent.start)(plan, Table::default(), reading.settings(1)).unwrap();
+                let learner = (agent.start)(plan, Table::default(), &reading.settings(1)).unwrap();
                 for (name, value) in reading.settings(1).as_object().unwrap() {
                     assert_eq!(learner.settings()[name], *value, "{name}");
                 }

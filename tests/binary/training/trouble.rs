@@ -28,7 +28,9 @@ fn a_damaged_checkpoint_is_reported_and_the_one_before_used() {
     }
     fs::write(&current, &whole[..whole.len() / 2]).unwrap();
     fs::write(&previous, b"").unwrap();
+    let said = fs::read(run.join("state.json")).unwrap();
     let lost = carom(here, "train --resume run");
+    assert_eq!(fs::read(run.join("state.json")).unwrap(), said, "what is refused changes nothing");
     assert_eq!(lost.code, Some(1));
     for named in ["checkpoint.safetensors", "checkpoint-previous.safetensors", "damaged"] {
         assert!(lost.err.contains(named), "{}", lost.err);

@@ -11,12 +11,18 @@ use crate::storage::{LONGEST_NAME, is_name, write_atomic};
 /// What the files are called after their names.
 const EXTENSION: &str = "safetensors";
 
+/// The word for the policies that the program brings along, where one is chosen by its name.
+pub const BUNDLED: &str = "bundled";
+
 /// Why a policy cannot be kept.
 #[derive(Debug, thiserror::Error)]
 pub enum KeepError {
     /// No file could be called so.
     #[error("\"{0}\" is no name for a policy; accepted are 1 to {LONGEST_NAME} letters, digits, '-', '_' and '.'")]
     Name(String),
+    /// The program calls its own ones so.
+    #[error("\"{BUNDLED}\" is what the bundled policies are called; take another name")]
+    Bundled,
     /// There is one of that name.
     #[error("there is a policy \"{0}\" already")]
     Taken(String),
@@ -49,6 +55,9 @@ pub fn find(folder: &Path, name: &str) -> PathBuf {
 pub fn keep(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<PathBuf, KeepError> {
     if !is_name(name) {
         return Err(KeepError::Name(name.to_owned()));
+    }
+    if name == BUNDLED {
+        return Err(KeepError::Bundled);
     }
     let kept = file(folder, name);
     if kept.exists() && !replaces {
@@ -88,6 +97,7 @@ mod tests {
             let error = keep(folder.path(), Path::new("nowhere"), name, true).unwrap_err().to_string();
             assert!(error.contains("no name for a policy"), "{name}: {error}");
         }
+        assert!(matches!(keep(folder.path(), Path::new("nowhere"), BUNDLED, true), Err(KeepError::Bundled)));
         let note = folder.path().join("note");
         std::fs::write(&note, "no policy").unwrap();
         assert!(matches!(keep(folder.path(), &note, "note", false), Err(KeepError::Policy(_))));

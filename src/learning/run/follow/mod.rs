@@ -23,6 +23,7 @@ use super::{
     quantity::Quantity,
     status::{Phase, RunStatus},
 };
+use crate::printing::shell_word;
 
 /// What is known of a run.
 #[derive(Clone, Debug, Default)]
@@ -97,7 +98,7 @@ impl Followed {
         let folder = self.folder.display();
         let shots = self.shots();
         let after = if shots > 0 { format!(" after {shots} shots") } else { String::new() };
-        let go_on = format!("go on with: carom train --resume \"{folder}\"");
+        let go_on = format!("go on with: carom train --resume {}", shell_word(&self.folder.to_string_lossy()));
         match self.condition {
             Condition::Unknown => format!("looking at {folder}"),
             Condition::Missing => format!("{folder} holds no run yet"),
