@@ -101,7 +101,7 @@ fn the_deterministic_policy_gradient_finds_the_optimum() {
     assert!(found(&chance) == 0 && found(&earned) >= 13, "{chance:?} {earned:?}");
 }
 
-fn start(agent: &str, settings: Value) -> Box<dyn Learner> {
+fn start(agent: &str, settings: &Value) -> Box<dyn Learner> {
     let plan = TrainingPlan { reward: Reward::R1, seed: 4, shots: 650 };
     (AgentKind::named(agent).unwrap().start)(plan, Table::preset("thesis").unwrap(), settings).unwrap()
 }
@@ -127,10 +127,8 @@ fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped(
         "noise_falls_to": 0.5, "learning_rate_falls_to": 0.5, "falls_over": 400, "symmetric": true, "range_pull": 0.3,
     });
     let plan = TrainingPlan { reward: Reward::R3, seed: 5, shots: 650 };
-    let start = || {
-        (AgentKind::named("thesis-ddpg").unwrap().start)(plan, Table::preset("thesis").unwrap(), settings.clone())
-            .unwrap()
-    };
+    let start =
+        || (AgentKind::named("thesis-ddpg").unwrap().start)(plan, Table::preset("thesis").unwrap(), &settings).unwrap();
     let (mut whole, mut parts) = (start(), start());
     let first_rate = whole.progress().learning_rate;
     while !whole.is_finished() {
@@ -152,7 +150,7 @@ fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped(
 
 #[test]
 fn a_run_from_before_there_were_lessons_is_still_read_and_goes_on_alike() {
-    let mut new = start("thesis-ddpg", json!({}));
+    let mut new = start("thesis-ddpg", &json!({}));
     new.iterate().unwrap();
     new.iterate().unwrap();
     let mut writer = Writer::default();
@@ -187,8 +185,8 @@ fn an_agent_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
             if agent != "q-learning" {
                 settings["memory"] = json!(300);
             }
-            let mut whole = start(agent, settings.clone());
-            let mut parts = start(agent, settings);
+            let mut whole = start(agent, &settings);
+            let mut parts = start(agent, &settings);
             while !whole.is_finished() {
                 parts = taken_up(agent, &put_aside(parts.as_ref()));
                 assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap(), "{agent}");
@@ -203,25 +201,25 @@ fn an_agent_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
 #[test]
 fn weights_are_loaded_and_those_of_another_agent_or_size_are_refused() {
     for agent in AGENTS {
-        let mut teacher = start(agent, json!({}));
+        let mut teacher = start(agent, &json!({}));
         for _ in 0..6 {
             teacher.iterate().unwrap();
         }
         let bytes = put_aside(teacher.as_ref());
-        let mut pupil = start(agent, json!({}));
+        let mut pupil = start(agent, &json!({}));
         let layouts = carom::learning::evaluation::held_out_layouts(pupil.table(), 300, 1);
         pupil.load_weights(&Reader::new(&bytes).unwrap()).unwrap();
         assert_eq!(pupil.score(&layouts).unwrap(), teacher.score(&layouts).unwrap(), "{agent}");
         assert_eq!(pupil.shots(), 0);
         for other in AGENTS.into_iter().filter(|other| *other != agent) {
             assert!(
-                start(other, json!({})).load_weights(&Reader::new(&bytes).unwrap()).is_err(),
+                start(other, &json!({})).load_weights(&Reader::new(&bytes).unwrap()).is_err(),
                 "{agent} for {other}"
             );
         }
     }
-    let bytes = put_aside(start("thesis-ddpg", json!({ "actor_layers": [8] })).as_ref());
-    let refused = start("thesis-ddpg", json!({})).load_weights(&Reader::new(&bytes).unwrap()).unwrap_err().to_string();
+    let bytes = put_aside(start("thesis-ddpg", &json!({ "actor_layers": [8] })).as_ref());
+    let refused = start("thesis-ddpg", &json!({})).load_weights(&Reader::new(&bytes).unwrap()).unwrap_err().to_string();
     assert!(refused.contains("16, 16, 16"), "{refused}");
 }
 
@@ -239,7 +237,8 @@ fn wrong_settings_are_named() {
         ("thesis-ddpg", json!({ "noise_falls_to": 0.0 }), "noise_falls_to = 0"),
         ("thesis-ddpg", json!({ "noise": { "theta": 3.0, "sigma": 0.3, "dt": 1.0 } }), "noise.theta = 3"),
     ] {
-        let error = (AgentKind::named(agent).unwrap().start)(plan, Table::default(), settings).unwrap_err().to_string();
+        let error =
+            (AgentKind::named(agent).unwrap().start)(plan, Table::default(), &settings).unwrap_err().to_string();
         assert!(error.contains(word), "{error}");
     }
 }
