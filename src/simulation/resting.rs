@@ -397,6 +397,7 @@ impl Resting {
         if (0..BALLS).any(|ball| self.members[ball] && turned(ball)) {
             return false;
         }
+        self.count_search();
         resolve(table, end, &self.contacts, &self.set, self.constants.tolerance.slack, Some(&trial.forces)).is_some_and(
             |lawful| {
                 trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * self.constants.tolerance.slack
@@ -469,8 +470,12 @@ impl Resting {
 
     /// The forces in an active set by the solver.
     fn sought(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
-        self.searches.set(self.searches.get() + 1);
+        self.count_search();
         yielding(table, state, &self.contacts, set, near)
+    }
+
+    fn count_search(&self) {
+        self.searches.set(self.searches.get() + 1);
     }
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {

@@ -115,7 +115,7 @@ fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
         let mut training = start(here, &format!("{LONG} --run {word}"));
         wait_for(&run.join("metrics.jsonl"), &mut training);
         fs::write(run.join("request"), word).unwrap();
-        assert_eq!(training.wait().unwrap().code(), Some(if is_kept { 75 } else { 0 }));
+        assert_eq!(training.wait().unwrap().code(), Some(75), "{word}: it is not finished");
         assert_eq!(run.join("policy.safetensors").exists(), is_kept);
         assert_eq!(run.exists(), is_kept, "{word}");
     }

@@ -128,7 +128,7 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let mut constants: Vec<&Change> = found.constants.iter().collect();
     constants.sort_by(|one, other| left(one).total_cmp(&left(other)));
     for (one, y) in constants.into_iter().zip(inner.y..inner.bottom()) {
-        let name = shorten(&one.name, NAME.max(usize::from(inner.width).saturating_sub(22)), ui.caps);
+        let name = shorten(&one.name, NAME.max(usize::from(inner.width).saturating_sub(20)), ui.caps);
         let style = if one.known() == "as before" { ui.theme.faint() } else { ui.theme.text() };
         ui.buffer.set_string(inner.x + 2, y, name, style);
         let sign = ui.caps.pick("±", "+-");
