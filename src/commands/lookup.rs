@@ -6,7 +6,11 @@ use super::Failure;
 use crate::{
     coach::{Skill, SkillError},
     drills::Store,
-    learning::{Policy, PolicyError, policy::kept, run::list::latest_in},
+    learning::{
+        Policy,
+        policy::kept::{self, BUNDLED},
+        run::list::latest_in,
+    },
     storage::Places,
 };
 
@@ -48,8 +52,14 @@ pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
 ///
 /// # Errors
 /// Where there is none, or none that can be used.
-pub fn policy_called(name: &str) -> Result<Policy, PolicyError> {
-    Policy::load(&kept::find(&Places::of_this_user().policies, name))
+pub fn policy_called(name: &str) -> Result<Policy, Failure> {
+    let file = kept::find(&Places::of_this_user().policies, name);
+    if !file.exists() {
+        return Err(Failure::failed(format_args!(
+            "there is no policy {name}; accepted are {BUNDLED}, a file that carom train wrote, and the name of one that was kept"
+        )));
+    }
+    Policy::load(&file).map_err(Failure::failed)
 }
 
 /// The word for the skill that the user has kept.

@@ -61,7 +61,8 @@ fn what_is_not_a_whole_is_refused_by_name() {
     for (files, said) in [
         (vec![&one, &two], "part 3/3 is missing"),
         (vec![&one, &two, &one], "which another file holds too"),
-        (vec![&one, &two, &stranger], "different evaluations"),
+        (vec![&one, &two, &stranger], "different evaluations: "),
+        (vec![&one, &two, &stranger], " 5 and 6"),
         (vec![&broken], "is no part of an evaluation"),
     ] {
         let files: Vec<&str> = files.into_iter().map(String::as_str).collect();

@@ -192,18 +192,17 @@ fn request(args: &Args, skill: Skill) -> Request {
 
 /// The bundled policy for `rule` on `table` and a player who `errs` or does not, or the one in the file.
 fn policy_named(name: &str, table: &Table, rule: Rule, errs: bool) -> Result<Policy, Failure> {
-    let policy = if name == BUNDLED {
-        Policy::bundled_for(table, rule, errs).ok_or_else(|| {
-            Failure::wrong_input(format_args!(
-                "no policy is bundled for this table \"{}\"; use --table match, textbook or thesis, or --policy FILE with one from \
-                 `carom train`",
-                table.name
-            ))
-        })?
-    } else {
-        policy_called(name)
-    };
-    policy.map_err(Failure::failed)
+    if name != BUNDLED {
+        return policy_called(name);
+    }
+    let bundled = Policy::bundled_for(table, rule, errs).ok_or_else(|| {
+        Failure::wrong_input(format_args!(
+            "no policy is bundled for this table \"{}\"; use --table match, textbook or thesis, or --policy FILE with one from \
+             `carom train`",
+            table.name
+        ))
+    })?;
+    bundled.map_err(Failure::failed)
 }
 
 #[cfg(test)]

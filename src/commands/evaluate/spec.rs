@@ -118,6 +118,23 @@ pub struct Part {
     pub records: Records,
 }
 
+impl Part {
+    /// What another part has measured otherwise, or in how many parts; `None` where both are of one evaluation.
+    fn difference(&self, other: &Self) -> Option<String> {
+        if self.spec == other.spec {
+            let (own, others) = (self.shard.of, other.shard.of);
+            return (own != others).then(|| format!("of {own} and of {others} parts"));
+        }
+        let [one, two] = [self, other].map(|part| serde_json::to_value(&part.spec).unwrap_or_default());
+        let mut fields = one.as_object().into_iter().flatten();
+        let differs = fields.find(|(name, value)| two[name.as_str()] != **value);
+        Some(differs.map_or_else(
+            || "other settings".to_owned(),
+            |(name, value)| format!("{name} {value} and {}", two[name.as_str()]),
+        ))
+    }
+}
+
 /// Why parts cannot be put together.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
@@ -128,8 +145,8 @@ pub enum MergeError {
     #[error("{} is no part of an evaluation, as carom evaluate --shard prints it: {error}", path.display())]
     Contents { path: PathBuf, error: serde_json::Error },
     /// The parts measured different things.
-    #[error("{} and {} are parts of different evaluations", one.display(), other.display())]
-    Different { one: PathBuf, other: PathBuf },
+    #[error("{} and {} are parts of different evaluations: {what}", one.display(), other.display())]
+    Different { one: PathBuf, other: PathBuf, what: String },
     /// The same layouts twice.
     #[error("{} holds part {shard}, which another file holds too", path.display())]
     Twice { path: PathBuf, shard: Shard },
@@ -150,9 +167,11 @@ pub fn merged(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
         match &mut whole {
             None => whole = Some(part),
             Some(whole) => {
-                let is_same = whole.spec == part.spec && whole.shard.of == part.shard.of;
-                if !(is_same && whole.records.append(part.records)) {
-                    return Err(MergeError::Different { one: files[0].clone(), other: path.clone() });
+                let difference = whole.difference(&part);
+                let what =
+                    difference.or_else(|| (!whole.records.append(part.records)).then(|| "other records".to_owned()));
+                if let Some(what) = what {
+                    return Err(MergeError::Different { one: files[0].clone(), other: path.clone(), what });
                 }
             }
         }

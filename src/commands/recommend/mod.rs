@@ -214,7 +214,7 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
     if policy == BUNDLED {
         return Ok(coach);
     }
-    Ok(coach.with_policy(policy_called(policy).map_err(Failure::failed)?))
+    Ok(coach.with_policy(policy_called(policy)?))
 }
 
 fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<RecommendAnswer, Failure> {
