@@ -43,10 +43,6 @@ const COARSER_STEPS: usize = 3;
 const STEP_WORK: u32 = 6;
 const UNSOLVED_WORK: u32 = 2_000;
 
-/// Bounces that take as long as a search for forces by the solver, at most. They count for the guard alone: what is sought says nothing of
-/// how fine tolerances should be.
-const SEARCH_WORK: u32 = 10;
-
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct End {
@@ -158,7 +154,7 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) rounds: u32,
     /// Bounces of chatters so far, and steps of resting contacts as if they were bounces.
     pub(super) work: u32,
-    /// Searches for forces so far, as if they were bounces.
+    /// What searches for forces have cost so far. It counts for the guard alone: it says nothing of how fine tolerances should be.
     search_work: u32,
     /// How often tolerances have grown.
     grown: usize,
@@ -343,7 +339,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     pub(super) fn contact_step(&mut self, last: Option<&Resting>) -> ControlFlow<()> {
         let contacts = last.map_or(1, |last| last.contacts.len() as u32);
         let is_solved = last.is_none_or(Resting::is_solved);
-        self.search_work += SEARCH_WORK * last.map_or(0, |last| last.searches.take());
+        self.search_work += last.map_or(0, |last| last.effort.take());
         self.add_work(if is_solved { STEP_WORK * contacts } else { UNSOLVED_WORK }, COARSER_STEPS);
         self.observer.contact_step()
     }

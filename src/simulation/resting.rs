@@ -7,14 +7,14 @@
 
 mod bounds;
 mod course;
+mod effort;
 mod interruption;
 mod stiffness;
 mod stillness;
 
-use std::cell::Cell;
-
 use glam::{DVec2, DVec3};
 
+use self::effort::Effort;
 use super::{
     Constants, Rail,
     active_set::{Ended, lawful, remove_rounding, transient_pressing, without_ending_slips},
@@ -98,8 +98,8 @@ pub struct Resting {
     restarts: u32,
     /// Whether all that holds at the end is what held at the beginning.
     goes_on: bool,
-    /// How often forces have been sought by the solver since that was asked last.
-    pub(super) searches: Cell<u32>,
+    /// What the searches for forces have cost.
+    pub(super) effort: Effort,
     /// Whether something else has ended the step.
     pub(super) interrupted: bool,
     /// Step that is tried, s; behind the step the one to try next.
@@ -162,7 +162,7 @@ impl Resting {
             short_steps: previous.map_or(0, |previous| previous.short_steps),
             restarts: previous.map_or(0, |previous| previous.restarts + 1),
             goes_on: false,
-            searches: Cell::new(0),
+            effort: Effort::default(),
             interrupted: false,
             next_step,
             constants: *constants,
@@ -397,14 +397,14 @@ impl Resting {
         if (0..BALLS).any(|ball| self.members[ball] && turned(ball)) {
             return false;
         }
-        self.count_search();
-        resolve(table, end, &self.contacts, &self.set, self.constants.tolerance.slack, Some(&trial.forces)).is_some_and(
-            |lawful| {
-                trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * self.constants.tolerance.slack
-                    && lawful.contacts[..] == self.contacts[..]
-                    && !lawful.set.lets_go(&self.set)
-            },
-        )
+        let lawful =
+            resolve(table, end, &self.contacts, &self.set, self.constants.tolerance.slack, Some(&trial.forces));
+        self.effort.add(lawful.as_ref().is_none_or(|lawful| lawful.forces.converged));
+        lawful.is_some_and(|lawful| {
+            trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * self.constants.tolerance.slack
+                && lawful.contacts[..] == self.contacts[..]
+                && !lawful.set.lets_go(&self.set)
+        })
     }
 
     /// Longest step that is worth trying, in rescaled time; sets the scale.
@@ -470,12 +470,9 @@ impl Resting {
 
     /// The forces in an active set by the solver.
     fn sought(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
-        self.count_search();
-        yielding(table, state, &self.contacts, set, near)
-    }
-
-    fn count_search(&self) {
-        self.searches.set(self.searches.get() + 1);
+        let forces = yielding(table, state, &self.contacts, set, near);
+        self.effort.add(forces.converged);
+        forces
     }
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {
