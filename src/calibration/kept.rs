@@ -107,7 +107,7 @@ pub fn beside(path: &Path) -> PathBuf {
     path.with_extension("before.toml")
 }
 
-/// Where they are kept that were put aside `age` times before, from 2 on.
+/// Where they are kept that were put aside so many times ago; 1 is the last time.
 fn aged(path: &Path, age: usize) -> PathBuf {
     if age == 1 { beside(path) } else { path.with_extension(format!("before-{age}.toml")) }
 }
