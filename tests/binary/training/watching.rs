@@ -140,7 +140,7 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
     let half = lines.lines().take(20).map(|line| line.to_owned() + "\n").collect::<String>();
     let unread = lines.replacen("time/fps", "time/other", 2);
     // Which file of the run is what, what is said of it, and how many lines are shown where that matters.
-    let cases: [(&str, &str, &str, Option<usize>); 8] = [
+    let cases: [(&str, &str, &str, Option<usize>); 9] = [
         ("metrics.jsonl", &lines[..lines.len() - 20], "the last line of metrics.jsonl is cut off", Some(9)),
         ("metrics.jsonl", &unread, "2 lines of metrics.jsonl cannot be read", None),
         ("metrics.jsonl", "", "emptied or cut off: it ends after 0 of the 640 shots", Some(0)),
@@ -149,6 +149,7 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
         ("config.json", &unknown, "config.json is of carom 90", Some(10)),
         ("config.json", "{", "config.json cannot be read", None),
         ("state.json", "[]", "state.json cannot be read", None),
+        ("shots.json", "bla", "shots.json cannot be read", None),
     ];
     let copy = |name: &str| {
         let run = here.join(name);

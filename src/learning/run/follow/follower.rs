@@ -48,7 +48,7 @@ pub struct Follower {
     signs: Signs,
     condition: Condition,
     /// What is wrong with each file, in the order in which it is reported.
-    troubles: [Option<String>; 3],
+    troubles: [Option<String>; 4],
     told: Vec<String>,
 }
 
@@ -68,7 +68,7 @@ impl Follower {
             said: 0,
             signs: Signs::default(),
             condition: Condition::Unknown,
-            troubles: [const { None }; 3],
+            troubles: [const { None }; 4],
             told: Vec::new(),
         }
     }
@@ -133,7 +133,10 @@ impl Follower {
         let stamp = Stamp::of(&self.folder.join(examples::FILE));
         if stamp != self.examples {
             self.examples = stamp;
-            update.examples = Examples::read(&self.folder).ok();
+            let read = Examples::read(&self.folder);
+            let trouble = read.as_ref().err().filter(|_| stamp.is_some());
+            self.troubles[3] = trouble.map(|error| format!("{} cannot be read: {error}", examples::FILE));
+            update.examples = read.ok();
         }
     }
 
