@@ -123,7 +123,7 @@ pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Here, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page"),
     bind(Calibration, W::Here, &[key(Tab, A::Turn)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
     bind(Calibration, W::Here, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test of which one more stroke tells most"),
-    bind(Calibration, W::Undo, &[letter('u', A::Undo)], Some(("undo", 1)), "take back what was changed here last"),
+    bind(Calibration, W::Undo, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
     bind(Calibration, W::Stroke, &[letter('e', A::Amend)], Some(("amend", 1)), "change what was entered of the marked stroke"),
     bind(Calibration, W::Stroke, &[key(Left, A::Stroke(-1)), key(Right, A::Stroke(1)), letter('h', A::Stroke(-1)), letter('l', A::Stroke(1))],
         Some(("stroke", 2)), "mark another stroke of the test"),
