@@ -22,26 +22,28 @@ use crate::{
 /// none meanwhile, at any speed on a table.
 pub(super) const MOMENT: f64 = 1e-15;
 
-/// Work after which a shot is brought to its end: so many of the simplest bounces of chatters, of which a step of a resting
-/// contact takes as long as [`STEP_WORK`]. This is a guard, not physics: what takes part in another contact stands still from
+/// Work after which nothing rests any more, in the simplest bounces of chatters, of which a step of a resting contact takes as long as
+/// [`STEP_WORK`]: see [`super::micro_collisions`]. Of 10⁶ random shots on "thesis" some ten take so much.
+const MOST_RESTING_WORK: u32 = 10_000;
+
+/// Work after which a shot is brought to its end. This is a guard, not physics: what takes part in another contact stands still from
 /// then on. The stability table counts the shots that come to it.
-const MOST_WORK: u32 = 40_000;
+const MOST_WORK: u32 = 90_000;
 
 /// Turns of the general loop after which a shot ends where it is: ends of motions, impacts, and bounces and steps of resting contacts that
 /// are not told as events. This is a guard, not physics, for what repeats in the air without end; a shot takes some ten turns, and one
 /// with a chatter some hundred.
-const MOST_TURNS: u32 = 50_000;
+const MOST_TURNS: u32 = 200_000;
 
-/// Work after which tolerances grow, each time as much: see [`super::tolerance::Tolerance::coarser`]. Of 10⁶ random shots on "thesis"
-/// some ten take so much. Before the guard stops what is left, they grow fast with every bounce: those that never fade are given up.
-const COARSER_AT: [u32; 7] = [10_000, 20_000, 30_000, 32_000, 34_000, 36_000, 38_000];
+/// Work after which micro-collisions get more room, so many times as much each time: where friction takes the speed that they gain, there
+/// are too many of them. That moves balls by more than a billionth of a metre, which the stability table counts.
+const MORE_ROOM_AT: u32 = 50_000;
+const MORE_ROOM_EVERY: u32 = 10_000;
+const MORE_ROOM: f64 = 10.0;
 
-/// How often tolerances grow with steps of resting contacts.
-const COARSER_STEPS: usize = 3;
-
-/// Bounces that take as long as a step of one resting contact, and as a step whose forces have not been found.
+/// Bounces that take as long as a step of one resting contact, and as an impact in the air.
 const STEP_WORK: u32 = 6;
-const UNSOLVED_WORK: u32 = 2_000;
+pub(super) const IMPACT_IN_THE_AIR: u32 = 3;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,12 +154,12 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     /// Time of the last impact, s, and how many there have been at that moment.
     pub(super) last_impact: f64,
     pub(super) rounds: u32,
-    /// Bounces of chatters so far, and steps of resting contacts as if they were bounces.
+    /// Bounces of chatters so far, and steps of resting contacts and searches for forces as if they were bounces.
     pub(super) work: u32,
-    /// What searches for forces have cost so far. It counts for the guard alone: it says nothing of how fine tolerances should be.
-    search_work: u32,
-    /// How often tolerances have grown.
-    grown: usize,
+    /// The laws of slow impacts once nothing rests any more.
+    pub(super) micro_collisions: Option<Box<ImpactLaw>>,
+    /// Work after which they get more room.
+    more_room_at: u32,
     /// The slow bounces, once there is one.
     pub(super) chatters: Option<Box<Chatters>>,
     savings: PhantomData<S>,
@@ -184,8 +186,8 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             last_impact: f64::NEG_INFINITY,
             rounds: 0,
             work: 0,
-            search_work: 0,
-            grown: 0,
+            micro_collisions: None,
+            more_room_at: MORE_ROOM_AT,
             chatters: None,
             savings: PhantomData,
         }
@@ -217,6 +219,12 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         let mut turns = 0;
         while flow.is_continue() && turns < MOST_TURNS {
             turns += 1;
+            if self.work > MOST_RESTING_WORK && self.micro_collisions.is_none() {
+                flow = self.begin_micro_collisions(now);
+                if flow.is_break() {
+                    break;
+                }
+            }
             let (mut next, mut source) = (f64::INFINITY, usize::MAX);
             for (index, &time) in self.times.iter().enumerate() {
                 if time < next {
@@ -312,7 +320,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     /// Whether the shot has taken more work than any should.
     pub(super) const fn is_exhausted(&self) -> bool {
-        self.work + self.search_work > MOST_WORK
+        self.work > MOST_WORK
     }
 
     /// As if the shot had taken more work than any should.
@@ -323,24 +331,16 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     /// Takes note of a bounce of a chatter on the cloth.
     pub(super) fn chatter_bounce(&mut self) {
-        self.add_work(self.bounce_work, COARSER_AT.len());
-    }
-
-    /// Takes note of work; after much of it tolerances grow, but `most` times.
-    fn add_work(&mut self, work: u32, most: usize) {
-        self.work += work;
-        if self.grown < most && self.work >= COARSER_AT[self.grown] {
-            self.grown += 1;
-            self.constants.tolerance = self.constants.tolerance.coarser();
+        self.work += self.bounce_work;
+        if self.micro_collisions.is_some() && self.work > self.more_room_at {
+            self.more_room_at += MORE_ROOM_EVERY;
+            self.constants.tolerance.micro_room *= MORE_ROOM;
         }
     }
 
     /// Takes note of a step of resting contacts, by what the last one was like.
     pub(super) fn contact_step(&mut self, last: Option<&Resting>) -> ControlFlow<()> {
-        let contacts = last.map_or(1, |last| last.contacts.len() as u32);
-        let is_solved = last.is_none_or(Resting::is_solved);
-        self.search_work += last.map_or(0, |last| last.effort.take());
-        self.add_work(if is_solved { STEP_WORK * contacts } else { UNSOLVED_WORK }, COARSER_STEPS);
+        self.work += last.map_or(STEP_WORK, |last| STEP_WORK * last.contacts.len() as u32 + last.search_work.take());
         self.observer.contact_step()
     }
 

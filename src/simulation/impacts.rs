@@ -50,7 +50,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         put_at_cushion(&self.constants, n, &mut state.position);
         let c = &self.constants;
         let before = state;
-        let impulse = self.law.cushions.at(rail).resolve(c.radius, n, &mut state);
+        let impulse = self.law_at(-state.velocity.dot(n)).cushions.at(rail).resolve(c.radius, n, &mut state);
+        if self.micro_collisions.is_some() {
+            state.position += c.tolerance.micro_room * n;
+        }
         if impulse.climb > c.lifts {
             return self.climb(index, now, state, impulse.climb, freed.is_some());
         }
@@ -101,7 +104,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let (mut a, mut b) = (state_of(first), state_of(second));
         let before = (a, b);
         let c = self.constants;
-        self.law.balls.resolve(c.radius, &mut a, &mut b);
+        if self.micro_collisions.is_some() {
+            self.part(&mut a, &mut b);
+            let approach = (b.velocity - a.velocity).dot((a.position - b.position).normalize());
+            self.law_at(approach).balls.resolve(c.radius, &mut a, &mut b);
+        } else {
+            self.law.balls.resolve(c.radius, &mut a, &mut b);
+        }
         let opening = (a.velocity - b.velocity).dot(a.position - b.position);
         let mut told = true;
         if opening <= c.diameter * c.tolerance.slow_bounce {
@@ -144,7 +153,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         });
         let c = self.constants;
         // Without any restitution the rounds would go on for ever; their limit is one impact of all that touches.
-        let collapsed = self.inelastic || self.rounds > MOST_ROUNDS;
+        let collapsed = (self.inelastic && self.micro_collisions.is_none()) || self.rounds > MOST_ROUNDS;
         let contacts = touching(&c, &states, self.on_cloth(), |opening| {
             opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
         });
@@ -155,7 +164,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for (ball, changed) in changed.iter_mut().enumerate() {
             *changed = contacts.hold(ball);
         }
-        let room = if self.rounds > JAMMED_ROUNDS { ROOM_FOR_JAMMED * c.tolerance.touching } else { 0.0 };
+        let room = match self.micro_collisions {
+            Some(_) => c.tolerance.micro_room,
+            None if self.rounds > JAMMED_ROUNDS => ROOM_FOR_JAMMED * c.tolerance.touching,
+            None => 0.0,
+        };
         for contact in contacts.iter() {
             // Exactly at the cushion, as in a single impact.
             let n = contact.cushion_normal;
@@ -164,7 +177,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 ball.position += (-n.abs().dot(c.reach) - room - ball.position.dot(n)) * n;
             }
         }
-        let law = if collapsed { self.law.inelastic() } else { self.law.clone() };
+        let closing = contacts.iter().fold(0.0_f64, |most, contact| most.max(-contact.opening_speed(&states)));
+        let law = if collapsed { self.law.with_restitution(0.0) } else { self.law_at(closing).clone() };
         let impulses = collide_together(c.radius, &law, &mut states, &contacts);
         let met = || contacts.iter().zip(&impulses).filter(|(_, impulse)| impulse.normal > 0.0);
         if met().next().is_none() {
@@ -207,7 +221,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
         self.chatter_bounce();
         let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
-        if !chatters.bounce(contact, now) {
+        if !chatters.bounce(contact, now) && self.micro_collisions.is_none() {
             return ControlFlow::Continue(true);
         }
         self.observer.contact_step()?;
@@ -229,6 +243,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         contact: &Contact,
         bounced: &[(usize, BallState)],
     ) -> Option<Contacts> {
+        if self.micro_collisions.is_some() {
+            return None;
+        }
         let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
         let states = self.states_with(now, freed, bounced);
         let end = chatter_end(self.table, &self.constants, &self.law, contact, &states, self.on_cloth(), shrinking)?;
@@ -277,7 +294,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let c = self.constants;
         let contacts: &[Contact] = rests;
         close_gaps(&c, &mut states, contacts);
-        let law = self.law.inelastic();
+        let law = self.law.with_restitution(0.0);
         let mut given = [0.0; MAX_CONTACTS];
         for round in 0..MOST_ROUNDS {
             // What has met closes, however slowly: balls that never slip lose their slip.

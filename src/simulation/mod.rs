@@ -17,6 +17,7 @@ mod flights;
 mod hops;
 mod impacts;
 mod jumps;
+mod micro_collisions;
 mod playback;
 mod predict;
 mod pressing;

@@ -7,14 +7,14 @@
 
 mod bounds;
 mod course;
-mod effort;
 mod interruption;
 mod stiffness;
 mod stillness;
 
+use std::cell::Cell;
+
 use glam::{DVec2, DVec3};
 
-use self::effort::Effort;
 use super::{
     Constants, Rail,
     active_set::{Ended, lawful, remove_rounding, transient_pressing, without_ending_slips},
@@ -57,6 +57,9 @@ const MOST_SHORT_STEPS: u32 = 16;
 /// may lie at the edge of a law and break it at once, in every step.
 const MOST_RESTARTS: u32 = 8;
 
+/// Sweeps of the solver that take as long as the simplest bounce of a chatter.
+const SWEEPS_A_BOUNCE: u32 = 2;
+
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
 
@@ -98,8 +101,8 @@ pub struct Resting {
     restarts: u32,
     /// Whether all that holds at the end is what held at the beginning.
     goes_on: bool,
-    /// What the searches for forces have cost.
-    pub(super) effort: Effort,
+    /// What the searches for forces have cost, in bounces of chatters.
+    pub(super) search_work: Cell<u32>,
     /// Whether something else has ended the step.
     pub(super) interrupted: bool,
     /// Step that is tried, s; behind the step the one to try next.
@@ -162,7 +165,7 @@ impl Resting {
             short_steps: previous.map_or(0, |previous| previous.short_steps),
             restarts: previous.map_or(0, |previous| previous.restarts + 1),
             goes_on: false,
-            effort: Effort::default(),
+            search_work: Cell::new(forces.sweeps / SWEEPS_A_BOUNCE),
             interrupted: false,
             next_step,
             constants: *constants,
@@ -180,11 +183,6 @@ impl Resting {
             interrupted: self.interrupted,
             repeats: self.restarts > MOST_RESTARTS,
         }
-    }
-
-    /// Whether the forces at both ends of the step obey all laws to rounding.
-    pub const fn is_solved(&self) -> bool {
-        self.first.converged && self.last.converged
     }
 
     /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
@@ -399,7 +397,7 @@ impl Resting {
         }
         let lawful =
             resolve(table, end, &self.contacts, &self.set, self.constants.tolerance.slack, Some(&trial.forces));
-        self.effort.add(lawful.as_ref().is_none_or(|lawful| lawful.forces.converged));
+        self.note_search(lawful.as_ref().map_or(0, |lawful| lawful.forces.sweeps));
         lawful.is_some_and(|lawful| {
             trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * self.constants.tolerance.slack
                 && lawful.contacts[..] == self.contacts[..]
@@ -471,8 +469,12 @@ impl Resting {
     /// The forces in an active set by the solver.
     fn sought(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
         let forces = yielding(table, state, &self.contacts, set, near);
-        self.effort.add(forces.converged);
+        self.note_search(forces.sweeps);
         forces
+    }
+
+    fn note_search(&self, sweeps: u32) {
+        self.search_work.set(self.search_work.get() + sweeps / SWEEPS_A_BOUNCE);
     }
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {

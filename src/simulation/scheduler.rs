@@ -105,6 +105,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if !S::KEPT_PREDICTIONS {
             self.predict_all_again(changed);
         }
+        if self.micro_collisions.is_some() {
+            self.predict_pairs(now, changed, false);
+            self.pressed = false;
+            return ControlFlow::Continue(());
+        }
         self.predict_pairs(now, changed, true);
         if self.resting.is_some() || (self.pressed && !self.collides_at(now)) {
             self.press(now, &mut changed)?;

@@ -65,6 +65,12 @@ pub struct Tolerance {
     pub slowest_lossless_bounce: f64,
     /// No bounce in the air, on a nose or on another ball, is slower than this, m/s: it is a quarter of a micrometre high.
     pub slowest_in_air: f64,
+    /// Where nothing rests any more, bounces slower than this lose nothing, m/s: they are lower than a micrometre. Larger: balls that are
+    /// pressed together are farther apart. Smaller: there are more bounces.
+    pub fastest_micro_collision: f64,
+    /// How far apart balls and cushions are put by such a bounce, m: those that begin from rest come to some speed by falling through it.
+    /// Larger: the course jumps. Smaller: it takes more bounces.
+    pub micro_room: f64,
     /// Balls that never slip and that no forces hold together begin to bounce at this speed, m/s: above the slowest bounce,
     /// so that the chatter does not end at once.
     pub first_bounce: f64,
@@ -105,31 +111,12 @@ impl Tolerance {
             slowest_bounce: 2e-10 * speed,
             slowest_lossless_bounce: 2e-8 * speed,
             slowest_in_air: 4e-3 * speed,
+            fastest_micro_collision: 1e-3 * speed,
+            micro_room: 3.2e5 * f64::EPSILON * table.length.max(table.width),
             first_bounce: FIRST_BOUNCE * speed,
             slowest_coupled_bounce: 2e-8 * speed,
             negligible: 2e-12 * speed,
             negligible_coupled: 2e-10 * speed,
-        }
-    }
-
-    /// What ends a chatter on a shot that has taken more work than almost any: 4.5 times the slips, the bounces, the
-    /// first bounces and the errors.
-    ///
-    /// Where the end of one chatter leaves just more than counts as nothing, the next begins at once and leaves as much. A shot
-    /// caught so comes free by a small error that is known, where the guard of the engine would take all its speed. Places, forces
-    /// and the error of a step stay as they are.
-    #[must_use]
-    pub fn coarser(&self) -> Self {
-        const MORE: f64 = 4.5;
-        Self {
-            slip: MORE * self.slip,
-            ending_slip: MORE * self.ending_slip,
-            slowest_bounce: MORE * self.slowest_bounce,
-            slowest_coupled_bounce: MORE * self.slowest_coupled_bounce,
-            first_bounce: MORE * self.first_bounce,
-            negligible: MORE * self.negligible,
-            negligible_coupled: MORE * self.negligible_coupled,
-            ..*self
         }
     }
 }

@@ -36,6 +36,8 @@ pub struct Forces {
     pub slack: f64,
     /// Whether all laws hold to rounding where forces have been sought.
     pub converged: bool,
+    /// How long that search took, in sweeps over the laws.
+    pub sweeps: u32,
     /// Whether they are one of many that do the same, as the balls are held more often than needed.
     pub(super) redundant: bool,
     /// Friction per ball mass in each contact, along `t = z×n` and along z, m/s².
@@ -151,10 +153,12 @@ pub(super) fn solved(
     let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.place, side), (Place::Contact(index), Side::Limited(_)) if contacts[index].never_slips(table));
     if problem.unknowns.iter().zip(&solution.sides).any(reaches_its_limit) {
         problem.grip(contacts);
-        let gripped = solve_near(&problem, &solution.sizes);
+        let mut gripped = solve_near(&problem, &solution.sizes);
+        let sweeps = solution.sweeps + gripped.sweeps;
         if gripped.converged {
-            solution = gripped;
+            std::mem::swap(&mut solution, &mut gripped);
         }
+        solution.sweeps = sweeps;
     }
     (problem, solution)
 }
@@ -235,6 +239,7 @@ impl Forces {
         normal: [0.0; MAX_CONTACTS],
         slack: f64::INFINITY,
         converged: true,
+        sweeps: 0,
         redundant: false,
         friction: [DVec2::ZERO; MAX_CONTACTS],
         cloth: [DVec2::ZERO; BALLS],
@@ -242,8 +247,9 @@ impl Forces {
         spin: [0.0; BALLS],
     };
 
-    fn of(radius: f64, problem: &Problem, Solution { sizes, converged, .. }: &Solution, accelerations: &Row) -> Self {
-        let mut forces = Self { converged: *converged, ..Self::NONE };
+    fn of(radius: f64, problem: &Problem, solution: &Solution, accelerations: &Row) -> Self {
+        let Solution { sizes, converged, sweeps, .. } = solution;
+        let mut forces = Self { converged: *converged, sweeps: *sweeps, ..Self::NONE };
         for ball in 0..BALLS {
             let (linear, angular) = accelerations.of_ball(ball);
             forces.linear[ball] = linear;

@@ -34,7 +34,7 @@ const NEXT_TO_NO_PROXIMITY: f64 = 1e-13;
 
 /// Rounds of sweeps and Newton steps; the sweeps double from one to the next.
 const ATTEMPTS: u32 = 7;
-const FIRST_SWEEPS: usize = 8;
+const FIRST_SWEEPS: u32 = 8;
 
 /// Errors below this share of the largest force that a round has not halved are left as they are: such forces are at the edge of what
 /// may hold them, and no round finds better ones.
@@ -60,6 +60,19 @@ pub struct Solution {
     pub sides: Sides,
     /// Whether every law holds to rounding.
     pub converged: bool,
+    /// How long the search took, in sweeps: a Newton step counts as [`STEP_IN_SWEEPS`].
+    pub sweeps: u32,
+}
+
+/// Sweeps that take as long as a Newton step.
+const STEP_IN_SWEEPS: u32 = 4;
+
+/// The forces of a search that break the laws least so far.
+struct Best {
+    error: f64,
+    sizes: Sizes,
+    /// How long the search has taken, in sweeps.
+    sweeps: u32,
 }
 
 /// What each unknown's law asks.
@@ -77,32 +90,33 @@ pub fn solve_near(problem: &Problem, guess: &Sizes) -> Solution {
 
 fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32) -> Solution {
     let system = System::new(problem);
-    let mut best = (f64::INFINITY, *guess);
+    let mut best = Best { error: f64::INFINITY, sizes: *guess, sweeps: 0 };
     for attempt in 0..attempts {
-        let error_before = best.0;
+        let error_before = best.error;
         let begin = if attempt == 0 {
             *guess
         } else {
-            let mut sizes = best.1;
-            (0..FIRST_SWEEPS << (attempt - 1)).for_each(|_| system.sweep(&mut sizes));
+            let (mut sizes, sweeps) = (best.sizes, FIRST_SWEEPS << (attempt - 1));
+            (0..sweeps).for_each(|_| system.sweep(&mut sizes));
+            best.sweeps += sweeps;
             sizes
         };
         if let Some(solution) = system.newton(&begin, &mut best, NEWTON_STEPS, MOST_HALVINGS, PROXIMITY) {
             return solution;
         }
-        if best.0 > 0.5 * error_before && best.0 <= NEARLY * system.scale(&best.1) {
+        if best.error > 0.5 * error_before && best.error <= NEARLY * system.scale(&best.sizes) {
             break;
         }
     }
-    let begin = best.1;
+    let begin = best.sizes;
     if attempts > 1
         && let Some(solution) = system.newton(&begin, &mut best, WHOLE_STEPS, 1, NEXT_TO_NO_PROXIMITY)
     {
         return solution;
     }
     let mut end = Point::NOWHERE;
-    system.put(&mut end, |index| best.1[index]);
-    Solution { sizes: end.sizes, sides: end.sides, converged: false }
+    system.put(&mut end, |index| best.sizes[index]);
+    Solution { sizes: end.sizes, sides: end.sides, converged: false, sweeps: best.sweeps }
 }
 
 /// Where a step leads.
@@ -139,11 +153,11 @@ impl<'a> System<'a> {
         system
     }
 
-    /// Newton steps from `sizes` on, with so many halvings at most; keeps the `best` of all errors and sizes.
+    /// Newton steps from `sizes` on, with so many halvings at most; keeps the `best` of all forces.
     fn newton(
         &self,
         sizes: &Sizes,
-        best: &mut (f64, Sizes),
+        best: &mut Best,
         steps: usize,
         most_halvings: i32,
         proximity: f64,
@@ -155,11 +169,13 @@ impl<'a> System<'a> {
         let mut jacobian = Vec::with_capacity(self.count * self.count);
         self.put(here, |index| sizes[index]);
         for _ in 0..steps {
-            if here.error < best.0 {
-                *best = (here.error, here.sizes);
+            best.sweeps += STEP_IN_SWEEPS;
+            if here.error < best.error {
+                (best.error, best.sizes) = (here.error, here.sizes);
             }
             if here.error <= ROUNDING * self.scale(&here.sizes) {
-                return Some(Solution { sizes: here.sizes, sides: here.sides, converged: true });
+                let Best { sweeps, .. } = *best;
+                return Some(Solution { sizes: here.sizes, sides: here.sides, converged: true, sweeps });
             }
             let change = self.newton_step(here, &mut jacobian, proximity)?;
             (next, spare) = self.step(here, &change, most_halvings, [next, spare]);

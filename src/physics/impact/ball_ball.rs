@@ -25,10 +25,10 @@ impl BallImpact {
         }
     }
 
-    /// The end of endless bounces: no restitution.
+    /// With this restitution, however fast the impact.
     #[must_use]
-    pub fn inelastic(self) -> Self {
-        Self { restitution: 0.0, fade: None, ..self }
+    pub fn with_restitution(self, restitution: f64) -> Self {
+        Self { restitution, fade: None, ..self }
     }
 
     /// Whether it is the same for slow and fast impacts.

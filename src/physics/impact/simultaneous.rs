@@ -41,10 +41,11 @@ impl ImpactLaw {
         Self { balls: BallImpact::of(table), cushions: Cushions::of(table) }
     }
 
-    /// The same without restitution: the end of endless bounces.
+    /// The same with one restitution for all impacts, however fast, and cushions at the height of the balls' centres: without any it is the
+    /// end of endless bounces, and with all of it the law of micro-collisions.
     #[must_use]
-    pub fn inelastic(&self) -> Self {
-        Self { balls: self.balls.inelastic(), cushions: self.cushions.inelastic() }
+    pub fn with_restitution(&self, restitution: f64) -> Self {
+        Self { balls: self.balls.with_restitution(restitution), cushions: self.cushions.with_restitution(restitution) }
     }
 
     /// Whether an impact by itself has the law that it has together with others.

@@ -71,10 +71,10 @@ impl Cushion {
         Self { restitution, friction, law, fade: table.rail.fade }
     }
 
-    /// The end of endless bounces: no restitution, at the height of the ball's centre.
+    /// With this restitution, however fast the impact, at the height of the ball's centre.
     #[must_use]
-    pub fn inelastic(self) -> Self {
-        Self { restitution: 0.0, law: Law::Equator, fade: None, ..self }
+    pub fn with_restitution(self, restitution: f64) -> Self {
+        Self { restitution, law: Law::Equator, fade: None, ..self }
     }
 
     /// Whether it meets slow and fast balls alike, at the height of their centres.
@@ -153,11 +153,11 @@ impl Cushions {
         self.own.as_ref().map_or(&self.all, |own| &own[rail as usize])
     }
 
-    /// The end of endless bounces at all of them.
+    /// All of them with this restitution, at the height of the ball's centre.
     #[must_use]
-    pub fn inelastic(&self) -> Self {
-        let own = self.own.as_ref().map(|own| Box::new(own.map(Cushion::inelastic)));
-        Self { all: self.all.inelastic(), own }
+    pub fn with_restitution(&self, restitution: f64) -> Self {
+        let own = self.own.as_ref().map(|own| Box::new(own.map(|cushion| cushion.with_restitution(restitution))));
+        Self { all: self.all.with_restitution(restitution), own }
     }
 }
 

@@ -58,6 +58,9 @@ impl Bounces {
 /// Bounces slower than this may be the last of a chatter, m/s: they take and leave as little as a resting contact.
 const LAST_BOUNCE: f64 = 1e-7;
 
+/// Bounces slower than so many times √(g R) lose nothing in a shot that has taken too much work for anything to rest.
+const FASTEST_MICRO_COLLISION: f64 = 1e-3;
+
 impl Moment<'_> {
     /// Whether a group's impact is so slow that it may end a chatter.
     pub fn ends_a_chatter(&self, group: [bool; BALLS]) -> bool {
@@ -110,9 +113,12 @@ impl Moment<'_> {
             }
             [contact] if was_free && !self.grips(contact) && !self.joins_others(contact, group) => {
                 let alone = self.one_impact(contact, &before, lost);
+                let speed = self.closing_speed(contact);
                 // A slip on the cloth that ends with it presses, too.
-                let ends_a_slip = self.creeps(contact.first) && self.closing_speed(contact) < STOPPED_SPEED;
-                nearer(alone, if ends_a_slip { several() } else { alone })
+                let ends_a_slip = self.creeps(contact.first) && speed < STOPPED_SPEED;
+                // Such an impact may lose nothing along the normal.
+                let may_be_micro = speed < FASTEST_MICRO_COLLISION * (self.table.gravity * self.table.radius).sqrt();
+                nearer(alone, if ends_a_slip || may_be_micro { several() } else { alone })
             }
             _ => several(),
         }
