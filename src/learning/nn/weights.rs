@@ -10,6 +10,7 @@ use super::{
     adam::{Adam, AdamConfig},
     mlp::Mlp,
 };
+use crate::learning::settings::SettingError;
 
 /// The one metadata key. All notes stand in one JSON text, because the order of several keys in a file is random and
 /// equal runs would give unequal files.
@@ -35,6 +36,9 @@ pub enum WeightsError {
     /// candle refuses.
     #[error("candle refuses its networks ({0})")]
     Network(#[from] candle_core::Error),
+    /// The agent's settings in it are refused.
+    #[error("a setting in it is refused: {0}")]
+    Settings(#[from] SettingError),
     /// A weight is NaN or infinite.
     #[error("its array \"{0}\" holds a value that is not a finite number")]
     NotFinite(String),

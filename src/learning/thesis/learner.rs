@@ -53,7 +53,7 @@ fn start<A: Agent + 'static>(
 
 fn restore<A: Agent + 'static>(reader: &Reader<'_>, note: Value) -> Result<Box<dyn Learner>, WeightsError> {
     let note: TrainingLoopState<A::Settings> = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
-    note.settings.validate().map_err(|_| WeightsError::Foreign)?;
+    note.settings.validate()?;
     let agent = A::restore(note.settings, reader, note.agent)?;
     let TrainingLoopState { plan, game, episode, rng, shots, .. } = note;
     Ok(Box::new(TrainingLoop { plan, agent, game, episode, rng, shots }))
