@@ -156,7 +156,6 @@ impl Policy {
             let error = || PolicyError::Version { origin: name.to_owned(), what, found: found.clone(), expected };
             if same { Ok(()) } else { Err(error()) }
         };
-        origin.hyperparameters.validate().map_err(|error| content(error.into()))?;
         let inputs = origin.hyperparameters.inputs();
         version("features", &origin.features, inputs.version())?;
         version("actions", &origin.actions, inputs.space.meaning())?;
