@@ -82,18 +82,6 @@ fn in_plain_words(message: String) -> String {
     types.iter().fold(message, |message, (name, words)| message.replace(name, words))
 }
 
-/// Refuses settings that are about points where the reward says anything else.
-///
-/// # Errors
-/// [`StartError::Settings`].
-pub fn check_reward(are_about_points: bool, reward: Reward) -> Result<(), StartError> {
-    if are_about_points && reward.rule().is_none() {
-        let reason = "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
-        return Err(StartError::settings(reason));
-    }
-    Ok(())
-}
-
 /// What is to be learnt, and how long; the same for every agent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrainingPlan {

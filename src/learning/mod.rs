@@ -5,7 +5,6 @@
 //! good it is [`evaluation`] tells.
 
 pub mod agents;
-mod cue_way;
 pub(crate) mod ddpg;
 pub mod evaluation;
 pub mod learner;

@@ -57,7 +57,7 @@ pub struct Args {
     /// Settings of the agent that differ from its defaults, or from those of --from, as a TOML file.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// One such setting, after those of the file: --set actions=full, --set hindsight=0.5, --set heads=8. May be repeated.
+    /// One such setting, after those of the file: --set actions=full, --set ranking=0.5, --set heads=8. May be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Start with the weights of another run (its folder, or its name) or of a policy or checkpoint file: same

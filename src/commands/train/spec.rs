@@ -140,7 +140,7 @@ fn settings(path: Option<&Path>, set: &[String], known: Option<Value>) -> Result
     for pair in set {
         let shown = format!("--set {pair}");
         let Some((name, value)) = pair.split_once('=') else {
-            return Err(Failure::wrong_input(format_args!("{shown}: write NAME=VALUE, like hindsight=0.5")));
+            return Err(Failure::wrong_input(format_args!("{shown}: write NAME=VALUE, like heads=8")));
         };
         // A word needs no quotes here.
         let value: toml::Value = value.parse().unwrap_or_else(|_| toml::Value::String(value.to_owned()));

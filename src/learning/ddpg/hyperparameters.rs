@@ -64,12 +64,6 @@ pub struct Hyperparameters {
     /// Shots that are remembered. A shot's outcome never changes, but old shots are about actions that the actor has
     /// left behind.
     pub replay: usize,
-    /// Share of the misses for which it is tried to remember them a second time, as the points that they would have been with
-    /// the second ball elsewhere (hindsight transition replay, thesis 6.1.1). For rewards of points only.
-    pub hindsight: f64,
-    /// Share of the shots of an update that are not the agent's own but a search's solutions (demonstrations, thesis
-    /// 6.1.2). For rewards of points only.
-    pub demonstrations: f64,
     /// Layouts before every update on which a search finds strokes that a player who errs makes often (expert iteration). Each takes
     /// two thirds of the time of an update and its shots.
     pub searched: usize,
@@ -90,6 +84,12 @@ pub struct Hyperparameters {
     pub calibrated: usize,
     /// How far the behaviour strays from the actor's proposals.
     pub exploration: Exploration,
+    /// A setting of earlier versions that their files name: accepted where it is 0, and written no more.
+    #[serde(skip_serializing)]
+    pub hindsight: f64,
+    /// Another one.
+    #[serde(skip_serializing)]
+    pub demonstrations: f64,
 }
 
 impl Default for Hyperparameters {
@@ -115,8 +115,6 @@ impl Default for Hyperparameters {
             ranking: 0.0,
             attempts: 1,
             replay: 1 << 17,
-            hindsight: 0.0,
-            demonstrations: 0.0,
             searched: 0,
             imitation: 0.0,
             logit_weight: 0.02,
@@ -124,6 +122,8 @@ impl Default for Hyperparameters {
             new_actor: false,
             calibrated: 8192,
             exploration: Exploration::default(),
+            hindsight: 0.0,
+            demonstrations: 0.0,
         }
     }
 }
@@ -180,8 +180,9 @@ impl Hyperparameters {
         check_share("critic_chooses", self.critic_chooses)?;
         check_share("perfect", self.perfect)?;
         check_share("ranking", self.ranking)?;
-        check_share("hindsight", self.hindsight)?;
-        check_share("demonstrations", self.demonstrations)?;
+        for (name, value) in [("hindsight", self.hindsight), ("demonstrations", self.demonstrations)] {
+            check(name, value, value == 0.0, "0, as only the agent thesis-ddpg has this setting")?;
+        }
         check("searched", self.searched as f64, self.searched <= 1 << 12, "0 to 4096")?;
         check("calibrated", self.calibrated as f64, self.calibrated <= 1 << 20, "0 to 1048576")?;
         check_share("imitation", self.imitation)?;
@@ -209,5 +210,20 @@ mod tests {
         assert!(refuse(&|hyper| hyper.critic_layers[1] = 0).contains("critic_layers"));
         assert!(refuse(&|hyper| hyper.critic_learning_rate = f64::NAN).contains("NaN"));
         assert!(refuse(&|hyper| hyper.exploration.noise.push(-1.0)).contains("-1"));
+    }
+
+    #[test]
+    fn settings_of_earlier_versions_are_read_where_they_changed_nothing() {
+        for name in ["hindsight", "demonstrations"] {
+            let read = |value: f64| {
+                let mut settings = serde_json::to_value(Hyperparameters::default()).unwrap();
+                assert_eq!(settings.get(name), None);
+                settings[name] = value.into();
+                serde_json::from_value::<Hyperparameters>(settings).unwrap()
+            };
+            assert_eq!(read(0.0), Hyperparameters::default());
+            let refused = read(0.5).validate().unwrap_err().to_string();
+            assert!(refused.contains(&format!("{name} = 0.5")) && refused.contains("accepted is 0"), "{refused}");
+        }
     }
 }

@@ -16,9 +16,7 @@ use super::{
 use crate::{
     learning::{
         evaluation::Score,
-        learner::{
-            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, check_reward, note_of, settings_from,
-        },
+        learner::{AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, note_of, settings_from},
         nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
@@ -38,14 +36,7 @@ pub const AGENT: AgentKind = AgentKind {
     name: "ddpg",
     title: "deep deterministic policy gradient with several actor heads",
     start: |plan, table, settings| {
-        let hyperparameters = settings_from(settings, Hyperparameters::validate)?;
-        let of_points = hyperparameters.hindsight > 0.0 || hyperparameters.demonstrations > 0.0;
-        check_reward(of_points, plan.reward)?;
-        if of_points && hyperparameters.context {
-            return Err(StartError::settings(
-                "hindsight and demonstrations know nothing of drawn tables and errors: use them without context",
-            ));
-        }
+        let hyperparameters: Hyperparameters = settings_from(settings, Hyperparameters::validate)?;
         if hyperparameters.searched > 0 && !hyperparameters.context {
             return Err(StartError::settings("searches are for players who err: use searched with context = true"));
         }
@@ -309,7 +300,6 @@ mod tests {
         assert!(start(serde_json::json!({ "head": 2 })).unwrap_err().to_string().contains("head"));
         let wrong = start(serde_json::json!({ "heads": 2, "ranking": "abc" })).unwrap_err().to_string();
         assert!(wrong.contains("ranking = \"abc\": invalid type") && wrong.ends_with("expected a number"), "{wrong}");
-        assert!(start(serde_json::json!({ "hindsight": 0.5 })).unwrap_err().to_string().contains("hindsight"));
         assert!(start(serde_json::json!({ "searched": 1 })).unwrap_err().to_string().contains("context = true"));
         // Expert iteration that began from a round in which the critic alone learnt went on so for ten rounds unnoticed.
         let frozen =

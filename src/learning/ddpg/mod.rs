@@ -7,13 +7,11 @@
 pub mod action;
 pub mod agent;
 pub mod context;
-pub mod demonstrations;
 mod dual;
 mod expert;
 pub mod exploration;
 pub mod features;
 pub mod first_contact;
-pub mod hindsight;
 pub mod hyperparameters;
 pub mod learner;
 pub mod networks;

@@ -1,5 +1,4 @@
-//! Rollout, the shots of one iteration: near the agent's choices, its best proposals as they are, a search's solutions, and
-//! misses seen in hindsight.
+//! Rollout, the shots of one iteration: near the agent's choices, its best proposals as they are, and a search's solutions.
 
 use candle_core::Result;
 use rand::{RngExt, SeedableRng};
@@ -7,9 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     action::Action,
-    demonstrations::demonstrate,
     expert::{Expert, Found},
-    hindsight::relabel,
     hyperparameters::Hyperparameters,
     networks::Networks,
     observation::Observation,
@@ -30,36 +27,22 @@ pub(super) type Scene = (Layout, Conditions);
 impl Trainer {
     /// Plays the shots of one iteration, each on a fresh layout but for those that are ranked, and returns their mean reward.
     pub(super) fn play(&mut self) -> Result<f64> {
-        let Hyperparameters { shots_per_update, critic_chooses, demonstrations, ranking, .. } =
-            self.task.hyperparameters;
+        let Hyperparameters { shots_per_update, critic_chooses, ranking, .. } = self.task.hyperparameters;
         let part = |share: f64, of: usize| ((of as f64 * share).round() as usize).min(of);
         let ranked = part(ranking, shots_per_update) / RANKED;
         let scenes: Vec<Scene> = (0..shots_per_update - ranked * RANKED + ranked).map(|_| self.scene()).collect();
         let (ranked, scenes) = scenes.split_at(ranked);
-        let (shown, own) = scenes.split_at(part(demonstrations, scenes.len()));
-        self.add_demonstrations(shown);
-        let (chosen, any) = own.split_at(part(critic_chooses, own.len()));
+        let (chosen, any) = scenes.split_at(part(critic_chooses, scenes.len()));
         self.search()?;
         let total = self.play_ranked(ranked)? + self.play_near_best(chosen)? + self.play_any(any)?;
-        let played = own.len() + ranked.len() * RANKED;
-        self.shots += (shown.len() + played) as u64;
-        Ok(total / played.max(1) as f64)
+        self.shots += shots_per_update as u64;
+        Ok(total / shots_per_update as f64)
     }
 
     /// A fresh layout and its conditions.
     fn scene(&mut self) -> Scene {
         let conditions = self.tables.draw(self.task.hyperparameters.perfect, &mut self.rng);
         (Layout::random(self.tables.table(conditions), &mut self.rng), conditions)
-    }
-
-    /// Remembers an expert's shot on each layout for which there is one.
-    fn add_demonstrations(&mut self, scenes: &[Scene]) {
-        let (reward, space) = (self.task.plan.reward, self.space());
-        for (layout, _) in scenes {
-            if let Some(shot) = demonstrate(&self.table, reward, space, layout, &mut self.rng) {
-                self.replay.push(shot);
-            }
-        }
     }
 
     /// Looks for the best strokes of a player who errs, on some layouts. It remembers the strokes that went far, and the best among those
@@ -161,13 +144,6 @@ impl Trainer {
         let earned = (0..attempts).map(attempt).sum::<f64>() / attempts as f64;
         let success = (earned / reward.highest()) as f32;
         self.replay.push(Transition { observation, conditions, action, success });
-        let hindsight = self.task.hyperparameters.hindsight;
-        if hindsight > 0.0 && success < 1.0 && self.rng.random_bool(hindsight) {
-            let shot = (layout, &observation, action);
-            if let Some(point) = relabel(&self.table, reward, shot, &mut self.rng) {
-                self.replay.push(point);
-            }
-        }
         earned
     }
 }

@@ -85,6 +85,7 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
 /// Where they do not fit or are from a version with other features or actions.
 pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     let note: TrainerState = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+    note.task.hyperparameters.validate()?;
     let inputs = note.task.hyperparameters.inputs();
     if note.features != inputs.version() || note.actions != note.task.hyperparameters.actions.meaning() {
         return Err(WeightsError::Foreign);
@@ -219,5 +220,13 @@ mod tests {
         other["features"] = "raw-0".into();
         assert!(matches!(read(&reader, other), Err(WeightsError::Foreign)));
         assert!(matches!(read(&reader, Value::Null), Err(WeightsError::Foreign)));
+        // As earlier versions wrote it.
+        for (value, message) in [(0.0, None), (0.5, Some("hindsight = 0.5"))] {
+            let mut old = reader.note::<Value>().unwrap();
+            old["task"]["hyperparameters"]["hindsight"] = value.into();
+            let refused = read(&reader, old).err().map(|error| error.to_string());
+            assert_eq!(refused.is_some(), message.is_some(), "{refused:?}");
+            assert!(refused.unwrap_or_default().contains(message.unwrap_or_default()));
+        }
     }
 }

@@ -91,10 +91,6 @@ impl Trainer {
     pub fn iterate(&mut self) -> Result<Iteration> {
         let lr_factor = self.lr_factor();
         let mean_reward = self.play()?;
-        // An expert may have found nothing to show yet.
-        if self.replay.is_empty() {
-            return Ok(Iteration { mean_reward, ..Iteration::default() });
-        }
         let hyper = &self.task.hyperparameters;
         let (batch, imitated) = (hyper.batch, if hyper.imitation > 0.0 { hyper.actor_batch } else { 0 });
         let played = self.replay.sample(batch, &mut self.rng);
@@ -172,19 +168,6 @@ pub(in crate::learning) mod tests {
             trainer.iterate().unwrap();
             assert_eq!((trainer.shots(), trainer.replay.len()), (16, 16), "ranking {ranking}");
         }
-    }
-
-    #[test]
-    fn an_iteration_that_leaves_nothing_to_remember_is_no_failure() {
-        let mut task = small_task();
-        task.plan.reward = Reward::ThreeCushion;
-        task.hyperparameters.demonstrations = 1.0;
-        task.hyperparameters.shots_per_update = 1;
-        let mut trainer = Trainer::new(task, Table::preset("thesis").unwrap()).unwrap();
-        for _ in 0..10 {
-            trainer.iterate().unwrap();
-        }
-        assert!(trainer.shots() == 10 && trainer.updates < 10);
     }
 
     #[test]

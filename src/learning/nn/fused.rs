@@ -121,12 +121,8 @@ impl CustomOp2 for Fused {
                 errors = previous;
             }
         }
-        let parameter_gradient = if for_parameters {
-            let count = parameter_gradient.len();
-            Some(Tensor::from_vec(parameter_gradient, count, &Device::Cpu)?)
-        } else {
-            None
-        };
-        Ok((input_gradient, parameter_gradient))
+        let count = parameter_gradient.len();
+        let parameter_gradient = for_parameters.then(|| Tensor::from_vec(parameter_gradient, count, &Device::Cpu));
+        Ok((input_gradient, parameter_gradient.transpose()?))
     }
 }

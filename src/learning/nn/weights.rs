@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use candle_core::{CpuStorage, DType, Device, Storage, Tensor};
+use candle_core::{DType, Device, Tensor};
 use safetensors::{Dtype, SafeTensorError, SafeTensors, tensor::TensorView};
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -10,6 +10,7 @@ use super::{
     adam::{Adam, AdamConfig},
     mlp::Mlp,
 };
+use crate::learning::settings::SettingError;
 
 /// The one metadata key. All notes stand in one JSON text, because the order of several keys in a file is random and
 /// equal runs would give unequal files.
@@ -35,6 +36,9 @@ pub enum WeightsError {
     /// candle refuses.
     #[error("candle refuses its networks ({0})")]
     Network(#[from] candle_core::Error),
+    /// The agent's settings in it are refused.
+    #[error("a setting in it is refused: {0}")]
+    Settings(#[from] SettingError),
     /// A weight is NaN or infinite.
     #[error("its array \"{0}\" holds a value that is not a finite number")]
     NotFinite(String),
@@ -64,12 +68,8 @@ impl Writer {
     /// # Errors
     /// Whatever candle reports.
     fn add_half(&mut self, name: String, shape: &[usize], values: &[f32]) -> Result<(), WeightsError> {
-        let half = Tensor::from_slice(values, shape, &Device::Cpu)?.to_dtype(DType::F16)?;
-        let (storage, _) = half.storage_and_layout();
-        let Storage::Cpu(CpuStorage::F16(values)) = &*storage else {
-            return Err(WeightsError::Array { name, expected: "on the processor".to_owned() });
-        };
-        let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        let mut bytes = Vec::with_capacity(2 * values.len());
+        Tensor::from_slice(values, shape, &Device::Cpu)?.to_dtype(DType::F16)?.write_bytes(&mut bytes)?;
         self.arrays.push((name, Dtype::F16, shape.to_vec(), bytes));
         Ok(())
     }

@@ -54,11 +54,6 @@ impl Carom {
         &self.table
     }
 
-    /// What is rewarded.
-    pub const fn reward(&self) -> Reward {
-        self.reward
-    }
-
     /// What an agent sees of a layout.
     pub fn observation(&self, layout: &Layout) -> Observation {
         let reach = self.table.reach();

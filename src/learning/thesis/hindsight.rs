@@ -4,9 +4,10 @@
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
+use super::cue_way::CueWay;
 use crate::{
     game::Reward,
-    learning::{cue_way::CueWay, evaluation::CONTACT_STEPS},
+    learning::evaluation::CONTACT_STEPS,
     physics::CueInputs,
     table::{Layout, Table},
 };

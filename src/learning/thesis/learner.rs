@@ -15,9 +15,7 @@ use super::{
 use crate::{
     learning::{
         evaluation::Score,
-        learner::{
-            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, check_reward, note_of, settings_from,
-        },
+        learner::{AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, note_of, settings_from},
         nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
@@ -44,7 +42,10 @@ fn start<A: Agent + 'static>(
     settings: &Value,
 ) -> Result<Box<dyn Learner>, StartError> {
     let settings = settings_from(settings, A::Settings::validate)?;
-    check_reward(settings.are_about_points(), plan.reward)?;
+    if settings.are_about_points() && plan.reward.rule().is_none() {
+        let reason = "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
+        return Err(StartError::settings(reason));
+    }
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
     let game = Carom::new(table, plan.reward, settings.episode());
     let agent = A::new(settings, &mut rng)?;
@@ -53,7 +54,7 @@ fn start<A: Agent + 'static>(
 
 fn restore<A: Agent + 'static>(reader: &Reader<'_>, note: Value) -> Result<Box<dyn Learner>, WeightsError> {
     let note: TrainingLoopState<A::Settings> = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
-    note.settings.validate().map_err(|_| WeightsError::Foreign)?;
+    note.settings.validate()?;
     let agent = A::restore(note.settings, reader, note.agent)?;
     let TrainingLoopState { plan, game, episode, rng, shots, .. } = note;
     Ok(Box::new(TrainingLoop { plan, agent, game, episode, rng, shots }))

@@ -7,6 +7,7 @@ pub mod actor_critic;
 pub mod agent;
 pub mod batch;
 pub mod carom;
+mod cue_way;
 pub mod ddpg;
 pub mod dqn;
 pub mod environment;

@@ -40,7 +40,7 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     let [fewer, single] = ["--seeds 2", ""].map(continued);
     assert!(fewer.code == Some(2) && fewer.err.contains("has seeds 3, not 2"), "{}", fewer.err);
     assert!(single.code == Some(2) && single.err.contains("has seeds 3, not none"), "{}", single.err);
-    for (other, words) in [("--set hindsight=0.35", "settings"), ("--from four", "has from none")] {
+    for (other, words) in [("--set ranking=0.35", "settings"), ("--from four", "has from none")] {
         let refused = continued(&format!("--seeds 3 {other}"));
         assert!(refused.code == Some(2) && refused.err.contains(words), "{other}: {}", refused.err);
     }

@@ -17,7 +17,6 @@ use crate::{
         METRICS,
         config::{self, Config},
         examples::{self, Examples},
-        history::History,
         holds_checkpoints,
         metrics::Record,
         status::{self, RunStatus},
@@ -167,13 +166,10 @@ impl Follower {
 
     /// Reads what is new; `false` where there is no file.
     fn look_at_metrics(&mut self, update: &mut Update, see: &mut dyn FnMut(&Record)) -> io::Result<bool> {
-        // Millions of lines become a history at once; only those that come later are handed on one by one.
         let mut lines = self.lines;
-        let mut history = (lines == 0).then(Box::<History>::default);
         let (mut records, mut last, mut is_afresh) = (Vec::new(), None, false);
         let is_there = self.tail.look(|taken| match taken {
             Taken::Afresh => {
-                history = Some(Box::default());
                 records.clear();
                 lines = 0;
                 is_afresh = true;
@@ -182,13 +178,10 @@ impl Follower {
                 see(&record);
                 last = Some(record.shots);
                 lines += 1;
-                match &mut history {
-                    Some(history) => history.push(&record),
-                    None => records.push(record),
-                }
+                records.push(record);
             }
         });
-        update.history = history.filter(|_| last.is_some() || is_afresh && is_there.is_ok());
+        update.begins = if last.is_some() { is_afresh || self.lines == 0 } else { is_afresh && is_there.is_ok() };
         self.lines = lines;
         self.signs.shots = if is_afresh { last } else { last.or(self.signs.shots) };
         update.records = records;

@@ -49,9 +49,9 @@ pub struct Followed {
 pub struct Update {
     /// Its configuration.
     pub config: Option<Box<Config>>,
-    /// All that it has reported so far: it was read from the beginning (again).
-    pub history: Option<Box<History>>,
-    /// Lines that have come since.
+    /// Whether the lines that have come are all that it has reported: they were read from the beginning (again).
+    pub begins: bool,
+    /// Lines that have come.
     pub records: Vec<Record>,
     /// What it says of itself.
     pub status: Option<RunStatus>,
@@ -128,12 +128,12 @@ impl Followed {
 
     /// Takes what has changed.
     pub fn apply(&mut self, update: Update) {
-        let Update { config, history, records, status, condition, examples, notices } = update;
+        let Update { config, begins, records, status, condition, examples, notices } = update;
         if let Some(config) = config {
             self.config = Some(*config);
         }
-        if let Some(history) = history {
-            self.history = *history;
+        if begins {
+            self.history = History::default();
         }
         for record in &records {
             self.history.push(record);

@@ -3,7 +3,7 @@
 use crate::learning::run::history::Point;
 
 /// The exponential mean over `length` shots at the end of each point, from the points' means; `None` where a point has
-/// none. A point counts for the shots since the one before, so that thinned and recent lines weigh alike. Only what came
+/// none. A point counts for the shots since the one before, so that a line and several weigh alike. Only what came
 /// before counts, so that the curve stays as drawn when more comes, and the start is not drawn towards zero: the mean is
 /// divided by the weight that it has collected, as Kingma & Ba, "Adam" (2015), section 3 do.
 pub fn smooth(points: &[Point], length: f64) -> Vec<Option<f64>> {

@@ -16,8 +16,6 @@ use crate::{
 pub struct CueWay {
     /// The ball that the cue ball met first, and when, s.
     pub met: Option<(usize, f64)>,
-    /// When the last piece ends, s.
-    pub last: f64,
     /// Pieces of the way and when they end, s.
     segments: Vec<(Segment, f64)>,
     patience: StepBudget,
@@ -26,7 +24,7 @@ pub struct CueWay {
 impl CueWay {
     /// Plays a shot, with at most [`CONTACT_STEPS`] steps of resting contacts.
     pub fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Self {
-        let mut way = Self { met: None, last: 0.0, segments: Vec::new(), patience: StepBudget(CONTACT_STEPS) };
+        let mut way = Self { met: None, segments: Vec::new(), patience: StepBudget(CONTACT_STEPS) };
         watch(table, layout, &strike(table, cue), &mut way);
         way
     }
@@ -55,7 +53,6 @@ impl Observer for CueWay {
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
         if ball == 0 && self.met.is_some() {
             self.segments.push((segment.clone(), end));
-            self.last = end;
         }
     }
 
