@@ -16,13 +16,42 @@ impl Change {
         }
     }
 
+    /// What the constant is, in twelve characters at most; nothing of one that no test measures.
+    pub fn short_words(&self) -> String {
+        let words = match (self.of_a_rail(), self.name.as_str()) {
+            (Some((rail, own)), _) => return format!("{} {}", side(rail), if own == "e" { "bounce" } else { "grip" }),
+            (None, "e_rail") => "rail bounce",
+            (None, "mu_rail") => "rail grip",
+            (None, "rail.height") => "rail height",
+            (None, "rail.kappa") => "rail give",
+            (None, "rail.fade.slope") => "fast bounce",
+            (None, "mu_s") => "sliding",
+            (None, "mu_r") => "rolling",
+            (None, "c1") => "fast rolling",
+            (None, "mu_sp") => "loss of side",
+            (None, "tilt.x") => "lean along",
+            (None, "tilt.y") => "lean across",
+            (None, "e_ball") => "ball bounce",
+            (None, "mu_b") => "throw",
+            (None, "m_end") => "squirt",
+            (None, _) => "",
+        };
+        words.to_owned()
+    }
+
+    /// The rail whose own constant it is, and which of the two: `e` or `mu`.
+    fn of_a_rail(&self) -> Option<(Rail, &str)> {
+        let own = |rail: &Rail| Some((*rail, self.name.strip_prefix("rail.")?.strip_prefix(rail.name())?));
+        let (rail, own) = Rail::ALL.iter().find_map(own)?;
+        [".e", ".mu"].contains(&own).then(|| (rail, &own[1..]))
+    }
+
     /// What the constant is.
     pub fn words(&self) -> String {
-        let own = |rail: &Rail| Some((*rail, self.name.strip_prefix("rail.")?.strip_prefix(rail.name())?));
-        match Rail::ALL.iter().find_map(own) {
-            Some((rail, ".e")) => return format!("what {} gives back", whose(rail)),
-            Some((rail, ".mu")) => return format!("grip of {}", whose(rail)),
-            _ => {}
+        match self.of_a_rail() {
+            Some((rail, "e")) => return format!("what {} gives back", whose(rail)),
+            Some((rail, _)) => return format!("grip of {}", whose(rail)),
+            None => {}
         }
         let words = match self.name.as_str() {
             "e_rail" => "what rails give back",
@@ -52,6 +81,16 @@ const fn whose(rail: Rail) -> &'static str {
         Rail::Right => "the far short rail",
         Rail::Bottom => "the right long rail",
         Rail::Top => "the left long rail",
+    }
+}
+
+/// The same in a word.
+const fn side(rail: Rail) -> &'static str {
+    match rail {
+        Rail::Left => "near",
+        Rail::Right => "far",
+        Rail::Bottom => "right",
+        Rail::Top => "left",
     }
 }
 
@@ -113,5 +152,30 @@ impl Calibration {
         } else {
             "the other marks agree with each other; those above hardly count"
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::{Table, TableDoubt};
+
+    #[test]
+    fn every_constant_has_words_and_short_ones_of_its_own() {
+        let doubt = TableDoubt::of(&Table::default());
+        let of_rails = Rail::ALL.iter().flat_map(|rail| ["e", "mu"].map(|own| format!("rail.{}.{own}", rail.name())));
+        let names = doubt.deviations.into_keys().chain(of_rails);
+        let mut told: Vec<String> = names
+            .map(|name| {
+                let change = Change { name, before: 0.0, before_deviation: 1.0, after: 0.0, after_deviation: 1.0 };
+                let (words, short) = (change.words(), change.short_words());
+                assert!(!words.is_empty() && (1..=12).contains(&short.len()), "{change:?}: {words}, {short}");
+                short
+            })
+            .collect();
+        let count = told.len();
+        told.sort();
+        told.dedup();
+        assert_eq!(told.len(), count, "{told:?}");
     }
 }

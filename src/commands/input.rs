@@ -170,14 +170,33 @@ fn question<Q: DeserializeOwned + Keys>(line: &[u8]) -> Result<Q, String> {
     }
 }
 
-/// The next line, without its end; none at the end of the input.
-fn next_line(reader: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<bool> {
+/// Most bytes of a line that is too long that are passed over: a device that has no lines at all comes to an end.
+const MOST_PASSED_OVER: u64 = 1 << 28;
+
+/// What comes next of the input.
+enum Next {
+    /// A line with its end.
+    Line,
+    /// One that is too long, passed over.
+    TooLong,
+    /// Nothing.
+    End,
+}
+
+/// Reads the next line.
+fn next_line(reader: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<Next> {
     line.clear();
     let read = reader.by_ref().take(LONGEST_LINE).read_until(b'\n', line)? as u64;
-    if read == LONGEST_LINE && !line.ends_with(b"\n") {
-        return Err(io::Error::new(io::ErrorKind::InvalidData, format!("a line has more than {LONGEST_LINE} bytes")));
+    if read < LONGEST_LINE || line.ends_with(b"\n") {
+        return Ok(if read > 0 { Next::Line } else { Next::End });
     }
-    Ok(read > 0)
+    line.clear();
+    let mut rest = reader.by_ref().take(MOST_PASSED_OVER);
+    if rest.skip_until(b'\n')? as u64 == MOST_PASSED_OVER {
+        let sentence = format!("a line has more than {MOST_PASSED_OVER} bytes, and accepted are up to {LONGEST_LINE}");
+        return Err(io::Error::new(io::ErrorKind::InvalidData, sentence));
+    }
+    Ok(Next::TooLong)
 }
 
 /// Answers every line of JSON Lines in `file` (`-` is the standard input) on the standard output, in order. A line that
@@ -195,14 +214,18 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
     let mut out = io::BufWriter::new(printing::stdout());
     let (mut lines, mut refused) = (0_usize, 0_usize);
     let (mut line, mut index) = (Vec::new(), 0_usize);
-    let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
-    while next_line(&mut reader, &mut line).map_err(unreadable)? {
+    loop {
         index += 1;
-        if line.trim_ascii().is_empty() {
-            continue;
-        }
+        let unreadable = |error| Failure::failed(format_args!("{file} cannot be read at line {index}: {error}"));
+        let question = match next_line(&mut reader, &mut line).map_err(unreadable)? {
+            Next::End => break,
+            Next::Line if line.trim_ascii().is_empty() => continue,
+            Next::Line => {
+                question(&line).map_err(|reason| format!("line {index} is not a valid JSON question: {reason}"))
+            }
+            Next::TooLong => Err(format!("line {index} is too long; accepted are up to {LONGEST_LINE} bytes")),
+        };
         lines += 1;
-        let question = question(&line).map_err(|reason| format!("line {index} is not a valid JSON question: {reason}"));
         let answered =
             question.and_then(|question| answer(question).map_err(|failure| format!("line {index}: {failure}")));
         match answered {

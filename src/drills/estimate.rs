@@ -87,8 +87,8 @@ fn openings(low: f64, high: f64) -> [bool; 2] {
 pub enum NoEstimate {
     /// Too few attempts.
     #[error(
-        "the skill cannot be estimated yet: {attempts} of {FEWEST} attempts. Those at a real table count: of a model shot with its \
-         balls not shifted, or with the coach's hint shown; no games"
+        "the skill cannot be estimated yet: {attempts} of {FEWEST} attempts at a real table, of model shots with \
+         balls not shifted or with the coach's hint; no games"
     )]
     TooFew {
         /// Attempts there are.

@@ -2,7 +2,7 @@
 
 use super::{Played, difference};
 use crate::{
-    coach::words::LengthUnit,
+    coach::words::{LengthUnit, TipUnit},
     physics::CueInputs,
     table::{CueBall, Table},
 };
@@ -22,29 +22,35 @@ impl Played {
     }
 }
 
-/// What a player has to change to get from the stroke `from` to `to`, the most telling first; nothing where nobody could
-/// tell them apart.
-pub fn changes(table: &Table, from: &CueInputs, to: &CueInputs) -> Vec<String> {
+/// What a player has to change to get from the stroke `from` to `to`, the most telling first, the tip's place in `unit`; nothing
+/// where nobody could tell them apart.
+pub fn changes(table: &Table, from: &CueInputs, to: &CueInputs, unit: TipUnit) -> Vec<String> {
     let by = difference(to, from);
     let turn = by.phi.to_degrees();
     if turn.abs() > ANOTHER_SHOT {
         return vec!["another shot: aimed elsewhere".to_owned()];
     }
-    let millimetres = |radii: f64| 1000.0 * table.radius * radii;
-    let differences = [
-        (turn, SEEN.0, 2, "°", ["aim left", "aim right"]),
-        (millimetres(by.b), SEEN.1, 1, " mm", ["tip up", "tip down"]),
-        (millimetres(by.a), SEEN.1, 1, " mm", ["tip left", "tip right"]),
-        (by.speed, SEEN.3, 1, " m/s", ["harder", "softer"]),
-        (by.theta.to_degrees(), SEEN.2, 0, "°", ["cue up", "cue down"]),
-    ];
     // A number that rounds to the smallest that counts does count.
-    let told = differences.into_iter().filter(|(by, least, ..)| by.abs() > 0.999 * least);
-    told.map(|(by, _, decimals, unit, [more, less])| {
+    let is_seen = |by: f64, least: f64| by.abs() > 0.999 * least;
+    let told = |by: f64, least: f64, decimals: usize, symbol: &str, [more, less]: [&str; 2]| {
         let way = if by > 0.0 { more } else { less };
-        format!("{way} {:.decimals$}{unit}", by.abs())
-    })
-    .collect()
+        is_seen(by, least).then(|| format!("{way} {:.decimals$}{symbol}", by.abs()))
+    };
+    let tip = |radii: f64, [more, less]: [&str; 2]| {
+        let (way, millimetres) = (if radii > 0.0 { more } else { less }, 1000.0 * table.radius * radii);
+        is_seen(millimetres, SEEN.1).then(|| match unit {
+            TipUnit::Tips => format!("{} {way}", unit.words(radii, table.radius).unwrap_or_default()),
+            TipUnit::Mm => format!("tip {way} {:.1} mm", millimetres.abs()),
+        })
+    };
+    let differences = [
+        told(turn, SEEN.0, 2, "°", ["aim left", "aim right"]),
+        tip(by.b, ["up", "down"]),
+        tip(by.a, ["left", "right"]),
+        told(by.speed, SEEN.3, 1, " m/s", ["harder", "softer"]),
+        told(by.theta.to_degrees(), SEEN.2, 0, "°", ["cue up", "cue down"]),
+    ];
+    differences.into_iter().flatten().collect()
 }
 
 #[cfg(test)]
@@ -63,10 +69,13 @@ mod tests {
         };
         let from = cue(0.0, 0.0, 0.0, 179.9, 2.0);
         let to = cue(-2.0, 6.5, 3.0, -179.7, 1.7);
-        let told = changes(&table, &from, &to);
+        let changes = |from: &CueInputs, to: &CueInputs| changes(&table, from, to, TipUnit::Mm);
+        let told = changes(&from, &to);
         assert_eq!(told, ["aim left 0.40°", "tip up 6.5 mm", "tip right 2.0 mm", "softer 0.3 m/s", "cue up 3°"]);
-        assert_eq!(changes(&table, &to, &from)[0], "aim right 0.40°");
-        assert_eq!(changes(&table, &from, &cue(0.2, 0.0, 0.5, 179.91, 2.05)), Vec::<String>::new());
-        assert_eq!(changes(&table, &from, &cue(0.0, 0.0, 0.0, 90.0, 2.0)), ["another shot: aimed elsewhere"]);
+        let in_tips = super::changes(&table, &from, &to, TipUnit::Tips);
+        assert_eq!(in_tips[1..3], ["2.1 tips up", "0.7 tip right"]);
+        assert_eq!(changes(&to, &from)[0], "aim right 0.40°");
+        assert_eq!(changes(&from, &cue(0.2, 0.0, 0.5, 179.91, 2.05)), Vec::<String>::new());
+        assert_eq!(changes(&from, &cue(0.0, 0.0, 0.0, 90.0, 2.0)), ["another shot: aimed elsewhere"]);
     }
 }

@@ -4,7 +4,10 @@ use glam::DVec2;
 use indicatif::HumanCount;
 
 use crate::{
-    coach::Skill,
+    coach::{
+        Skill,
+        words::{LengthUnit, short},
+    },
     game::Rule,
     simulation::{EventKind, Rail},
     statistics::SuccessRate,
@@ -116,9 +119,10 @@ pub fn long_time_words(seconds: f64) -> String {
     if years < 2.0 { time_words(seconds) } else { format!("{} years", count(years as u64)) }
 }
 
-/// Metres as millimetres with one decimal.
-pub fn millimetres(metres: f64) -> String {
-    fixed(1000.0 * metres, 1)
+/// A length of so many metres in what balls are placed in: millimetres, or hundredths of an inch; without its symbol.
+pub fn fine(metres: f64, unit: LengthUnit) -> String {
+    let (in_a_metre, _, decimals) = unit.fine();
+    fixed(in_a_metre * metres, decimals)
 }
 
 /// A place in metres from the middle of `table` in diamonds from the lower left corner of the noses, as layouts are typed.
@@ -126,9 +130,10 @@ pub fn in_diamonds(table: &Table, place: DVec2) -> DVec2 {
     (place + 0.5 * DVec2::new(table.length, table.width)) / table.diamond()
 }
 
-/// Millimetres of a step size, without needless decimals.
-pub fn step_words(millimetres: f64) -> String {
-    format!("{millimetres} mm")
+/// A step of so many millimetres in what balls are placed in, without needless decimals.
+pub fn step_words(millimetres: f64, unit: LengthUnit) -> String {
+    let (in_a_metre, symbol, decimals) = unit.fine();
+    format!("{} {symbol}", short(1e-3 * in_a_metre * millimetres, decimals))
 }
 
 /// The side of the tip's offset `a`, R positive to the shooter's left, or nothing for the centre.
@@ -157,8 +162,15 @@ mod tests {
     fn no_number_is_minus_zero() {
         assert_eq!(fixed(-0.000_4, 3), "0.000");
         assert_eq!(fixed(-0.000_6, 3), "-0.001");
-        assert_eq!(millimetres(-0.71), "-710.0");
+        assert_eq!(fine(-0.71, LengthUnit::Metres), "-710.0");
         assert_eq!(fixed(f64::NAN, 1), "NaN");
+    }
+
+    #[test]
+    fn places_and_steps_are_told_in_the_players_unit() {
+        assert_eq!(fine(-0.71, LengthUnit::Feet), "-27.95");
+        assert_eq!([1.0, 10.0, 50.0].map(|mm| step_words(mm, LengthUnit::Metres)), ["1 mm", "10 mm", "50 mm"]);
+        assert_eq!([1.0, 10.0, 50.0].map(|mm| step_words(mm, LengthUnit::Feet)), ["0.04 in", "0.39 in", "1.97 in"]);
     }
 
     #[test]

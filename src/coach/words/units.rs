@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::TIP;
+
 /// How far the tip is from the centre of the ball.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -52,6 +54,18 @@ pub struct Units {
 impl TipUnit {
     /// Both, by name.
     pub const NAMED: [(&'static str, Self); 2] = [("tips", Self::Tips), ("mm", Self::Mm)];
+
+    /// How far the tip is from the middle of a ball of this `radius`, m, where that is so many `radii`: to a tenth of a tip or of
+    /// a millimetre, without the side. `None` where it rounds to nothing.
+    pub fn words(self, radii: f64, radius: f64) -> Option<String> {
+        let (size, name) = match self {
+            Self::Tips => (radii.abs() / TIP, "tip"),
+            Self::Mm => (1e3 * radius * radii.abs(), "mm"),
+        };
+        let tenths = (10.0 * size).round();
+        let plural = if self == Self::Tips && tenths > 10.0 { "s" } else { "" };
+        (tenths > 0.0).then(|| format!("{} {name}{plural}", short(0.1 * tenths, 1)))
+    }
 }
 
 impl PlaceUnit {
@@ -68,6 +82,14 @@ impl LengthUnit {
         match self {
             Self::Metres => (100.0, "cm"),
             Self::Feet => (1.0 / INCH, "in"),
+        }
+    }
+
+    /// What balls are placed in: how many of it are a metre, its symbol, and the decimals that it is told with.
+    pub const fn fine(self) -> (f64, &'static str, usize) {
+        match self {
+            Self::Metres => (1000.0, "mm", 1),
+            Self::Feet => (1.0 / INCH, "in", 2),
         }
     }
 
@@ -100,5 +122,13 @@ mod tests {
         assert_eq!(told(LengthUnit::Metres), ["0.4 cm", "3 cm", "31 cm", "1.3 m"]);
         assert_eq!(told(LengthUnit::Feet), ["0.2 in", "1.2 in", "12.2 in", "4.1 ft"]);
         assert_eq!([short(-0.01, 1), short(30.0, 0), short(3.10, 2)], ["0", "30", "3.1"]);
+    }
+
+    #[test]
+    fn the_tip_is_told_in_tenths_of_its_unit() {
+        let told =
+            |unit: TipUnit| [0.0001, 0.049, -0.1, 0.45].map(|radii| unit.words(radii, 0.03075).unwrap_or_default());
+        assert_eq!(told(TipUnit::Tips), ["", "0.5 tip", "1 tip", "4.5 tips"]);
+        assert_eq!(told(TipUnit::Mm), ["", "1.5 mm", "3.1 mm", "13.8 mm"]);
     }
 }

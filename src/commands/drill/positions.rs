@@ -1,6 +1,6 @@
 //! `carom drill save`, `share`, `add` and `remove`: positions of one's own.
 
-use super::{Workspace, options::StrokeInput};
+use super::Workspace;
 use crate::{
     commands::{
         Failure,
@@ -9,7 +9,7 @@ use crate::{
     },
     drills::{Exercise, check, decode, encode, store::StoreError},
     game::{Rule, scores},
-    physics::has_room,
+    physics::{CueInputs, has_room},
     table::Layout,
 };
 
@@ -77,11 +77,7 @@ pub struct RemoveArgs {
 
 pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     let table = bundled_table(&args.table)?;
-    let shot = match args.shot.as_deref().map(str::parse).transpose()? {
-        None => None,
-        Some(StrokeInput::Own(cue)) => Some(cue),
-        Some(StrokeInput::Coach) => return Err(Failure::wrong_input("--shot takes numbers: a,b,theta,phi,V")),
-    };
+    let shot = args.shot.as_deref().map(CueInputs::parse).transpose().map_err(Failure::wrong_input)?;
     shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
     let layout = Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?;
     let position = Exercise::own(&args.name, args.rule, &table.name, layout);

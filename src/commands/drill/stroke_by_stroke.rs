@@ -9,7 +9,10 @@ use super::{
     score::{Score, layout_text, shot_text, words},
 };
 use crate::{
-    coach::{Coach, Request, Shooter, words::LengthUnit},
+    coach::{
+        Coach, Request, Shooter,
+        words::{LengthUnit, TipUnit},
+    },
     commands::{
         Failure,
         input::ByTable,
@@ -208,9 +211,11 @@ impl<'a> StrokeByStroke<'a> {
 
         let by = if own.is_some() { "exercise" } else { "coach" };
         let number = self.session.attempts.len();
-        let unit = if self.options.json { LengthUnit::default() } else { units().length };
-        let (verdict, run) = (played.words(cue_ball, unit), self.session.run());
-        let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue));
+        // JSON is the same whatever the settings say.
+        let (length, tip) =
+            if self.options.json { (LengthUnit::default(), TipUnit::Mm) } else { (units().length, units().tip) };
+        let (verdict, run) = (played.words(cue_ball, length), self.session.run());
+        let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue, tip));
         if self.options.json {
             let turn = AttemptLine {
                 kind: "attempt",

@@ -151,6 +151,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return resume(&read.folder, args.jobs, &options);
     }
     if let Some(seeds) = args.seeds {
+        let last = u64::MAX - (seeds - 1);
+        if args.seed > last {
+            return Err(Failure::wrong_input(format_args!(
+                "--seeds {seeds} from --seed {} on goes beyond the last seed there is; accepted is --seed 0 to {last}",
+                args.seed
+            )));
+        }
         return multi_seed::start(&read, seeds, args.jobs, &options);
     }
     if args.jobs > 1 {

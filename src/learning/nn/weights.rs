@@ -33,6 +33,16 @@ pub enum WeightsError {
         /// What it must be.
         expected: String,
     },
+    /// A network has other layers than it must have.
+    #[error("its network \"{name}\" has layers of {found} units, and the settings say {wanted}")]
+    Shape {
+        /// The network's name.
+        name: String,
+        /// The units of its layers, inputs first.
+        found: String,
+        /// Those that it must have.
+        wanted: String,
+    },
     /// candle refuses.
     #[error("candle refuses its networks ({0})")]
     Network(#[from] candle_core::Error),
@@ -220,8 +230,7 @@ impl<'a> Reader<'a> {
         if !found.is_empty() && !fits {
             let inputs = found[0].first().into_iter();
             let found = units(inputs.chain(found.iter().filter_map(|shape| shape.last())));
-            let expected = format!("a network of {} units, as the settings say, but {found}", units(sizes));
-            return Err(WeightsError::Array { name: name.to_owned(), expected });
+            return Err(WeightsError::Shape { name: name.to_owned(), found, wanted: units(sizes) });
         }
         let mut parameters = Vec::new();
         for (layer, pair) in sizes.windows(2).enumerate() {

@@ -139,8 +139,18 @@ pub enum OriginError {
         expected: String,
     },
     /// They cannot be used.
-    #[error(transparent)]
+    #[error("{0}{advice}", advice = advice(_0))]
     Weights(#[from] WeightsError),
+}
+
+/// What to do about weights that a run cannot take up.
+const fn advice(error: &WeightsError) -> &'static str {
+    match error {
+        WeightsError::Shape { .. } => {
+            "; leave out the settings that give the networks other sizes, or start without --from"
+        }
+        _ => "",
+    }
 }
 
 /// The error of a file, for `map_err`.

@@ -66,8 +66,8 @@ impl Heartbeat {
         self.status.warning = Some(sentence.to_owned());
     }
 
-    /// What the run is asked to do.
-    pub fn request(&mut self) -> Option<Request> {
+    /// What the run is asked to do, or a sentence about what is not understood.
+    pub fn request(&mut self) -> Option<Result<Request, String>> {
         if self.listened.elapsed() < EAR {
             return None;
         }

@@ -76,6 +76,11 @@ pub fn read(path: &Path) -> io::Result<Vec<Record>> {
     Ok(whole_lines(&content(path)?).filter_map(|line| serde_json::from_slice(line).ok()).collect())
 }
 
+/// Whether the file ends within a line; what cannot be read is told by who opens it.
+pub fn is_torn(path: &Path) -> bool {
+    content(path).is_ok_and(|bytes| bytes.last().is_some_and(|byte| *byte != b'\n'))
+}
+
 /// A run's file of metrics while the run writes it. Lines that cannot be written wait in memory.
 #[derive(Debug)]
 pub struct MetricsFile {
@@ -196,7 +201,9 @@ mod tests {
             file.flush().unwrap();
         }
         let torn = fs::read_to_string(&path).unwrap() + "{\"time/total";
+        assert!(!is_torn(&path));
         fs::write(&path, &torn).unwrap();
+        assert!(is_torn(&path));
         assert_eq!(MetricsFile::open(&path, 3).unwrap().1, Some(record(3)));
         fs::write(&path, torn).unwrap();
         let (mut file, last) = MetricsFile::open(&path, 2).unwrap();

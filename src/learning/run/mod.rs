@@ -107,7 +107,8 @@ impl Run {
     }
 
     /// The run in `folder` as its last whole checkpoint left it, and sentences about what may make
-    /// it another run than the one that was interrupted: the last checkpoint is damaged, or this is another carom.
+    /// it another run than the one that was interrupted: the last checkpoint is damaged, or this is another carom; also where the
+    /// last line of its metrics was cut off, which is then left out.
     ///
     /// # Errors
     /// Where there is no whole checkpoint, or another process works in the folder.
@@ -121,6 +122,9 @@ impl Run {
         if let Some(damage) = fallback {
             let (name, shots) = (checkpoint::PREVIOUS, learner.shots());
             notices.push(format!("{damage}; going on from {name}, after {shots} shots"));
+        }
+        if metrics::is_torn(&folder.join(METRICS)) {
+            notices.push(format!("the last line of {METRICS} is cut off and is left out"));
         }
         let config = Config::read(folder).or_else(|_| {
             // It was killed before it had one, or it was removed: the checkpoint has the same values.

@@ -115,7 +115,7 @@ impl Run {
             reporting.heartbeat.beat(Phase::Training, self.learner.as_ref(), reporting.clock.seconds());
             let is_over = || (limits.stop)() || limits.time.is_some_and(|limit| reporting.clock.session() >= limit);
             let mut stops = is_over();
-            match reporting.heartbeat.request() {
+            match reporting.request() {
                 Some(Request::Pause) => match self.pause(reporting, limits.stop) {
                     Request::Abandon => return Ok(Ending::Abandoned),
                     request => stops |= request == Request::Stop,
@@ -152,7 +152,7 @@ impl Run {
         let seconds = reporting.clock.seconds();
         let request = loop {
             reporting.heartbeat.beat(Phase::Paused, self.learner.as_ref(), seconds);
-            match reporting.heartbeat.request() {
+            match reporting.request() {
                 Some(Request::Pause) | None if stop() => break Request::Stop,
                 Some(Request::Pause) | None => thread::sleep(NAP),
                 Some(request) => break request,
@@ -200,12 +200,27 @@ impl Run {
 }
 
 impl Reporting<'_> {
+    /// What the run is asked to do; what is not understood is told.
+    fn request(&mut self) -> Option<Request> {
+        match self.heartbeat.request()? {
+            Ok(request) => Some(request),
+            Err(sentence) => {
+                self.warn(&sentence);
+                None
+            }
+        }
+    }
+
+    fn warn(&mut self, sentence: &str) {
+        self.watcher.warn(sentence);
+        self.heartbeat.warn(sentence);
+    }
+
     fn warn_of_checkpoint(&mut self, reason: &RunError, shots: u64) {
         let sentence = format!(
             "the checkpoint after {shots} shots could not be written: {reason}; the one before is whole, and training \
              goes on to the next"
         );
-        self.watcher.warn(&sentence);
-        self.heartbeat.warn(&sentence);
+        self.warn(&sentence);
     }
 }

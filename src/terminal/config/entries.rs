@@ -221,7 +221,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Units",
         key: "tip_unit",
-        about: "In what a shot tells how far the tip is from the centre of the ball.",
+        about: "In what the tip's distance from the centre of the ball is told.",
         accepted: "\"tips\", \"mm\"",
         choices: || TipUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&TipUnit::NAMED, &settings.units.tip)),
@@ -233,7 +233,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Units",
         key: "place_unit",
-        about: "In what it tells places along the cushions.",
+        about: "In what places along the cushions are told.",
         accepted: "\"diamonds\", \"mm\"",
         choices: || PlaceUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&PlaceUnit::NAMED, &settings.units.place)),
@@ -245,7 +245,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Units",
         key: "length_unit",
-        about: "In what distances on the table are told.",
+        about: "In what distances on the table are told, and where balls lie while they are placed.",
         accepted: "\"metres\", \"feet\"",
         choices: || LengthUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&LengthUnit::NAMED, &settings.units.length)),

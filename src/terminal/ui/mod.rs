@@ -37,7 +37,7 @@ pub use self::{
     table::{Spot, TableView, ball_at, cue_sign, draw_table},
     text::{columns, cut, end_of, ending, shorten, spell, wrap, write_right},
     theme::Theme,
-    tip::{draw_face, draw_tip},
+    tip::{draw_face, draw_tip, tip_rows},
     what_if::{Beside, draw_what_if},
 };
 use crate::terminal::{Capabilities, Keys};

@@ -4,7 +4,7 @@ use glam::DVec2;
 use ratatui::layout::Rect;
 
 use crate::{
-    coach::words::TIP,
+    coach::words::{TIP, TipUnit},
     physics::CueInputs,
     table::Table,
     terminal::{
@@ -35,6 +35,16 @@ pub fn draw_tip(cue: Option<&CueInputs>, how_long: bool, table: &Table, area: Re
     // In radii, right and up as the shooter sees it: positive `a` is on the left.
     let tip = cue.map(|cue| DVec2::new(-cue.a, cue.b));
     draw_face(tip, Some(table.miscue_limit.sqrt()), face_in(inner), ui);
+}
+
+/// Where the tip of a stroke meets a ball of this `radius`, m, as two rows of its numbers: which way from the middle, and how far
+/// in `unit`. The way is the row's name: the panels at 80 columns have no room for it behind the number.
+pub fn tip_rows(cue: &CueInputs, unit: TipUnit, radius: f64) -> [(&'static str, String); 2] {
+    let row = |radii: f64, [more, less]: [&'static str; 2], name: &'static str| match unit.words(radii, radius) {
+        Some(size) => (if radii > 0.0 { more } else { less }, size),
+        None => (name, "middle".to_owned()),
+    };
+    [row(cue.a, ["left", "right"], "side"), row(cue.b, ["up", "down"], "height")]
 }
 
 /// Draws a ball's face with a spot, in radii to the right and up; grey beyond `limit`.

@@ -20,6 +20,29 @@ fn unknown_keys_of_a_batch_are_refused() {
 }
 
 #[test]
+fn a_line_that_is_too_long_is_refused_and_the_rest_go_on() {
+    let home = folder();
+    let good = include_str!("../../data/shots.jsonl").lines().next().unwrap();
+    let long = format!("{{\"id\": \"{}\"}}", "x".repeat(1 << 20));
+    let said = fed(command(home.path(), &["simulate", "--batch", "-"]), &format!("{good}\n{long}\n{good}\n"));
+    assert_eq!(said.code, Some(2));
+    let answers: Vec<&str> = said.out.lines().collect();
+    assert!(answers.len() == 3 && answers[0] == answers[2], "{}", said.out);
+    assert!(answers[1].contains("line 2 is too long; accepted are up to 1048576 bytes"), "{}", answers[1]);
+}
+
+#[test]
+fn a_stroke_of_a_saved_position_that_is_none_is_refused_by_what_is_accepted() {
+    let home = folder();
+    for wrong in ["foo", "coach"] {
+        let said = drill(home.path(), &["save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", wrong]);
+        assert_eq!(said.code, Some(2));
+        assert!(said.err.contains(&format!("\"{wrong}\" is not a shot; write \"a,b,theta,phi,V\"")), "{}", said.err);
+        assert!(!said.err.contains("for the coach"), "{}", said.err);
+    }
+}
+
+#[test]
 fn a_line_without_an_end_fills_no_memory() {
     let home = folder();
     let endless = std::fs::File::open("/dev/zero").unwrap();

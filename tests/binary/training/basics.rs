@@ -118,6 +118,7 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
         ("train --run new --steps 0", 2, "0"),
         ("train --run new --evaluate-every 0", 2, "0"),
         ("train --run new --seeds 0", 2, "0"),
+        ("train --run new --seeds 2 --seed 18446744073709551615", 2, "0 to 18446744073709551614"),
         ("train --run new --jobs 2", 2, "--seeds"),
         ("train --run new --agent sarsa", 2, "sarsa"),
         ("train --run new --agent sarsa --seeds 2", 2, "sarsa"),

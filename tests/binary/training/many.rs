@@ -102,5 +102,6 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
     let large = carom(here, "train --from one --config large.toml --run large");
     assert_eq!(large.code, Some(2));
     assert!(large.err.contains("critic") && large.err.contains("-24-1"), "{}", large.err);
+    assert!(large.err.contains("leave out the settings"), "{}", large.err);
     assert!(!here.join("large").exists());
 }

@@ -38,6 +38,21 @@ fn a_damaged_checkpoint_is_reported_and_the_one_before_used() {
     assert_eq!(lost.err.lines().count(), 1, "{}", lost.err);
 }
 
+#[test]
+fn a_last_line_of_metrics_that_is_cut_off_is_reported_once_and_spoils_nothing() {
+    let folder = folder();
+    let here = folder.path();
+    let run = here.join("run");
+    done(here, &format!("{SHORT} --run whole"));
+    unfinished(here, &format!("{SHORT} --run run --minutes 0.00001"));
+    let metrics = fs::read_to_string(run.join("metrics.jsonl")).unwrap_or_default();
+    fs::write(run.join("metrics.jsonl"), metrics + "{\"time/total").unwrap();
+    let resumed = done(here, "train --resume run");
+    assert!(resumed.err.contains("warning: the last line of metrics.jsonl is cut off"), "{}", resumed.err);
+    Files::of(&here.join("whole")).assert_same(&Files::of(&run), "after the line was cut off");
+    assert!(!done(here, "train --resume run").err.contains("cut off"));
+}
+
 /// A limit on the size of files stands for a full disk: no mount is needed.
 #[cfg(unix)]
 #[test]

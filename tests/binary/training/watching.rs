@@ -114,6 +114,8 @@ fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
         let run = here.join(word);
         let mut training = start(here, &format!("{LONG} --run {word}"));
         wait_for(&run.join("metrics.jsonl"), &mut training);
+        fs::write(run.join("request"), "puase").unwrap();
+        wait_until(&mut training, "the request is taken", || !run.join("request").exists());
         fs::write(run.join("request"), word).unwrap();
         assert_eq!(training.wait().unwrap().code(), Some(75), "{word}: it is not finished");
         assert_eq!(run.join("policy.safetensors").exists(), is_kept);
@@ -122,6 +124,7 @@ fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
     // What the run says of itself is told, not its last line of metrics, which may be older.
     let stopped = done(here, "watch stop");
     let standing: Value = serde_json::from_slice(&fs::read(here.join("stop/state.json")).unwrap()).unwrap();
+    assert!(standing["warning"].as_str().unwrap().contains("\"puase\" is not understood"), "{standing}");
     let reward = standing["held_out_reward"].as_f64().unwrap();
     let told =
         format!("the run was stopped after {} shots, held-out reward {reward:.4}; go on with", standing["shots"]);

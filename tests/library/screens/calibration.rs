@@ -50,7 +50,7 @@ fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
     player.shows(&["slow-roll", "0/2", "put: any ball in the middle of your end", "strike: straight", "time", "bits"]);
     player.says("0 of 20 strokes");
     let corner = player.press("Down Down Down Down");
-    corner.shows(&["Corner-5, 50 to 20", "0.3R right", "first", "third", "fourth"]);
+    corner.shows(&["Corner-5, 50 to 20", "3 tips right", "first", "third", "fourth"]);
     let best = corner.press("n");
     best.says("would tell most");
     let out = best.press("Home x");
@@ -60,6 +60,38 @@ fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
         Player::with(NO_COLOUR).press("F7").press(keys).is_plain();
         Player::with(ASCII).press("F7").press(keys).is_plain();
     }
+}
+
+#[test]
+fn every_mark_of_a_form_has_a_row_while_it_is_asked_for_at_80_columns() {
+    for (n, test) in PROTOCOL.iter().enumerate() {
+        let rows: Vec<String> = test.asked().zip('a'..).map(|(name, letter)| format!("{letter} {name:<7}-")).collect();
+        let mut form = new().press(&"Down ".repeat(n)).press("Enter");
+        for name in test.asked() {
+            let text = form.text(80, 24);
+            assert!(text.contains(&format!(" {name}: ")), "{name} of {}: {text}", test.name);
+            assert!(rows.iter().all(|row| text.contains(row)), "{}: {text}", test.name);
+            form = form.press("Down");
+        }
+    }
+}
+
+#[test]
+fn constants_are_called_by_words_where_the_long_ones_have_no_room() {
+    let player = measured();
+    player.says("rolling mu_r");
+    let values = player.press("Tab");
+    for part in ["rolling mu_r", "rail grip mu_rail", "fast bounce ", "lean across tilt.y"] {
+        values.says(part);
+    }
+    let wide = values.text(120, 40);
+    assert!(wide.contains(" mu_r ") && wide.contains("friction of rolling balls"), "{wide}");
+}
+
+#[test]
+fn the_tip_is_told_in_the_unit_of_the_settings() {
+    let mm = Player::with_settings(TRUE_COLOUR, "tip_unit = \"mm\"\n").press("F7").press("Down Down Down Down");
+    mm.shows(&["9.2 mm right"]);
 }
 
 #[test]

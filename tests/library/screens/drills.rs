@@ -99,9 +99,12 @@ fn a_stroke_is_set_with_keys() {
     check("aiming", &player);
     player.says("yellow 100 % full");
     let set = player.press("S-Left Left Left Left C-Right h h k K Up S-Up +");
-    for part in ["275.59°", "1.0 mm left", "3.5 mm up", "3.10 m/s", "2.3° up"] {
-        set.says(part);
+    for part in ["275.59°", "left   0.3 tip", "up     1.1 tips", "3.10 m/s", "2.3° up"] {
+        set.shows(&[part]);
     }
+    assert!(set.text(80, 24).contains("1 tip = 3 mm") && set.text(120, 40).contains("Tip = 3 mm"));
+    let in_mm = Player::with_settings(TRUE_COLOUR, "tip_unit = \"mm\"\n").press("F3 Enter h");
+    in_mm.says("left   0.5 mm").is_silent_on("= 3 mm");
     let full = set.press("Tab 0");
     full.says("270.00°").says("side   middle");
     let plain = Player::practising(NO_COLOUR).press("S-Left");

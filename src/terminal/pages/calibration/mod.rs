@@ -15,6 +15,7 @@ use std::path::PathBuf;
 use self::{form::Form, sheet::Sheet};
 use crate::{
     calibration::beside,
+    coach::words::TipUnit,
     storage::Places,
     table::Table,
     terminal::{
@@ -65,6 +66,8 @@ pub struct CalibrationPage {
     places: Places,
     /// The table that is played on.
     pub table: Table,
+    /// What tells how far the tip is from the middle of the ball.
+    pub tip_unit: TipUnit,
     /// What is typed or asked.
     pub input: Option<Input>,
     /// What is shown beside the list of tests.
@@ -90,6 +93,7 @@ impl CalibrationPage {
         Self {
             places,
             table: Table::default(),
+            tip_unit: TipUnit::default(),
             input: None,
             side: Side::Test,
             values_page: 0,

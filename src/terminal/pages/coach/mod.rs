@@ -435,7 +435,7 @@ impl CoachPage {
 
     /// How far a key moves a ball, in words.
     pub fn step_words(&self) -> String {
-        if self.quarters { "1/4 diamond".to_owned() } else { step_words(self.step_mm()) }
+        if self.quarters { "1/4 diamond".to_owned() } else { step_words(self.step_mm(), self.units.length) }
     }
 
     /// Number of the spinner's picture, while the coach thinks.

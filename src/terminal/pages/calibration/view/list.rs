@@ -1,11 +1,11 @@
 //! The left of the page: the tests with what is entered of each, the strokes of the marked one, and the values so far.
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 
 use crate::{
     calibration::{Calibration, Change, Entry, Test},
     terminal::{
-        pages::calibration::CalibrationPage,
+        pages::calibration::{CalibrationPage, view::values::draw_called},
         ui::{Ui, draw_title, list, shorten, write_right},
     },
 };
@@ -13,8 +13,8 @@ use crate::{
 /// Columns, from the right, at which the strokes and the bits of a test end.
 const STROKES_END: u16 = 8;
 const BITS_END: u16 = 1;
-/// Columns of a constant's name.
-const NAME: usize = 10;
+/// Columns of what a constant is called.
+const NAME: usize = 12;
 
 /// Draws it.
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
@@ -128,9 +128,9 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let mut constants: Vec<&Change> = found.constants.iter().collect();
     constants.sort_by(|one, other| left(one).total_cmp(&left(other)));
     for (one, y) in constants.into_iter().zip(inner.y..inner.bottom()) {
-        let name = shorten(&one.name, NAME.max(usize::from(inner.width).saturating_sub(20)), ui.caps);
+        let room = NAME.max(usize::from(inner.width).saturating_sub(20));
         let style = if one.known() == "as before" { ui.theme.faint() } else { ui.theme.text() };
-        ui.buffer.set_string(inner.x + 2, y, name, style);
+        draw_called(one, room, style, Position::new(inner.x + 2, y), ui);
         let sign = ui.caps.pick("±", "+-");
         let value = format!("{:.4} {sign} {:.4}", one.after, one.after_deviation);
         write_right(ui.buffer, inner.x, inner.right() - 1, y, &value, style);

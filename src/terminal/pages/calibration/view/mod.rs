@@ -27,7 +27,10 @@ const WIDE: u16 = 110;
 /// Draws the page; gives the first row of what stands below it.
 pub fn draw(page: &CalibrationPage, area: &PageArea, ui: &mut Ui) -> u16 {
     draw_header(page, area.header, ui);
-    let [left, right] = halves(area.body);
+    // At 80 columns what is asked of a mark takes two rows: no other mark may stand behind the first of them.
+    let is_asked = matches!(page.input, Some(Input::Marks(_))) && area.body.width < WIDE;
+    let body = Rect { height: area.body.height.saturating_sub(u16::from(is_asked)), ..area.body };
+    let [left, right] = halves(body);
     list::draw(page, left, ui);
     match page.side {
         Side::Test => test::draw(page, right, ui),

@@ -12,6 +12,7 @@ use crate::{
         Quantity::{RailAcross, RailAlong},
         RAILS, Sketch, Test, Unit,
     },
+    coach::words::TipUnit,
     table::{BALLS, Table},
     terminal::{
         Glyphs, Mapping,
@@ -23,8 +24,10 @@ use crate::{
     },
 };
 
-/// Columns of the tip beside the table, and columns from which on it has room there.
-const TIP: u16 = 13;
+/// Columns of the tip beside the table, rows of its title and of the largest face that leaves a column free at the page's edge,
+/// and columns from which on the tip has room there.
+const TIP: u16 = 14;
+const TIP_ROWS: u16 = 7;
 const BESIDE: u16 = 46;
 /// Rows of the tip's words.
 const WORDS: u16 = 3;
@@ -59,7 +62,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let bottom = Mapping::fit(&page.table, table).outer().bottom();
     if has_tip {
         let left = Rect { x: table.right(), width: TIP, height: bottom - picture.y, ..picture };
-        draw_stroke(&page.table, &sketch, left, ui);
+        draw_stroke(page, &sketch, left, ui);
     }
     let style = ui.theme.text();
     let text = Rect { y: bottom, height: inner.bottom() - bottom, ..inner }.inner(Margin::new(1, 0));
@@ -82,13 +85,11 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
 }
 
 /// The tip, and the stroke in numbers below it.
-fn draw_stroke(table: &Table, sketch: &Sketch, area: Rect, ui: &mut Ui) {
-    let cue = &sketch.cue;
-    draw_tip(Some(cue), false, table, Rect { height: area.height.saturating_sub(WORDS), ..area }, ui);
-    let offset = |value: f64, word: &str| match word {
-        "mid" => None,
-        word => Some(format!("{}R {word}", fixed(value.abs(), 1))),
-    };
+fn draw_stroke(page: &CalibrationPage, sketch: &Sketch, area: Rect, ui: &mut Ui) {
+    let (table, unit, cue) = (&page.table, page.tip_unit, &sketch.cue);
+    let height = area.height.saturating_sub(WORDS).min(TIP_ROWS);
+    draw_tip(Some(cue), unit == TipUnit::Tips, table, Rect { height, ..area }, ui);
+    let offset = |radii: f64, word: &str| Some(format!("{} {word}", unit.words(radii, table.radius)?));
     let parts = [offset(cue.a, across_word(cue.a)), offset(cue.b, height_word(cue.b))];
     let mut words: Vec<String> = parts.into_iter().flatten().collect();
     if words.is_empty() {
@@ -96,7 +97,9 @@ fn draw_stroke(table: &Table, sketch: &Sketch, area: Rect, ui: &mut Ui) {
     }
     words.push(format!("at {} m/s", fixed(cue.speed, 1)));
     for (text, y) in words.iter().zip(area.bottom().saturating_sub(WORDS)..area.bottom()) {
-        ui.buffer.set_stringn(area.x + 1, y, text, usize::from(area.width - 1), ui.theme.faint());
+        // The longest begins at the table, and no word touches the page's edge.
+        let x = (area.right() - 1).saturating_sub(columns(text) as u16).clamp(area.x, area.x + 1);
+        ui.buffer.set_stringn(x, y, text, usize::from(area.width - 1), ui.theme.faint());
     }
 }
 

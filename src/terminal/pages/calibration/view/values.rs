@@ -1,6 +1,9 @@
 //! All that was found: the table's values, which marks look misread, and what to play next.
 
-use ratatui::{layout::Rect, style::Style};
+use ratatui::{
+    layout::{Position, Rect},
+    style::Style,
+};
 
 use crate::{
     calibration::{Calibration, Change, Test},
@@ -8,7 +11,7 @@ use crate::{
         CalibrationAction,
         keymap::{chord_of, keys_text},
         pages::calibration::{CalibrationPage, keys::TESTS},
-        ui::{Ui, draw_title, wrap, write_right},
+        ui::{Ui, columns, draw_title, shorten, wrap, write_right},
     },
 };
 
@@ -16,6 +19,11 @@ use crate::{
 const VALUE_END: u16 = 36;
 const KNOWN_END: u16 = 46;
 const WORDS: u16 = 48;
+/// Columns that the words need, but for those of a single rail.
+const WORDS_ROOM: usize = 30;
+/// Where the value and the word for it end if the words have no room: what the constant is called then stands before them.
+const NARROW_VALUE_END: u16 = 37;
+const NARROW_KNOWN_END: u16 = 47;
 
 /// A row of the part.
 enum Row<'a> {
@@ -71,14 +79,33 @@ fn draw_constant(one: &Change, area: Rect, ui: &mut Ui) {
         "better" => ui.theme.text(),
         _ => ui.theme.faint(),
     };
-    ui.buffer.set_string(area.x + 1, area.y, &one.name, style);
     let value = format!("{:.5} {} {:.5}", one.after, ui.caps.pick("±", "+-"), one.after_deviation);
-    write_right(ui.buffer, area.x, area.x + VALUE_END, area.y, &value, style);
-    write_right(ui.buffer, area.x, area.x + KNOWN_END, area.y, known, style);
     let room = usize::from(area.width.saturating_sub(WORDS));
-    let words = if ui.caps.unicode { one.words() } else { one.words().replace('²', "2") };
-    if room >= words.len() {
+    let has_words = room >= WORDS_ROOM;
+    let (value_end, known_end) = if has_words { (VALUE_END, KNOWN_END) } else { (NARROW_VALUE_END, NARROW_KNOWN_END) };
+    if has_words {
+        ui.buffer.set_string(area.x + 1, area.y, &one.name, style);
+        let words = if ui.caps.unicode { one.words() } else { one.words().replace('²', "2") };
+        let words = if columns(&words) <= room { words } else { one.short_words() };
         ui.buffer.set_string(area.x + WORDS, area.y, words, ui.theme.faint());
+    } else {
+        let room = usize::from(value_end).saturating_sub(2 + columns(&value));
+        draw_called(one, room, style, Position::new(area.x + 1, area.y), ui);
+    }
+    write_right(ui.buffer, area.x, area.x + value_end, area.y, &value, style);
+    write_right(ui.buffer, area.x, area.x + known_end, area.y, known, style);
+}
+
+/// Writes what a constant is called in so many columns: the short words for it, and behind them its name where that has room.
+pub fn draw_called(one: &Change, room: usize, style: Style, at: Position, ui: &mut Ui) {
+    let words = one.short_words();
+    if words.is_empty() {
+        ui.buffer.set_string(at.x, at.y, shorten(&one.name, room, ui.caps), style);
+        return;
+    }
+    let (end, _) = ui.buffer.set_stringn(at.x, at.y, &words, room, style);
+    if words.len() + 1 + one.name.len() <= room {
+        ui.buffer.set_string(end + 1, at.y, &one.name, ui.theme.faint());
     }
 }
 

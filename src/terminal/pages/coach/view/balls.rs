@@ -14,7 +14,7 @@ use crate::{
         pages::coach::CoachPage,
         shot::Spin,
         ui::{Theme, Ui, draw_title, write_right},
-        words::{fixed, in_diamonds, millimetres},
+        words::{fine, fixed, in_diamonds},
     },
 };
 
@@ -35,7 +35,9 @@ pub fn draw_balls(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     } else {
         &[(X_DIAMONDS_END, " x d "), (Y_DIAMONDS_END, " y d ")]
     };
-    for &(end, label) in [(X_END, " x mm "), (Y_END, " y mm ")].iter().chain(other) {
+    let symbol = coach.units.length.fine().1;
+    let [x, y] = ["x", "y"].map(|axis| format!(" {axis} {symbol} "));
+    for &(end, label) in [(X_END, &*x), (Y_END, &*y)].iter().chain(other) {
         write_right(ui.buffer, area.x, area.x + end + 1, area.y, label, ui.theme.faint());
     }
     for (ball, row) in (0..BALLS).zip(inner.y..inner.bottom()) {
@@ -73,8 +75,9 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
         }
         None => (coach.layout().balls[ball], None, ""),
     };
-    write_right(ui.buffer, area.x, area.x + X_END, area.y, &millimetres(place.x), style);
-    write_right(ui.buffer, area.x, area.x + Y_END, area.y, &millimetres(place.y), style);
+    let unit = coach.units.length;
+    write_right(ui.buffer, area.x, area.x + X_END, area.y, &fine(place.x, unit), style);
+    write_right(ui.buffer, area.x, area.x + Y_END, area.y, &fine(place.y, unit), style);
     if let Some(speed) = speed {
         write_right(ui.buffer, area.x, area.x + SPEED_END, area.y, &fixed(speed, 2), style);
     } else {
@@ -94,7 +97,7 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
 fn more(coach: &CoachPage, theme: &Theme) -> Vec<Line<'static>> {
     let label = |text: &'static str| Span::styled(text, theme.faint());
     let value = |text: String| Span::styled(text, theme.text());
-    let mut lines = Vec::new();
+    let (mut lines, unit) = (Vec::new(), coach.units.length);
     if coach.mode == Mode::Placing {
         lines.push(Line::from(vec![label("step "), value(coach.step_words()), label(" (Shift x10, Ctrl x0.1)")]));
         let mut gaps = vec![label("gap")];
@@ -102,9 +105,10 @@ fn more(coach: &CoachPage, theme: &Theme) -> Vec<Line<'static>> {
             let balls = coach.layout().balls;
             let gap = (balls[coach.selected].distance(balls[other]) - 2.0 * coach.table().radius).max(0.0);
             gaps.push(label(if gaps.len() > 1 { ", " } else { " " }));
-            gaps.push(value(format!("{} {}", theme.names()[other], millimetres(gap))));
+            gaps.push(value(format!("{} {}", theme.names()[other], fine(gap, unit))));
         }
-        gaps.push(label(" mm"));
+        gaps.push(label(" "));
+        gaps.push(label(unit.fine().1));
         lines.push(Line::from(gaps));
     }
     if let Some(contact) = coach.shot().and_then(|shot| shot.contact_words(coach.cue_ball())) {

@@ -46,7 +46,7 @@ use crate::{
             ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_question, draw_sight,
             draw_spin, draw_status, draw_table, draw_tip, spell, write_paragraphs,
         },
-        words::{event_words, fixed, in_diamonds, millimetres, percent},
+        words::{event_words, fine, fixed, in_diamonds, percent},
     },
 };
 
@@ -287,12 +287,14 @@ fn selected_ball(coach: &CoachPage) -> String {
     let others = (0..BALLS).filter(|&other| other != ball);
     let gap = |other: usize| (balls[ball].distance(balls[other]) - 2.0 * coach.table().radius).max(0.0);
     let nearest = others.min_by(|&one, &two| gap(one).total_cmp(&gap(two)));
-    let near = nearest.map_or(String::new(), |other| format!(", {} mm from {}", millimetres(gap(other)), names[other]));
+    let unit = coach.units.length;
+    let length = |metres: f64| format!("{} {}", fine(metres, unit), unit.fine().1);
+    let near = nearest.map_or(String::new(), |other| format!(", {} from {}", length(gap(other)), names[other]));
     let place = if coach.counts_diamonds() {
         let place = in_diamonds(coach.table(), balls[ball]);
         format!("{}d,{}d", fixed(place.x, 2), fixed(place.y, 2))
     } else {
-        format!("x {} mm, y {} mm", millimetres(balls[ball].x), millimetres(balls[ball].y))
+        format!("x {}, y {}", length(balls[ball].x), length(balls[ball].y))
     };
     format!("{} at {place}{near}; step {}", names[ball], coach.step_words())
 }

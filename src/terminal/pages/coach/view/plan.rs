@@ -22,6 +22,9 @@ const WAY_LETTER: char = '*';
 /// Columns of the rows' names.
 const NAMES: u16 = 6;
 
+/// How many there are.
+const ROWS: usize = 3;
+
 /// What the distances of the stops are.
 const SPREAD_WORDS: &str = "half of the points leave the balls so near";
 
@@ -35,9 +38,11 @@ pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: R
     let inner = draw_title(title, area, ui);
     let Some(choice) = choice else { return draw_nothing(&[empty], inner, ui) };
     let room = usize::from(inner.width.saturating_sub(NAMES));
+    let explained = wrap(SPREAD_WORDS, usize::from(inner.width.saturating_sub(2)));
+    let has_room = usize::from(inner.height) >= ROWS + explained.len();
     let rows = [
         ("now", shot_words(&choice.proposal, room, ui)),
-        ("stop", stop_words(choice, unit, ui.theme)),
+        ("stop", stop_words(choice, unit, has_room, ui.theme)),
         ("next", next_words(choice, room, ui)),
     ];
     let mut lines: Vec<Line> = rows
@@ -49,9 +54,8 @@ pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: R
             ])
         })
         .collect();
-    if choice.study.is_some() {
-        let words = wrap(SPREAD_WORDS, usize::from(inner.width.saturating_sub(2)));
-        lines.extend(words.into_iter().map(|words| Line::styled(format!(" {words}"), ui.theme.faint())));
+    if choice.study.is_some() && has_room {
+        lines.extend(explained.into_iter().map(|words| Line::styled(format!(" {words}"), ui.theme.faint())));
     }
     if choice.next.is_some() {
         let sign = if ui.caps.glyphs == Glyphs::Letters { WAY_LETTER } else { '•' };
@@ -74,15 +78,24 @@ fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
     chance + &sort
 }
 
-/// How near to the planned positions the balls stop, in half of the attempts that make the point.
-fn stop_words(choice: &Choice, unit: LengthUnit, theme: &Theme) -> String {
+/// How near to the planned positions the balls stop, in half of the attempts that make the point. Where that is not explained
+/// below, it is said here, and the balls have their letters alone.
+fn stop_words(choice: &Choice, unit: LengthUnit, is_explained: bool, theme: &Theme) -> String {
     let (in_a_metre, symbol) = unit.small();
     let Some(study) = &choice.study else { return "being tried".to_owned() };
     let meant = choice.proposal.shot.recording.final_layout();
     let spread = |ball: usize| Some(in_a_metre * study.scatter.spread(ball, meant.balls[ball])?);
+    let name = |ball: usize| {
+        if is_explained { theme.names()[ball].to_owned() } else { theme.letters()[ball].to_string() }
+    };
     let words: Vec<_> =
-        (0..BALLS).filter_map(|ball| Some(format!("{} {}", theme.names()[ball], fixed(spread(ball)?, 0)))).collect();
-    if words.is_empty() { "no attempt made the point".to_owned() } else { format!("{} {symbol}", words.join(", ")) }
+        (0..BALLS).filter_map(|ball| Some(format!("{} {}", name(ball), fixed(spread(ball)?, 0)))).collect();
+    let before = if is_explained { "" } else { "half within " };
+    if words.is_empty() {
+        "no attempt made the point".to_owned()
+    } else {
+        format!("{before}{} {symbol}", words.join(", "))
+    }
 }
 
 fn next_words(choice: &Choice, room: usize, ui: &Ui) -> String {

@@ -64,7 +64,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
             };
             draw_what_if(what_if, &beside, panes.aim, ui);
         }
-        None => panels::draw_aim(turn, drills.units.length, panes.aim, ui),
+        None => panels::draw_aim(turn, drills.units, panes.aim, ui),
     }
     score::draw(drills, turn, panes.score, ui);
     status_line(turn, drills.units.length)
@@ -72,10 +72,9 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
 
 /// Draws the stroke's numbers, where the tip meets the ball, and what is seen behind it or how it spins.
 fn draw_precision(drills: &DrillsPage, turn: &Turn, panes: &Panes, ui: &mut Ui) {
-    panels::draw_stroke(turn, panes.stroke, ui);
+    panels::draw_stroke(turn, drills.units.tip, panes.stroke, ui);
     let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
-    let how_long = turn.what_if().is_some() && drills.units.tip == TipUnit::Tips;
-    draw_tip(Some(meant), how_long, &turn.table, panes.tip, ui);
+    draw_tip(Some(meant), drills.units.tip == TipUnit::Tips, &turn.table, panes.tip, ui);
     let watched = turn.watched().filter(|_| !turn.shows_hint);
     let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
     match spin {

@@ -6,7 +6,7 @@ use ratatui::{
 };
 
 use crate::{
-    coach::words::LengthUnit,
+    coach::words::{LengthUnit, TipUnit},
     study::filmed::FITTED,
     table::{BALL_NAMES, BALLS},
     terminal::{
@@ -21,7 +21,7 @@ use crate::{
         shot::film::{Listed, table},
         ui::{
             ListedEvents, Message, TableView, Ui, draw_events, draw_sight, draw_spin, draw_table, draw_tip, draw_title,
-            write_paragraphs,
+            tip_rows, write_paragraphs,
         },
         words::fixed,
     },
@@ -43,8 +43,9 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     };
     draw_table(&view, panes.table, ui);
     let time = film.playback.readout;
-    draw_stroke(scene, panes.stroke, ui);
-    draw_tip(scene.and_then(|scene| scene.stroke.as_ref()), false, table(), panes.tip, ui);
+    draw_stroke(scene, drills.units.tip, panes.stroke, ui);
+    let stroke = scene.and_then(|scene| scene.stroke.as_ref());
+    draw_tip(stroke, drills.units.tip == TipUnit::Tips, table(), panes.tip, ui);
     match scene.and_then(|scene| scene.shot.spin(time, table().radius)) {
         Some(spin) => draw_spin(&spin, panes.sight, ui),
         None => draw_sight(scene.map(|scene| scene.shot.meeting()), panes.sight, ui),
@@ -87,22 +88,17 @@ fn status_line(scene: &FilmScene, listed: &Listed, time: f64, unit: LengthUnit) 
 }
 
 /// Draws what the stroke gave the cue ball, by the fit.
-fn draw_stroke(scene: Option<&FilmScene>, area: Rect, ui: &mut Ui) {
+fn draw_stroke(scene: Option<&FilmScene>, unit: TipUnit, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The fitted stroke", area, ui);
     let Some(scene) = scene else { return };
-    let tip = |radii: f64, [more, less]: [&str; 2]| {
-        let word = if radii > 0.0 { more } else { less };
-        format!("{} mm {word}", fixed(1e3 * table().radius * radii.abs(), 1))
+    let [side, height] = match &scene.stroke {
+        Some(cue) => tip_rows(cue, unit, table().radius),
+        None => [("cue", "not level".to_owned()), ("", String::new())],
     };
-    let tips = match scene.stroke {
-        Some(cue) => [tip(cue.a, ["left", "right"]), tip(cue.b, ["up", "down"])],
-        None => ["by no level cue", ""].map(str::to_owned),
-    };
-    let [side, height] = tips;
     let rows = [
         ("ball", format!("{} m/s", fixed(scene.shot.impulse.velocity.length(), 2))),
-        ("side", side),
-        ("height", height),
+        side,
+        height,
         ("fitted", format!("2 s, {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),
     ];
     for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {

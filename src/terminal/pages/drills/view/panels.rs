@@ -7,7 +7,10 @@ use ratatui::{
 };
 
 use crate::{
-    coach::words::LengthUnit,
+    coach::{
+        Units,
+        words::{LengthUnit, TipUnit},
+    },
     drills::changes,
     physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
     table::CueBall,
@@ -15,7 +18,7 @@ use crate::{
         Capabilities, DrillAction, Taught,
         keymap::{chord_of, keys_text},
         pages::drills::{Lesson, Meets, Sight, Turn, Watched, keys::EXERCISE, view::percent},
-        ui::{Ui, draw_title, wrap, write_paragraphs},
+        ui::{Ui, draw_title, tip_rows, wrap, write_paragraphs},
         words::{fixed, rail_name},
     },
 };
@@ -24,13 +27,14 @@ use crate::{
 const FULL: f64 = 0.995;
 
 /// Draws the numbers of the stroke that is set, or was meant.
-pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
+pub fn draw_stroke(turn: &Turn, unit: TipUnit, area: Rect, ui: &mut Ui) {
     let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
     // In a match one plays both sides.
     let title =
         if turn.session.is_match() { format!("The stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
     let inner = draw_title(title, area, ui);
-    for ((name, value), row) in numbers(&cue, turn.table.radius, ui.caps).into_iter().zip(inner.y..inner.bottom()) {
+    let numbers = numbers(&cue, unit, turn.table.radius, ui.caps);
+    for ((name, value), row) in numbers.into_iter().zip(inner.y..inner.bottom()) {
         let line = Line::from(vec![
             Span::styled(format!("{name:<7}"), ui.theme.faint()),
             Span::styled(value, ui.theme.text()),
@@ -39,20 +43,14 @@ pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// The numbers of a stroke with a ball of this radius, m, and what they are called.
-fn numbers(cue: &CueInputs, radius: f64, caps: Capabilities) -> [(&'static str, String); 5] {
+/// The numbers of a stroke with a ball of this radius, m, and what they are called; the tip's place in `unit`.
+fn numbers(cue: &CueInputs, unit: TipUnit, radius: f64, caps: Capabilities) -> [(&'static str, String); 5] {
     let degree = caps.pick("°", " deg");
-    let millimetres = |radii: f64, [more, less]: [&str; 2]| {
-        let offset = 1000.0 * radius * radii;
-        match fixed(offset.abs(), 1).as_str() {
-            "0.0" => "middle".to_owned(),
-            size => format!("{size} mm {}", if offset > 0.0 { more } else { less }),
-        }
-    };
+    let [side, height] = tip_rows(cue, unit, radius);
     [
         ("aim", cue.phi_text(2) + degree),
-        ("side", millimetres(cue.a, ["left", "right"])),
-        ("height", millimetres(cue.b, ["up", "down"])),
+        side,
+        height,
         ("speed", format!("{} m/s", fixed(cue.speed, 2))),
         (
             "cue",
@@ -65,15 +63,16 @@ fn numbers(cue: &CueInputs, radius: f64, caps: Capabilities) -> [(&'static str, 
 }
 
 /// Draws where the stroke is aimed and what is to be learnt; once it was played, how it compares.
-pub fn draw_aim(turn: &Turn, unit: LengthUnit, area: Rect, ui: &mut Ui) {
+pub fn draw_aim(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
     let settled = turn.watched().filter(|watched| watched.is_settled);
     let title = settled.map_or("Aim".to_owned(), |watched| chances(turn, watched, ui.caps));
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
-        paragraphs.extend(differences(turn, watched, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
+        paragraphs
+            .extend(differences(turn, watched, units.tip, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
     } else {
         if let Some(sight) = turn.sight() {
-            paragraphs.push((sight_words(&sight, turn.cue_ball, unit), ui.theme.accent()));
+            paragraphs.push((sight_words(&sight, turn.cue_ball, units.length), ui.theme.accent()));
             match turn.least_elevation() {
                 Ok(LeastElevation { theta, over: Some(over) }) => {
                     paragraphs.push((least_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
@@ -87,7 +86,7 @@ pub fn draw_aim(turn: &Turn, unit: LengthUnit, area: Rect, ui: &mut Ui) {
         // In a game the balls have gone elsewhere, and what was to be learnt with them.
         let is_elsewhere = turn.session.is_game() && turn.layout != turn.exercise.layout;
         match turn.hint() {
-            Some(taught) => paragraphs.push((hint(turn, taught, ui.caps), ui.theme.text())),
+            Some(taught) => paragraphs.push((hint(turn, taught, units.tip, ui.caps), ui.theme.text())),
             _ if is_elsewhere || turn.exercise.point.is_empty() => {}
             _ => paragraphs.push((turn.exercise.point.clone(), ui.theme.text())),
         }
@@ -153,8 +152,8 @@ pub const fn teacher(taught: &Taught) -> &'static str {
 }
 
 /// What a player has to change to get from one stroke to another, or `none` where the difference cannot be seen.
-fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, caps: Capabilities) -> String {
-    let words = changes(&turn.table, from, to).join(", ");
+fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, unit: TipUnit, caps: Capabilities) -> String {
+    let words = changes(&turn.table, from, to, unit).join(", ");
     match words.as_str() {
         "" => none.to_owned(),
         _ if caps.unicode => words,
@@ -163,10 +162,10 @@ fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, caps: Capabilities
 }
 
 /// How often the advised stroke is made, and how to set it.
-fn hint(turn: &Turn, taught: &Taught, caps: Capabilities) -> String {
+fn hint(turn: &Turn, taught: &Taught, unit: TipUnit, caps: Capabilities) -> String {
     let advice = &taught.advice;
-    let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", caps);
-    let numbers = numbers(&advice.cue, turn.table.radius, caps).map(|(name, value)| format!("{name} {value}"));
+    let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", unit, caps);
+    let numbers = numbers(&advice.cue, unit, turn.table.radius, caps).map(|(name, value)| format!("{name} {value}"));
     format!("{} makes {}: {}. Yours: {changes}", teacher(taught), percent(advice.chance.rate), numbers.join(", "))
 }
 
@@ -182,16 +181,16 @@ fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
 }
 
 /// What would make the stroke the advised one, and what the player's errors have added to it.
-fn differences(turn: &Turn, watched: &Watched, caps: Capabilities) -> [String; 2] {
+fn differences(turn: &Turn, watched: &Watched, unit: TipUnit, caps: Capabilities) -> [String; 2] {
     let lesson = match &turn.lesson {
         Lesson::Known(taught) => {
-            let changes = told(turn, [&watched.meant, &taught.advice.cue], "no change worth telling", caps);
+            let changes = told(turn, [&watched.meant, &taught.advice.cue], "no change worth telling", unit, caps);
             format!("{}: {changes}", teacher(taught))
         }
         Lesson::Pending => "the coach is still thinking".to_owned(),
         Lesson::Missing => "the coach has found no shot".to_owned(),
     };
-    let added = told(turn, [&watched.meant, &watched.outcome.played.stroke], "nothing worth telling", caps);
+    let added = told(turn, [&watched.meant, &watched.outcome.played.stroke], "nothing worth telling", unit, caps);
     [lesson, format!("your hand: {added}")]
 }
 

@@ -163,7 +163,7 @@ fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
             "No agent has been trained here yet.",
             "",
             "Press n to start a run: an agent plays shot after shot and learns from them,",
-            "and you see how. It goes on without this screen; come back whenever you like.",
+            "and you see how. It goes on without this screen: come back when you like.",
         ],
     };
     for (line, y) in lines.iter().zip(area.y + 2..area.bottom()) {
