@@ -183,7 +183,8 @@ ball pressed against one cushion by integrating its equations; other resting con
 course, as far as contacts push: to a thousandth or, where the course obeys the laws at the ends of a piece but less well between them, to \
 the share of the accelerations that no forces explain, a hundredth at most. A ball at the edge of sliding, whose slip is below 2e-5 √(g R), \
 may resist rolling in part if that explains its course and the cloth holds it as well as it can. A chatter that becomes a resting contact takes the energy of its bounces only if the contact lasts as \
-long as they would. Balls that never slip lose their slip where they begin to rest against each other, as in an impact. \
+long as they would. Balls that never slip lose their slip where they begin to rest against each other, as in an impact. Impacts slower than 1e-3 √(g R) may \
+lose nothing along their normal: those of shots that have taken so much work that nothing is let rest any more. \
 What counts as explained besides: rounding (32 ε of the energy, and frictions times the rounding of time), what parts balls that never \
 slip and that no forces hold together (8e-10 √(g R)), \
 speeds below 1e-7 m/s that are stopped (1e-14 m²/s² a ball, and what the impulses in closed contacts that stop them rub), and in resting \
