@@ -28,22 +28,25 @@ const MOST_RESTING_WORK: u32 = 20_000;
 
 /// Work after which a shot is brought to its end. This is a guard, not physics: what takes part in another contact stands still from
 /// then on. The stability table counts the shots that come to it.
-const MOST_WORK: u32 = 90_000;
+const MOST_WORK: u32 = 105_000;
 
 /// Turns of the general loop after which a shot ends where it is: ends of motions, impacts, and bounces and steps of resting contacts that
 /// are not told as events. This is a guard, not physics, for what repeats in the air without end; a shot takes some ten turns, and one
 /// with a chatter some hundred.
-const MOST_TURNS: u32 = 200_000;
+const MOST_TURNS: u32 = 50_000;
+
+/// The same once nothing rests any more: a micro-collision takes some of them.
+const MOST_TURNS_BOUNCING: u32 = 250_000;
 
 /// Work after which micro-collisions get more room, so many times as much each time: where friction takes the speed that they gain, there
 /// are too many of them. That moves balls by more than a billionth of a metre, which the stability table counts.
-const MORE_ROOM_AT: u32 = 50_000;
+const MORE_ROOM_AT: u32 = 65_000;
 const MORE_ROOM_EVERY: u32 = 10_000;
 const MORE_ROOM: f64 = 10.0;
 
 /// Bounces that take as long as a step of one resting contact, and as an impact in the air.
 const STEP_WORK: u32 = 6;
-pub(super) const IMPACT_IN_THE_AIR: u32 = 3;
+pub(super) const IMPACT_IN_THE_AIR: u32 = 4;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -220,10 +223,12 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             flow = self.play_alone(0, &mut now);
         }
         let mut turns = 0;
-        while flow.is_continue() && turns < MOST_TURNS {
+        let mut most_turns = MOST_TURNS;
+        while flow.is_continue() && turns < most_turns {
             turns += 1;
             if self.work > MOST_RESTING_WORK && self.micro_collisions.is_none() {
                 flow = self.begin_micro_collisions(now);
+                most_turns = MOST_TURNS_BOUNCING;
                 if flow.is_break() {
                     break;
                 }
