@@ -24,7 +24,7 @@ pub(super) const MOMENT: f64 = 1e-15;
 
 /// Work after which nothing rests any more, in the simplest bounces of chatters, of which a step of a resting contact takes as long as
 /// [`STEP_WORK`]: see [`super::micro_collisions`]. Of 10⁶ random shots on "thesis" a few take so much.
-const MOST_RESTING_WORK: u32 = 14_000;
+const MOST_RESTING_WORK: u32 = 20_000;
 
 /// Work after which a shot is brought to its end. This is a guard, not physics: what takes part in another contact stands still from
 /// then on. The stability table counts the shots that come to it.

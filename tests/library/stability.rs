@@ -100,8 +100,13 @@ fn every_row_of_the_table_is_a_test() {
     assert_eq!(cases().iter().map(|case| case.name).collect::<Vec<_>>(), NAMES);
 }
 
-/// Rows with a few shots that fail at the document's counts.
-const KNOWN: [&str; 1] = ["balls that touch or almost touch, the cue raised by up to 60°"];
+/// Rows with a shot that fails at the document's counts, each by some milliseconds of the machine that made it.
+const KNOWN: [&str; 4] = [
+    "three balls in line, touching or 1e-16 to 1e-6 m apart",
+    "friction of 10 and 1000 on the cloth, 0.99 in contacts",
+    "no restitution, e = 0",
+    "the smallest table, six ball radii wide",
+];
 
 /// What is excused is what the document says, row by row.
 #[test]
