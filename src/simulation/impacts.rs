@@ -164,9 +164,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for (ball, changed) in changed.iter_mut().enumerate() {
             *changed = contacts.hold(ball);
         }
+        // Through that of a micro-collision the ball falls before the next; one that is jammed gets room behind the cushion.
         let room = match self.micro_collisions {
             Some(_) => c.tolerance.micro_room,
-            None if self.rounds > JAMMED_ROUNDS => ROOM_FOR_JAMMED * c.tolerance.touching,
+            None if self.rounds > JAMMED_ROUNDS => -ROOM_FOR_JAMMED * c.tolerance.touching,
             None => 0.0,
         };
         for contact in contacts.iter() {
@@ -174,7 +175,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let n = contact.cushion_normal;
             let ball = &mut states[contact.first];
             if contact.second.is_none() {
-                ball.position += (-n.abs().dot(c.reach) - room - ball.position.dot(n)) * n;
+                ball.position += (room - n.abs().dot(c.reach) - ball.position.dot(n)) * n;
             }
         }
         let closing = contacts.iter().fold(0.0_f64, |most, contact| most.max(-contact.opening_speed(&states)));
