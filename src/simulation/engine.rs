@@ -38,12 +38,6 @@ const MOST_TURNS: u32 = 50_000;
 /// The same once nothing rests any more: a micro-collision takes some of them.
 const MOST_TURNS_BOUNCING: u32 = 250_000;
 
-/// Work after which micro-collisions get more room, so many times as much each time: where friction takes the speed that they gain, there
-/// are too many of them. That moves balls by more than a billionth of a metre, which the stability table counts.
-const MORE_ROOM_AT: u32 = 65_000;
-const MORE_ROOM_EVERY: u32 = 10_000;
-const MORE_ROOM: f64 = 10.0;
-
 /// Bounces that take as long as a step of one resting contact, and as an impact in the air.
 const STEP_WORK: u32 = 6;
 pub(super) const IMPACT_IN_THE_AIR: u32 = 4;
@@ -163,8 +157,6 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) work_in_air: u32,
     /// The laws of slow impacts once nothing rests any more.
     pub(super) micro_collisions: Option<Box<ImpactLaw>>,
-    /// Work after which they get more room.
-    more_room_at: u32,
     /// The slow bounces, once there is one.
     pub(super) chatters: Option<Box<Chatters>>,
     savings: PhantomData<S>,
@@ -193,7 +185,6 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             work: 0,
             work_in_air: 0,
             micro_collisions: None,
-            more_room_at: MORE_ROOM_AT,
             chatters: None,
             savings: PhantomData,
         }
@@ -338,12 +329,8 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     }
 
     /// Takes note of a bounce of a chatter on the cloth.
-    pub(super) fn chatter_bounce(&mut self) {
+    pub(super) const fn chatter_bounce(&mut self) {
         self.work += self.bounce_work;
-        if self.micro_collisions.is_some() && self.work > self.more_room_at {
-            self.more_room_at += MORE_ROOM_EVERY;
-            self.constants.tolerance.micro_room *= MORE_ROOM;
-        }
     }
 
     /// Takes note of a step of resting contacts, by what the last one was like.
