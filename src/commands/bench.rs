@@ -13,7 +13,7 @@ use crate::{
 
 /// Measure the speed of this machine.
 ///
-/// Measured are shots, recommendations and network updates a second. It takes about ten seconds.
+/// Measured are shots, recommendations and network updates a second. It takes about twenty seconds.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Seconds for each figure.

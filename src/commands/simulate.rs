@@ -13,11 +13,11 @@ use super::{
 use crate::{
     coach::{Verdict, jump_words},
     game::Rule,
-    physics::{CueInputs, Impulse, LeastElevation, NoRoom, has_room, least_elevation},
+    physics::{CueInputs, Impulse, LeastElevation, NoRoom, SpatialState, has_room, least_elevation},
     printing,
     simulation::{Event, Rail, Recording},
     study::{Stepped, Steps},
-    table::{BALL_NAMES, CueBall, Layout, Table},
+    table::{BALL_NAMES, BALLS, CueBall, Layout, Table},
 };
 
 /// The time step that is taken where none is given, s: some hundred pictures a second.
@@ -40,6 +40,9 @@ pub struct Args {
     /// List also where balls begin to roll, stop, and rest against something; --json always does.
     #[arg(long)]
     rolls: bool,
+    /// Tell where the balls are and how they move so long after the stroke, s: "0.5,1,2".
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = moment)]
+    at: Vec<f64>,
     /// JSON Lines of shots with `preset`, `layout` and `cue`, or `impulse` (velocity, spin of the cue ball) in its place; "-" reads the standard input.
     #[arg(long, value_name = "FILE", conflicts_with = "shot")]
     batch: Option<String>,
@@ -52,6 +55,12 @@ pub struct Args {
     /// With --method steps, locate within the step what is seen at its end.
     #[arg(long)]
     locate: bool,
+}
+
+/// Reads one of the moments of `--at`, s.
+fn moment(text: &str) -> Result<f64, String> {
+    let seconds = text.trim().parse().ok().filter(|seconds: &f64| seconds.is_finite() && *seconds >= 0.0);
+    seconds.ok_or_else(|| "accepted are seconds after the stroke, 0 or more, like \"0.5,1,2\"".to_owned())
 }
 
 /// How time goes on.
@@ -78,7 +87,7 @@ impl Keys for BatchLine {
 }
 
 /// A motion of the cue ball in the place of a stroke, as a film shows it.
-#[derive(Deserialize)]
+#[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct GivenImpulse {
     /// Along x, y and, if a third is given, upwards, m/s.
@@ -88,6 +97,12 @@ struct GivenImpulse {
 }
 
 impl GivenImpulse {
+    fn of(Impulse { velocity, spin, lift }: &Impulse) -> Self {
+        let mut along = velocity.to_array().to_vec();
+        along.extend((*lift > 0.0).then_some(*lift));
+        Self { velocity: along, spin: spin.to_array() }
+    }
+
     fn impulse(&self, table: &Table) -> Result<Impulse, Failure> {
         let spin = DVec3::from_array(self.spin);
         match self.velocity[..] {
@@ -107,21 +122,23 @@ impl GivenImpulse {
 }
 
 impl BatchLine {
-    fn answer(&self, table: &Table, rule: Rule, steps: Option<Steps>) -> Result<SimulateAnswer, Failure> {
-        let outcome = |(recording, _): &Played| Verdict::of(self.rule.unwrap_or(rule), table, &self.layout, recording);
+    fn answer(&self, table: &Table, args: &Args, steps: Option<Steps>) -> Result<SimulateAnswer, Failure> {
+        let outcome =
+            |(recording, _): &Played| Verdict::of(self.rule.unwrap_or(args.rule), table, &self.layout, recording);
         match (&self.cue, &self.impulse) {
             (Some(cue), None) => {
                 let played = play(table, &self.layout, cue, steps)?;
-                Ok(SimulateAnswer::of(&played, &outcome(&played), CueRoom::of(table, &self.layout, cue)))
+                Ok(SimulateAnswer::of(&played, &outcome(&played), CueRoom::of(table, &self.layout, cue), &args.at))
             }
             (None, Some(_)) if steps.is_some() => {
                 Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
             }
             (None, Some(given)) => {
                 let played = (bounded::play_impulse(table, &self.layout, &given.impulse(table)?)?, None);
-                Ok(SimulateAnswer::of(&played, &outcome(&played), None))
+                Ok(SimulateAnswer::of(&played, &outcome(&played), None, &args.at))
             }
-            _ => Err(Failure::wrong_input("a line needs either cue or impulse")),
+            (Some(_), Some(_)) => Err(Failure::wrong_input("a line has cue and impulse; accepted is one of them")),
+            (None, None) => Err(Failure::wrong_input("a line has neither cue nor impulse; it needs one of them")),
         }
     }
 }
@@ -159,6 +176,41 @@ impl PlacedEvent {
     }
 }
 
+/// The balls at a moment that was asked for: as numbers, and for people to read.
+#[derive(Serialize)]
+struct Moment {
+    t: f64,
+    balls: [Moving; BALLS],
+}
+
+/// Where a ball is, m, and how it moves, m/s and rad/s; the third coordinate is its height over the cloth.
+#[derive(Serialize)]
+struct Moving {
+    position: DVec3,
+    velocity: DVec3,
+    spin: DVec3,
+}
+
+impl Moment {
+    fn of(recording: &Recording, t: f64) -> Self {
+        let moving = |ball| {
+            let SpatialState { position, velocity, spin } = recording.spatial_state(ball, t);
+            Moving { position, velocity, spin }
+        };
+        Self { t, balls: std::array::from_fn(moving) }
+    }
+
+    fn describe(&self, out: &mut impl Write) -> io::Result<()> {
+        writeln!(out, "after {} s:", self.t)?;
+        for (name, Moving { position, velocity, spin }) in BALL_NAMES.iter().zip(&self.balls) {
+            let [place, speed, turn] =
+                [position, velocity, spin].map(|v| format!("({:.6}, {:.6}, {:.6})", v.x, v.y, v.z));
+            writeln!(out, "  {name} at {place} m, velocity {speed} m/s, spin {turn} rad/s")?;
+        }
+        Ok(())
+    }
+}
+
 /// A ball that has left the table.
 #[derive(Serialize)]
 struct BallOff {
@@ -175,7 +227,12 @@ struct SimulateAnswer {
     /// Cushions that the cue ball met before the second object ball; absent where it does not meet both.
     #[serde(skip_serializing_if = "Option::is_none")]
     cushions_before_second: Option<u32>,
+    /// What the stroke gave the cue ball.
+    impulse: GivenImpulse,
     events: Vec<PlacedEvent>,
+    /// The balls at the moments that were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    at: Vec<Moment>,
     #[serde(rename = "final")]
     end: Layout,
     /// Balls that left the table; in `final` they are on their spots.
@@ -234,12 +291,14 @@ struct StepsAnswer {
 }
 
 impl SimulateAnswer {
-    fn of((recording, stepped): &Played, verdict: &Verdict, cue_room: Option<CueRoom>) -> Self {
+    fn of((recording, stepped): &Played, verdict: &Verdict, cue_room: Option<CueRoom>, moments: &[f64]) -> Self {
         Self {
             rule: verdict.point.rule,
             point: verdict.is_made(),
             cushions_before_second: verdict.tally.met_both().then_some(verdict.tally.cushions_before_second),
             cue_room,
+            impulse: GivenImpulse::of(recording.impulse()),
+            at: moments.iter().map(|&t| Moment::of(recording, t)).collect(),
             events: recording.events().iter().map(|&event| PlacedEvent::of(recording, event)).collect(),
             end: recording.final_layout(),
             off_table: verdict
@@ -265,7 +324,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let mut tables = ByTable::new(Ok);
         return answer_lines(file, |question: BatchLine| {
             let table = tables.get(&question.preset)?;
-            question.answer(table, args.rule, steps)
+            question.answer(table, args, steps)
         });
     }
     let (table, layout) = args.position.read()?;
@@ -287,7 +346,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let verdict = Verdict::of(args.rule, &table, &layout, &played.0);
     let mut out = printing::stdout();
     if args.json {
-        printing::json_line(&mut out, &SimulateAnswer::of(&played, &verdict, cue_room))?;
+        printing::json_line(&mut out, &SimulateAnswer::of(&played, &verdict, cue_room, &args.at))?;
     } else {
         describe(&mut out, args, &played, &verdict)?;
     }
@@ -350,6 +409,9 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
     }
     for (ball, position) in BALL_NAMES.iter().zip(recording.final_layout().balls) {
         writeln!(out, "  {ball} at ({:.6}, {:.6}) m", position.x, position.y)?;
+    }
+    for &t in &args.at {
+        Moment::of(recording, t).describe(out)?;
     }
     if let Some(Stepped { steps, deepest_overlap, .. }) = stepped {
         writeln!(out, "{steps} steps, the deepest overlap {:.4} mm", 1e3 * deepest_overlap)?;

@@ -205,7 +205,7 @@ pub(super) fn place(word: &str, table: &Table) -> Option<DVec2> {
         Some(diamonds) => diamonds.parse::<f64>().ok().map(|n| n * table.diamond() - half_extent),
         None => part.parse::<f64>().ok(),
     };
-    let (x, y) = word.split_once(',')?;
+    let (x, y) = word.split_once(',').filter(|(x, y)| x.ends_with('d') == y.ends_with('d'))?;
     Some(DVec2::new(coordinate(x, 0.5 * table.length)?, coordinate(y, 0.5 * table.width)?))
 }
 
@@ -262,7 +262,7 @@ mod tests {
     #[test]
     fn broken_text_and_impossible_places_name_the_value() {
         let table = Table::default();
-        for text in ["", "0,0", "0,0 1,0 0;1", "0,0 1,0 0,0.5 0,0.6", "a,0 1,0 0,0.5"] {
+        for text in ["", "0,0", "0,0 1,0 0;1", "0,0 1,0 0,0.5 0,0.6", "a,0 1,0 0,0.5", "2d,2 6d,2d 2d,3d"] {
             assert_eq!(Layout::parse(text, &table), Err(LayoutError::Text(text.to_owned())));
         }
         let check = |text: &str| Layout::parse(text, &table).unwrap().validate(&table).unwrap_err().to_string();

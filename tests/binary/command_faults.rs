@@ -53,6 +53,22 @@ fn the_judgement_stands_in_json_beside_what_stood_there_before() {
     assert_eq!((&missed["point"], missed.get("cushions_before_second")), (&json!(false), None));
 }
 
+/// What the stroke gives the cue ball plays the same shot, and at any moment the balls' motion is told.
+#[test]
+fn the_impulse_and_the_balls_at_any_moment_are_told() {
+    let stroke = answer(&simulate("0,0.4,0,0,2", &["--json", "--at", "0,0.5,100"]));
+    let line = json!({"preset": "match", "layout": [[-0.5, 0], [0, 0], [0.5, 0.03]], "impulse": stroke["impulse"]});
+    let output = carom(&["simulate", "--batch", "-", "--at", "0.5"]).write_stdin(line.to_string()).assert().success();
+    let replayed: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    assert_eq!((&replayed["final"], &replayed["at"][0]), (&stroke["final"], &stroke["at"][1]));
+    let white = |moment: usize| &stroke["at"][moment]["balls"][0];
+    let speed = |moment: usize| white(moment)["velocity"][0].as_f64().unwrap();
+    assert_eq!(white(0)["velocity"][0], stroke["impulse"]["velocity"][0]);
+    assert!(speed(0) > speed(1) && speed(2) == 0.0, "{stroke}");
+    assert!(said(&simulate("0,0.4,0,0,2", &["--at", "0.5"])).contains("after 0.5 s:\n  white at ("));
+    assert!(refusal(&simulate("0,0.4,0,0,2", &["--at", "-1"])).contains("0 or more"));
+}
+
 #[test]
 fn a_line_of_a_batch_may_name_its_own_rule() {
     let line = |rule: &str| {

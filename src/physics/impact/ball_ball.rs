@@ -32,7 +32,7 @@ impl BallImpact {
     }
 
     /// Whether it is the same for slow and fast impacts.
-    pub const fn is_plain(&self) -> bool {
+    const fn is_plain(&self) -> bool {
         self.fade.is_none() && self.by_slip.is_none()
     }
 

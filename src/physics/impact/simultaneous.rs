@@ -48,11 +48,6 @@ impl ImpactLaw {
         Self { balls: self.balls.with_restitution(restitution), cushions: self.cushions.with_restitution(restitution) }
     }
 
-    /// Whether an impact by itself has the law that it has together with others.
-    pub fn is_plain(&self, contact: &Contact) -> bool {
-        if contact.second.is_some() { self.balls.is_plain() } else { self.cushion(contact).is_plain() }
-    }
-
     fn cushion(&self, contact: &Contact) -> &Cushion {
         self.cushions.at(Rail::with_normal(contact.cushion_normal))
     }
@@ -72,31 +67,43 @@ pub fn collide_together(
     contacts: &[Contact],
 ) -> [ImpactImpulse; MAX_CONTACTS] {
     let mut impulses = [ImpactImpulse::default(); MAX_CONTACTS];
-    let mut taking_part: Vec<usize> = (0..contacts.len()).collect();
-    loop {
-        // A contact whose law is the same in both cases stays with the others.
-        let is_alone = |&index: &usize| {
-            let shares = |&other: &usize| other != index && contacts[other].shares_a_ball(&contacts[index]);
-            taking_part.len() == 1 || !law.is_plain(&contacts[index]) && !taking_part.iter().any(shares)
-        };
-        let (alone, together): (Vec<_>, Vec<_>) = taking_part.iter().copied().partition(is_alone);
-        let joined: Vec<Contact> = together.iter().map(|&index| contacts[index]).collect();
-        let normal = normal_impulses(law, balls, &joined);
-        // What the others relieve takes no part: one that is left alone by that has a single impact's law.
-        if joined.iter().any(|contact| !law.is_plain(contact)) && normal[..joined.len()].contains(&0.0) {
-            let is_relieved =
-                |index: usize| together.iter().zip(normal).any(|(&other, push)| other == index && push == 0.0);
-            taking_part.retain(|&index| !is_relieved(index));
+    let mut left = vec![(0..contacts.len()).collect()];
+    while let Some(mut rest) = left.pop() {
+        let group = take_joined(contacts, &mut rest);
+        if !rest.is_empty() {
+            left.push(rest);
+        }
+        if let [alone] = group[..] {
+            impulses[alone] = collide_alone(radius, law, balls, &contacts[alone]);
             continue;
         }
-        for index in alone {
-            impulses[index] = collide_alone(radius, law, balls, &contacts[index]);
+        let joined: Vec<Contact> = group.iter().map(|&index| contacts[index]).collect();
+        let normal = normal_impulses(law, balls, &joined);
+        let pushing: Vec<usize> = group.iter().zip(normal).filter(|(_, push)| *push > 0.0).map(|(&i, _)| i).collect();
+        if pushing.len() < group.len() {
+            // What the others relieve takes no part: one that is left alone by that has a single impact's law.
+            left.extend((!pushing.is_empty()).then_some(pushing));
+            continue;
         }
         push_and_rub(radius, law, balls, &joined, &normal);
-        for (index, normal) in together.into_iter().zip(normal) {
+        for (index, normal) in group.into_iter().zip(normal) {
             impulses[index].normal = normal;
         }
-        return impulses;
+    }
+    impulses
+}
+
+/// Takes the first of some contacts out of `rest`, and all that share balls with it, directly or by way of others.
+fn take_joined(contacts: &[Contact], rest: &mut Vec<usize>) -> Vec<usize> {
+    let mut group: Vec<usize> = rest.drain(..rest.len().min(1)).collect();
+    loop {
+        let is_joined = |index: &usize| group.iter().any(|&other| contacts[other].shares_a_ball(&contacts[*index]));
+        let (joined, others): (Vec<_>, Vec<_>) = rest.iter().partition(|index| is_joined(index));
+        if joined.is_empty() {
+            return group;
+        }
+        group.extend(joined);
+        *rest = others;
     }
 }
 
@@ -288,6 +295,27 @@ mod tests {
         assert_eq!((together[0], together[1]), (one[0], other[0]));
         assert_eq!(balls, [pair[0], pair[1], alone[2]]);
         assert!(balls[2].velocity.x < 0.0 && balls[1].velocity.x > 1.8);
+    }
+
+    /// A ball that spins in a corner, and one that loses energy elsewhere at the same moment: its friction could gain as much.
+    #[test]
+    fn what_shares_no_ball_lends_no_energy() {
+        let law = with_friction(0.95, 0.2);
+        let mut balls = in_line(0.0);
+        balls[2].velocity = DVec2::new(1.51, -2.64);
+        balls[2].spin = glam::DVec3::new(36.5, 20.9, 0.0);
+        balls[0].velocity = DVec2::new(-40.0, -3.0);
+        let contacts = [
+            Contact::with_cushion(0, DVec2::Y),
+            Contact::with_cushion(2, DVec2::NEG_X),
+            Contact::with_cushion(2, DVec2::Y),
+        ];
+        let before = balls[2].specific_energy(RADIUS);
+        let mut corner = balls;
+        collide_together(RADIUS, &law, &mut balls, &contacts);
+        collide_together(RADIUS, &law, &mut corner, &contacts[1..]);
+        assert_eq!(balls[2], corner[2]);
+        assert!(balls[2].specific_energy(RADIUS) <= before);
     }
 
     /// A ball that a blow drives away from another one, which comes up to it slowly: only two of the three meet.

@@ -78,7 +78,7 @@ impl Cushion {
     }
 
     /// Whether it meets slow and fast balls alike, at the height of their centres.
-    pub fn is_plain(&self) -> bool {
+    fn is_plain(&self) -> bool {
         matches!(self.law, Law::Equator) && self.fade.is_none()
     }
 
