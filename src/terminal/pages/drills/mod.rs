@@ -7,7 +7,6 @@ mod actions;
 mod book;
 mod catalogue;
 pub mod film;
-mod film_keys;
 pub mod keys;
 mod page;
 mod question;
