@@ -44,8 +44,7 @@ pub use app::{
 };
 pub use capabilities::{Capabilities, Depth, Glyphs};
 pub use config::{
-    Change, Complaint, Settings, SettingsFile, SettingsReport, SettingsTask,
-    saved_session::{SavedSession, SessionParts},
+    Change, Complaint, Settings, SettingsFile, SettingsReport, SettingsTask, saved_session::SavedSession,
 };
 pub use effect::{Effect, PageId};
 pub use host::has_terminal as is_there;
