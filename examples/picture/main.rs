@@ -75,7 +75,7 @@ fn press(app: &mut App, key: KeyCode) -> Option<Effect> {
 fn ask(app: &mut App) -> Result<(), Box<dyn Error>> {
     let question = press(app, Enter);
     answer(app, question, |_| {});
-    if app.shot().is_some_and(|shot| shot.solved) { Ok(()) } else { Err("the coach finds no point here".into()) }
+    if app.coach.shot().is_some_and(|shot| shot.solved) { Ok(()) } else { Err("the coach finds no point here".into()) }
 }
 
 /// Answers a question to the coach and all that follow from it; `heard` is called after every answer.
@@ -94,7 +94,7 @@ fn answer(app: &mut App, mut question: Option<Effect>, mut heard: impl FnMut(&mu
 
 /// Plays to shortly after the cue ball has met both object balls.
 fn play_to_the_point(app: &mut App) -> Result<(), Box<dyn Error>> {
-    let shot = app.shot().ok_or("there is no shot")?;
+    let shot = app.coach.shot().ok_or("there is no shot")?;
     let first_hit = |ball| {
         let hit = EventKind::BallBall(0, ball);
         shot.recording.events().iter().position(|event| event.kind == hit).ok_or("the shot misses a ball")

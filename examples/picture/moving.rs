@@ -101,8 +101,14 @@ impl Film {
 
     /// Plays the shot to its end.
     fn play(&mut self) -> Result<(), Box<dyn Error>> {
-        let duration =
-            self.app.shot().filter(|shot| shot.solved).ok_or("the coach finds no point here")?.recording.duration();
+        let duration = self
+            .app
+            .coach
+            .shot()
+            .filter(|shot| shot.solved)
+            .ok_or("the coach finds no point here")?
+            .recording
+            .duration();
         self.caption = ("Space", "plays the shot");
         self.app.handle(&Char(' ').into());
         let watched = (WATCHED.min(duration) / STEP).round() as usize;

@@ -1,14 +1,14 @@
 //! `carom follow`: look on while another player plays.
 
 use super::{
-    Failure,
+    Failure, failure,
     output::{json_line, line, tell},
 };
 use crate::{
     platform::stop_when_told,
     printing,
     storage::{Places, Player},
-    terminal::{self, Seat, Settings, ShownTable, Sight, TerminalError, all_shown, follow_in_lines},
+    terminal::{self, Seat, Settings, ShownTable, Sight, all_shown, follow_in_lines},
 };
 
 /// Follow the table of another player of this account, live.
@@ -40,10 +40,7 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
     let (settings, _) = Settings::load(&seat.places.settings);
     let settings = seat.allowed(settings);
     if !args.plain && !args.json && terminal::is_there() {
-        return terminal::follow(player.name(), &folder, &settings, seat).map_err(|error| match error {
-            TerminalError::Io(error) => error.into(),
-            other => Failure::wrong_input(other),
-        });
+        return terminal::follow(player.name(), &folder, &settings, seat).map_err(failure);
     }
     let stop = stop_when_told(false).map_err(Failure::failed)?;
     follow_in_lines(player.name(), &folder, settings.units, args.json, &stop, &mut printing::stdout())?;

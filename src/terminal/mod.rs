@@ -44,10 +44,10 @@ pub use app::{
 };
 pub use capabilities::{Capabilities, Depth, Glyphs};
 pub use config::{
-    Change, Complaint, Settings, SettingsFile, SettingsReport, SettingsTask,
-    saved_session::{SavedSession, SessionParts},
+    Change, Complaint, Settings, SettingsFile, SettingsReport, SettingsTask, saved_session::SavedSession,
 };
 pub use effect::{Effect, PageId};
+pub use host::has_terminal as is_there;
 pub use keymap::remap::Keys;
 pub use pages::{
     calibration::keys::{CalibrationAction, CalibrationCondition, CalibrationContext},
@@ -105,10 +105,8 @@ pub enum TerminalError {
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.
 pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Seat) -> Result<(), TerminalError> {
+    need_terminal()?;
     let layout = Layout::opening(&table);
-    if !is_there() {
-        return Err(TerminalError::NoTerminal);
-    }
     let places = &seat.places;
     // A file that cannot be read is named by the drill screens.
     let own = Store::new(places).own_skill().unwrap_or_default();
@@ -151,9 +149,8 @@ fn seed() -> u64 {
     SystemTime::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_nanos() as u64)
 }
 
-/// Whether there is a terminal on both sides that can show pictures.
-pub fn is_there() -> bool {
-    host::has_terminal()
+fn need_terminal() -> Result<(), TerminalError> {
+    if is_there() { Ok(()) } else { Err(TerminalError::NoTerminal) }
 }
 
 /// The table of somebody else, who shows it in `folder` and is called `name`, on the screen, for the player at `seat` as they want
@@ -162,9 +159,7 @@ pub fn is_there() -> bool {
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.
 pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Result<(), TerminalError> {
-    if !is_there() {
-        return Err(TerminalError::NoTerminal);
-    }
+    need_terminal()?;
     let table = Table::default();
     let layout = Layout::opening(&table);
     let app = App::new(table, layout, detect(settings), seed())?
@@ -180,9 +175,7 @@ pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Res
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.
 pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalError> {
-    if !is_there() {
-        return Err(TerminalError::NoTerminal);
-    }
+    need_terminal()?;
     let (settings, complaints) = Settings::load(&Settings::path());
     let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?
         .with_detection(detect)

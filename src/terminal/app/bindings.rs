@@ -97,6 +97,20 @@ pub struct Bound {
     pub also: &'static str,
 }
 
+impl Bound {
+    /// What its keys do, one thing after the other: the words for it, and its keys.
+    pub fn works(&self) -> Vec<(Action, &'static str, Vec<Chord>)> {
+        let mut works: Vec<(Action, &'static str, Vec<Chord>)> = Vec::new();
+        for (chord, action, words) in &self.keys {
+            match works.iter_mut().find(|(known, ..)| known == action) {
+                Some((.., chords)) => chords.push(*chord),
+                None => works.push((*action, words, vec![*chord])),
+            }
+        }
+        works
+    }
+}
+
 /// Adds the lines of a page's table; `words` are those of one of a line's actions by itself.
 fn take<B: Copy + PartialEq, W: Copy>(
     all: &mut Vec<Bound>,
@@ -192,29 +206,22 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
     all
 }
 
+/// All keys at `place` but those of the help while it is open, for lists of keys.
+pub fn listed(place: KeyContext) -> impl Iterator<Item = Bound> {
+    bindings(place).into_iter().filter(|binding| binding.when != Condition::Help)
+}
+
 /// What keys do on each page, for lists of keys.
 pub fn key_pages() -> Vec<KeyPage> {
     KeyContext::PAGES.iter().map(|(place, name)| KeyPage { name, entries: entries(*place) }).collect()
 }
 
 fn entries(place: KeyContext) -> Vec<KeyEntry> {
-    let mut entries: Vec<KeyEntry> = Vec::new();
-    for binding in bindings(place).iter().filter(|binding| binding.when != Condition::Help) {
-        let from = entries.len();
-        for (chord, _, words) in &binding.keys {
-            match entries[from..].iter_mut().find(|entry| entry.words == *words) {
-                Some(entry) => entry.chords.push(*chord),
-                None => entries.push(KeyEntry {
-                    chords: vec![*chord],
-                    words,
-                    group: binding.description,
-                    hint: binding.hint.map_or("", |(word, _)| word),
-                    section: binding.section,
-                }),
-            }
-        }
-    }
-    entries
+    let entries = |binding: Bound| {
+        let (group, hint, section) = (binding.description, binding.hint.map_or("", |(word, _)| word), binding.section);
+        binding.works().into_iter().map(move |(_, words, chords)| KeyEntry { chords, words, group, hint, section })
+    };
+    listed(place).flat_map(entries).collect()
 }
 
 /// The key that opens `screen` from everywhere.
@@ -254,13 +261,28 @@ mod tests {
     };
 
     fn places() -> impl Iterator<Item = KeyContext> {
-        [KeyContext::Coach, KeyContext::OwnStroke, KeyContext::Follow, KeyContext::CommandPalette]
-            .into_iter()
-            .chain(TrainingContext::ALL.map(KeyContext::Training))
-            .chain(QuestionContext::ALL.map(KeyContext::Question))
-            .chain(DrillContext::ALL.map(KeyContext::Drill))
-            .chain(SettingsContext::ALL.map(KeyContext::Settings))
-            .chain(CalibrationContext::ALL.map(KeyContext::Calibration))
+        use CalibrationContext as Calibration;
+        use DrillContext as Drill;
+        use KeyContext as K;
+        use SettingsContext as Settings;
+        let over = [
+            K::CommandPalette,
+            K::Question(QuestionContext::Title),
+            K::Question(QuestionContext::Replace),
+            K::Question(QuestionContext::Positions),
+            K::Training(TrainingContext::Question),
+            K::Training(TrainingContext::Name),
+            K::Drill(Drill::Search),
+            K::Drill(Drill::Question),
+            K::Drill(Drill::Text),
+            K::Settings(Settings::Typing),
+            K::Settings(Settings::Pressing),
+            K::Settings(Settings::Question),
+            K::Calibration(Calibration::Marks),
+            K::Calibration(Calibration::Name),
+            K::Calibration(Calibration::Question),
+        ];
+        KeyContext::PAGES.into_iter().map(|(page, _)| page).chain(over)
     }
 
     #[test]
@@ -356,11 +378,11 @@ mod tests {
     #[test]
     fn no_two_things_that_can_be_done_at_a_place_have_the_same_words() {
         for place in places() {
-            let is_own = |binding: &Bound| binding.when != Condition::Help;
-            for binding in bindings(place).into_iter().filter(is_own) {
+            for binding in listed(place) {
                 for (_, action, words) in &binding.keys {
-                    let other = bindings(place).into_iter().filter(is_own).flat_map(|binding| binding.keys);
-                    let same = other.into_iter().find(|(_, other, its)| its == words && other != action);
+                    let same = listed(place)
+                        .flat_map(|binding| binding.keys)
+                        .find(|(_, other, its)| its == words && other != action);
                     assert!(same.is_none(), "{place:?}: {words}: {action:?} and {same:?}");
                 }
             }

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use crate::terminal::{
-    Capabilities, Condition, Depth, Glyphs, KeyContext,
-    app::bindings::{Bound, bindings},
+    Capabilities, Depth, Glyphs, KeyContext,
+    app::bindings::{Bound, listed},
     keymap::keys_text,
 };
 
@@ -27,7 +27,7 @@ pub fn document() -> String {
         "# Keys\n\nWritten from the program's own tables by `cargo run --release --example picture -- docs/`. Keys of your own: F5, \
          then Tab; or `[keys]` in the file that `carom config` prints.\n",
     );
-    let pages: Vec<Vec<Bound>> = KeyContext::PAGES.iter().map(|(place, _)| own(*place)).collect();
+    let pages: Vec<Vec<Bound>> = KeyContext::PAGES.iter().map(|(place, _)| listed(*place).collect()).collect();
     let is_everywhere =
         |binding: &Bound| pages.iter().all(|page| page.iter().any(|other| other.description == binding.description));
     for ((_, name), page) in KeyContext::PAGES.iter().zip(&pages) {
@@ -37,11 +37,6 @@ pub fn document() -> String {
     write_page(&mut text, "On every page", common);
     text.push_str(TYPING);
     text
-}
-
-/// What the help lists at `place`.
-fn own(place: KeyContext) -> Vec<Bound> {
-    bindings(place).into_iter().filter(|binding| binding.when != Condition::Help).collect()
 }
 
 fn write_page<'a>(text: &mut String, name: &str, bindings: impl Iterator<Item = &'a Bound>) {

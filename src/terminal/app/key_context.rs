@@ -52,16 +52,9 @@ impl KeyContext {
         (Self::Calibration(CalibrationContext::Tests), "Calibration"),
     ];
 
-    /// Whether letters are typed there, or answers.
-    pub const fn takes_letters(self) -> bool {
-        match self {
-            Self::Coach | Self::OwnStroke | Self::Follow => false,
-            Self::Training(place) => place.takes_letters(),
-            Self::Drill(place) => place.takes_letters(),
-            Self::Settings(place) => place.takes_letters(),
-            Self::Calibration(place) => place.takes_letters(),
-            Self::Question(_) | Self::CommandPalette => true,
-        }
+    /// Whether letters are typed there, or answers: so it is wherever no page is.
+    pub fn takes_letters(self) -> bool {
+        Self::PAGES.iter().all(|(page, _)| *page != self)
     }
 
     /// Whether `pressed` is typed there, whatever work of another key it was given.

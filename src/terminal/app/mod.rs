@@ -12,7 +12,6 @@ mod news;
 pub mod palette;
 pub mod palette_keys;
 mod settings;
-mod state;
 mod tabs;
 mod view;
 
@@ -33,9 +32,10 @@ use crate::{
     storage::Places,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        Action, Capabilities, CoachAction, CommandPalette, Complaint, Effect, Glyphs, LONGEST_FOR_GUESTS, PageId,
-        Palette, SavedSession, Seat, SessionParts, Settings, SettingsPage, Subscriptions, Toasts,
+        Action, Capabilities, CoachAction, CommandPalette, Complaint, Effect, Glyphs, Keys, LONGEST_FOR_GUESTS, PageId,
+        Palette, SavedSession, Seat, Settings, SettingsPage, Subscriptions, Toasts,
         pages::{
+            Page,
             calibration::CalibrationPage,
             coach::CoachPage,
             drills::{Balls, DrillsPage},
@@ -58,12 +58,18 @@ pub enum Overlay {
 /// The whole state of the terminal program.
 #[derive(Debug)]
 pub struct App {
-    screen: PageId,
-    coach: CoachPage,
-    training: TrainingPage,
-    drills: DrillsPage,
-    settings: SettingsPage,
-    calibration: CalibrationPage,
+    /// Which screen is shown.
+    pub screen: PageId,
+    /// The coach's screen.
+    pub coach: CoachPage,
+    /// The training screen.
+    pub training: TrainingPage,
+    /// The drill screens.
+    pub drills: DrillsPage,
+    /// The settings' screen.
+    pub settings: SettingsPage,
+    /// The calibration's page.
+    pub calibration: CalibrationPage,
     /// The file of a table that is to be played on as soon as the settings' file was read.
     wanted_table: Option<PathBuf>,
     /// The settings that hold.
@@ -71,15 +77,17 @@ pub struct App {
     /// The screen before the settings.
     before: PageId,
     /// The page that lies over the screen, and its first line.
-    help: Option<(Overlay, u16)>,
+    pub help: Option<(Overlay, u16)>,
     /// The command palette while it is open.
-    command_palette: Option<CommandPalette>,
-    toasts: Toasts,
+    pub command_palette: Option<CommandPalette>,
+    /// Refusals and failures, for as long as they are shown, and those before.
+    pub toasts: Toasts,
     /// The screen, nothing before its size is known: where the mouse points, and how far the help can be scrolled.
     area: Rect,
-    /// Whether the mouse is wanted.
-    mouse: bool,
-    caps: Capabilities,
+    /// Whether the mouse is wanted; otherwise the terminal keeps it for its own selection.
+    pub mouse: bool,
+    /// What the terminal can show.
+    pub caps: Capabilities,
     /// The look with any palette that has colours.
     full_look: Capabilities,
     /// The finest characters to draw with: octants only where they were asked for.
@@ -201,7 +209,7 @@ impl App {
 
     /// The same program with the way back to where the last session ended.
     #[must_use]
-    pub fn with_last(mut self, last: Option<SavedSession>) -> Self {
+    pub fn with_last(mut self, last: Option<SavedSession<'static>>) -> Self {
         self.coach.offer(last);
         self
     }
@@ -214,7 +222,7 @@ impl App {
     }
 
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
-    pub fn last(&self) -> Option<SessionParts<'_>> {
+    pub fn last(&self) -> Option<SavedSession<'_>> {
         self.coach.last(if self.screen == PageId::Drills { self.drills.unfinished() } else { None })
     }
 
@@ -294,7 +302,7 @@ impl App {
             }
             Action::Calibration(action) => {
                 let effect = self.calibration.update(action);
-                if self.calibration.is_left() {
+                if self.calibration.is_left {
                     return self.open(PageId::Coach);
                 }
                 return match self.calibration.take_for_use() {
@@ -304,7 +312,7 @@ impl App {
             }
             Action::Settings(action) => {
                 let effect = self.settings.update(action);
-                if self.settings.is_left() {
+                if self.settings.is_left {
                     return self.open(self.before);
                 }
                 return self.set(effect);
@@ -351,5 +359,39 @@ impl App {
     /// Draws the screen.
     pub fn draw(&self, frame: &mut Frame) {
         view::draw(self, frame.area(), frame.buffer_mut());
+    }
+
+    /// The page that is open.
+    pub fn page(&self) -> &dyn Page {
+        match self.screen {
+            PageId::Coach => &self.coach,
+            PageId::Training => &self.training,
+            PageId::Drills => &self.drills,
+            PageId::Settings => &self.settings,
+            PageId::Calibration => &self.calibration,
+        }
+    }
+
+    pub(super) fn page_mut(&mut self) -> &mut dyn Page {
+        match self.screen {
+            PageId::Coach => &mut self.coach,
+            PageId::Training => &mut self.training,
+            PageId::Drills => &mut self.drills,
+            PageId::Settings => &mut self.settings,
+            PageId::Calibration => &mut self.calibration,
+        }
+    }
+
+    /// Keys of the user's own.
+    pub const fn keys(&self) -> &Keys {
+        &self.settings.settings.keys
+    }
+
+    /// The colours.
+    pub fn theme(&self) -> &Theme {
+        match self.page().cue_ball() {
+            CueBall::White => &self.theme,
+            CueBall::Yellow => &self.yellow_theme,
+        }
     }
 }

@@ -15,11 +15,6 @@ use crate::terminal::{
 const HELP_LINES: i16 = 3;
 
 impl App {
-    /// Whether the mouse is wanted; otherwise the terminal keeps it for its own selection.
-    pub const fn wants_mouse(&self) -> bool {
-        self.mouse
-    }
-
     /// The mouse was used somewhere on the screen that was drawn last.
     pub fn mouse(&mut self, event: MouseEvent) -> Option<Effect> {
         let effect = self.point(event);
@@ -83,12 +78,12 @@ impl App {
 
     /// Selects the ball that is drawn where the mouse is, and holds it.
     fn take_ball(&mut self, mapping: &Mapping, event: MouseEvent) -> Option<Effect> {
-        let time = self.playback().time;
-        let balls = self.watched().map_or(self.layout().balls, |shot| shot.recording.positions(time));
+        let time = self.coach.playback.time;
+        let balls = self.coach.watched().map_or(self.coach.layout().balls, |shot| shot.recording.positions(time));
         let ball = ball_at(balls, mapping, self.caps.glyphs, (event.column, event.row))?;
         let colour = self.coach.cue_ball().ordered([0, 1, 2])[ball];
         // A click leaves the shot. Once that has begun the ball is drawn elsewhere than where it lies then.
-        let has_moved = self.watched().is_some() && time > 0.0;
+        let has_moved = self.coach.watched().is_some() && time > 0.0;
         let select = Action::Coach(CoachAction::Select(colour));
         let effect = self.attempt(Condition::Coach(CoachCondition::Idle), select);
         if !has_moved && self.disabled_reason(Condition::Coach(CoachCondition::Placing)).is_none() {

@@ -1,13 +1,13 @@
 //! Reports from the background, and their messages: sentences on the status line, refusals and failures as toasts.
 
-use crate::terminal::{Answer, App, CalibrationReport, DrillReport, DrillTask, Effect, PageId, Report, Toasts};
+use crate::terminal::{Answer, App, CalibrationReport, DrillReport, DrillTask, Effect, PageId, Report};
 
 impl App {
     /// The coach has something to say. Late answers to cancelled questions are dropped.
     pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
-        let was_thinking = self.spinner().is_some();
+        let was_thinking = self.coach.spinner().is_some();
         let effect = self.coach.receive(answer);
-        if was_thinking && self.spinner().is_none() {
+        if was_thinking && self.coach.spinner().is_none() {
             // What was refused because the coach was thinking is not so any more.
             self.toasts.go_on();
         }
@@ -80,11 +80,6 @@ impl App {
     /// Something around the screen has failed.
     pub fn failed(&mut self, sentence: String) {
         self.toasts.push(sentence, false);
-    }
-
-    /// Refusals and failures, for as long as they are shown, and those before.
-    pub const fn toasts(&self) -> &Toasts {
-        &self.toasts
     }
 
     /// Seconds until a toast goes by itself; `None` while none is shown.

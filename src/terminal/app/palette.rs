@@ -2,7 +2,7 @@
 
 use crate::terminal::{
     Action, Capabilities, Condition, KeyContext, Keys, PaletteAction,
-    app::bindings::bindings,
+    app::bindings::{Bound, listed},
     keymap::{Chord, keys_text},
     ui::{TextField, Typed},
 };
@@ -54,37 +54,29 @@ fn has(text: &str, words: &[String]) -> bool {
 
 /// The commands at `place`, one for each thing that a binding does.
 pub fn commands(place: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Command> {
-    let mut commands: Vec<Command> = Vec::new();
-    for binding in bindings(place).iter().filter(|binding| binding.when != Condition::Help) {
-        let from = commands.len();
-        for (_, action, words) in
-            binding.keys.iter().filter(|(_, action, _)| *action != Action::CommandPalette(PaletteAction::Open))
-        {
-            if commands[from..].iter().any(|known| known.action == *action) {
-                continue;
-            }
-            let chords: Vec<Chord> =
-                binding.keys.iter().filter(|(_, other, _)| other == action).map(|(chord, ..)| *chord).collect();
-            commands.push(Command {
-                keys: keys_text(chords.iter().flat_map(|chord| keys.for_work_of(*chord)), caps),
-                chords,
-                description: words,
-                group: binding.description,
-                hint: binding.hint.map_or("", |(word, _)| word),
-                title: binding.section.title(),
-                also: binding.also,
-                action: *action,
-                when: binding.when,
-            });
-        }
-    }
-    commands
+    let commands = |binding: Bound| {
+        let works =
+            binding.works().into_iter().filter(|(action, ..)| *action != Action::CommandPalette(PaletteAction::Open));
+        works.map(move |(action, description, chords)| Command {
+            keys: keys_text(chords.iter().flat_map(|chord| keys.for_work_of(*chord)), caps),
+            chords,
+            description,
+            group: binding.description,
+            hint: binding.hint.map_or("", |(word, _)| word),
+            title: binding.section.title(),
+            also: binding.also,
+            action,
+            when: binding.when,
+        })
+    };
+    listed(place).flat_map(commands).collect()
 }
 
 /// The palette while it is open: what is typed, and the mark among what is found.
 #[derive(Clone, Debug)]
 pub struct CommandPalette {
-    words: TextField,
+    /// What is typed.
+    pub words: TextField,
     mark: usize,
 }
 
@@ -95,11 +87,6 @@ impl Default for CommandPalette {
 }
 
 impl CommandPalette {
-    /// What is typed.
-    pub const fn words(&self) -> &TextField {
-        &self.words
-    }
-
     /// The commands that have all typed words, in their order. What a binding's keys do together finds them all, unless the
     /// words are those of some of them alone.
     pub fn found(&self, mut commands: Vec<Command>) -> Vec<Command> {
@@ -191,6 +178,6 @@ mod tests {
         command_palette.input(Typed::Key(&KeyCode::Left.into()));
         assert_eq!(command_palette.mark(3), 1, "moving the cursor finds nothing else");
         command_palette.input(Typed::Paste("x\n"));
-        assert_eq!((command_palette.mark(3), command_palette.words().text()), (0, "x"));
+        assert_eq!((command_palette.mark(3), command_palette.words.text()), (0, "x"));
     }
 }

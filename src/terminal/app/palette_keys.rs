@@ -6,7 +6,7 @@ use super::bindings::{Action, Condition};
 use crate::terminal::keymap::{
     Binding, Chord,
     Section::{self, Program},
-    ctrl, letter, mark,
+    bind, ctrl, letter, mark,
 };
 
 use PaletteAction as A;
@@ -24,20 +24,14 @@ pub enum PaletteAction {
     Line(isize),
 }
 
-const fn bind(
-    keys: &'static [(Chord, Action)],
-    hint: Option<(&'static str, usize)>,
-    description: &'static str,
-) -> Binding<Action, Condition> {
-    crate::terminal::keymap::bind(Program, Condition::Always, keys, hint, description)
-}
-
 const fn key(code: crossterm::event::KeyCode, action: A) -> (Chord, Action) {
     (Chord::plain(code), Action::CommandPalette(action))
 }
 
 /// What opens it, wherever letters are not typed.
 pub const OPEN: Binding<Action, Condition> = bind(
+    Program,
+    Condition::Always,
     &[letter(':', Action::CommandPalette(A::Open)), ctrl('p', Action::CommandPalette(A::Open))],
     Some(("commands", 1)),
     "find what can be done here by its words, and do it",
@@ -46,10 +40,10 @@ pub const OPEN: Binding<Action, Condition> = bind(
 /// The keys while it is open.
 #[rustfmt::skip]
 pub const PALETTE: &[Binding<Action, Condition>] = &[
-    bind(&[key(Enter, A::Choose)], Some(("do it", 1)), "do what is marked"),
-    bind(&[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))],
+    bind(Program, Condition::Always, &[key(Enter, A::Choose)], Some(("do it", 1)), "do what is marked"),
+    bind(Program, Condition::Always, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))],
         Some(("choose", 2)), "mark another command"),
-    bind(&[key(Esc, A::Close)], Some(("close", 1)), "close the list"),
+    bind(Program, Condition::Always, &[key(Esc, A::Close)], Some(("close", 1)), "close the list"),
 ];
 
 /// The words of `action` by itself, where its binding does several things.

@@ -1,6 +1,6 @@
 //! The table of settings: reading the file, its documentation and what is said of a wrong value all come from here.
 
-use std::path::Path;
+use std::{path::Path, str::FromStr};
 
 use toml::de::{DeFloat, DeInteger, DeValue};
 
@@ -66,10 +66,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"dark\", \"light\", \"high-contrast\", \"colour-blind\", \"mono\"",
         choices: || Palette::ALL.map(|palette| quoted(palette.name())).to_vec(),
         get: |settings| quoted(settings.palette.name()),
-        set: |settings, value| {
-            settings.palette = value.as_str()?.parse().ok()?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.palette, parsed(value)),
     },
     Entry {
         group: "Looks",
@@ -78,10 +75,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"auto\", \"true\", \"256\", \"16\", \"none\"",
         choices: || DEPTHS.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&DEPTHS, &settings.depth)),
-        set: |settings, value| {
-            settings.depth = named(&DEPTHS, value.as_str()?)?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.depth, named(&DEPTHS, value)),
     },
     Entry {
         group: "Looks",
@@ -90,10 +84,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"auto\", \"octant\", \"sextant\", \"half\", \"letters\"",
         choices: || GLYPHS.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&GLYPHS, &settings.glyphs)),
-        set: |settings, value| {
-            settings.glyphs = named(&GLYPHS, value.as_str()?)?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.glyphs, named(&GLYPHS, value)),
     },
     Entry {
         group: "Game",
@@ -102,13 +93,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"match\", \"textbook\", \"thesis\" or the path of a TOML file that is there; on the screen one of your own by its name",
         choices: || PRESETS.map(quoted).to_vec(),
         get: |settings| quoted(&*settings.table),
-        set: |settings, value| {
-            value
-                .as_str()
-                .filter(|name| PRESETS.contains(name) || is_there(Path::new(name)))?
-                .clone_into(&mut settings.table);
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.table, table(value)),
     },
     Entry {
         group: "Game",
@@ -117,10 +102,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"straight\", \"one-cushion\", \"three-cushion\"",
         choices: || Rule::ALL.map(|rule| quoted(rule.name())).to_vec(),
         get: |settings| quoted(settings.rule.name()),
-        set: |settings, value| {
-            settings.rule = value.as_str()?.parse().ok()?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.rule, parsed(value)),
     },
     Entry {
         group: "Game",
@@ -129,10 +111,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"perfect\", \"expert\", \"world-class\", \"national\", \"club\", \"beginner\" or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"; your own skill stands here by its errors",
         choices: || Skill::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(settings.skill.to_string()),
-        set: |settings, value| {
-            settings.skill = value.as_str()?.parse().ok()?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.skill, parsed(value)),
     },
     Entry {
         group: "Game",
@@ -141,10 +120,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"none\", \"full\" or its two numbers like \"table=1,placing=3\": a multiple, and mm",
         choices: || ["none", "full"].map(quoted).to_vec(),
         get: |settings| quoted(settings.doubt.to_string()),
-        set: |settings, value| {
-            settings.doubt = value.as_str()?.parse().ok()?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.doubt, parsed(value)),
     },
     Entry {
         group: "Game",
@@ -153,10 +129,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "true, false",
         choices: truths,
         get: |settings| settings.plan.to_string(),
-        set: |settings, value| {
-            settings.plan = value.as_bool()?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.plan, value.as_bool()),
     },
     Entry {
         group: "Game",
@@ -165,10 +138,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "true, false",
         choices: truths,
         get: |settings| settings.jumps.to_string(),
-        set: |settings, value| {
-            settings.jumps = value.as_bool()?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.jumps, value.as_bool()),
     },
     Entry {
         group: "Game",
@@ -178,8 +148,7 @@ pub const ENTRIES: &[Entry] = &[
         choices: || THINKING.map(|time| time.to_string()).to_vec(),
         get: |settings| settings.think_ms.to_string(),
         set: |settings, value| {
-            settings.think_ms = number(value, 10.0, 60_000.0).filter(|n| n.fract() == 0.0)? as u64;
-            Some(())
+            put(&mut settings.think_ms, number(value, 10.0, 60_000.0).filter(|n| n.fract() == 0.0).map(|n| n as u64))
         },
     },
     Entry {
@@ -189,10 +158,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "1, 5, 10, 50 or 100",
         choices: || STEPS.map(decimal).to_vec(),
         get: |settings| decimal(settings.step_mm),
-        set: |settings, value| {
-            settings.step_mm = one_of(value, &STEPS)?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.step_mm, one_of(value, &STEPS)),
     },
     Entry {
         group: "Handling",
@@ -201,10 +167,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "0.1, 0.25, 0.5, 1, 2, 4 or 8",
         choices: || SPEEDS.map(decimal).to_vec(),
         get: |settings| decimal(settings.speed),
-        set: |settings, value| {
-            settings.speed = one_of(value, &SPEEDS)?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.speed, one_of(value, &SPEEDS)),
     },
     Entry {
         group: "Handling",
@@ -213,10 +176,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "true, false",
         choices: truths,
         get: |settings| settings.mouse.to_string(),
-        set: |settings, value| {
-            settings.mouse = value.as_bool()?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.mouse, value.as_bool()),
     },
     Entry {
         group: "Units",
@@ -225,10 +185,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"tips\", \"mm\"",
         choices: || TipUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&TipUnit::NAMED, &settings.units.tip)),
-        set: |settings, value| {
-            settings.units.tip = named(&TipUnit::NAMED, value.as_str()?)?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.units.tip, named(&TipUnit::NAMED, value)),
     },
     Entry {
         group: "Units",
@@ -237,10 +194,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"diamonds\", \"mm\"",
         choices: || PlaceUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&PlaceUnit::NAMED, &settings.units.place)),
-        set: |settings, value| {
-            settings.units.place = named(&PlaceUnit::NAMED, value.as_str()?)?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.units.place, named(&PlaceUnit::NAMED, value)),
     },
     Entry {
         group: "Units",
@@ -249,16 +203,25 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"metres\", \"feet\"",
         choices: || LengthUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&LengthUnit::NAMED, &settings.units.length)),
-        set: |settings, value| {
-            settings.units.length = named(&LengthUnit::NAMED, value.as_str()?)?;
-            Some(())
-        },
+        set: |settings, value| put(&mut settings.units.length, named(&LengthUnit::NAMED, value)),
     },
 ];
 
-/// Whether there is a file, as far as this process may know.
-fn is_there(path: &Path) -> bool {
-    may_read(path).is_ok() && path.is_file()
+/// Puts a value that is accepted in the place of the one that is there.
+fn put<T>(place: &mut T, value: Option<T>) -> Option<()> {
+    *place = value?;
+    Some(())
+}
+
+/// Something that reads itself from its text.
+fn parsed<T: FromStr>(value: &DeValue) -> Option<T> {
+    value.as_str()?.parse().ok()
+}
+
+/// A bundled table, or the path of a file that is there, as far as this process may know.
+fn table(value: &DeValue) -> Option<String> {
+    let is_there = |path: &Path| may_read(path).is_ok() && path.is_file();
+    value.as_str().filter(|name| PRESETS.contains(name) || is_there(Path::new(name))).map(str::to_owned)
 }
 
 fn truths() -> Vec<String> {
@@ -285,7 +248,8 @@ fn one_of(value: &DeValue, accepted: &[f64]) -> Option<f64> {
     number(value, f64::MIN, f64::MAX).filter(|number| accepted.contains(number))
 }
 
-fn named<T: Copy>(names: &[(&str, T)], text: &str) -> Option<T> {
+fn named<T: Copy>(names: &[(&str, T)], value: &DeValue) -> Option<T> {
+    let text = value.as_str()?;
     names.iter().find(|(name, _)| *name == text).map(|(_, value)| *value)
 }
 

@@ -1,6 +1,6 @@
 //! Where the last session ended, so that the next one can go on from there.
 
-use std::{io, path::Path};
+use std::{borrow::Cow, io, path::Path};
 
 use serde::{Deserialize, Serialize};
 
@@ -15,12 +15,13 @@ use crate::{
 /// The version of the file that is written.
 const VERSION: u32 = 1;
 
-/// What is remembered of a session.
+/// What is remembered of a session. What is large is borrowed from the screens until it is written down: whether anything has
+/// changed since is asked at every wake.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SavedSession {
+pub struct SavedSession<'a> {
     version: u32,
     /// The table.
-    pub table: Table,
+    pub table: Cow<'a, Table>,
     /// Where the balls lay.
     pub layout: Layout,
     /// Which of them was the cue ball.
@@ -34,62 +35,37 @@ pub struct SavedSession {
     pub plan: bool,
     /// What was practised, where that was on the screen and not over.
     #[serde(default)]
-    pub practice: Option<Session>,
+    pub practice: Option<Cow<'a, Session>>,
 }
 
-/// The same, borrowed from the screens: whether anything has changed since it was written down is asked at every wake.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SessionParts<'a> {
-    /// The table.
-    pub table: &'a Table,
-    /// Where the balls lie.
-    pub layout: Layout,
-    /// Which of them is the cue ball.
-    pub cue_ball: CueBall,
-    /// What counts as a point.
-    pub rule: Rule,
-    /// Who plays.
-    pub skill: Skill,
-    /// Whether the next point counts too.
-    pub plan: bool,
-    /// What is practised.
-    pub practice: Option<&'a Session>,
-}
-
-impl SessionParts<'_> {
-    /// What is to be written down.
-    pub fn saved(&self) -> SavedSession {
-        let Self { table, layout, cue_ball, rule, skill, plan, practice } = *self;
-        let (table, practice) = (table.clone(), practice.cloned());
-        SavedSession { version: VERSION, table, layout, cue_ball, rule, skill, plan, practice }
-    }
-}
-
-impl SavedSession {
-    /// What is to be remembered of the coach's screen.
-    pub const fn new(table: Table, layout: Layout, rule: Rule, skill: Skill, plan: bool) -> Self {
-        Self { version: VERSION, table, layout, cue_ball: CueBall::White, rule, skill, plan, practice: None }
+impl<'a> SavedSession<'a> {
+    /// What is to be remembered of the screens.
+    pub fn new(
+        table: &'a Table,
+        layout: Layout,
+        cue_ball: CueBall,
+        rule: Rule,
+        skill: Skill,
+        plan: bool,
+        practice: Option<&'a Session>,
+    ) -> Self {
+        let (table, practice) = (Cow::Borrowed(table), practice.map(Cow::Borrowed));
+        Self { version: VERSION, table, layout, cue_ball, rule, skill, plan, practice }
     }
 
-    /// All of it but the version, borrowed.
-    pub const fn parts(&self) -> SessionParts<'_> {
-        let Self { version: _, table, layout, cue_ball, rule, skill, plan, practice } = self;
-        SessionParts {
-            table,
-            layout: *layout,
-            cue_ball: *cue_ball,
-            rule: *rule,
-            skill: *skill,
-            plan: *plan,
-            practice: practice.as_ref(),
-        }
+    /// The same with nothing borrowed.
+    pub fn into_owned(self) -> SavedSession<'static> {
+        let Self { version, table, layout, cue_ball, rule, skill, plan, practice } = self;
+        let practice = practice.map(|practice| Cow::Owned(practice.into_owned()));
+        let table = Cow::Owned(table.into_owned());
+        SavedSession { version, table, layout, cue_ball, rule, skill, plan, practice }
     }
 
     /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
     /// the player need not know.
     pub fn load(path: &Path) -> Option<Self> {
         let mut last: Self = serde_json::from_slice(&storage::read(path, storage::PRACTICE).ok()?).ok()?;
-        last.table = renewed(last.table);
+        last.table = Cow::Owned(renewed(last.table.into_owned()));
         (last.version == VERSION && last.layout.validate(&last.table).is_ok()).then_some(last)
     }
 
@@ -116,13 +92,17 @@ fn renewed(table: Table) -> Table {
 mod tests {
     use super::*;
 
+    fn session(table: &Table) -> SavedSession<'_> {
+        SavedSession::new(table, Layout::opening(table), CueBall::White, Rule::OneCushion, Skill::CLUB, false, None)
+    }
+
     #[test]
     fn a_session_is_read_back_and_whatever_else_stands_there_is_ignored() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("state/last.json");
         assert_eq!(SavedSession::load(&path), None);
         let table = Table::default();
-        let last = SavedSession::new(table.clone(), Layout::opening(&table), Rule::OneCushion, Skill::CLUB, false);
+        let last = session(&table);
         last.save(&path).unwrap();
         assert_eq!(SavedSession::load(&path), Some(last.clone()));
         // After some thousand attempts a session has more than a mebibyte.
@@ -137,9 +117,8 @@ mod tests {
         impossible.layout.balls[1] = impossible.layout.balls[0];
         impossible.save(&path).unwrap();
         assert_eq!(SavedSession::load(&path), None);
-        let mut endless =
-            SavedSession::new(table.clone(), Layout::opening(&table), Rule::OneCushion, Skill::CLUB, false);
-        endless.table.sliding_friction = 0.0;
+        let mut endless = session(&table);
+        endless.table.to_mut().sliding_friction = 0.0;
         endless.save(&path).unwrap();
         assert_eq!(SavedSession::load(&path), None, "no shot would end on this table");
         std::fs::write(&path, "{").unwrap();
@@ -152,10 +131,8 @@ mod tests {
         let path = folder.path().join("last.json");
         let on = |textbook: &str, name: &str| {
             let table = Table { name: name.to_owned(), ..Table::preset(textbook).unwrap() };
-            SavedSession::new(table.clone(), Layout::opening(&table), Rule::OneCushion, Skill::CLUB, false)
-                .save(&path)
-                .unwrap();
-            SavedSession::load(&path).unwrap().table
+            session(&table).save(&path).unwrap();
+            SavedSession::load(&path).unwrap().table.into_owned()
         };
         assert_eq!(on("textbook", "match"), Table::default());
         assert_eq!(on("thesis", "match").length, Table::preset("thesis").unwrap().length, "somebody's own");

@@ -14,7 +14,7 @@ use crate::{
     printing::{FULL_VERSION, OneLine},
     storage::Places,
     terminal::{
-        Answer, App, CoachNews, Effect, Job, Report, SavedSession, SessionParts,
+        Answer, App, CoachNews, Effect, Report, SavedSession,
         host::{events, guard::TerminalGuard, log, pace::Pace, showing::Showing},
         tasks::{Tasks, event::Event},
     },
@@ -41,9 +41,9 @@ enum Next {
 pub fn run(app: App, places: Places) -> io::Result<()> {
     // Without a log the program is as good.
     let _ = log::start(&places.log, std::env::var("CAROM_LOG").ok().as_deref());
-    info!(version = FULL_VERSION, caps = ?app.caps(), "the screen opens");
+    info!(version = FULL_VERSION, caps = ?app.caps, "the screen opens");
     let (to_screen, news) = events::open()?;
-    let session = TerminalGuard::start(app.wants_mouse())?;
+    let session = TerminalGuard::start(app.mouse)?;
     let tasks = Tasks::new(to_screen);
     let remembered = (None, Instant::now());
     let ticked = Instant::now();
@@ -81,7 +81,7 @@ struct Runner {
     /// When the app last ticked, or the program came back from being stopped.
     ticked: Instant,
     /// What was last remembered of the session, and when.
-    remembered: (Option<SavedSession>, Instant),
+    remembered: (Option<SavedSession<'static>>, Instant),
     /// Whether that could not be done.
     forgotten: bool,
     /// What was last written into the log.
@@ -134,7 +134,9 @@ impl Runner {
             }
             // Before the picture: a slow link may hold that up.
             self.remember(false);
-            self.show();
+            if let Err(sentence) = self.showing.write(&self.app) {
+                self.app.not_shown(sentence);
+            }
             self.write_down();
             self.draw()?;
             pace.drew(Instant::now());
@@ -144,7 +146,7 @@ impl Runner {
     /// When something is to be written down for the next session, if there is anything new.
     fn forgets(&self) -> Option<Instant> {
         let (before, when) = &self.remembered;
-        (self.app.last() != before.as_ref().map(SavedSession::parts)).then(|| *when + REMEMBERED)
+        (self.app.last() != *before).then(|| *when + REMEMBERED)
     }
 
     /// Writes down what the next session may go on from, at the end and now and then: a crash costs two seconds of it.
@@ -154,11 +156,11 @@ impl Runner {
             return;
         }
         let last = self.app.last();
-        if last == before.as_ref().map(SavedSession::parts) {
+        if last == *before {
             self.remembered.1 = Instant::now();
             return;
         }
-        let last = last.as_ref().map(SessionParts::saved);
+        let last = last.map(SavedSession::into_owned);
         if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.places.last)) {
             // Once: the next session will have nothing to go on from, and nothing more comes of saying it again.
             if !std::mem::replace(&mut self.forgotten, true) {
@@ -167,13 +169,6 @@ impl Runner {
             }
         }
         self.remembered = (last, Instant::now());
-    }
-
-    /// Shows the table to others, as far as they may see it.
-    fn show(&mut self) {
-        if let Err(sentence) = self.showing.write(&self.app) {
-            self.app.not_shown(sentence);
-        }
     }
 
     /// Writes refusals and failures down that were shown.
@@ -189,7 +184,7 @@ impl Runner {
     }
 
     fn draw(&mut self) -> io::Result<()> {
-        self.session.want_mouse(self.app.wants_mouse())?;
+        self.session.want_mouse(self.app.mouse)?;
         self.session.draw(|frame| {
             self.app.resize(frame.area().as_size());
             self.app.draw(frame);
@@ -228,7 +223,12 @@ impl Runner {
         match effect {
             Some(Effect::Quit) => return Ok(Next::Quit),
             Some(Effect::Suspend) => self.suspend()?,
-            Some(Effect::Ask(job)) => self.ask(job)?,
+            Some(Effect::Ask(job)) => {
+                let is_asked = self.tasks.ask(job)?;
+                if !is_asked {
+                    self.app.coach_lost();
+                }
+            }
             Some(Effect::Train(launch)) => self.tasks.train(*launch)?,
             Some(Effect::Send(request, folder)) => self.tasks.send(request, folder)?,
             Some(Effect::Keep(keeping)) => self.tasks.keep(*keeping)?,
@@ -240,13 +240,6 @@ impl Runner {
             None => {}
         }
         Ok(Next::GoOn)
-    }
-
-    fn ask(&mut self, job: Box<Job>) -> io::Result<()> {
-        if !self.tasks.ask(job)? {
-            self.app.coach_lost();
-        }
-        Ok(())
     }
 
     /// Gives the terminal back and stops until the shell continues the program.

@@ -34,14 +34,7 @@ pub struct Binding<A: 'static, W> {
 impl<A, W: Copy> Binding<A, W> {
     /// The same line, which the command palette finds by these `words` as well.
     pub const fn known_as(self, also: &'static str) -> Self {
-        Self {
-            keys: self.keys,
-            hint: self.hint,
-            description: self.description,
-            when: self.when,
-            section: self.section,
-            also,
-        }
+        Self { also, ..self }
     }
 }
 
@@ -113,6 +106,24 @@ pub fn works_of(pages: &[KeyPage], chord: Chord) -> Vec<(&'static str, &'static 
     }
     works
 }
+
+/// The keys that mark another line of a list; `$line` makes the number of lines an action.
+macro_rules! lines {
+    ($line:path) => {{
+        use crossterm::event::KeyCode::{Down, End, Home, PageDown, PageUp, Up};
+        &[
+            key(Down, $line(1)),
+            key(Up, $line(-1)),
+            letter('j', $line(1)),
+            letter('k', $line(-1)),
+            key(PageDown, $line(10)),
+            key(PageUp, $line(-10)),
+            key(End, $line(isize::MAX)),
+            key(Home, $line(isize::MIN)),
+        ]
+    }};
+}
+pub(in crate::terminal) use lines;
 
 /// Words for marking another line of a list of `$what`.
 macro_rules! mark {

@@ -42,49 +42,30 @@ pub enum Section {
 }
 
 impl Section {
-    /// All headings, in the help's order.
-    pub const ALL: [Self; 18] = [
-        Self::Balls,
-        Self::Shot,
-        Self::List,
-        Self::Form,
-        Self::Charts,
-        Self::Run,
-        Self::Replay,
-        Self::Library,
-        Self::Stroke,
-        Self::Score,
-        Self::Position,
-        Self::Record,
-        Self::Film,
-        Self::Settings,
-        Self::OwnKeys,
-        Self::Calibration,
-        Self::Marks,
-        Self::Program,
+    /// All headings with their words, in the order above, which is the help's.
+    pub const ALL: [(Self, &'static str); 18] = [
+        (Self::Balls, "Placing the balls"),
+        (Self::Shot, "The shot"),
+        (Self::List, "The list of runs"),
+        (Self::Form, "A new run"),
+        (Self::Charts, "The charts"),
+        (Self::Run, "The run"),
+        (Self::Replay, "The replay"),
+        (Self::Library, "The library"),
+        (Self::Stroke, "Your stroke"),
+        (Self::Score, "The score"),
+        (Self::Position, "The position"),
+        (Self::Record, "The record"),
+        (Self::Film, "Filmed shots"),
+        (Self::Settings, "The settings"),
+        (Self::OwnKeys, "The keys"),
+        (Self::Calibration, "Measuring a table"),
+        (Self::Marks, "What was marked"),
+        (Self::Program, "The program"),
     ];
 
     /// The heading.
     pub const fn title(self) -> &'static str {
-        match self {
-            Self::Balls => "Placing the balls",
-            Self::Shot => "The shot",
-            Self::List => "The list of runs",
-            Self::Form => "A new run",
-            Self::Charts => "The charts",
-            Self::Run => "The run",
-            Self::Replay => "The replay",
-            Self::Library => "The library",
-            Self::Stroke => "Your stroke",
-            Self::Score => "The score",
-            Self::Position => "The position",
-            Self::Record => "The record",
-            Self::Film => "Filmed shots",
-            Self::Settings => "The settings",
-            Self::OwnKeys => "The keys",
-            Self::Calibration => "Measuring a table",
-            Self::Marks => "What was marked",
-            Self::Program => "The program",
-        }
+        Self::ALL[self as usize].1
     }
 }

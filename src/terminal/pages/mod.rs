@@ -11,8 +11,8 @@ pub mod training;
 
 use ratatui::layout::{Position, Rect};
 
-use super::ui::{Ui, geometry::Mapping, input::Typed, message::Message};
-use crate::table::CueBall;
+use super::ui::{TextField, Typed, Ui, geometry::Mapping, message::Message};
+use crate::{coach::Skill, table::CueBall};
 
 /// What the app asks of every page. What its keys do is typed: each page has actions of its own.
 pub trait Page {
@@ -22,15 +22,19 @@ pub trait Page {
     /// What is drawn at a cell of the screen that answers to the mouse.
     fn target(&self, area: &PageArea, at: Position) -> Option<Target>;
 
-    /// What the status line says.
-    fn message(&self) -> Option<&Message>;
-
-    /// The same, to be changed.
+    /// What the status line says, to be changed.
     fn message_mut(&mut self) -> &mut Option<Message>;
 
+    /// The text that is typed, where some is.
+    fn field_mut(&mut self) -> Option<&mut TextField>;
+
     /// Takes what was typed or pasted; `false` where nothing is typed, or the key means something else.
-    fn input(&mut self, _: Typed) -> bool {
-        false
+    fn input(&mut self, typed: Typed) -> bool {
+        let taken = self.field_mut().is_some_and(|field| field.take(typed));
+        if taken {
+            *self.message_mut() = None;
+        }
+        taken
     }
 
     /// Lets `seconds` pass for whatever moves.
@@ -84,4 +88,16 @@ impl Target {
     pub fn list(line: Option<usize>, mark: usize) -> Self {
         Self::List(line.map(|line| line.cast_signed() - mark.cast_signed()))
     }
+}
+
+/// What comes after `one` in `all`; after the last, and where it is not among them, the first.
+fn after<T: Copy + PartialEq>(all: &[T], one: &T) -> T {
+    let place = all.iter().position(|other| other == one).map_or(0, |place| place + 1);
+    all[place % all.len()]
+}
+
+/// The next of the players there are, with the user's own skill, where one is kept, as the last.
+fn next_skill(now: Skill, own: Option<Skill>) -> Skill {
+    let all: Vec<Skill> = Skill::NAMED.iter().map(|(_, skill)| *skill).chain(own).collect();
+    after(&all, &now)
 }

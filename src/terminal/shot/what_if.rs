@@ -29,11 +29,14 @@ pub struct Scene<'a> {
 /// A stroke of the player's own beside the coach's.
 #[derive(Debug)]
 pub struct WhatIf {
-    coach: Arc<Shot>,
-    shot: Arc<Shot>,
+    /// The coach's shot.
+    pub coach: Arc<Shot>,
+    /// The player's own.
+    pub shot: Arc<Shot>,
     verdict: Verdict,
     has_room: bool,
-    made: Option<SuccessRate>,
+    /// How often the player makes it, once that is known.
+    pub made: Option<SuccessRate>,
     /// The number of the question how often the player makes it, as long as it is open.
     question: Option<u64>,
     cancel: Arc<AtomicBool>,
@@ -69,24 +72,9 @@ impl WhatIf {
         Ok(())
     }
 
-    /// The coach's shot.
-    pub const fn coach(&self) -> &Arc<Shot> {
-        &self.coach
-    }
-
-    /// The player's own.
-    pub const fn shot(&self) -> &Arc<Shot> {
-        &self.shot
-    }
-
     /// Whether the player's own makes the point if it is played as meant.
     pub fn is_made(&self) -> bool {
         self.verdict.is_made()
-    }
-
-    /// How often the player makes it, once that is known.
-    pub const fn made(&self) -> Option<SuccessRate> {
-        self.made
     }
 
     /// Whether that is being worked out.
@@ -156,12 +144,12 @@ mod tests {
     fn what_is_taken_over_is_the_coachs_and_a_change_leaves_that_as_it_was() {
         with(|mut what_if, scene| {
             let units = Units::default();
-            assert!(what_if.is_made() && Arc::ptr_eq(what_if.coach(), what_if.shot()));
+            assert!(what_if.is_made() && Arc::ptr_eq(&what_if.coach, &what_if.shot));
             assert_eq!(what_if.difference("coach", CueBall::White, units), "You: as the coach");
-            let coach = Arc::clone(what_if.coach());
+            let coach = Arc::clone(&what_if.coach);
             let softer = CueInputs { speed: 0.5, ..coach.cue };
             what_if.strike(&softer, scene).unwrap();
-            assert!(!what_if.is_made() && what_if.coach().cue == coach.cue && what_if.shot().cue.speed == 0.5);
+            assert!(!what_if.is_made() && what_if.coach.cue == coach.cue && what_if.shot.cue.speed == 0.5);
             assert!(what_if.outcome(CueBall::White, units).starts_with("No point: "));
             let told = what_if.difference("coach", CueBall::White, units);
             assert!(told.starts_with("You: ") && told.contains("softer by "), "{told}");
@@ -174,14 +162,14 @@ mod tests {
             let rate = |made| SuccessRate::new(made, 100);
             let first = what_if.ask(7);
             what_if.judged(6, rate(1));
-            assert!(what_if.made().is_none() && what_if.is_asked());
-            what_if.strike(&CueInputs { speed: 2.6, ..what_if.coach().cue }, scene).unwrap();
+            assert!(what_if.made.is_none() && what_if.is_asked());
+            what_if.strike(&CueInputs { speed: 2.6, ..what_if.coach.cue }, scene).unwrap();
             assert!(first.load(Ordering::Relaxed) && !what_if.is_asked());
             let second = what_if.ask(8);
             what_if.judged(7, rate(1));
-            assert_eq!(what_if.made(), None);
+            assert_eq!(what_if.made, None);
             what_if.judged(8, rate(90));
-            assert_eq!(what_if.made(), Some(rate(90)));
+            assert_eq!(what_if.made, Some(rate(90)));
             assert!(!second.load(Ordering::Relaxed));
             drop(what_if);
             assert!(second.load(Ordering::Relaxed));

@@ -3,7 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use crate::{
-    coach::{Doubt, Kind, Map, Margin, Recommendation, Risk, Scatter, Shooter, Skill, systems::Guide},
+    coach::{Doubt, Map, Margin, Recommendation, Risk, Scatter, Shooter, Skill, systems::Guide},
     game::Rule,
     learning::Policy,
     statistics::SuccessRate,
@@ -75,8 +75,6 @@ pub struct Effort {
 pub struct Proposal {
     /// The shot.
     pub shot: Arc<Shot>,
-    /// What sort of shot it is, if it makes the point.
-    pub kind: Option<Kind>,
     /// How often the player makes it, if that is known.
     pub made: Option<SuccessRate>,
     /// What would miss it by itself, if that is known.

@@ -157,7 +157,6 @@ impl CoachWorker {
             let Ok(shot) = Shot::new(&job.table, layout, better.cue, true, "search") else { return };
             tell(Proposal {
                 shot: Arc::new(shot),
-                kind: Some(better.kind),
                 made: Some(better.make_probability),
                 risk: None,
                 next: None,
@@ -212,7 +211,6 @@ fn proposals(job: &Job, layout: &Layout, found: Recommendation) -> Result<Advice
     };
     let best = Proposal {
         shot: record(found.cue, found.solved, found.source.to_string())?,
-        kind: found.kind,
         made: found.make_probability,
         risk: found.risk,
         next: found.next_probability,
@@ -221,7 +219,6 @@ fn proposals(job: &Job, layout: &Layout, found: Recommendation) -> Result<Advice
     let others = found.alternatives.iter().map(|other| {
         Ok(Proposal {
             shot: record(other.cue, true, other.source.to_string())?,
-            kind: Some(other.kind),
             made: other.make_probability,
             risk: None,
             next: other.next_probability,

@@ -172,10 +172,9 @@ pub fn is_typed(key: &KeyEvent) -> bool {
 mod tests {
     use crossterm::event::KeyCode::{self, Enter, Esc, F, Tab, Up};
     use proptest::prelude::*;
-    use ratatui::buffer::Buffer;
 
     use super::*;
-    use crate::terminal::{Capabilities, Depth, Glyphs, Keys, ui::Theme};
+    use crate::terminal::{Capabilities, Depth, Glyphs};
 
     /// `text` with a bar where the cursor is, after these keys.
     fn after(text: &str, keys: &[(KeyModifiers, KeyCode)]) -> String {
@@ -190,10 +189,8 @@ mod tests {
     /// What is seen of a field of `width` columns, and the columns that are reversed.
     fn drawn(field: &TextField, width: u16) -> (String, Vec<u16>) {
         let area = Rect::new(0, 0, width, 1);
-        let mut buffer = Buffer::empty(area);
         let caps = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
-        let (theme, keys) = (Theme::new(caps.depth), Keys::default());
-        field.draw(area, &mut Ui { theme: &theme, caps, keys: &keys, buffer: &mut buffer });
+        let buffer = crate::terminal::ui::drawn(area, caps, |ui| field.draw(area, ui));
         let text = buffer.content().iter().map(|cell| cell.symbol().to_owned()).collect::<String>();
         let is_reversed = |x: &u16| buffer[(*x, 0)].modifier.contains(Modifier::REVERSED);
         (text, (0..width).filter(is_reversed).collect())

@@ -2,11 +2,90 @@
 
 use std::ops::Range;
 
+use ratatui::layout::Rect;
+
+use super::Ui;
+
 /// The lines that are shown of a list of `count`, where there are `rows`: the marked one is in the middle, as far as the
 /// list's ends let it.
-pub fn in_view(mark: usize, count: usize, rows: usize) -> Range<usize> {
+fn in_view(mark: usize, count: usize, rows: usize) -> Range<usize> {
     let first = mark.saturating_sub(rows / 2).min(count.saturating_sub(rows));
     first..count.min(first + rows)
+}
+
+/// The lines that are shown in `area` of a list of `count`, each with its row of the screen.
+pub fn shown(mark: usize, count: usize, area: Rect) -> impl Iterator<Item = (usize, u16)> {
+    in_view(mark, count, usize::from(area.height)).zip(area.y..)
+}
+
+/// The line of such a list that is shown in the row `y` of the screen.
+pub fn line_at(mark: usize, count: usize, area: Rect, y: u16) -> Option<usize> {
+    shown(mark, count, area).find(|(_, row)| *row == y).map(|(line, _)| line)
+}
+
+/// A row of a list whose entries stand below headings.
+#[derive(Clone, Copy, Debug)]
+enum Row<T> {
+    /// What the entries below it have in common.
+    Heading(&'static str),
+    /// Something that can be marked, with its place among all entries.
+    Entry(usize, T),
+}
+
+/// A list whose entries stand below headings, with a mark among the entries.
+#[derive(Clone, Debug)]
+pub struct Grouped<T> {
+    rows: Vec<Row<T>>,
+    mark: usize,
+}
+
+impl<T> Grouped<T> {
+    /// The list of `entries`, each below the heading that `title` says.
+    pub fn new(entries: impl IntoIterator<Item = T>, mark: usize, title: impl Fn(&T) -> &'static str) -> Self {
+        let (mut rows, mut last) = (Vec::new(), None);
+        for (place, entry) in entries.into_iter().enumerate() {
+            let title = title(&entry);
+            if last.replace(title) != Some(title) {
+                rows.push(Row::Heading(title));
+            }
+            rows.push(Row::Entry(place, entry));
+        }
+        Self { rows, mark }
+    }
+
+    /// The rows that are shown in `area`, the marked entry among them, each with its row of the screen.
+    fn shown(&self, area: Rect) -> impl Iterator<Item = (&Row<T>, u16)> {
+        let marked = self.rows.iter().position(|row| matches!(row, Row::Entry(place, _) if *place == self.mark));
+        shown(marked.unwrap_or(0), self.rows.len(), area).map(|(line, y)| (&self.rows[line], y))
+    }
+
+    /// The place of the entry that is shown in the row `y` of the screen.
+    pub fn entry_at(&self, area: Rect, y: u16) -> Option<usize> {
+        match self.shown(area).find(|(_, row)| *row == y)?.0 {
+            Row::Heading(_) => None,
+            Row::Entry(place, _) => Some(*place),
+        }
+    }
+
+    /// Draws what is shown in `area`; `draw` draws an entry into its row, behind the sign of the mark, and is told whether it is
+    /// marked.
+    pub fn draw(&self, area: Rect, ui: &mut Ui, draw: impl Fn(&T, bool, Rect, &mut Ui)) {
+        for (row, y) in self.shown(area) {
+            match row {
+                Row::Heading(title) => {
+                    ui.buffer.set_stringn(area.x + 1, y, title, usize::from(area.width), ui.theme.good());
+                }
+                Row::Entry(place, entry) => {
+                    let is_marked = *place == self.mark;
+                    if is_marked {
+                        ui.buffer.set_string(area.x, y, ui.caps.pick("▸", ">"), ui.theme.accent());
+                    }
+                    let row = Rect { x: area.x + 2, y, width: area.width.saturating_sub(2), height: 1 };
+                    draw(entry, is_marked, row, ui);
+                }
+            }
+        }
+    }
 }
 
 #[cfg(test)]

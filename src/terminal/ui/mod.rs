@@ -29,7 +29,7 @@ pub use self::{
     field::{Dot, draw_field, face_in, spot_mark},
     input::{TextField, Typed, is_typed},
     message::{Message, Tone},
-    panel::{draw_nothing, draw_title, frame, write_paragraphs},
+    panel::{draw_lines, draw_nothing, draw_title, frame, pair, write_paragraphs},
     profile::{draw_profile, side_view_below},
     sight::draw_sight,
     spin::draw_spin,
@@ -53,4 +53,12 @@ pub struct Ui<'a> {
     pub keys: &'a Keys,
     /// The cells of the screen.
     pub buffer: &'a mut Buffer,
+}
+
+/// What `draw` draws into an empty `area`, in the colours and characters of `caps`.
+#[cfg(test)]
+pub fn drawn(area: ratatui::layout::Rect, caps: Capabilities, draw: impl FnOnce(&mut Ui)) -> Buffer {
+    let (theme, keys, mut buffer) = (Theme::new(caps.depth), Keys::default(), Buffer::empty(area));
+    draw(&mut Ui { theme: &theme, caps, keys: &keys, buffer: &mut buffer });
+    buffer
 }

@@ -1,10 +1,16 @@
 //! What panels have in common: a title on a rule, a frame, paragraphs, and words where there is nothing to show.
 
-use ratatui::{layout::Rect, style::Style, symbols::border, text::Line, widgets::Block};
+use ratatui::{
+    layout::Rect,
+    style::Style,
+    symbols::border,
+    text::{Line, Span},
+    widgets::Block,
+};
 
 use crate::terminal::{
     Capabilities,
-    ui::{Ui, cut, wrap},
+    ui::{Theme, Ui, cut, wrap},
 };
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
@@ -63,4 +69,16 @@ pub fn draw_nothing(lines: &[&str], inner: Rect, ui: &mut Ui) {
     for (text, row) in lines.iter().zip(inner.y + 1..inner.bottom()) {
         ui.buffer.set_stringn(inner.x + 1, row, text, usize::from(inner.width.saturating_sub(1)), ui.theme.faint());
     }
+}
+
+/// Draws lines from the top of `area`, as many as it has rows.
+pub fn draw_lines<'a>(lines: impl IntoIterator<Item = Line<'a>>, area: Rect, ui: &mut Ui) {
+    for (line, row) in lines.into_iter().zip(area.y..area.bottom()) {
+        ui.buffer.set_line(area.x, row, &line, area.width);
+    }
+}
+
+/// A name in so many columns, and what it has.
+pub fn pair(name: &str, columns: usize, value: impl Into<String>, theme: &Theme) -> Line<'static> {
+    Line::from(vec![Span::styled(format!("{name:<columns$}"), theme.faint()), Span::styled(value.into(), theme.text())])
 }

@@ -190,7 +190,10 @@ mod tests {
         physics::CueInputs,
         simulation::Recording,
         table::{Layout, Table},
-        terminal::{Capabilities, Depth, Keys, ui::Theme},
+        terminal::{
+            Capabilities, Depth,
+            ui::{Theme, drawn},
+        },
     };
 
     /// The picture of a jump over yellow, row by row.
@@ -200,10 +203,7 @@ mod tests {
         let recording = Recording::new(&table, &layout, &CueInputs::parse("0,0,45,0,5").unwrap()).unwrap();
         let profile = Profile::of(&table, &recording).unwrap();
         let area = Rect::new(0, 0, 64, 8);
-        let mut buffer = Buffer::empty(area);
-        let theme = Theme::new(caps.depth);
-        let ui = &mut Ui { theme: &theme, caps, keys: &Keys::default(), buffer: &mut buffer };
-        draw_profile(&profile, time, LengthUnit::Metres, area, ui);
+        let buffer = drawn(area, caps, |ui| draw_profile(&profile, time, LengthUnit::Metres, area, ui));
         let row = |y: u16| (0..area.width).map(|x| buffer[(x, y)].symbol()).collect::<String>();
         ((0..area.height).map(row).collect(), buffer)
     }

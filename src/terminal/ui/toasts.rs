@@ -25,7 +25,8 @@ pub struct Toast {
 /// The toasts that are shown, and the messages before them.
 #[derive(Debug, Default)]
 pub struct Toasts {
-    shown: Vec<Toast>,
+    /// The oldest first.
+    pub shown: Vec<Toast>,
     past: VecDeque<String>,
     unwritten: Vec<String>,
 }
@@ -63,11 +64,6 @@ impl Toasts {
         self.past.push_front(text.clone());
         self.past.truncate(KEPT);
         self.unwritten.push(text);
-    }
-
-    /// The oldest first.
-    pub fn shown(&self) -> &[Toast] {
-        &self.shown
     }
 
     /// All sentences since the start, the newest first.
@@ -109,7 +105,7 @@ mod tests {
     use super::*;
 
     fn texts(toasts: &Toasts) -> Vec<&str> {
-        toasts.shown().iter().map(|toast| toast.text.as_str()).collect()
+        toasts.shown.iter().map(|toast| toast.text.as_str()).collect()
     }
 
     #[test]

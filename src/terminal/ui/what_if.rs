@@ -29,7 +29,7 @@ pub struct Beside {
 pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) {
     let Beside { teacher, made, cue_ball, units } = *beside;
     let mut title = vec![Span::styled("You", ui.theme.ball(0))];
-    let own = match what_if.made() {
+    let own = match what_if.made {
         Some(rate) => format!(" {} %", percent(rate.rate)),
         None if what_if.is_asked() => ui.caps.pick(" … %", " ... %").to_owned(),
         None => String::new(),

@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 
 use super::player::{NEXT, OTHERS, Player, SHOT, advice, check, proposal};
 use carom::{
-    coach::{Skill, Way},
+    coach::Skill,
     game::Rule,
     physics::CueInputs,
     terminal::{Answer, CoachNews, CoachWorker, View},
@@ -17,12 +17,12 @@ fn every_better_shot_is_shown_while_the_coach_thinks_until_its_answer_replaces_i
     assert!(player.text(80, 24).contains("so far a shot that makes the point 61 % of the time; Esc takes it"));
     let player = player.better(OTHERS[0], 893);
     check("so_far", &player);
-    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
     assert!(player.study.is_none(), "nothing is studied as long as there may be a better shot");
     let player = player.press("Space");
-    assert!(player.text(80, 24).contains("so far") || !player.app.playback().playing);
+    assert!(player.text(80, 24).contains("so far") || !player.app.coach.playback.playing);
     let player = player.answer();
-    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
     assert!(player.study.is_some());
 }
 
@@ -36,7 +36,7 @@ fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
     assert_eq!(player.study.as_ref().unwrap().shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
     player.asked = late;
     let player = player.better(SHOT, 940).answer();
-    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
     assert_eq!(player.app.frame_interval(), None);
     // The errors that it was chosen by flatter it: no interval is told.
     let text = player.press("v").text(120, 40);
@@ -47,15 +47,15 @@ fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
 fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhile() {
     let mut player = Player::new().press("Enter");
     let job = player.asked.take().expect("the coach is asked");
-    let so_far = proposal(&job.table, &job.layout, OTHERS[0], Way::OffCushion, 893);
+    let so_far = proposal(&job.table, &job.layout, OTHERS[0], 893);
     player.app.receive(Answer { id: job.id, news: CoachNews::Better(so_far) });
-    assert!(player.app.shot().is_some());
+    assert!(player.app.coach.shot().is_some());
     let player = player.press("d p Esc");
     assert_eq!(job.query.skill, Skill::EXPERT);
-    assert_ne!(player.app.coach().query.skill, Skill::EXPERT);
-    assert!(player.app.shot().is_none(), "the best shot so far is an expert's");
+    assert_ne!(player.app.coach.query.skill, Skill::EXPERT);
+    assert!(player.app.coach.shot().is_none(), "the best shot so far is an expert's");
     let player = player.tell(job.id, CoachNews::Advice(advice(&job)));
-    assert!(player.study.is_none() && player.app.shot().is_none());
+    assert!(player.study.is_none() && player.app.coach.shot().is_none());
     player.says("the coach has answered for expert; Enter asks it for");
     // It is kept for the player whose shot it is.
     let mut player = player.press("S");
@@ -65,7 +65,7 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
         }
     }
     assert!(player.study.is_some());
-    assert_eq!(player.app.coach().query.skill, Skill::EXPERT);
+    assert_eq!(player.app.coach.query.skill, Skill::EXPERT);
     player.says("the player: expert; the shot for it is known");
 }
 
@@ -81,7 +81,7 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
         let player = Player::new().press("Enter").answer().press(keys);
         let text = player.text(80, 24);
         assert!(text.contains(words) && text.contains(header), "{keys}\n{text}");
-        assert!(player.app.shot().is_none(), "{keys}");
+        assert!(player.app.coach.shot().is_none(), "{keys}");
         let query = &player.press("Enter").asked.unwrap().query;
         assert_eq!(query.plan, keys != "P");
         assert_eq!(query.skill == Skill::PERFECT, keys.contains("S S S S S"));
@@ -92,7 +92,7 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
     let cancelled = player.study.clone().unwrap().cancel;
     assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
     let player = player.press("R R S S S S");
-    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first question again");
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first question again");
     let asked = player.press("R R Enter").asked.unwrap();
     assert_eq!(asked.query.rule, Rule::ThreeCushion);
 }
@@ -104,7 +104,7 @@ fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its
     let first = player.study.clone().unwrap();
     let player = player.press("]");
     player.shows(&["Chances · expert 89 % (87-91)", "▸2   89 % yellow, ", "shot 2 of 3: 89 % (87-91)"]);
-    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
     assert!(first.cancel.load(Ordering::Relaxed));
     let second = player.study.clone().unwrap();
     assert_eq!(second.shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
@@ -118,7 +118,11 @@ fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its
     assert!(!player.text(80, 24).contains("being worked out"));
     // Back at it, it is known already.
     let player = player.press("[ [");
-    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[1]).unwrap(), "after the first comes the last");
+    assert_eq!(
+        player.app.coach.shot().unwrap().cue,
+        CueInputs::parse(OTHERS[1]).unwrap(),
+        "after the first comes the last"
+    );
     let mut player = player.press("[");
     player.study = None;
     let player = player.press("Space Esc");
@@ -158,15 +162,15 @@ fn the_plan_and_where_it_goes_on() {
     check("plan", &player);
     let large = player.text(200, 60);
     assert!(large.contains("Plan · next point on average 97 %") && large.contains("next 100 % very hard"), "{large}");
-    assert_eq!(player.app.coach().view, View::Plan);
+    assert_eq!(player.app.coach.view, View::Plan);
     // Ends of the balls are drawn around the places where they are meant to stop.
     let yellow = Color::Rgb(0xf6, 0xc3, 0x24);
     let count = |picture: &Buffer| picture.content().iter().filter(|cell| cell.fg == yellow).count();
     assert!(count(&player.picture(120, 40)) > count(&before) + 5);
-    let end = player.app.shot().unwrap().recording.final_layout();
+    let end = player.app.coach.shot().unwrap().recording.final_layout();
     let player = player.press("n");
-    assert_eq!(*player.app.layout(), end);
-    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(NEXT).unwrap(), "the next shot is there at once");
+    assert_eq!(*player.app.coach.layout(), end);
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(NEXT).unwrap(), "the next shot is there at once");
     player.shows(&[
         "Plan · next point on average 97 %",
         "now  100 % very hard",
@@ -187,7 +191,7 @@ fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() 
     for Answer { id, news } in told {
         player = player.tell(id, news);
     }
-    let best = player.app.coach().proposal().unwrap().clone();
+    let best = player.app.coach.proposal().unwrap().clone();
     assert!(best.shot.solved && best.made.is_some_and(|made| made.rate > 0.8) && best.next.is_some());
     let job = player.study.clone().unwrap();
     let mut told = Vec::new();
@@ -198,7 +202,7 @@ fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() 
     }
     assert!(player.text(120, 40).contains("Why: shot 2 ("), "{}", player.text(120, 40));
     let player = player.press("n");
-    assert!(player.app.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
+    assert!(player.app.coach.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
     // Nobody waits any more: nothing but the end is told, at once.
     let mut told = Vec::new();
     job.cancel.store(true, Ordering::Relaxed);

@@ -46,7 +46,7 @@ fn what_each_test_is_for_is_shown_whole_at_80_columns() {
 #[test]
 fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
     let player = new();
-    assert_eq!(player.app.screen(), PageId::Calibration);
+    assert_eq!(player.app.screen, PageId::Calibration);
     player.shows(&["slow-roll", "0/2", "put: any ball in the middle of your end", "strike: straight", "time", "bits"]);
     player.says("0 of 20 strokes");
     let corner = player.press("Down Down Down Down");
@@ -224,8 +224,8 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     let file = player.path("tables/our club 2.toml");
     assert!(file.exists(), "{}", player.text(120, 40));
     let player = player.press("p");
-    assert_eq!(player.app.table().name, "our club 2");
-    assert!(player.app.table().doubt.is_some());
+    assert_eq!(player.app.coach.table().name, "our club 2");
+    assert!(player.app.coach.table().doubt.is_some());
     assert!(player.settings_text().contains("our club 2.toml"), "{}", player.settings_text());
     // Another one of the same name only where that is wanted.
     let player = player.press("s C-u").type_in("our club 2").press("Enter");

@@ -66,7 +66,7 @@ fn the_coach_thinks_and_can_be_stopped() {
     let mut player = player.press("Esc");
     assert!(late.cancel.load(Ordering::Relaxed));
     player.asked = Some(late);
-    assert!(player.answer().app.shot().is_none(), "a late answer is dropped");
+    assert!(player.answer().app.coach.shot().is_none(), "a late answer is dropped");
 }
 
 #[test]
@@ -165,9 +165,9 @@ fn the_cushions_of_the_cue_ball_are_numbered_on_the_rails() {
 #[test]
 fn contacts_are_listed_and_stepped_through_and_all_events_on_demand() {
     let player = Player::new().press("Enter").answer().press(". . .");
-    let shot = player.app.shot().unwrap();
+    let shot = player.app.coach.shot().unwrap();
     let third = shot.recording.events().iter().filter(|event| event.kind.is_contact()).nth(2).unwrap().time;
-    assert_eq!(player.app.playback().time, third);
+    assert_eq!(player.app.coach.playback.time, third);
     player.shows(&["Contacts 3/"]);
     player.is_silent_on("yellow rolls");
     player.press("E").shows(&["Events ", "/29"]);
@@ -178,7 +178,7 @@ fn a_shot_without_a_point_is_said_to_be_one() {
     let mut player = Player::new().press("Enter");
     let job = player.asked.take().unwrap();
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(SHOT).unwrap(), false, "policy").unwrap();
-    let attempt = Proposal { shot: Arc::new(shot), kind: None, made: None, risk: None, next: None, is_early: false };
+    let attempt = Proposal { shot: Arc::new(shot), made: None, risk: None, next: None, is_early: false };
     let effort = Some(Effort { simulations: 4321, elapsed: Duration::from_secs(2) });
     let player =
         player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![attempt], seed: 1, effort, found: None }));
@@ -203,33 +203,33 @@ fn the_shot_plays() {
 fn stepping_stops_at_events() {
     let player = Player::new().press("Enter").answer().press("E . . Right Left .");
     player.shows(&["Events 5/29", "white lands", "next: white rolls in 0.1 s", "● white   -639.3   14.1  2.61 slides"]);
-    let shot = player.app.shot().unwrap();
-    assert_eq!(player.app.playback().time, shot.recording.events()[4].time);
+    let shot = player.app.coach.shot().unwrap();
+    assert_eq!(player.app.coach.playback.time, shot.recording.events()[4].time);
 }
 
 #[test]
 fn the_end_of_a_shot_is_a_new_beginning() {
     let player = Player::new().press("Enter").answer().press("E End");
     player.shows(&["Events 29/29", "white stops", "Point: yellow, ", "● white    -95.9  -94.1  0.00"]);
-    let end = player.app.shot().unwrap().recording.final_layout();
+    let end = player.app.coach.shot().unwrap().recording.final_layout();
     let player = player.press("n");
-    assert_eq!(*player.app.layout(), end);
-    assert!(player.app.shot().is_none());
+    assert_eq!(*player.app.coach.layout(), end);
+    assert!(player.app.coach.shot().is_none());
     assert_eq!(player.asked.as_ref().unwrap().layout, end, "the next shot is not known yet, so the coach is asked");
     let player = player.press("Esc u");
-    assert!(player.app.shot().is_some(), "undo brings the shot back as well");
+    assert!(player.app.coach.shot().is_some(), "undo brings the shot back as well");
 }
 
 #[test]
 fn undo_and_redo_walk_through_all_changes() {
-    let start = *Player::new().app.layout();
+    let start = *Player::new().app.coach.layout();
     let moved = Player::new().press("Left 3 Up r");
-    let end = *moved.app.layout();
+    let end = *moved.app.coach.layout();
     let back = moved.press("u u u");
-    assert_eq!(*back.app.layout(), start);
+    assert_eq!(*back.app.coach.layout(), start);
     let refused = back.press("u");
     refused.warns("there is nothing to take back");
-    assert_eq!(*refused.press("U U C-r").app.layout(), end);
+    assert_eq!(*refused.press("U U C-r").app.coach.layout(), end);
 }
 
 #[test]
@@ -323,14 +323,14 @@ fn too_small_a_terminal_names_both_sizes() {
 fn keys_do_nothing_that_nobody_can_see() {
     let mut player = Player::new();
     player.app.resize(Size::new(60, 20));
-    let before = *player.app.layout();
+    let before = *player.app.coach.layout();
     let mut player = player.press("Right Enter d F5 :");
-    assert_eq!((*player.app.layout(), player.app.screen()), (before, PageId::Coach));
+    assert_eq!((*player.app.coach.layout(), player.app.screen), (before, PageId::Coach));
     assert!(player.asked.is_none());
     player.event(&key("q"));
     assert!(matches!(player.effects.pop(), Some(Effect::Quit)), "but one can leave");
     player.app.resize(Size::new(80, 24));
-    assert_ne!(*player.press("Right").app.layout(), before);
+    assert_ne!(*player.press("Right").app.coach.layout(), before);
 }
 
 proptest! {
@@ -348,7 +348,7 @@ proptest! {
                 player = player.tell(job.id, CoachNews::Next(Some(advice(&job))));
             }
         }
-        prop_assert!(player.app.layout().validate(player.app.table()).is_ok());
+        prop_assert!(player.app.coach.layout().validate(player.app.coach.table()).is_ok());
         player.picture(width, 40);
     }
 }
@@ -398,6 +398,6 @@ fn a_shot_that_is_left_does_not_play_on_unseen() {
     for leave in ["Esc", "Tab", "2"] {
         let player = Player::new().press("Enter").answer().press("Space").wait(0.5).press(leave);
         assert_eq!(player.app.frame_interval(), None, "{leave}");
-        assert!(!player.app.playback().playing);
+        assert!(!player.app.coach.playback.playing);
     }
 }

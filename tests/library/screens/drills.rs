@@ -64,7 +64,7 @@ fn attempts_that_were_noted_together_have_no_best_run() {
 #[test]
 fn every_bundled_exercise_is_listed_and_can_be_opened() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]);
-    let library = player.app.drills().catalogue.library().clone();
+    let library = player.app.drills.catalogue.library.clone();
     let mut player = player;
     for exercise in library.exercises() {
         player.says(&exercise.title.chars().take(20).collect::<String>());
@@ -149,7 +149,7 @@ fn the_hint_shows_the_shot_and_the_attempt_is_counted_as_helped() {
 
 /// The player aims as the exercise teaches it.
 fn taught(player: Player) -> Player {
-    let turn = player.app.drills().turn.as_ref().unwrap();
+    let turn = player.app.drills.turn.as_ref().unwrap();
     let degrees = turn.stroke().phi.to_degrees();
     let fine = ((-72.0 - degrees) * 5.0).round() as usize;
     let keys = vec!["Left"; fine].join(" ");
@@ -217,10 +217,10 @@ fn a_run_is_over_when_it_is_reached_and_the_next_note_begins_another() {
 
 #[test]
 fn a_game_plays_on_from_where_the_balls_stop_and_shifted_balls_lie_elsewhere() {
-    let at = |player: &Player| player.app.drills().turn.as_ref().unwrap().layout;
+    let at = |player: &Player| player.app.drills.turn.as_ref().unwrap().layout;
     let game = Player::practising(TRUE_COLOUR).press("o o Space Enter");
     let opening: Layout = exercise("opening", "").layout;
-    let end = game.app.drills().turn.as_ref().unwrap().watched().unwrap().outcome.played.end;
+    let end = game.app.drills.turn.as_ref().unwrap().watched().unwrap().outcome.played.end;
     let next = game.press("Enter");
     assert!(at(&next) == end && end != opening);
     next.says("game, 10 innings");
@@ -273,9 +273,9 @@ fn the_records() {
     let kept = one.press("w");
     kept.says("my skill");
     let skill = kept.store().own_skill().unwrap().unwrap().skill;
-    let played = kept.app.drills().player.skill;
+    let played = kept.app.drills.player.skill;
     assert_eq!(played.to_string(), skill.to_string());
-    assert_eq!(kept.press("Esc Esc Esc").app.coach().query.skill, played, "the same player everywhere");
+    assert_eq!(kept.press("Esc Esc Esc").app.coach.query.skill, played, "the same player everywhere");
 }
 
 #[test]
@@ -293,15 +293,15 @@ fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_
     let own = player.store().own_skill().unwrap().unwrap().skill;
     player.says("player: my skill");
     let back = player.press("Esc");
-    assert_eq!(back.app.coach().query.skill, Skill::EXPERT);
+    assert_eq!(back.app.coach.query.skill, Skill::EXPERT);
     let again = back.press("d");
     again.says("player: my skill");
     let cycled = again.press("Esc S S S S S");
-    assert_eq!(cycled.app.coach().query.skill, own);
+    assert_eq!(cycled.app.coach.query.skill, own);
     let perfect = cycled.press("S d");
     perfect.says("player: perfect");
     let chosen = perfect.press("p Esc");
-    assert_eq!(chosen.app.coach().query.skill, Skill::EXPERT);
+    assert_eq!(chosen.app.coach.query.skill, Skill::EXPERT);
 }
 
 #[test]
@@ -388,14 +388,14 @@ fn files_that_cannot_be_read_are_named_and_left_alone() {
 #[test]
 fn an_exercise_goes_to_the_coachs_table() {
     let player = Player::practising(TRUE_COLOUR).press("x Space Enter Enter");
-    let layout = player.app.drills().turn.as_ref().unwrap().layout;
+    let layout = player.app.drills.turn.as_ref().unwrap().layout;
     let coach = player.press("c");
-    assert_eq!((coach.app.place(), *coach.app.layout()), (KeyContext::Coach, layout));
+    assert_eq!((coach.app.place(), *coach.app.coach.layout()), (KeyContext::Coach, layout));
     // The exercise is still there.
     assert_eq!(coach.press("d").app.place(), KeyContext::Drill(DrillContext::Exercise));
     let from_list = Player::at_library(TRUE_COLOUR, &[exercise("opening", "x")], &[]).press("Left c");
-    assert_eq!(*from_list.app.layout(), exercise("opening", "x").layout);
-    assert_eq!(Player::practising(TRUE_COLOUR).press("p").app.drills().player.skill, Skill::WORLD_CLASS);
+    assert_eq!(*from_list.app.coach.layout(), exercise("opening", "x").layout);
+    assert_eq!(Player::practising(TRUE_COLOUR).press("p").app.drills.player.skill, Skill::WORLD_CLASS);
 }
 
 #[test]

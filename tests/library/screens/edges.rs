@@ -130,16 +130,16 @@ fn titles_in_hangul_keep_to_their_columns() {
 fn what_is_typed_is_mended_where_the_cursor_is() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("/").type_in("xhalf balls");
     let player = player.press("Home Delete End Backspace");
-    assert_eq!(player.app.drills().catalogue.filter.text.as_deref(), Some("half ball"));
+    assert_eq!(player.app.drills.catalogue.filter.text.as_deref(), Some("half ball"));
     let player = player.press("C-w C-w");
-    assert_eq!(player.app.drills().catalogue.filter.text, None);
+    assert_eq!(player.app.drills.catalogue.filter.text, None);
     let player = Player::new().press(": n d o Home u C-Right");
-    assert_eq!(player.app.command_palette().unwrap().words().text(), "undo");
+    assert_eq!(player.app.command_palette.as_ref().unwrap().words.text(), "undo");
     let picture = picture(&player.app, (80, 24));
     let reversed = (0..40).filter(|x| picture[(*x, 2)].modifier.contains(Modifier::REVERSED));
     assert_eq!(reversed.collect::<Vec<_>>(), [11], "the cursor is seen behind the words");
     let kept = Player::watching(TRUE_COLOUR).press("k C-u a c Left b");
     assert!(kept.text(80, 24).contains("under the name: abc"), "{}", kept.text(80, 24));
     let set = Player::new().press("F5 Enter l i g t Left h Enter");
-    assert!(set.app.settings().settings.palette.name() == "light", "{}", set.text(80, 24));
+    assert!(set.app.settings.settings.palette.name() == "light", "{}", set.text(80, 24));
 }

@@ -20,10 +20,10 @@ fn it_lists_what_the_keys_do_and_what_they_may_not_do_now() {
 fn words_narrow_it_and_enter_does_what_is_marked() {
     let player = opened(TRUE_COLOUR).press("c h a n g e Space B A C K");
     player.shows(&["Placing the balls: take the last change back"]).is_silent_on("ask the coach");
-    let moved = *player.app.layout();
+    let moved = *player.app.coach.layout();
     let player = player.press("Enter");
-    assert_ne!(*player.app.layout(), moved, "the move was taken back");
-    assert_eq!(player.app.command_palette().map(|_| ()), None);
+    assert_ne!(*player.app.coach.layout(), moved, "the move was taken back");
+    assert_eq!(player.app.command_palette.as_ref().map(|_| ()), None);
     let player = player.press("C-p r e c o m m Esc u");
     player.warns("there is nothing to take back");
 }
@@ -34,11 +34,11 @@ fn what_may_not_be_used_now_says_why_and_stays() {
     assert!(player.text(80, 24).contains("▸ Enter            ask the coach"), "what may be used comes first");
     let player = player.press("p l a y Space p a u s e Enter");
     player.warns("there is no shot yet; Enter asks the coach");
-    assert!(player.app.command_palette().is_some() && player.app.shot().is_none());
+    assert!(player.app.command_palette.is_some() && player.app.coach.shot().is_none());
     let player = player.press("x x x x");
     assert!(player.text(80, 24).contains("no matching command"));
     let player = player.press("Enter Esc");
-    assert!(player.app.command_palette().is_none());
+    assert!(player.app.command_palette.is_none());
 }
 
 #[test]

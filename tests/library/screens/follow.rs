@@ -61,7 +61,7 @@ fn nobody_is_shown_who_does_not_say_so_and_who_does_is_told_all_the_time() {
     assert!(player.app.shown_table().is_none());
     let nameless = Player::new().press("F");
     assert!(nameless.app.shown_table().is_none());
-    assert!(nameless.app.toasts().shown()[0].text.contains("carom --player NAME"));
+    assert!(nameless.app.toasts.shown[0].text.contains("carom --player NAME"));
 }
 
 #[test]
@@ -73,7 +73,10 @@ fn whoever_looks_on_sees_the_same_table_and_shot_and_cannot_touch_them() {
         assert!(before.contains("anna shows no table at the moment") && before.contains("q ends it"), "{before}");
         let shown = player.app.shown_table().unwrap();
         app.receive_report(Report::Shown(seen(&shown)));
-        assert_eq!((app.place(), app.layout(), app.last()), (KeyContext::Follow, player.app.layout(), None));
+        assert_eq!(
+            (app.place(), app.coach.layout(), app.last()),
+            (KeyContext::Follow, player.app.coach.layout(), None)
+        );
         for size in SIZES {
             let there = picture(&mut app, size);
             assert!(there.contains("following anna: match, straight, expert") && !there.contains("Enter"), "{there}");
@@ -88,8 +91,8 @@ fn whoever_looks_on_sees_the_same_table_and_shot_and_cannot_touch_them() {
             assert!(effect.is_none(), "{pressed}: {effect:?}");
         }
         app.paste("-0.5,0 0,0 0.5,0.03");
-        assert_eq!((app.place(), app.layout()), (KeyContext::Follow, player.app.layout()));
-        assert!(!app.playback().playing && app.shown_table().is_none());
+        assert_eq!((app.place(), app.coach.layout()), (KeyContext::Follow, player.app.coach.layout()));
+        assert!(!app.coach.playback.playing && app.shown_table().is_none());
     }
     insta::assert_snapshot!(picture(
         &mut {
@@ -106,13 +109,13 @@ fn the_shot_plays_on_where_it_is_seen_and_goes_when_it_is_shown_no_more() {
     let player = anna().press("F Enter").answer().press("Space");
     let mut app = following(TRUE_COLOUR);
     app.receive_report(Report::Shown(seen(&player.app.shown_table().unwrap())));
-    assert!(app.playback().playing && app.frame_interval().is_some());
+    assert!(app.coach.playback.playing && app.frame_interval().is_some());
     app.tick(0.5);
-    assert!(app.playback().time >= 0.5);
+    assert!(app.coach.playback.time >= 0.5);
     let player = player.press("End");
     app.receive_report(Report::Shown(seen(&player.app.shown_table().unwrap())));
     let there = picture(&mut app, (80, 24));
-    assert!(!app.playback().playing && there.contains("oint"), "{there}");
+    assert!(!app.coach.playback.playing && there.contains("oint"), "{there}");
     app.receive_report(Report::Shown(Seen::Nothing));
     assert!(picture(&mut app, (80, 24)).contains("anna shows no table at the moment"));
     app.receive_report(Report::Shown(Seen::Damaged));

@@ -56,7 +56,7 @@ fn the_balls_that_a_player_goes_on_with_lie_on_the_table_whatever_left_it() {
     let player = taken_over(TRUE_COLOUR, Some(Flight::default()));
     // From the near spot at the cushion behind it, as hard as one likes.
     let hard = player.press(&"+ ".repeat(25)).press(&"S-Up ".repeat(14)).press(&"S-Left ".repeat(10));
-    let shot = hard.app.shot().unwrap();
+    let shot = hard.app.coach.shot().unwrap();
     let end: Layout = shot.recording.final_layout();
     assert!(end.validate(&Table::default()).is_ok(), "{end:?}");
     assert_eq!(shot.recording.off_table(), [true, false, false], "{:?}", shot.recording.events());

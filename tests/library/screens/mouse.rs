@@ -6,7 +6,7 @@ use super::{
 };
 use carom::{
     table::Table,
-    terminal::{AdviceState, App, KeyContext, Mapping, Overlay, PageId},
+    terminal::{App, KeyContext, Mapping, Overlay, PageId},
 };
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use glam::DVec2;
@@ -43,69 +43,69 @@ fn at_the_table(mut player: Player) -> Player {
 #[test]
 fn a_ball_goes_where_the_mouse_is_and_one_step_takes_all_of_it_back() {
     let player = at_the_table(Player::new().press("2"));
-    let start = *player.app.layout();
+    let start = *player.app.coach.layout();
     let cell = mapping().to_cell(start.balls[2]);
     let mut player = player.point(PRESS, cell);
-    assert_eq!((player.app.selected(), *player.app.layout()), (2, start), "a press alone moves nothing");
+    assert_eq!((player.app.coach.selected, *player.app.coach.layout()), (2, start), "a press alone moves nothing");
     for column in 0..100 {
         player = player.point(DRAG, (cell.0 - column / 4, cell.1 + column / 12));
     }
     let end = (cell.0 - 24, cell.1 + 8);
     let player = player.point(RELEASE, end);
-    assert_eq!(mapping().to_cell(player.app.layout().balls[2]), end);
+    assert_eq!(mapping().to_cell(player.app.coach.layout().balls[2]), end);
     let player = player.point(DRAG, (10, 10));
-    assert_eq!(mapping().to_cell(player.app.layout().balls[2]), end, "it was let go");
+    assert_eq!(mapping().to_cell(player.app.coach.layout().balls[2]), end, "it was let go");
     let player = player.press("u");
-    assert_eq!(*player.app.layout(), start);
+    assert_eq!(*player.app.coach.layout(), start);
     assert!(player.press("u").text(120, 40).contains("there is nothing to take back"));
 }
 
 #[test]
 fn beside_a_stroke_of_the_players_own_the_wheel_turns_the_pace_and_a_ball_that_is_taken_leaves_the_stroke() {
     let player = at_the_table(Player::new().press("Enter").answer().press("w S-Up"));
-    let (before, start) = (player.app.playback().speed(), *player.app.layout());
+    let (before, start) = (player.app.coach.playback.speed(), *player.app.coach.layout());
     let cell = mapping().to_cell(start.balls[0]);
     let player = player.point(MouseEventKind::ScrollUp, cell);
-    assert!(player.app.playback().speed() > before && player.app.place() == KeyContext::OwnStroke);
+    assert!(player.app.coach.playback.speed() > before && player.app.place() == KeyContext::OwnStroke);
     let player = player.point(PRESS, cell);
-    assert_eq!((player.app.place(), *player.app.layout()), (KeyContext::Coach, start));
+    assert_eq!((player.app.place(), *player.app.coach.layout()), (KeyContext::Coach, start));
     let player = player.point(DRAG, (cell.0 + 8, cell.1)).point(RELEASE, (cell.0 + 8, cell.1));
-    assert!(player.app.layout().balls[0].x > start.balls[0].x + 0.1);
-    assert_eq!(*player.press("u").app.layout(), start);
+    assert!(player.app.coach.layout().balls[0].x > start.balls[0].x + 0.1);
+    assert_eq!(*player.press("u").app.coach.layout(), start);
 }
 
 #[test]
 fn a_ball_stops_at_the_cushion_and_at_other_balls() {
     let player = at_the_table(Player::new());
-    let (table, start) = (Table::default(), *player.app.layout());
+    let (table, start) = (Table::default(), *player.app.coach.layout());
     let cell = mapping().to_cell(start.balls[0]);
     let player = player.point(PRESS, cell).point(DRAG, (0, 0));
-    assert_eq!(player.app.layout().balls[0], DVec2::new(-1.0, 1.0) * table.reach());
+    assert_eq!(player.app.coach.layout().balls[0], DVec2::new(-1.0, 1.0) * table.reach());
     let onto = mapping().to_cell(start.balls[1]);
     let player = player.point(DRAG, onto).point(RELEASE, onto);
-    let gap = player.app.layout().balls[0].distance(start.balls[1]) - 2.0 * table.radius;
+    let gap = player.app.coach.layout().balls[0].distance(start.balls[1]) - 2.0 * table.radius;
     assert!(gap.abs() < 1e-9, "{gap}");
 }
 
 #[test]
 fn a_key_in_the_middle_of_a_drag_ends_it() {
     let player = at_the_table(Player::new());
-    let start = *player.app.layout();
+    let start = *player.app.coach.layout();
     let cell = mapping().to_cell(start.balls[0]);
     let player = player.point(PRESS, cell).point(DRAG, (40, 20)).press("u").point(DRAG, (50, 20));
-    assert_eq!(*player.app.layout(), start);
+    assert_eq!(*player.app.coach.layout(), start);
 }
 
 #[test]
 fn balls_of_a_shot_that_plays_are_not_moved_but_those_of_one_that_waits_are() {
     let player = at_the_table(Player::new().press("Enter").answer());
-    let cell = mapping().to_cell(player.app.layout().balls[2]);
+    let cell = mapping().to_cell(player.app.coach.layout().balls[2]);
     let taken = player.point(PRESS, cell).point(DRAG, (cell.0, cell.1 + 3));
-    assert!(taken.app.shot().is_none(), "the shot was for where the balls lay");
+    assert!(taken.app.coach.shot().is_none(), "the shot was for where the balls lay");
     let player = taken.press("u .").wait(0.1);
-    let start = *player.app.layout();
+    let start = *player.app.coach.layout();
     let player = at_the_table(player).point(PRESS, cell).point(DRAG, (cell.0, cell.1 + 3));
-    assert_eq!(*player.app.layout(), start, "a click leaves the shot and moves nothing");
+    assert_eq!(*player.app.coach.layout(), start, "a click leaves the shot and moves nothing");
     let thinking = at_the_table(Player::new().press("Enter")).point(PRESS, cell);
     thinking.warns("the coach is thinking; Esc stops it");
 }
@@ -113,19 +113,19 @@ fn balls_of_a_shot_that_plays_are_not_moved_but_those_of_one_that_waits_are() {
 #[test]
 fn the_wheel_over_the_table_changes_the_speed() {
     let player = at_the_table(Player::new().press("Enter").answer());
-    let speed = player.app.playback().speed();
+    let speed = player.app.coach.playback.speed();
     let player = player.point(MouseEventKind::ScrollUp, (40, 20));
-    assert!(player.app.playback().speed() > speed);
+    assert!(player.app.coach.playback.speed() > speed);
     let player = player.point(MouseEventKind::ScrollDown, (40, 20)).point(MouseEventKind::ScrollDown, (40, 20));
-    assert!(player.app.playback().speed() < speed);
-    assert_eq!(player.point(MouseEventKind::ScrollUp, (40, 39)).app.playback().speed(), 0.5 * speed);
+    assert!(player.app.coach.playback.speed() < speed);
+    assert_eq!(player.point(MouseEventKind::ScrollUp, (40, 39)).app.coach.playback.speed(), 0.5 * speed);
 }
 
 #[test]
 fn a_click_on_a_shot_of_the_list_shows_it() {
     for (caps, views) in [(TRUE_COLOUR, "v"), (NO_COLOUR, "v v v v v")] {
         let player = at_the_table(Player::with(caps).press("Enter").answer().press(views));
-        let chosen = |player: &Player| player.app.coach().advised().map(AdviceState::chosen);
+        let chosen = |player: &Player| player.app.coach.advised().map(|advised| advised.chosen);
         let text = player.text(120, 40);
         let row = text.lines().position(|line| line.contains("62 %")).unwrap() as u16;
         let player = player.point(PRESS, (5, row));
@@ -137,10 +137,10 @@ fn a_click_on_a_shot_of_the_list_shows_it() {
 #[test]
 fn the_wheel_scrolls_the_help_and_moves_the_mark_of_the_commands() {
     let player = at_the_table(Player::new().press("?")).point(MouseEventKind::ScrollDown, (3, 3));
-    assert_eq!(player.app.help(), Some((Overlay::Help, 3)));
-    assert_eq!(player.point(PRESS, (60, 15)).app.help(), Some((Overlay::Help, 3)), "what lies below is not reached");
+    assert_eq!(player.app.help, Some((Overlay::Help, 3)));
+    assert_eq!(player.point(PRESS, (60, 15)).app.help, Some((Overlay::Help, 3)), "what lies below is not reached");
     let player = at_the_table(Player::new().press(":")).point(MouseEventKind::ScrollDown, (3, 3));
-    assert_eq!(player.app.command_palette().unwrap().mark(9), 1);
+    assert_eq!(player.app.command_palette.as_ref().unwrap().mark(9), 1);
 }
 
 #[test]
@@ -153,10 +153,10 @@ fn a_click_on_a_tab_opens_its_screen_and_one_beside_it_nothing() {
             // The text has quotes around its lines.
             let column = row.find(screen.title()).unwrap() as u16 - 1;
             player = player.point(PRESS, (column, 0));
-            assert_eq!(player.app.screen(), screen, "{width}");
+            assert_eq!(player.app.screen, screen, "{width}");
         }
         player.app.resize(Size::new(width, 40));
-        assert_eq!(player.point(PRESS, (width - 2, 0)).app.screen(), PageId::Coach);
+        assert_eq!(player.point(PRESS, (width - 2, 0)).app.screen, PageId::Coach);
     }
 }
 
@@ -165,14 +165,14 @@ fn the_mark_of_the_library_follows_wheel_and_click() {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]);
     player.app.resize(SIZE);
     let text = player.text(120, 40);
-    let marked = |app: &App| app.drills().catalogue.mark();
+    let marked = |app: &App| app.drills.catalogue.mark;
     assert_eq!(marked(&player.app), 0);
     player.app.mouse(event(MouseEventKind::ScrollDown, (5, 10)));
     player.app.mouse(event(MouseEventKind::ScrollDown, (100, 10)));
     assert_eq!(marked(&player.app), 1, "only over the list");
     // The first category's heading is the second row of the page's part, and its exercises follow.
     player.app.mouse(event(PRESS, (5, 7)));
-    let title = player.app.drills().catalogue.marked().unwrap().title.clone();
+    let title = player.app.drills.catalogue.marked().unwrap().title.clone();
     let row = text.lines().nth(7).unwrap();
     assert!(row.contains(title.split_whitespace().next().unwrap()), "{title}: {row}");
 }
@@ -183,9 +183,9 @@ fn the_mark_of_the_settings_and_of_the_keys_follows_wheel_and_click() {
     let row = |player: &Player, part: &str| player.text(120, 40).lines().position(|line| line.contains(part)).unwrap();
     let speed = row(&player, "speed") as u16;
     let player = at_the_table(player.point(PRESS, (5, speed)));
-    assert_eq!(player.app.settings().marked().key, "speed");
+    assert_eq!(player.app.settings.marked().key, "speed");
     let player = at_the_table(player.point(MouseEventKind::ScrollDown, (5, speed)).press("Tab"));
-    assert_eq!(player.app.settings().marked().key, "mouse");
+    assert_eq!(player.app.settings.marked().key, "mouse");
     let random = row(&player, "random position") as u16;
     let player = player.point(PRESS, (5, random)).press("Enter");
     assert!(player.text(120, 40).contains("press the key that is to do this: random position"));
@@ -198,13 +198,13 @@ fn the_mark_of_the_runs_follows_wheel_and_click() {
     let text = player.text(120, 40);
     let row = |name: &str| text.lines().position(|line| line.contains(name)).unwrap() as u16;
     let (first, second) = (row(NAME), row(OTHER));
-    assert_eq!(player.app.training().list.mark(), 0);
+    assert_eq!(player.app.training.list.mark(), 0);
     player.app.mouse(event(PRESS, (5, second)));
-    assert_eq!(player.app.training().list.mark(), usize::from(second - first));
+    assert_eq!(player.app.training.list.mark(), usize::from(second - first));
     player.app.mouse(event(MouseEventKind::ScrollUp, (5, second)));
-    assert_eq!(player.app.training().list.mark(), usize::from(second - first) - 1);
+    assert_eq!(player.app.training.list.mark(), usize::from(second - first) - 1);
     player.app.mouse(event(PRESS, (5, 0)));
-    assert_eq!(player.app.training().list.mark(), usize::from(second - first) - 1);
+    assert_eq!(player.app.training.list.mark(), usize::from(second - first) - 1);
 }
 
 proptest! {
@@ -215,12 +215,12 @@ proptest! {
         reports in prop::collection::vec((0..4_usize, 0..130_u16, 0..50_u16), 1..80), ball in 0..3_usize,
     ) {
         let mut player = at_the_table(Player::new());
-        let cell = mapping().to_cell(player.app.layout().balls[ball]);
+        let cell = mapping().to_cell(player.app.coach.layout().balls[ball]);
         player = player.point(PRESS, cell);
         for (kind, column, row) in reports {
             let kind = [DRAG, DRAG, PRESS, MouseEventKind::Down(MouseButton::Right)][kind];
             player = player.point(kind, (column, row));
-            prop_assert_eq!(player.app.layout().validate(player.app.table()), Ok(()));
+            prop_assert_eq!(player.app.coach.layout().validate(player.app.coach.table()), Ok(()));
         }
     }
 }

@@ -7,7 +7,6 @@ use std::{
 };
 
 use carom::{
-    coach::{Kind, Pace, Way},
     drills::{Exercise, Session, store::Store},
     learning::run::{
         follow::{Condition, Update},
@@ -66,12 +65,10 @@ pub fn places(folder: &Path) -> Places {
 }
 
 /// A shot with `made` of 1000 attempts.
-pub fn proposal(table: &Table, layout: &Layout, cue: &str, way: Way, made: usize) -> Proposal {
+pub fn proposal(table: &Table, layout: &Layout, cue: &str, made: usize) -> Proposal {
     let shot = Shot::new(table, layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
-    let pace = if shot.cue.speed < 2.5 { Pace::Soft } else { Pace::Hard };
     Proposal {
         shot: Arc::new(shot),
-        kind: Some(Kind { first_ball: 1, cushion_first: false, way, pace, raised: false }),
         made: Some(SuccessRate::new(made, 1000)),
         risk: None,
         next: Some(0.97),
@@ -81,9 +78,9 @@ pub fn proposal(table: &Table, layout: &Layout, cue: &str, way: Way, made: usize
 
 /// The coach's advice on the opening position.
 pub fn advice(job: &Job) -> Advice {
-    let proposal = |cue, way, made| proposal(&job.table, &job.layout, cue, way, made);
-    let best = proposal(SHOT, Way::OffCushion, 940);
-    let others = OTHERS.into_iter().zip([893, 620]).map(|(cue, made)| proposal(cue, Way::AroundTheTable, made));
+    let proposal = |cue, made| proposal(&job.table, &job.layout, cue, made);
+    let best = proposal(SHOT, 940);
+    let others = OTHERS.into_iter().zip([893, 620]).map(|(cue, made)| proposal(cue, made));
     Advice { proposals: std::iter::once(best).chain(others).collect(), seed: 1, effort: None, found: None }
 }
 
@@ -270,7 +267,7 @@ impl Player {
     /// The coach says that the shot with this cue is the best so far, with `made` of 1000 attempts.
     pub fn better(self, cue: &str, made: usize) -> Self {
         let job = self.asked.clone().expect("the coach was asked");
-        let so_far = proposal(&job.table, &job.layout, cue, Way::OffCushion, made);
+        let so_far = proposal(&job.table, &job.layout, cue, made);
         self.tell(job.id, CoachNews::Better(Proposal { is_early: true, ..so_far }))
     }
 
@@ -284,8 +281,8 @@ impl Player {
                 study = Some(found);
             }
         });
-        let end = self.app.shot().unwrap().recording.final_layout();
-        let next = proposal(&job.table, &end, NEXT, Way::Direct, 1000);
+        let end = self.app.coach.shot().unwrap().recording.final_layout();
+        let next = proposal(&job.table, &end, NEXT, 1000);
         self.tell(job.id, CoachNews::Study(study.unwrap()))
             .tell(job.id, CoachNews::Next(Some(Advice { proposals: vec![next], seed: 1, effort: None, found: None })))
     }
@@ -336,7 +333,7 @@ impl Player {
 
     /// Whether a toast says `part`.
     pub fn is_toast(&self, part: &str) -> bool {
-        self.app.toasts().shown().iter().any(|toast| toast.text.contains(part))
+        self.app.toasts.shown.iter().any(|toast| toast.text.contains(part))
     }
 
     /// In a toast.
@@ -347,7 +344,7 @@ impl Player {
 
     /// No toast is shown: nothing was refused.
     pub fn warns_nothing(&self) {
-        assert!(self.app.toasts().shown().is_empty(), "{}", self.text(120, 40));
+        assert!(self.app.toasts.shown.is_empty(), "{}", self.text(120, 40));
     }
 
     /// On the screen, or in a toast, which breaks its lines as it needs.
@@ -375,7 +372,7 @@ impl Player {
     pub fn is_plain(&self) -> &Self {
         for (width, height) in SIZES.into_iter().chain([(200, 60)]) {
             let text = self.text(width, height);
-            assert!(text.is_ascii() || self.app.caps().unicode, "{text}");
+            assert!(text.is_ascii() || self.app.caps.unicode, "{text}");
             for cell in self.picture(width, height).content() {
                 assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}\n{text}");
             }
@@ -415,7 +412,7 @@ pub fn check(name: &str, player: &Player) {
 }
 
 pub fn check_at(sizes: &[(u16, u16)], name: &str, player: &Player) {
-    let screen = player.app.screen().title().to_lowercase();
+    let screen = player.app.screen.title().to_lowercase();
     for &(width, height) in sizes {
         check_text(&format!("{screen}_{name}_{width}x{height}"), &without_moments(&player.text(width, height)));
     }

@@ -15,20 +15,20 @@ fn layout(text: &str) -> Layout {
 #[test]
 fn all_balls_are_typed_in_diamonds_and_taken_back_as_one_step() {
     let player = Player::new().press("p").type_in("2d,0.5d 6d,2d 4d,3.5d");
-    assert_eq!(*player.app.layout(), Layout::opening(&Table::default()), "nothing moves before Enter");
+    assert_eq!(*player.app.coach.layout(), Layout::opening(&Table::default()), "nothing moves before Enter");
     let player = player.press("Enter");
-    assert_eq!(*player.app.layout(), layout("2d,0.5d 6d,2d 4d,3.5d"));
+    assert_eq!(*player.app.coach.layout(), layout("2d,0.5d 6d,2d 4d,3.5d"));
     // Both units are read off the panel.
     player.shows(&["white   -710.0 -532.5", "2.00", "0.50", "3.50"]);
-    assert_eq!(*player.press("u").app.layout(), Layout::opening(&Table::default()));
+    assert_eq!(*player.press("u").app.coach.layout(), Layout::opening(&Table::default()));
 }
 
 #[test]
 fn one_ball_is_typed_for_the_selected_one_or_by_its_colour() {
     let player = Player::new().press("3 p").type_in("4d,3.5d").press("Enter");
-    assert_eq!(player.app.layout().balls[2], layout("2d,0.5d 6d,2d 4d,3.5d").balls[2]);
+    assert_eq!(player.app.coach.layout().balls[2], layout("2d,0.5d 6d,2d 4d,3.5d").balls[2]);
     let player = player.press("p").type_in("yellow 1d,1d").press("Enter");
-    assert_eq!(player.app.layout().balls[1], layout("2d,0.5d 1d,1d 4d,3.5d").balls[1]);
+    assert_eq!(player.app.coach.layout().balls[1], layout("2d,0.5d 1d,1d 4d,3.5d").balls[1]);
 }
 
 #[test]
@@ -37,10 +37,10 @@ fn what_cannot_be_taken_is_said_and_stays_to_be_mended() {
     player.warns("outside the table");
     player.shows(&["2d,9d"]);
     let player = player.press("Backspace Backspace").type_in("1d").press("Enter");
-    assert_eq!(player.app.layout().balls[0], layout("2d,1d 6d,2d 4d,3.5d").balls[0]);
+    assert_eq!(player.app.coach.layout().balls[0], layout("2d,1d 6d,2d 4d,3.5d").balls[0]);
     let player = player.press("p").type_in("nonsense").press("Esc Left");
     assert!(
-        player.app.layout().balls[0].x < layout("2d,1d 6d,2d 4d,3.5d").balls[0].x,
+        player.app.coach.layout().balls[0].x < layout("2d,1d 6d,2d 4d,3.5d").balls[0].x,
         "the keys are the table's again"
     );
 }
@@ -49,24 +49,24 @@ fn what_cannot_be_taken_is_said_and_stays_to_be_mended() {
 fn a_layout_and_a_share_code_are_pasted_over_the_table() {
     let mut player = Player::new();
     player.app.paste("2d,0.5d 6d,2d 4d,3.5d\n");
-    assert_eq!(*player.app.layout(), layout("2d,0.5d 6d,2d 4d,3.5d"));
+    assert_eq!(*player.app.coach.layout(), layout("2d,0.5d 6d,2d 4d,3.5d"));
     let library = Library::bundled().unwrap();
     let exercise = library.get("natural").unwrap();
     player.app.paste(&encode(exercise).unwrap());
-    assert_eq!((*player.app.layout(), player.app.coach().query.rule), (exercise.layout, Rule::ThreeCushion));
+    assert_eq!((*player.app.coach.layout(), player.app.coach.query.rule), (exercise.layout, Rule::ThreeCushion));
     player.app.paste("a letter to a friend, by accident");
     player.warns("nothing is taken of what was pasted");
-    assert_eq!(*player.app.layout(), exercise.layout);
+    assert_eq!(*player.app.coach.layout(), exercise.layout);
     // A code is taken where positions are typed, too.
     let mut player = Player::new().press("p");
     player.app.paste(&encode(exercise).unwrap());
-    assert_eq!(*player.press("Enter").app.layout(), exercise.layout);
+    assert_eq!(*player.press("Enter").app.coach.layout(), exercise.layout);
 }
 
 #[test]
 fn steps_go_from_one_quarter_of_a_diamond_to_the_next() {
     let player = Player::new().press("D Down");
-    assert_eq!(player.app.layout().balls[0], layout("2d,2.5d 6d,2d 4d,3.5d").balls[0]);
+    assert_eq!(player.app.coach.layout().balls[0], layout("2d,2.5d 6d,2d 4d,3.5d").balls[0]);
     player.shows(&["white at 2.00d,2.50d", "step 1/4 diamond"]);
     let player = player.press("S-Right + Right");
     player.shows(&["step 50 mm", "x 227.5 mm"]);

@@ -49,11 +49,11 @@ fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
     let player = player.press(
         "Down Down Down Right Down Right Right Down Left Down Left Down Right Down Right Down Left Down Right Down Right Down l",
     );
-    assert_eq!(player.app.table().name, "textbook");
-    let query = &player.app.coach().query;
+    assert_eq!(player.app.coach.table().name, "textbook");
+    let query = &player.app.coach.query;
     assert_eq!((query.rule, query.plan, query.jumps), (Rule::ThreeCushion, false, false));
     assert!(player.text(80, 24).contains("jumps") && player.settings_text().contains("jumps = false\n"));
-    assert_eq!((player.app.step_mm(), player.app.playback().speed(), player.app.wants_mouse()), (50.0, 2.0, false));
+    assert_eq!((player.app.coach.step_mm(), player.app.coach.playback.speed(), player.app.mouse), (50.0, 2.0, false));
     let (settings, complaints) = Settings::load(&player.path("config.toml"));
     assert_eq!((settings.think_ms, settings.rule, complaints.len()), (500, Rule::ThreeCushion, 0));
     // Back to the defaults, each in its place.
@@ -68,10 +68,13 @@ fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
 #[test]
 fn the_table_comes_back_with_a_step_back() {
     let player = new().press("Down Down Down Right F2");
-    assert_eq!(player.app.table().name, "textbook");
+    assert_eq!(player.app.coach.table().name, "textbook");
     let player = player.press("Left u u");
-    assert_eq!((player.app.table().name.as_str(), player.app.layout()), ("match", &Layout::opening(&Table::default())));
-    assert_eq!(player.press("U").app.table().name, "textbook");
+    assert_eq!(
+        (player.app.coach.table().name.as_str(), player.app.coach.layout()),
+        ("match", &Layout::opening(&Table::default()))
+    );
+    assert_eq!(player.press("U").app.coach.table().name, "textbook");
 }
 
 #[test]
@@ -85,12 +88,12 @@ fn tables_of_ones_own_are_stepped_through_and_typed_by_their_names() {
     }
     let player = Player::in_folder(TRUE_COLOUR, folder).press("F5 Down Down Down Left");
     player.shows(&["◂ club ▸", "own: cellar, club."]);
-    assert_eq!(player.app.table().name, "club");
+    assert_eq!(player.app.coach.table().name, "club");
     let mut player = player.press("Left");
-    assert_eq!(player.app.table().name, "cellar");
+    assert_eq!(player.app.coach.table().name, "cellar");
     for (typed, name) in [("club", "club"), ("cellar.toml", "cellar")] {
         player = player.press("Enter").type_in(typed).press("Enter");
-        assert_eq!(player.app.table().name, name);
+        assert_eq!(player.app.coach.table().name, name);
     }
 }
 
@@ -114,11 +117,11 @@ fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
     let mut player = player.press("Esc Enter");
     player.app.paste(&path);
     let player = player.press("Enter");
-    assert_eq!(player.app.table().name, "mine");
+    assert_eq!(player.app.coach.table().name, "mine");
     fs::write(&file, "R = \"large\"\n").unwrap();
     let refused = player.press("Delete Enter").type_in(&path).press("Enter");
     refused.says("line 1");
-    assert_eq!(refused.app.table().name, "match");
+    assert_eq!(refused.app.coach.table().name, "match");
     assert!(refused.press("Esc Enter Esc").settings_text().contains("table = \"match\""));
 }
 
@@ -129,7 +132,7 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     let player = player.press("Right");
     player.says("has been changed by another program and was read again");
     assert_eq!(player.settings_text(), "theme = \"dark\"\nspeed = 4.0\n");
-    assert_eq!(player.app.playback().speed(), 4.0);
+    assert_eq!(player.app.coach.playback.speed(), 4.0);
     player.wait(60.0).shows(&["1 changed", "theme        ◂ dark ▸", "speed       •  4.0"]);
     let player = with(TRUE_COLOUR, "theme = \"dark\"\n");
     fs::write(player.path("config.toml"), "theme = \n").unwrap();
@@ -139,7 +142,7 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     let player = player.press("Right");
     player.says("this holds until the program ends").says("is left as it is");
     assert_eq!(player.settings_text(), "theme = \n");
-    assert_eq!(player.app.settings().settings.palette.name(), "light");
+    assert_eq!(player.app.settings.settings.palette.name(), "light");
 }
 
 #[test]
@@ -147,11 +150,11 @@ fn placed_balls_stay_where_they_lie_on_another_table_and_others_go_to_its_spots(
     let to_textbook = |player: Player| player.press("F5 Home Down Down Down Right F2");
     let begun = with(TRUE_COLOUR, "").press("F2");
     let spots = to_textbook(begun);
-    assert_eq!(*spots.app.layout(), Layout::opening(spots.app.table()));
+    assert_eq!(*spots.app.coach.layout(), Layout::opening(spots.app.coach.table()));
     let placed = with(TRUE_COLOUR, "").press("F2 Right Right");
-    let layout = *placed.app.layout();
+    let layout = *placed.app.coach.layout();
     let placed = to_textbook(placed);
-    assert_eq!((placed.app.table().name.as_str(), *placed.app.layout()), ("textbook", layout));
+    assert_eq!((placed.app.coach.table().name.as_str(), *placed.app.coach.layout()), ("textbook", layout));
 }
 
 #[test]
@@ -159,10 +162,10 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
     let text = "# mine\nrule = \"straight\" # at home\n";
     let player = with(TRUE_COLOUR, text).press("F2 R R S P + F5");
     player.says("three-cushion now; the file has straight");
-    let query = &player.app.coach().query;
+    let query = &player.app.coach.query;
     let skill = Settings::default().skill;
     assert_eq!((query.rule, query.plan, query.skill == skill), (Rule::ThreeCushion, false, false));
-    assert_eq!(player.app.step_mm(), 50.0, "it was opened, and nothing has changed");
+    assert_eq!(player.app.coach.step_mm(), 50.0, "it was opened, and nothing has changed");
     assert_eq!(player.settings_text(), text);
     // On from three cushions, around the end and once more; all else stays as it is.
     let player = player.press("Home Down Down Down Down");
@@ -173,9 +176,9 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
         "keeps it.",
     ]);
     let player = player.press("Right Right");
-    assert_eq!(player.app.coach().query.rule, Rule::OneCushion);
+    assert_eq!(player.app.coach.query.rule, Rule::OneCushion);
     assert_eq!(player.settings_text(), "# mine\nrule = \"one-cushion\" # at home\n");
-    assert_eq!((player.app.coach().query.plan, player.app.step_mm()), (false, 50.0));
+    assert_eq!((player.app.coach.query.plan, player.app.coach.step_mm()), (false, 50.0));
     // What is in force is kept as it is.
     let player = player.press("Down Down Down Enter");
     player.says("plan (Enter alone keeps false) = ");
@@ -199,17 +202,17 @@ fn themes_and_characters_of_the_session_are_shown_too() {
     player.says("high-contrast ▸ now; the file has dark");
     let player = player.press("Enter Enter");
     assert_eq!(Settings::load(&player.path("config.toml")).0.palette.name(), "high-contrast");
-    assert_eq!(player.app.caps().glyphs, Glyphs::Half);
+    assert_eq!(player.app.caps.glyphs, Glyphs::Half);
     let player = with(NO_COLOUR, "").press("T");
     player.says("no colours here: NO_COLOR is set or the terminal has none");
-    assert_eq!(player.app.settings().settings, Settings::default());
+    assert_eq!(player.app.settings.settings, Settings::default());
 }
 
 #[test]
 fn every_mistake_of_the_file_is_kept_to_be_read() {
     let player = with(TRUE_COLOUR, "speed = 9.5\nskill = 3\ntempo = 1\n");
     assert!(player.is_toast("speed = 9.5") && player.is_toast("; and 2 more: F6"));
-    let past: Vec<&str> = player.app.toasts().past().collect();
+    let past: Vec<&str> = player.app.toasts.past().collect();
     assert_eq!(past.len(), 3, "{past:?}");
     assert!(past[1].contains("skill = 3") && past[2].contains("tempo"), "{past:?}");
 }
@@ -223,10 +226,10 @@ fn colours_and_characters_are_found_out_anew() {
     let mut player = new();
     player.app = player.app.with_detection(detect);
     let player = player.press("Down Right Down Right Right Right");
-    assert_eq!(player.app.caps(), Capabilities { depth: Depth::True, glyphs: Glyphs::Half, unicode: true });
+    assert_eq!(player.app.caps, Capabilities { depth: Depth::True, glyphs: Glyphs::Half, unicode: true });
     let player = player.press("Up Right");
-    assert_eq!(player.app.caps().depth, Depth::Indexed);
-    assert_eq!(player.press("Delete").app.caps().depth, Depth::Ansi, "nothing is known of the terminal");
+    assert_eq!(player.app.caps.depth, Depth::Indexed);
+    assert_eq!(player.press("Delete").app.caps.depth, Depth::Ansi, "nothing is known of the terminal");
 }
 
 #[test]
@@ -253,7 +256,7 @@ fn a_key_is_given_other_work_and_gets_its_own_back() {
     assert!(player.settings_text().contains("[keys]\na = \"Left\"\n"), "{}", player.settings_text());
     player.shows(&["▸ a ← h       • move the ball left by one step"]);
     let moved = player.press("F2 a");
-    assert!((moved.app.layout().balls[0].x + 0.72).abs() < 1e-9);
+    assert!((moved.app.coach.layout().balls[0].x + 0.72).abs() < 1e-9);
     let again = moved.press("F5 Enter a");
     again.says("a does this already");
     let back = again.press("Esc Delete");
@@ -268,13 +271,13 @@ fn keys_of_the_header_and_the_hints_are_the_users_own() {
     assert!(first(80).contains(" x straight S expert P plan"), "{}", first(80));
     assert!(first(120).contains(" F7 Coach  F3 Drills  F4 Training  F5 Settings "), "{}", first(120));
     let player = player.press("x");
-    assert_eq!(player.app.coach().query.rule, Rule::OneCushion);
+    assert_eq!(player.app.coach.query.rule, Rule::OneCushion);
 }
 
 #[test]
 fn escape_goes_back_to_the_screen_before() {
     for (keys, screen) in [("F2 F5 Tab Esc", PageId::Coach), ("F4 F5 Esc", PageId::Training)] {
-        assert_eq!(new().press(keys).app.screen(), screen, "{keys}");
+        assert_eq!(new().press(keys).app.screen, screen, "{keys}");
     }
 }
 
@@ -333,7 +336,7 @@ proptest! {
         }
         player.picture(width, height);
         let (settings, complaints) = Settings::load(&player.path("config.toml"));
-        let screen = player.app.settings();
+        let screen = &player.app.settings;
         prop_assert_eq!(Some(&settings), screen.file.as_ref());
         prop_assert_eq!(&settings.keys, &screen.settings.keys);
         prop_assert_eq!(complaints.len(), 2);

@@ -14,12 +14,12 @@ fn places(text: &str) -> Vec<Option<(usize, usize)>> {
 fn taking_the_other_ball_moves_and_repaints_none() {
     let before = Player::with(NO_COLOUR).press("r");
     let white = before.text(120, 40);
-    let layout = *before.app.layout();
+    let layout = *before.app.coach.layout();
     let after = before.press("x");
     let yellow = after.text(120, 40);
     assert!(places(&white).iter().all(Option::is_some), "{white}");
     assert_eq!(places(&white), places(&yellow), "{white}\n{yellow}");
-    assert_eq!(*after.app.layout(), layout.for_the_opponent());
+    assert_eq!(*after.app.coach.layout(), layout.for_the_opponent());
     assert!(yellow.contains("yellow is the cue ball now"), "{yellow}");
     // In true colours too: the same cells have the same inks.
     let inks = |player: &Player| {
@@ -34,9 +34,9 @@ fn taking_the_other_ball_moves_and_repaints_none() {
     assert_eq!(inks(&one.press("x 3")), before);
     // The keys are the colours', and a step back brings the other player back.
     let selected = after.press("2");
-    assert_eq!(selected.app.selected(), 0, "yellow is ball 0 now");
+    assert_eq!(selected.app.coach.selected, 0, "yellow is ball 0 now");
     let back = selected.press("u");
-    assert_eq!(*back.app.layout(), layout);
+    assert_eq!(*back.app.coach.layout(), layout);
     assert_eq!(back.app.page().cue_ball().name(), "white");
 }
 

@@ -13,7 +13,7 @@ fn advised(player: Player, balls: &str, words: &str) -> Player {
     player.app.paste(balls);
     let mut player = player.press("Enter R R Enter");
     let job = player.asked.take().expect("the coach was asked");
-    let best = proposal(&job.table, &job.layout, words, carom::coach::Way::AroundTheTable, 900);
+    let best = proposal(&job.table, &job.layout, words, 900);
     player
         .tell(job.id, CoachNews::Advice(Advice { proposals: vec![best], seed: 1, effort: None, found: None }))
         .studied()

@@ -17,7 +17,7 @@ fn shown(caps: Capabilities, cue: &str) -> Player {
     let mut player = Player::with(caps).press("Enter");
     let job = player.asked.take().unwrap();
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
-    let proposal = Proposal { shot: Arc::new(shot), kind: None, made: None, risk: None, next: None, is_early: false };
+    let proposal = Proposal { shot: Arc::new(shot), made: None, risk: None, next: None, is_early: false };
     player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![proposal], seed: 1, effort: None, found: None }))
 }
 
@@ -90,7 +90,7 @@ fn draw_is_told_from_follow_and_both_from_rolling() {
 #[test]
 fn a_cushion_that_is_met_before_a_ball_is_named_instead_of_the_fullness() {
     let bank = shown(TRUE_COLOUR, "0,0,3,-173,4");
-    let contact = bank.app.shot().unwrap().contact;
+    let contact = bank.app.coach.shot().unwrap().contact;
     assert_eq!(contact.map(|hit| hit.ball), Some(1), "back from the short rail to the yellow ball");
     for (width, height) in SIZES {
         let text = bank.text(width, height);

@@ -50,18 +50,18 @@ fn a_coach_that_thinks_goes_on_and_its_shot_is_there_when_one_comes_back() {
     let player = Player::new().press("Enter F4").wait(0.5);
     assert_eq!(player.app.frame_interval(), None, "nobody looks at the spinner");
     let player = player.answer().press("F2");
-    assert!(player.app.shot().is_some_and(|shot| shot.solved));
+    assert!(player.app.coach.shot().is_some_and(|shot| shot.solved));
     assert!(player.text(80, 24).contains("expert makes it 94 %"));
     let playing = player.press("Space").wait(0.5).press("F3");
-    let time = playing.app.playback().time;
+    let time = playing.app.coach.playback.time;
     let back = playing.wait(1.0).press("F2");
-    assert!(back.app.playback().time == time && !back.app.playback().playing, "nothing plays unseen");
+    assert!(back.app.coach.playback.time == time && !back.app.coach.playback.playing, "nothing plays unseen");
 }
 
 #[test]
 fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
     let player = Player::practising(TRUE_COLOUR).press("S-Left k Space").wait(0.3);
-    let time = |player: &Player| player.app.drills().playback().unwrap().time;
+    let time = |player: &Player| player.app.drills.turn.as_ref().unwrap().watched().unwrap().playback.time;
     let before = time(&player);
     let player = player.press("F2 F5 F3");
     assert_eq!((player.app.place(), time(&player)), (KeyContext::Drill(DrillContext::Exercise), before));
@@ -83,8 +83,8 @@ fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
 fn palette_and_help_close_on_the_way() {
     for keys in [": x F3", "? F3", "F6 F3"] {
         let player = Player::new().press(keys);
-        assert_eq!((player.app.screen(), player.app.help()), (PageId::Drills, None), "{keys}");
-        assert!(player.app.command_palette().is_none());
+        assert_eq!((player.app.screen, player.app.help), (PageId::Drills, None), "{keys}");
+        assert!(player.app.command_palette.is_none());
     }
 }
 
@@ -102,8 +102,8 @@ fn carom_watch_has_no_tabs() {
     let caps: Capabilities = TRUE_COLOUR;
     let mut app = App::watching(caps, None, None).unwrap();
     let effect: Option<Effect> = app.handle(&super::keys::key("F2"));
-    assert!(effect.is_none() && app.screen() == PageId::Training);
-    assert!(app.toasts().shown()[0].text.contains("there are no other screens here"));
+    assert!(effect.is_none() && app.screen == PageId::Training);
+    assert!(app.toasts.shown[0].text.contains("there are no other screens here"));
     let mut terminal = ratatui::Terminal::new(ratatui::backend::TestBackend::new(80, 24)).unwrap();
     terminal.draw(|frame| app.draw(frame)).unwrap();
     let row = first_row(&terminal.backend().to_string());

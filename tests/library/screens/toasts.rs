@@ -43,12 +43,12 @@ fn they_go_in_their_time_by_one_picture_and_answers_with_the_next_key() {
     let time = player.app.toast_time().unwrap();
     assert!((4.0..8.0).contains(&time), "{time}");
     let gone = player.wait(time);
-    assert_eq!((gone.app.toast_time(), gone.app.toasts().shown().len()), (None, 0));
+    assert_eq!((gone.app.toast_time(), gone.app.toasts.shown.len()), (None, 0));
     assert_eq!(gone.picture(80, 24), Player::new().picture(80, 24), "nothing is left of it");
     let player = refused(gone.press("u"), &[0]).press("Left");
     assert!(!player.is_toast("there is nothing to take back"));
     player.warns("the weights are damaged");
-    assert!(player.press("Esc").app.toasts().shown().iter().all(|toast| !toast.text.contains("weights")));
+    assert!(player.press("Esc").app.toasts.shown.iter().all(|toast| !toast.text.contains("weights")));
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn what_fails_elsewhere_is_told_wherever_one_is_and_can_be_read_again() {
     let text = player.text(120, 40);
     assert!(text.contains("the disk is full") && text.contains("carom.log"), "{text}");
     let closed = player.press("Esc");
-    assert!(closed.app.help().is_none() && !closed.text(120, 40).contains("the disk is full"));
+    assert!(closed.app.help.is_none() && !closed.text(120, 40).contains("the disk is full"));
 }
 
 #[test]

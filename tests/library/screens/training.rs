@@ -255,7 +255,7 @@ fn a_run_is_started_once_however_long_the_key_is_held() {
 fn a_second_process_that_is_refused_is_no_news_of_the_run() {
     let folder = || Path::new(RUNS).join(NAME);
     let refused = |process| Report::TrainerFailed(folder(), failure(Some(process), "another process is training"));
-    let silent = |player: &Player| player.app.toasts().shown().is_empty();
+    let silent = |player: &Player| player.app.toasts.shown.is_empty();
     let at_work = Player::watching(TRUE_COLOUR).report(refused(7));
     assert!(silent(&at_work));
     at_work.report(refused(status().process)).says("another process is training");
@@ -304,7 +304,7 @@ fn the_coach_takes_the_bundled_weights_again() {
     let config = Some(Box::new(config("three-cushion")));
     let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, Update { config, ..Update::default() });
     let player = player.report(Report::Policy(folder, Ok(Arc::new(policy))));
-    let asked = |player: &Player| (player.app.coach().query.name().to_owned(), player.app.coach().query.rule);
+    let asked = |player: &Player| (player.app.coach.query.name().to_owned(), player.app.coach.query.rule);
     assert_eq!(asked(&player), (NAME.to_owned(), Rule::ThreeCushion));
     player.says("b bundled");
     let player = player.press("b");
@@ -369,13 +369,13 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
     none.says("the run has no policy");
     let policy = Policy::bundled(&thesis, Rule::ThreeCushion).unwrap().unwrap();
     let mut player = none.report(Report::Policy(folder, Ok(Arc::new(policy))));
-    assert_eq!((player.app.place(), player.app.table()), (KeyContext::Coach, &thesis));
+    assert_eq!((player.app.place(), player.app.coach.table()), (KeyContext::Coach, &thesis));
     player.shows(&["no shot yet", "Enter ask", "b bundled", NAME]);
     player = player.press("Enter");
     let job = player.asked.take().expect("the coach is asked");
     assert_eq!(job.query.rule, Rule::ThreeCushion);
     CoachWorker::unhurried(20_000).answer(&job, |answer| drop(player.app.receive(answer)));
-    assert!(player.app.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
+    assert!(player.app.coach.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
 }
 
 #[test]

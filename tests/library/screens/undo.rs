@@ -8,13 +8,13 @@ use carom::{drills::Exercise, table::Layout};
 
 #[test]
 fn changes_of_the_stroke_are_taken_back_input_by_input() {
-    let stroke = |player: &Player| *player.app.drills().turn.as_ref().unwrap().stroke();
+    let stroke = |player: &Player| *player.app.drills.turn.as_ref().unwrap().stroke();
     let player = Player::practising(TRUE_COLOUR);
     let start = stroke(&player);
     let set = player.press("Left Left Left k k Up Left");
     let end = stroke(&set);
     let back = set.press("z");
-    assert!((back.app.drills().turn.as_ref().unwrap().stroke().speed - end.speed).abs() < 1e-12);
+    assert!((back.app.drills.turn.as_ref().unwrap().stroke().speed - end.speed).abs() < 1e-12);
     let back = back.press("z z z");
     assert_eq!(stroke(&back), start, "aim, tip, speed, aim");
     back.press("z").says("the stroke is as it was at first");
@@ -29,11 +29,11 @@ fn changes_of_the_stroke_are_taken_back_input_by_input() {
 fn balls_that_come_from_an_exercise_on_another_table_are_one_step() {
     let thesis = Exercise { table: "thesis".to_owned(), ..exercise("small", "On the other table") };
     let player = Player::at_library(TRUE_COLOUR, &[thesis], &[]).press("Left c");
-    let place = |player: &Player| (player.app.table().name.clone(), *player.app.layout());
+    let place = |player: &Player| (player.app.coach.table().name.clone(), *player.app.coach.layout());
     let taken = place(&player);
     assert_eq!(taken.0, "thesis");
     let back = player.press("u");
-    assert_eq!(place(&back), ("match".to_owned(), Layout::opening(back.app.table())));
+    assert_eq!(place(&back), ("match".to_owned(), Layout::opening(back.app.coach.table())));
     let again = back.press("U");
     assert_eq!(place(&again), taken);
     again.press("u u").says("there is nothing to take back");

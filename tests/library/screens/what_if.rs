@@ -36,19 +36,23 @@ fn the_coachs_shot_is_taken_over_changed_played_and_left() {
     assert!(small.contains("harder by ") && small.contains(" lengths "), "{small}");
     let player = judged(player, 20).press("Space");
     assert!(
-        player.app.playback().playing && player.app.watched().unwrap().cue.speed == 3.0,
+        player.app.coach.playback.playing && player.app.coach.watched().unwrap().cue.speed == 3.0,
         "the own stroke is played"
     );
     let player = player.press("u u u");
-    assert!(!player.app.playback().playing, "a change goes back to the stroke");
+    assert!(!player.app.coach.playback.playing, "a change goes back to the stroke");
     player.shows(&["You: as the coach"]);
     let player = player.press("U Esc");
     assert_eq!(player.app.place(), KeyContext::Coach);
-    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
     player.is_silent_on("You 2").is_silent_on("You: ");
     assert!(player.study.is_some(), "the closer look at the coach's shot goes on");
     let other = player.press("] w");
-    assert_eq!(other.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap(), "whichever is shown is taken over");
+    assert_eq!(
+        other.app.coach.shot().unwrap().cue,
+        CueInputs::parse(OTHERS[0]).unwrap(),
+        "whichever is shown is taken over"
+    );
 }
 
 #[test]

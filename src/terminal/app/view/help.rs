@@ -9,8 +9,8 @@ use ratatui::{
 use crate::{
     learning::run::quantity::Quantity,
     terminal::{
-        App, Condition, DrillContext, KeyContext, Overlay,
-        app::bindings::bindings,
+        App, DrillContext, KeyContext, Overlay,
+        app::bindings::listed,
         keymap::{Section, keys_text},
         pages::PageArea,
         ui::{Ui, wrap},
@@ -95,20 +95,20 @@ const CALIBRATION_NOTES: [&str; 5] = [
 
 /// What the help says of the picture at `place`.
 fn notes(place: KeyContext) -> Vec<String> {
-    match place {
-        KeyContext::Coach | KeyContext::OwnStroke | KeyContext::Follow => {
-            return COACH_NOTES.map(str::to_owned).to_vec();
+    let notes: &[&str] = match place {
+        KeyContext::Coach | KeyContext::OwnStroke | KeyContext::Follow => &COACH_NOTES,
+        KeyContext::Drill(DrillContext::Films | DrillContext::Film) => &FILM_NOTES,
+        KeyContext::Drill(_) => &DRILL_NOTES,
+        KeyContext::Calibration(_) => &CALIBRATION_NOTES,
+        KeyContext::Settings(_) => &SETTINGS_NOTES,
+        _ => {
+            let quantities: Vec<_> =
+                Quantity::ALL.iter().enumerate().map(|(n, one)| format!("{} {}", n + 1, one.name())).collect();
+            let rows = quantities.chunks(4).map(|row| row.join(", "));
+            return TRAINING_NOTES.map(str::to_owned).into_iter().chain(rows).collect();
         }
-        KeyContext::Drill(DrillContext::Films | DrillContext::Film) => return FILM_NOTES.map(str::to_owned).to_vec(),
-        KeyContext::Drill(_) => return DRILL_NOTES.map(str::to_owned).to_vec(),
-        KeyContext::Calibration(_) => return CALIBRATION_NOTES.map(str::to_owned).to_vec(),
-        KeyContext::Settings(_) => return SETTINGS_NOTES.map(str::to_owned).to_vec(),
-        _ => {}
-    }
-    let quantities: Vec<_> =
-        Quantity::ALL.iter().enumerate().map(|(n, one)| format!("{} {}", n + 1, one.name())).collect();
-    let rows = quantities.chunks(4).map(|row| row.join(", "));
-    TRAINING_NOTES.map(str::to_owned).into_iter().chain(rows).collect()
+    };
+    notes.iter().map(ToString::to_string).collect()
 }
 
 /// Draws the page `what` from its line `top` on; gives the first row of what stands below it.
@@ -147,12 +147,12 @@ fn lines(app: &App, what: Overlay, area: Rect) -> Vec<Line<'static>> {
 
 /// What was refused or has failed so far, the newest first.
 fn messages(app: &App, width: usize) -> Vec<Line<'static>> {
-    let (theme, caps) = (app.theme(), app.caps());
+    let (theme, caps) = (app.theme(), app.caps);
     let mut lines = vec![Line::styled("Messages, the newest first", theme.good()), Line::default()];
-    if app.toasts().past().len() == 0 {
+    if app.toasts.past().len() == 0 {
         lines.push(Line::styled("Nothing was refused, and nothing has failed so far.", theme.text()));
     }
-    for text in app.toasts().past() {
+    for text in app.toasts.past() {
         for (n, line) in wrap(text, width.saturating_sub(2)).into_iter().enumerate() {
             let mark = if n == 0 { caps.pick("•", "-") } else { " " };
             lines.push(Line::from(vec![
@@ -162,21 +162,20 @@ fn messages(app: &App, width: usize) -> Vec<Line<'static>> {
         }
     }
     lines.push(Line::default());
-    let log = format!("With their times, and from earlier sessions too: {}", app.training().places.log.display());
+    let log = format!("With their times, and from earlier sessions too: {}", app.training.places.log.display());
     lines.extend(wrap(&log, width).into_iter().map(|line| Line::styled(line, theme.faint())));
     lines
 }
 
 fn help(app: &App, width: usize) -> Vec<Line<'static>> {
-    let (theme, caps) = (app.theme(), app.caps());
-    let (mut lines, all) = (Vec::new(), bindings(app.place()));
-    for section in Section::ALL {
-        let own: Vec<_> =
-            all.iter().filter(|binding| binding.section == section && binding.when != Condition::Help).collect();
+    let (theme, caps) = (app.theme(), app.caps);
+    let (mut lines, all) = (Vec::new(), listed(app.place()).collect::<Vec<_>>());
+    for (section, title) in Section::ALL {
+        let own: Vec<_> = all.iter().filter(|binding| binding.section == section).collect();
         if own.is_empty() {
             continue;
         }
-        lines.push(Line::styled(section.title(), theme.good()));
+        lines.push(Line::styled(title, theme.good()));
         for binding in own {
             let keys = keys_text(binding.keys.iter().flat_map(|(chord, ..)| app.keys().for_work_of(*chord)), caps);
             let keys = wrap(&keys, KEYS - 1);

@@ -53,7 +53,7 @@ pub fn draw_hints(app: &App, area: Rect, ui: &mut Ui) {
 
 fn hint(app: &App, binding: &Bound) -> Option<Line<'static>> {
     let (words, keys) = binding.hint?;
-    let keys = keys_text(binding.keys.iter().take(keys).filter_map(|(chord, ..)| working(app, *chord)), app.caps());
+    let keys = keys_text(binding.keys.iter().take(keys).filter_map(|(chord, ..)| working(app, *chord)), app.caps);
     if keys.is_empty() {
         return None;
     }

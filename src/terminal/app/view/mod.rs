@@ -33,7 +33,7 @@ pub fn page_area(app: &App, area: Rect) -> PageArea {
 
 /// Draws the screen that `app` is at.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let ui = &mut Ui { theme: app.theme(), caps: app.caps(), keys: app.keys(), buffer };
+    let ui = &mut Ui { theme: app.theme(), caps: app.caps, keys: app.keys(), buffer };
     ui.buffer.set_style(area, ui.theme.text());
     if is_too_small(area) {
         too_small::draw(area, ui);
@@ -43,11 +43,11 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     draw_tabs(app, Rect { height: 1, ..area }, ui);
     draw_hints(app, Rect { y: area.bottom() - 1, height: 1, ..area }, ui);
     // Whatever is to be read or answered begins there; toasts stay above it.
-    let mut foot = match app.help() {
+    let mut foot = match app.help {
         Some((overlay, top)) => help::draw(app, overlay, top, &parts, ui),
         None => app.page().draw(&parts, ui),
     };
-    if let Some(command_palette) = app.command_palette() {
+    if let Some(command_palette) = &app.command_palette {
         foot = palette::draw(app, command_palette, area, ui);
     }
     // The first row is the header's.

@@ -9,7 +9,7 @@ use ratatui::{
 
 use crate::terminal::{
     App, Command, CommandPalette,
-    ui::{Message, Ui, draw_status, frame, list::in_view, shorten, write_right},
+    ui::{Message, Ui, draw_status, frame, list, shorten, write_right},
 };
 
 /// Columns of the box at most, and beside it at least; its rows at most.
@@ -45,13 +45,13 @@ pub fn draw(app: &App, command_palette: &CommandPalette, area: Rect, ui: &mut Ui
     frame.render(place, ui.buffer);
     ui.buffer.set_string(inner.x, inner.y, " : ", ui.theme.accent());
     let prompt = inner.x + 3;
-    command_palette.words().draw(Rect { x: prompt, width: inner.right() - prompt - COUNTS, height: 1, ..inner }, ui);
+    command_palette.words.draw(Rect { x: prompt, width: inner.right() - prompt - COUNTS, height: 1, ..inner }, ui);
     let of = format!("{} of {count} ", found.len());
     write_right(ui.buffer, inner.x, inner.right(), inner.y, &of, ui.theme.faint());
 
     let rows = Rect { y: inner.y + 1, height: inner.height - 1, ..inner };
     let mark = command_palette.mark(found.len());
-    for (n, y) in in_view(mark, found.len(), usize::from(rows.height)).zip(rows.y..) {
+    for (n, y) in list::shown(mark, found.len(), rows) {
         draw_command(app, &found[n], n == mark, Rect { y, height: 1, ..rows }, ui);
     }
     let status = Rect::new(area.x, area.bottom() - 2, area.width, 1);

@@ -20,10 +20,10 @@ pub fn tabs(app: &App, area: Rect) -> Vec<(PageId, Rect, String)> {
     }
     let mut x = area.x;
     let mut tabs = Vec::new();
-    let has_tab = |screen: &PageId| *screen != PageId::Calibration || app.screen() == *screen || area.width >= ROOMY;
+    let has_tab = |screen: &PageId| *screen != PageId::Calibration || app.screen == *screen || area.width >= ROOMY;
     for screen in PageId::ALL.into_iter().filter(has_tab) {
         let key = chord_of_tab(screen).filter(|_| area.width >= WIDE);
-        let key = keys_text(key.into_iter().flat_map(|chord| app.keys().for_work_of(chord).take(1)), app.caps());
+        let key = keys_text(key.into_iter().flat_map(|chord| app.keys().for_work_of(chord).take(1)), app.caps);
         let gap = u16::from(!key.is_empty());
         let width = (Span::raw(&key).width() + Span::raw(screen.title()).width()) as u16 + gap + 2;
         let place = Rect::new(x, area.y, width.min(area.right().saturating_sub(x)), 1);
@@ -41,7 +41,7 @@ pub fn draw_tabs(app: &App, area: Rect, ui: &mut Ui) {
         ui.buffer.set_stringn(area.x, area.y, NAME, usize::from(area.width), open);
     }
     for (screen, place, key) in tabs {
-        let is_open = screen == app.screen();
+        let is_open = screen == app.screen;
         let (faint, text) = if is_open { (open, open) } else { (ui.theme.faint(), ui.theme.text()) };
         // A blank that is the neighbour's too stays as it is: the neighbour's name would touch the open tab.
         if is_open && area.width >= LOOSE {

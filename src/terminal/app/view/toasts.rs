@@ -20,7 +20,7 @@ const LINES: usize = 6;
 pub fn draw_toasts(app: &App, area: Rect, ui: &mut Ui) {
     let most = WIDTH.0.min(area.width * WIDTH.1 / 100);
     let mut bottom = area.bottom();
-    for toast in app.toasts().shown().iter().rev() {
+    for toast in app.toasts.shown.iter().rev() {
         let room = usize::from(most.saturating_sub(4));
         let all = wrap(&toast.text, room);
         let is_cut = all.len() > LINES;

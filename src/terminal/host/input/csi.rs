@@ -3,7 +3,7 @@
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
 use crate::terminal::host::input::{
-    keys::{held, key},
+    keys::{held, key, with},
     mouse,
 };
 
@@ -97,11 +97,4 @@ fn unicode(first: &str, second: Option<&str>) -> Option<Event> {
 fn modified(code: KeyCode, parameter: Option<&str>) -> Option<Event> {
     let (modifiers, kind): (_, KeyEventKind) = held(parameter)?;
     Some(Event::Key(KeyEvent::new_with_kind(code, modifiers, kind)))
-}
-
-fn with(mut event: Event, modifiers: KeyModifiers) -> Event {
-    if let Event::Key(key) = &mut event {
-        key.modifiers |= modifiers;
-    }
-    event
 }

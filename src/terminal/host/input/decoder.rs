@@ -6,7 +6,7 @@ use crossterm::event::{Event, KeyCode, KeyModifiers};
 
 use crate::terminal::host::input::{
     csi,
-    keys::{alt, character, control, key},
+    keys::{alt, character, control, key, with},
     mouse,
     paste::{self, Paste},
 };
@@ -134,11 +134,8 @@ fn ground(byte: u8, is_alt: bool, events: &mut Vec<Event>) -> State {
         0x80.. => return in_character(Vec::new(), is_alt, byte, events),
         _ => {}
     }
-    let mut event = control(byte).unwrap_or_else(|| character(char::from(byte)));
-    if let (true, Event::Key(key)) = (is_alt, &mut event) {
-        key.modifiers |= KeyModifiers::ALT;
-    }
-    events.push(event);
+    let event = control(byte).unwrap_or_else(|| character(char::from(byte)));
+    events.push(if is_alt { with(event, KeyModifiers::ALT) } else { event });
     State::Ground
 }
 
@@ -212,13 +209,8 @@ fn in_character(mut bytes: Vec<u8>, is_alt: bool, byte: u8, events: &mut Vec<Eve
     bytes.push(byte);
     match std::str::from_utf8(&bytes) {
         Ok(text) => {
-            for letter in text.chars() {
-                let mut event = character(letter);
-                if let (true, Event::Key(key)) = (is_alt, &mut event) {
-                    key.modifiers |= KeyModifiers::ALT;
-                }
-                events.push(event);
-            }
+            let modifiers = if is_alt { KeyModifiers::ALT } else { KeyModifiers::NONE };
+            events.extend(text.chars().map(|letter| with(character(letter), modifiers)));
             State::Ground
         }
         Err(error) if error.error_len().is_none() => State::Character { bytes, is_alt },

@@ -7,21 +7,23 @@ pub fn key(code: KeyCode) -> Event {
     Event::Key(code.into())
 }
 
+/// The same key while `modifiers` are held as well.
+pub fn with(mut event: Event, modifiers: KeyModifiers) -> Event {
+    if let Event::Key(key) = &mut event {
+        key.modifiers |= modifiers;
+    }
+    event
+}
+
 /// A key that is held with Alt.
 pub fn alt(byte: u8) -> Event {
-    let mut key = letter(char::from(byte));
-    key.modifiers |= KeyModifiers::ALT;
-    Event::Key(key)
+    with(character(char::from(byte)), KeyModifiers::ALT)
 }
 
 /// The key of a character. That it is upper case says that Shift is held.
 pub fn character(character: char) -> Event {
-    Event::Key(letter(character))
-}
-
-fn letter(character: char) -> KeyEvent {
     let modifiers = if character.is_uppercase() { KeyModifiers::SHIFT } else { KeyModifiers::NONE };
-    KeyEvent::new(KeyCode::Char(character), modifiers)
+    Event::Key(KeyEvent::new(KeyCode::Char(character), modifiers))
 }
 
 /// The key of a control character, if it is one.

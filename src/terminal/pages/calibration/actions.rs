@@ -35,7 +35,7 @@ impl CalibrationPage {
             }
             Condition::Found => (found().is_some(), "nothing is entered yet that a table could follow from"),
             Condition::Saved => {
-                (self.saved().is_some(), "save the table first: s; one that was saved before is chosen by its name, F5")
+                (self.saved.is_some(), "save the table first: s; one that was saved before is chosen by its name, F5")
             }
             Condition::Daily => (
                 self.table.doubt.is_some(),
@@ -102,14 +102,14 @@ impl CalibrationPage {
             }
             Action::Save => {
                 // What was saved before has its name already.
-                let saved = self.saved().filter(|_| !self.is_daily).and_then(|path| path.file_stem());
+                let saved = self.saved.as_ref().filter(|_| !self.is_daily).and_then(|path| path.file_stem());
                 let today = if self.is_daily { " today" } else { "" };
                 let name = saved
                     .map_or_else(|| self.sheet().name(&self.table) + today, |name| name.to_string_lossy().into_owned());
                 self.input = Some(Input::Name(TextField::new(LONGEST).with(&name)));
             }
             Action::Use => {
-                let path = self.saved()?.clone();
+                let path = self.saved.clone()?;
                 let said = format!("{} is played on from now on, and at every start", path.display());
                 self.message = Some(Message::good(said));
                 self.for_use = Some(path);

@@ -93,9 +93,6 @@ pub enum CalibrationContext {
 }
 
 impl CalibrationContext {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Tests, Self::Marks, Self::Name, Self::Question];
-
     /// Its keys.
     pub const fn bindings(self) -> &'static [Binding<A, W>] {
         match self {
@@ -104,11 +101,6 @@ impl CalibrationContext {
             Self::Name => NAME,
             Self::Question => QUESTION,
         }
-    }
-
-    /// Whether letters are typed there, or answers.
-    pub const fn takes_letters(self) -> bool {
-        !matches!(self, Self::Tests)
     }
 }
 

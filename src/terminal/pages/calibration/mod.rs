@@ -6,11 +6,12 @@
 mod actions;
 pub mod form;
 pub mod keys;
-mod page;
 pub mod sheet;
 mod view;
 
 use std::path::PathBuf;
+
+use ratatui::layout::Position;
 
 use self::{form::Form, sheet::Sheet};
 use crate::{
@@ -20,7 +21,8 @@ use crate::{
     table::Table,
     terminal::{
         CalibrationContext, CalibrationReport, CalibrationTask, Effect, KeptEntries,
-        ui::{Message, TextField},
+        pages::{Page, PageArea, Target},
+        ui::{Message, TextField, Ui},
     },
 };
 
@@ -35,19 +37,6 @@ pub enum Input {
     Replace(String),
     /// Whether to begin anew.
     Anew,
-}
-
-impl Input {
-    /// The text that is typed, where some is.
-    fn field_mut(&mut self) -> Option<&mut TextField> {
-        match self {
-            // What is on its way to the disk stays as it is.
-            Self::Marks(form) if form.is_sent => None,
-            Self::Marks(form) => Some(form.typed_mut()),
-            Self::Name(field) => Some(field),
-            _ => None,
-        }
-    }
 }
 
 /// What is shown beside the list of tests.
@@ -80,9 +69,10 @@ pub struct CalibrationPage {
     daily: Sheet,
     is_daily: bool,
     /// The file of the table that was saved last.
-    saved: Option<PathBuf>,
+    pub saved: Option<PathBuf>,
     for_use: Option<PathBuf>,
-    is_left: bool,
+    /// Whether one has gone back.
+    pub is_left: bool,
 }
 
 impl CalibrationPage {
@@ -130,19 +120,9 @@ impl CalibrationPage {
         if self.is_daily { &mut self.daily } else { &mut self.all }
     }
 
-    /// Whether one has gone back.
-    pub const fn is_left(&self) -> bool {
-        self.is_left
-    }
-
     /// The file of a table that is to be played on; asked once.
     pub const fn take_for_use(&mut self) -> Option<PathBuf> {
         self.for_use.take()
-    }
-
-    /// The file of the table that was saved last.
-    pub const fn saved(&self) -> Option<&PathBuf> {
-        self.saved.as_ref()
     }
 
     /// The key context.
@@ -210,5 +190,29 @@ impl CalibrationPage {
     /// Where entries are kept that are put aside.
     fn beside(&self) -> PathBuf {
         beside(&self.sheet().path)
+    }
+}
+
+impl Page for CalibrationPage {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+        view::draw(self, area, ui)
+    }
+
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
+        view::target(self, area, at)
+    }
+
+    fn message_mut(&mut self) -> &mut Option<Message> {
+        &mut self.message
+    }
+
+    fn field_mut(&mut self) -> Option<&mut TextField> {
+        match self.input.as_mut()? {
+            // What is on its way to the disk stays as it is.
+            Input::Marks(form) if form.is_sent => None,
+            Input::Marks(form) => Some(form.typed_mut()),
+            Input::Name(field) => Some(field),
+            _ => None,
+        }
     }
 }

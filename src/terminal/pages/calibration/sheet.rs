@@ -21,7 +21,7 @@ pub enum Back {
 }
 
 /// A file of entries, and what is known of it.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Sheet {
     /// The file.
     pub path: PathBuf,
@@ -35,8 +35,8 @@ pub struct Sheet {
     pub judged: Option<Box<Judged>>,
     /// Why nothing follows.
     pub unjudged: Option<String>,
-    /// The marked test.
-    mark: usize,
+    /// Place of the marked test.
+    pub mark: usize,
     /// The marked stroke of that test; the last one where it is none.
     stroke: Option<usize>,
     /// Changes that take those back that were made here.
@@ -50,21 +50,8 @@ pub struct Sheet {
 
 impl Sheet {
     /// One of which nothing is known yet.
-    pub const fn new(path: PathBuf, is_daily: bool) -> Self {
-        Self {
-            path,
-            is_daily,
-            entries: None,
-            trouble: None,
-            judged: None,
-            unjudged: None,
-            mark: 0,
-            stroke: None,
-            back: Vec::new(),
-            left_out: Vec::new(),
-            asked: 0,
-            answered: 0,
-        }
+    pub fn new(path: PathBuf, is_daily: bool) -> Self {
+        Self { path, is_daily, ..Self::default() }
     }
 
     /// Its tests, in the order in which they are played.
@@ -76,11 +63,6 @@ impl Sheet {
     /// How often a test is asked for.
     pub const fn times(&self, test: &Test) -> usize {
         if self.is_daily { 1 } else { test.times }
-    }
-
-    /// Place of the marked test.
-    pub const fn mark(&self) -> usize {
-        self.mark
     }
 
     /// The marked test.

@@ -42,7 +42,7 @@ impl CoachPage {
                 refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one")
             }
             CoachCondition::Choice => refuse(
-                self.advised().is_none_or(|advised| advised.choices().len() < 2),
+                self.advised().is_none_or(|advised| advised.choices.len() < 2),
                 "there is no other shot to choose",
             ),
             CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),

@@ -17,8 +17,10 @@ pub struct AdviceState {
     /// Tells by which errors the shots were judged.
     pub seed: u64,
     found: Option<Arc<Recommendation>>,
-    choices: Vec<Choice>,
-    chosen: usize,
+    /// All shots, the recommended one first.
+    pub choices: Vec<Choice>,
+    /// The place of the one that is shown.
+    pub chosen: usize,
 }
 
 /// One of the shots.
@@ -41,16 +43,6 @@ impl AdviceState {
         let Advice { proposals, seed, found, .. } = advice;
         let choices: Vec<_> = proposals.into_iter().map(choice).collect();
         (!choices.is_empty()).then_some(Self { query, why: None, seed, found, choices, chosen: 0 })
-    }
-
-    /// All shots, the recommended one first.
-    pub fn choices(&self) -> &[Choice] {
-        &self.choices
-    }
-
-    /// The place of the one that is shown.
-    pub const fn chosen(&self) -> usize {
-        self.chosen
     }
 
     /// What the first shot's lead follows from, while that one is shown and it is not known why it leads.

@@ -162,9 +162,6 @@ pub enum QuestionContext {
 }
 
 impl QuestionContext {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Title, Self::Replace, Self::Positions];
-
     /// Its keys.
     pub const fn bindings(self) -> &'static [Binding<A, W>] {
         match self {

@@ -33,11 +33,6 @@ const fn system_of(guide: &Guide) -> Option<System> {
 }
 
 impl CoachPage {
-    /// The lesson, while it is open.
-    pub const fn lesson(&self) -> Option<&Lesson> {
-        self.lesson.as_ref()
-    }
-
     /// What a player counts for the shot that is shown, once that is known.
     pub fn guide(&self) -> Option<&Guide> {
         self.shown().map(AdviceState::choice)?.study.as_ref()?.system.as_ref()
@@ -99,9 +94,9 @@ mod tests {
         let [first, second] = ["match", "textbook"].map(|name| Table::preset(name).unwrap());
         let mut page = CoachPage::new(first.clone(), Layout::opening(&first), 1).unwrap();
         page.update(CoachAction::NextSystem);
-        let before = page.lesson().unwrap().path.clone();
+        let before = page.lesson.as_ref().unwrap().path.clone();
         page.take_query(&second, CoachQuery::default());
-        assert_ne!(page.lesson().unwrap().path, before);
-        assert_eq!(*page.lesson().unwrap().table, second);
+        assert_ne!(page.lesson.as_ref().unwrap().path, before);
+        assert_eq!(*page.lesson.as_ref().unwrap().table, second);
     }
 }

@@ -19,7 +19,7 @@ mod side_view;
 mod spectators;
 pub mod view;
 
-use std::{sync::Arc, time::Duration};
+use std::{borrow::Cow, sync::Arc, time::Duration};
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -33,14 +33,14 @@ use crate::{
     storage::Player,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        CoachQuery, Proposal, SavedSession, SessionParts, Settings, Shot,
+        CoachQuery, Proposal, SavedSession, Settings, Shot,
         pages::coach::{
             dragging::Drag,
             keys::QuestionContext,
             request::{Pending, Studying},
             saving::Saving,
         },
-        shot::{History, Playback, WhatIf, placing::STEPS},
+        shot::{History, Playback, placing::STEPS},
         ui::{Message, TextField},
         words::step_words,
     },
@@ -134,7 +134,7 @@ pub struct CoachPage {
     /// The selected ball is held by the mouse.
     drag: Option<Drag>,
     /// Where the last session ended, until it is gone on with.
-    before: Option<SavedSession>,
+    before: Option<SavedSession<'static>>,
     /// The exam that was left before its end, until it is gone on with.
     pub left_exam: Option<Session>,
     /// What is asked before the balls are saved.
@@ -144,7 +144,7 @@ pub struct CoachPage {
     /// The system that is taught.
     lesson: Option<lesson::Lesson>,
     step: usize,
-    /// Steps go from one quarter of a diamond to the next, whatever their size is in millimetres.
+    /// Whether steps go from one quarter of a diamond to the next, whatever their size is in millimetres.
     quarters: bool,
     /// Time that the coach may think, and the most that may be set.
     budget: Duration,
@@ -207,9 +207,9 @@ impl CoachPage {
     }
 
     /// Offers to go on from where the last session ended, if that is somewhere else.
-    pub fn offer(&mut self, last: Option<SavedSession>) {
+    pub fn offer(&mut self, last: Option<SavedSession<'static>>) {
         let is_elsewhere = |last: &SavedSession| {
-            last.layout != *self.layout() || last.table != *self.table() || last.practice.is_some()
+            last.layout != *self.layout() || *last.table != *self.table() || last.practice.is_some()
         };
         self.before = last.filter(is_elsewhere);
         let words = match &self.before {
@@ -224,13 +224,13 @@ impl CoachPage {
 
     /// What the next session may go on from, with what is practised or the exam that waits to be gone on with; `None` while
     /// nothing is and the balls lie as at the start.
-    pub fn last<'a>(&'a self, practised: Option<&'a Session>) -> Option<SessionParts<'a>> {
+    pub fn last<'a>(&'a self, practised: Option<&'a Session>) -> Option<SavedSession<'a>> {
         let CoachQuery { rule, skill, plan, .. } = self.query;
         let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
-        let of_before = || self.before.as_ref()?.practice.as_ref().filter(|practice| practice.is_exam());
+        let of_before = || self.before.as_ref()?.practice.as_deref().filter(|practice| practice.is_exam());
         let exam = self.left_exam.as_ref().or_else(of_before);
         let practice = if practised.is_some_and(Session::is_exam) { practised } else { exam.or(practised) };
-        let last = SessionParts { table, layout, cue_ball, rule, skill, plan, practice };
+        let last = SavedSession::new(table, layout, cue_ball, rule, skill, plan, practice);
         let is_begun = self.is_begun() || practised.is_some() || self.left_exam.is_some();
         (self.followed().is_none() && is_begun).then_some(last)
     }
@@ -250,7 +250,7 @@ impl CoachPage {
         self.balls.present_mut().cue_ball = last.cue_ball;
         self.query = CoachQuery { skill: last.skill, plan: last.plan, ..self.query.clone() };
         self.message = Some(Message::good("this is where the last session ended; Enter asks the coach"));
-        last.practice
+        last.practice.map(Cow::into_owned)
     }
 
     /// Lets the coach think no longer than that, whatever is set.
@@ -275,9 +275,7 @@ impl CoachPage {
     /// A sentence where the table cannot be read; everything else is taken.
     pub fn take_changes(&mut self, before: &Settings, settings: &Settings) -> Result<(), String> {
         self.budget = Duration::from_millis(settings.think_ms).min(self.most);
-        if before.units != settings.units {
-            self.units = settings.units;
-        }
+        self.units = settings.units;
         if before.step_mm != settings.step_mm {
             self.set_step(settings.step_mm);
         }
@@ -285,21 +283,11 @@ impl CoachPage {
             self.playback.set_speed(settings.speed);
         }
         let mut query = self.query.clone();
-        if before.rule != settings.rule {
-            query.rule = settings.rule;
-        }
-        if before.skill != settings.skill {
-            query.skill = settings.skill;
-        }
-        if before.doubt != settings.doubt {
-            query.doubt = settings.doubt;
-        }
-        if before.plan != settings.plan {
-            query.plan = settings.plan;
-        }
-        if before.jumps != settings.jumps {
-            query.jumps = settings.jumps;
-        }
+        take_other(&mut query.rule, before.rule, settings.rule);
+        take_other(&mut query.skill, before.skill, settings.skill);
+        take_other(&mut query.doubt, before.doubt, settings.doubt);
+        take_other(&mut query.plan, before.plan, settings.plan);
+        take_other(&mut query.jumps, before.jumps, settings.jumps);
         if query != self.query {
             self.cancel();
             self.query = query;
@@ -397,7 +385,7 @@ impl CoachPage {
 
     /// The shot that is on the table: the player's own while there is one, else the one that is shown.
     pub fn shot(&self) -> Option<&Arc<Shot>> {
-        self.what_if().map(WhatIf::shot).or_else(|| self.proposal().map(|proposal| &proposal.shot))
+        self.what_if().map(|what_if| &what_if.shot).or_else(|| self.proposal().map(|proposal| &proposal.shot))
     }
 
     /// The shot that is being watched.
@@ -428,11 +416,6 @@ impl CoachPage {
         STEPS[self.step]
     }
 
-    /// Whether steps are quarters of a diamond.
-    pub const fn counts_diamonds(&self) -> bool {
-        self.quarters
-    }
-
     /// How far a key moves a ball, in words.
     pub fn step_words(&self) -> String {
         if self.quarters { "1/4 diamond".to_owned() } else { step_words(self.step_mm(), self.units.length) }
@@ -448,5 +431,12 @@ impl CoachPage {
         if self.pending.take().is_some() {
             self.message = Some(Message::warning("the coach has failed; quit and start again to ask it"));
         }
+    }
+}
+
+/// Takes a value that has been set otherwise.
+fn take_other<T: Copy + PartialEq>(now: &mut T, before: T, after: T) {
+    if before != after {
+        *now = after;
     }
 }

@@ -2,17 +2,14 @@
 
 use std::sync::Arc;
 
-use crate::{
-    statistics::SuccessRate,
-    terminal::{
-        Effect, Job,
-        pages::coach::CoachPage,
-        shot::{
-            OwnStroke, StrokeChange, WhatIf,
-            what_if::{self, Scene},
-        },
-        ui::Message,
+use crate::terminal::{
+    Effect, Job,
+    pages::coach::CoachPage,
+    shot::{
+        OwnStroke, StrokeChange, WhatIf,
+        what_if::{self, Scene},
     },
+    ui::Message,
 };
 
 /// Attempts at a stroke of the player's own where the coach's was not judged, since its search was stopped.
@@ -25,14 +22,7 @@ const LEAST: usize = 100;
 #[derive(Debug)]
 pub struct Compared {
     stroke: OwnStroke,
-    what_if: WhatIf,
-}
-
-impl Compared {
-    /// How often the player makes the stroke of question `id`.
-    pub fn judged(&mut self, id: u64, made: SuccessRate) {
-        self.what_if.judged(id, made);
-    }
+    pub(super) what_if: WhatIf,
 }
 
 impl CoachPage {
@@ -40,7 +30,7 @@ impl CoachPage {
     pub fn what_if(&self) -> Option<&WhatIf> {
         let own = self.compared.as_ref().map(|compared| &compared.what_if)?;
         let shown = self.proposal().filter(|_| self.pending.is_none())?;
-        Arc::ptr_eq(own.coach(), &shown.shot).then_some(own)
+        Arc::ptr_eq(&own.coach, &shown.shot).then_some(own)
     }
 
     /// Whether the stroke can be set as it was before its last change, and after it again.
@@ -108,7 +98,7 @@ impl CoachPage {
         if self.query.skill.is_perfect() {
             return None;
         }
-        let cue = self.compared.as_ref()?.what_if.shot().cue;
+        let cue = self.compared.as_ref()?.what_if.shot.cue;
         let coach = self.proposal()?;
         let judged = coach.made.filter(|_| !coach.is_early);
         let attempts = judged.map_or(JUDGED, |made| made.trials.max(LEAST));
@@ -133,6 +123,7 @@ mod tests {
     use super::*;
     use crate::{
         physics::CueInputs,
+        statistics::SuccessRate,
         table::{Layout, Table},
         terminal::{Advice, Answer, CoachAction as Action, CoachNews, Proposal, Shot},
     };
@@ -147,7 +138,7 @@ mod tests {
         let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
         let shot = Arc::new(Shot::new(&table, &layout, cue, true, "search").unwrap());
         let made = Some(SuccessRate::new(890, 1000));
-        let best = Proposal { shot, kind: None, made, risk: None, next: None, is_early: false };
+        let best = Proposal { shot, made, risk: None, next: None, is_early: false };
         let advice = Advice { proposals: vec![best], seed: 1, effort: None, found: None };
         assert!(page.receive(Answer { id: job.id, news: CoachNews::Advice(advice) }).is_some(), "it is studied");
         page
@@ -173,7 +164,7 @@ mod tests {
         assert!((second.stroke.unwrap().0.speed - 2.6).abs() < 1e-9);
         let tell = |page: &mut CoachPage, id: u64, made| {
             assert!(page.receive(Answer { id, news: CoachNews::Judged(SuccessRate::new(made, 100)) }).is_none());
-            page.what_if().unwrap().made().map(|rate| rate.rate)
+            page.what_if().unwrap().made.map(|rate| rate.rate)
         };
         assert_eq!(tell(&mut page, first.id, 10), None);
         assert_eq!(tell(&mut page, second.id, 70), Some(0.7));

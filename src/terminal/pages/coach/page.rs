@@ -7,7 +7,7 @@ use crate::{
     table::CueBall,
     terminal::{
         pages::{Page, PageArea, Target},
-        ui::{Message, Typed, Ui},
+        ui::{Message, TextField, Typed, Ui},
     },
 };
 
@@ -20,20 +20,19 @@ impl Page for CoachPage {
         view::target(self, area, at)
     }
 
-    fn message(&self) -> Option<&Message> {
-        self.message.as_ref()
-    }
-
     fn message_mut(&mut self) -> &mut Option<Message> {
         &mut self.message
+    }
+
+    fn field_mut(&mut self) -> Option<&mut TextField> {
+        self.typed.as_mut().or_else(|| self.saving.field_mut())
     }
 
     fn input(&mut self, typed: Typed) -> bool {
         if self.followed().is_some() {
             return false;
         }
-        let field = self.typed.as_mut().or_else(|| self.saving.field_mut());
-        let taken = field.is_some_and(|field| field.take(typed));
+        let taken = self.field_mut().is_some_and(|field| field.take(typed));
         if let (Typed::Paste(text), None) = (typed, self.question()) {
             // What is pasted over the table says where the balls lie.
             self.paste(text);

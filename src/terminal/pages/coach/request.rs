@@ -6,12 +6,12 @@ use std::sync::{
 };
 
 use crate::{
-    coach::{Cause, Skill},
+    coach::Cause,
     game::Rule,
     physics::CueInputs,
     terminal::{
         Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot,
-        pages::coach::CoachPage,
+        pages::{after, coach::CoachPage, next_skill},
         ui::Message,
         words::{chance_words, skill_word},
     },
@@ -115,7 +115,7 @@ impl CoachPage {
             }
             (CoachNews::Judged(made), _) => {
                 if let Some(compared) = &mut self.compared {
-                    compared.judged(answer.id, made);
+                    compared.what_if.judged(answer.id, made);
                 }
             }
             (CoachNews::Next(next), _) if is_study => {
@@ -169,7 +169,7 @@ impl CoachPage {
     pub(super) fn choose(&mut self, choose: impl FnOnce(&mut AdviceState)) {
         if let Some(advised) = self.advised_mut() {
             choose(advised);
-            let words = format!("shot {} of {}", advised.chosen() + 1, advised.choices().len());
+            let words = format!("shot {} of {}", advised.chosen + 1, advised.choices.len());
             let proposal = &advised.choice().proposal;
             self.message = Some(match chance(proposal, &advised.query) {
                 // Whose chance it is stands above the list, and one row is all there is.
@@ -200,8 +200,7 @@ impl CoachPage {
     }
 
     pub(super) fn next_skill(&mut self) {
-        let all: Vec<Skill> = Skill::NAMED.iter().map(|(_, skill)| *skill).chain(self.own).collect();
-        let skill = after(&all, &self.query.skill);
+        let skill = next_skill(self.query.skill, self.own);
         let words = format!("the player: {}", skill_word(skill));
         self.ask_for(CoachQuery { skill, ..self.query.clone() }, &words);
     }
@@ -219,12 +218,6 @@ impl CoachPage {
         let hint = if self.advised().is_some() { "the shot for it is known" } else { "Enter asks the coach" };
         self.message = Some(Message::plain(format!("{words}; {hint}")));
     }
-}
-
-/// What comes after `one` in `all`; after the last the first.
-fn after<T: Copy + PartialEq>(all: &[T], one: &T) -> T {
-    let place = all.iter().position(|other| other == one).map_or(0, |place| place + 1);
-    all[place % all.len()]
 }
 
 /// A proposal in a sentence.

@@ -7,7 +7,7 @@ use crate::{
     terminal::{
         Advice, AdviceState, CoachQuery, Mode, Proposal,
         pages::coach::{CoachPage, Position},
-        shot::{History, WhatIf},
+        shot::History,
         shown::{Author, Doing, ShownShot, ShownTable},
         tasks::onlooker::{Seen, SeenTable, damage_words},
         ui::Message,
@@ -119,7 +119,7 @@ impl CoachPage {
     fn shown_shot(&self) -> Option<ShownShot> {
         let proposal = self.proposal()?;
         let what_if = self.what_if();
-        let made = what_if.map_or(proposal.made, WhatIf::made);
+        let made = what_if.map_or(proposal.made, |what_if| what_if.made);
         let author = match what_if {
             Some(_) => Author::Player,
             None if proposal.is_early => Author::Search,
@@ -177,7 +177,7 @@ impl CoachPage {
             self.playback.follow(time, duration, told.playing);
             let made = told.made.map(|(made, of)| SuccessRate::new(made, of));
             let is_early = told.author == Author::Search;
-            let proposal = Proposal { shot, kind: None, made, risk: None, next: None, is_early };
+            let proposal = Proposal { shot, made, risk: None, next: None, is_early };
             let advice = Advice { proposals: vec![proposal], seed: 1, effort: None, found: None };
             position.advised = AdviceState::new(self.query.clone(), advice);
             // The closer look is the player's own.

@@ -4,8 +4,8 @@ use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
     terminal::{
         DrillAction as Action, DrillCondition, DrillTask, Effect,
-        pages::drills::{Balls, DrillsPage, Question, Screen, Turn},
-        ui::Message,
+        pages::drills::{Balls, DrillsPage, Question, Screen, Turn, question::LONGEST},
+        ui::{Message, TextField},
         words::skill_word,
     },
 };
@@ -49,7 +49,7 @@ impl DrillsPage {
             Action::Category(step) => self.catalogue.choose_category(step),
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
             Action::All => self.catalogue.show_all(),
-            Action::Search => self.question = Some(Question::search()),
+            Action::Search => self.question = Some(Question::Search(TextField::new(LONGEST))),
             Action::Open => return self.open_marked(),
             Action::Exam(level) => return self.begin_exam(level),
             Action::BeginExam => self.pages = vec![Screen::Library, Screen::Exercise],
@@ -59,7 +59,7 @@ impl DrillsPage {
                 return self.records.skill().map(|skill| Effect::Drill(vec![DrillTask::KeepSkill(skill)]));
             }
             Action::Share => return self.share(),
-            Action::Add => self.question = Some(Question::code()),
+            Action::Add => self.question = Some(Question::Code(TextField::new(LONGEST))),
             Action::Remove => {
                 self.question = self.catalogue.marked().map(|exercise| Question::Remove(exercise.name.clone()));
             }
@@ -82,7 +82,7 @@ impl DrillsPage {
             return;
         }
         self.pages.pop();
-        self.film.pause();
+        self.film.playback.pause();
         if self.page() == Screen::Library {
             self.leave_page();
         }
@@ -126,7 +126,7 @@ impl DrillsPage {
 
     fn begin_exam(&mut self, level: u8) -> Option<Effect> {
         let seed = self.seed();
-        match exam::draw(self.catalogue.library().exercises(), level, seed) {
+        match exam::draw(self.catalogue.library.exercises(), level, seed) {
             Ok(exercises) => {
                 let effect = self.begin(Goal::Exam, exercises);
                 // A page says first what comes; the key that chose the exam plays no stroke of it.
@@ -239,7 +239,7 @@ impl DrillsPage {
 
     /// A position whose name the program itself has not taken.
     fn free(&self, exercise: Exercise) -> Result<Box<Exercise>, String> {
-        if self.catalogue.library().is_bundled(&exercise.name) {
+        if self.catalogue.library.is_bundled(&exercise.name) {
             return Err(format!("{} is the name of a bundled exercise; take another", exercise.name));
         }
         Ok(Box::new(exercise))

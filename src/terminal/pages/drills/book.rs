@@ -10,8 +10,8 @@ use crate::drills::{Record, Session};
 /// The sessions that are known.
 #[derive(Debug, Default)]
 pub struct Book {
-    /// In the order in which they began.
-    sessions: Vec<Session>,
+    /// All of them, the oldest first.
+    pub sessions: Vec<Session>,
     scores: HashMap<String, Record>,
     /// What could not be read, a sentence each.
     pub troubles: Vec<String>,
@@ -28,11 +28,6 @@ impl Book {
         let names: BTreeSet<String> = book.sessions.iter().flat_map(names).collect();
         book.score(names);
         book
-    }
-
-    /// All sessions, the oldest first.
-    pub fn sessions(&self) -> &[Session] {
-        &self.sessions
     }
 
     /// The same, to be used on another thread.
@@ -105,14 +100,14 @@ mod tests {
         let name = first.exercises[0].name.clone();
         let mut book = Book::new(vec![first, session("2", Goal::Free, "")], Vec::new());
         let score = |book: &Book| book.score_of(&name).map(|record| (record.made, record.tried));
-        assert_eq!((book.sessions().len(), score(&book)), (1, Some((1, 2))));
+        assert_eq!((book.sessions.len(), score(&book)), (1, Some((1, 2))));
         book.put(&session("1", Goal::Free, "x-xx"));
-        assert_eq!((book.sessions().len(), score(&book)), (1, Some((3, 4))));
+        assert_eq!((book.sessions.len(), score(&book)), (1, Some((3, 4))));
         // Strokes of a game are no repetitions of the exercise.
         book.put(&session("3", Goal::Game { innings: 9 }, "xxx"));
-        assert_eq!((book.sessions().len(), score(&book)), (2, Some((3, 4))));
+        assert_eq!((book.sessions.len(), score(&book)), (2, Some((3, 4))));
         assert_eq!((book.sessions_of(Some(&name)).len(), book.sessions_of(None).len()), (1, 2));
         book.put(&session("1", Goal::Free, ""));
-        assert_eq!((book.sessions().len(), score(&book)), (1, Some((0, 0))));
+        assert_eq!((book.sessions.len(), score(&book)), (1, Some((0, 0))));
     }
 }

@@ -5,21 +5,18 @@ use crate::drills::{Category, Exercise, Filter, Library};
 /// The library as it is listed.
 #[derive(Debug)]
 pub struct Catalogue {
-    library: Library,
+    /// All exercises, shown or not.
+    pub library: Library,
     /// Which exercises are shown.
     pub filter: Filter,
-    mark: usize,
+    /// Place of the marked exercise among those that are shown.
+    pub mark: usize,
 }
 
 impl Catalogue {
     /// All of `library`.
     pub fn new(library: Library) -> Self {
         Self { library, filter: Filter::default(), mark: 0 }
-    }
-
-    /// All exercises, shown or not.
-    pub const fn library(&self) -> &Library {
-        &self.library
     }
 
     /// Takes another library; the mark stays at its exercise where that is still there.
@@ -32,11 +29,6 @@ impl Catalogue {
     /// Those that are shown.
     pub fn found(&self) -> Vec<&Exercise> {
         self.library.find(&self.filter).collect()
-    }
-
-    /// Place of the marked exercise among those that are shown.
-    pub const fn mark(&self) -> usize {
-        self.mark
     }
 
     /// The marked exercise.
@@ -116,7 +108,7 @@ mod tests {
         assert!(catalogue.marked().is_none(), "nobody has saved anything");
         catalogue.move_mark(5);
         catalogue.choose_category(1);
-        assert_eq!((catalogue.found().len(), catalogue.mark()), (all, 0));
+        assert_eq!((catalogue.found().len(), catalogue.mark), (all, 0));
         for category in Category::ALL {
             catalogue.choose_category(1);
             assert!(catalogue.found().iter().all(|exercise| exercise.category == category));
@@ -128,7 +120,7 @@ mod tests {
         let mut catalogue = Catalogue::new(Library::bundled().unwrap());
         catalogue.move_mark(isize::MAX);
         let last = catalogue.marked().unwrap().clone();
-        assert_eq!(catalogue.mark() + 1, catalogue.found().len());
+        assert_eq!(catalogue.mark + 1, catalogue.found().len());
         catalogue.find_text(&last.title.to_uppercase());
         assert_eq!(catalogue.marked(), Some(&last));
         catalogue.find_text("no such exercise");

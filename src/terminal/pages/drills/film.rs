@@ -14,18 +14,14 @@ use crate::{
 /// The filmed shots on the screen.
 #[derive(Debug, Default)]
 pub struct FilmsScreen {
-    mark: usize,
+    /// Place of the marked shot in the list.
+    pub mark: usize,
     scene: Option<Box<FilmScene>>,
     /// The clock of the shot that is watched.
     pub playback: Playback,
 }
 
 impl FilmsScreen {
-    /// Place of the marked shot in the list.
-    pub const fn mark(&self) -> usize {
-        self.mark
-    }
-
     /// The marked shot, which is the one that is watched.
     pub fn marked(&self) -> Option<&'static Listed> {
         listed().get(self.mark)
@@ -72,11 +68,6 @@ impl FilmsScreen {
             DrillAction::Pace(_) => self.playback.slower(),
             _ => self.playback.toggle(duration),
         }
-    }
-
-    /// Pauses: it is no longer on the screen.
-    pub fn pause(&mut self) {
-        self.playback.pause();
     }
 
     /// Lets `seconds` pass for the shot.

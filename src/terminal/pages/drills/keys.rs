@@ -1,12 +1,12 @@
 //! The keys of the drill screens, a table for each page and for what is typed or answered there.
 
-use crossterm::event::KeyCode::{BackTab, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up};
+use crossterm::event::KeyCode::{BackTab, Delete, Down, Enter, Esc, Left, PageDown, PageUp, Right, Tab, Up};
 
 use crate::terminal::{
     keymap::{
         Binding,
         Section::{self, Film, Library, Position, Program, Record, Score},
-        bind, ctrl, key, letter, mark,
+        bind, ctrl, key, letter, lines, mark,
     },
     shot::{StrokeChange, stroke::stroke_keys},
 };
@@ -168,20 +168,6 @@ pub enum DrillContext {
 }
 
 impl DrillContext {
-    /// All of them.
-    pub const ALL: [Self; 10] = [
-        Self::Library,
-        Self::Search,
-        Self::Exam,
-        Self::Exercise,
-        Self::Result,
-        Self::Record,
-        Self::Films,
-        Self::Film,
-        Self::Question,
-        Self::Text,
-    ];
-
     /// Its keys.
     pub const fn bindings(self) -> &'static [Binding<A, W>] {
         match self {
@@ -191,16 +177,11 @@ impl DrillContext {
             Self::Exercise => EXERCISE,
             Self::Result => RESULT,
             Self::Record => RECORD,
-            Self::Films => super::film_keys::FILMS,
-            Self::Film => super::film_keys::FILM,
+            Self::Films => FILMS,
+            Self::Film => FILM,
             Self::Question => QUESTION,
             Self::Text => TEXT,
         }
-    }
-
-    /// Whether letters are typed there, or answers.
-    pub const fn takes_letters(self) -> bool {
-        matches!(self, Self::Search | Self::Question | Self::Text)
     }
 }
 
@@ -210,10 +191,7 @@ const BACK: Binding<A, W> = bind(Program, W::Here, &[key(Esc, A::Back)], Some(("
 #[rustfmt::skip]
 pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Library, W::Marked, &[key(Enter, A::Open)], Some(("practise", 1)), "open the marked exercise"),
-    bind(Library, W::Marked, &[
-        key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
-        key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)), key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
-        ], Some(("choose", 2)), "mark another exercise"),
+    bind(Library, W::Marked, lines!(A::Line), Some(("choose", 2)), "mark another exercise"),
     bind(Library, W::Here, &[key(Left, A::Category(-1)), key(Right, A::Category(1)), key(BackTab, A::Category(-1)),
         key(Tab, A::Category(1))], Some(("category", 2)), "list another category"),
     bind(Library, W::Here, &[letter('/', A::Search)], Some(("find", 1)), "find words in titles, points and tags")
@@ -306,6 +284,27 @@ pub const RECORD: &[Binding<A, W>] = &[
     bind(Record, W::OfExercise, &[letter('a', A::Scope)], Some(("all or one", 1)), "the record of all exercises, or of this one"),
     bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as my skill, and play with it"),
     bind(Record, W::Here, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))], Some(("scroll", 2)), "earlier sessions"),
+    BACK,
+];
+
+/// The list of filmed shots.
+#[rustfmt::skip]
+pub const FILMS: &[Binding<A, W>] = &[
+    bind(Film, W::Here, &[key(Enter, A::Open)], Some(("watch", 1)), "watch the marked shot"),
+    bind(Film, W::Here, lines!(A::Line), Some(("choose", 2)), "mark another shot"),
+    BACK,
+];
+
+/// A filmed shot.
+#[rustfmt::skip]
+pub const FILM: &[Binding<A, W>] = &[
+    bind(Film, W::Filmed, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
+    bind(Film, W::Filmed, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
+        key(Right, A::Event(1))], Some(("event", 2)), "step from event to event"),
+    bind(Film, W::Filmed, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
+        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], Some(("speed", 2)), "play slower or faster"),
+    bind(Film, W::Here, &[letter('[', A::Filmed(-1)), letter(']', A::Filmed(1))], Some(("other shot", 2)),
+        "watch the shot before, the next shot"),
     BACK,
 ];
 

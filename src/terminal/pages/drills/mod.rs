@@ -7,9 +7,7 @@ mod actions;
 mod book;
 mod catalogue;
 pub mod film;
-mod film_keys;
 pub mod keys;
-mod page;
 mod question;
 mod records;
 mod reports;
@@ -21,15 +19,18 @@ mod watched;
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
+use ratatui::layout::Position;
 
 use crate::{
     coach::{Skill, Units},
     drills::{Goal, Library, Session},
     game::Rule,
     storage::Places,
-    table::{Layout, Table},
+    table::{CueBall, Layout, Table},
     terminal::{
-        DrillContext, DrillTask, Effect, Settings, pages::drills::film::FilmsScreen, shot::Playback, ui::Message,
+        DrillContext, DrillTask, Effect, Settings,
+        pages::{Page, PageArea, Target, drills::film::FilmsScreen, next_skill},
+        ui::{Message, TextField, Typed, Ui},
     },
 };
 
@@ -74,10 +75,7 @@ pub struct Player {
 impl Player {
     /// The next of those there are.
     fn choose_next(&mut self) {
-        let named = Skill::NAMED.iter().map(|(_, skill)| *skill);
-        let all: Vec<Skill> = named.chain(self.own).collect();
-        let now = all.iter().position(|skill| *skill == self.skill);
-        self.choose(all[now.map_or(0, |now| (now + 1) % all.len())]);
+        self.choose(next_skill(self.skill, self.own));
     }
 
     /// Plays with `skill` from now on, at the coach's table too.
@@ -282,15 +280,61 @@ impl DrillsPage {
 
     /// Opens the list of filmed shots.
     pub fn open_films(&mut self) {
-        self.film.pause();
+        self.film.playback.pause();
         if !matches!(self.page(), Screen::Films) {
             self.pages.retain(|page| !matches!(page, Screen::Films | Screen::Film));
             self.pages.push(Screen::Films);
         }
     }
+}
 
-    /// The clock of the shot that is watched.
-    pub fn playback(&self) -> Option<&Playback> {
-        Some(&self.turn.as_ref()?.watched()?.playback)
+impl Page for DrillsPage {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+        view::draw(self, area, ui)
+    }
+
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
+        view::target(self, area, at)
+    }
+
+    fn message_mut(&mut self) -> &mut Option<Message> {
+        &mut self.message
+    }
+
+    fn field_mut(&mut self) -> Option<&mut TextField> {
+        match self.question.as_mut()? {
+            Question::Search(typed) | Question::Code(typed) => Some(typed),
+            _ => None,
+        }
+    }
+
+    fn input(&mut self, typed: Typed) -> bool {
+        let taken = self.field_mut().is_some_and(|field| field.take(typed));
+        if taken {
+            self.message = None;
+            self.search();
+        }
+        taken
+    }
+
+    fn tick(&mut self, seconds: f64) {
+        if self.page() == Screen::Film {
+            self.film.tick(seconds);
+        } else if let Some(turn) = &mut self.turn {
+            turn.tick(seconds);
+        }
+    }
+
+    fn frame_interval(&self) -> Option<f64> {
+        let is_moving = match self.page() {
+            Screen::Exercise => self.turn.as_ref().is_some_and(Turn::is_moving),
+            Screen::Film => self.film.playback.playing,
+            _ => false,
+        };
+        is_moving.then_some(1.0 / 30.0)
+    }
+
+    fn cue_ball(&self) -> CueBall {
+        self.turn.as_ref().map_or(CueBall::White, |turn| turn.cue_ball)
     }
 }

@@ -3,7 +3,7 @@
 use crate::{drills::Exercise, terminal::ui::TextField};
 
 /// Longest text that is typed or pasted, bytes: a code of many lines that a chat has wrapped fits.
-const LONGEST: usize = 4000;
+pub(super) const LONGEST: usize = 4000;
 
 /// A question that waits for an answer.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,16 +21,6 @@ pub enum Question {
 }
 
 impl Question {
-    /// Asks for words to look for.
-    pub(super) const fn search() -> Self {
-        Self::Search(TextField::new(LONGEST))
-    }
-
-    /// Asks for a share code.
-    pub(super) const fn code() -> Self {
-        Self::Code(TextField::new(LONGEST))
-    }
-
     /// The question as it stands on the status line, without what is typed.
     pub fn text(&self) -> String {
         match self {
@@ -48,14 +38,6 @@ impl Question {
 
     /// The text that is typed, where some is.
     pub fn field(&self) -> Option<&TextField> {
-        match self {
-            Self::Search(typed) | Self::Code(typed) => Some(typed),
-            _ => None,
-        }
-    }
-
-    /// The same, to be changed.
-    pub(super) fn field_mut(&mut self) -> Option<&mut TextField> {
         match self {
             Self::Search(typed) | Self::Code(typed) => Some(typed),
             _ => None,

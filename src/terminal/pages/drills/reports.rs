@@ -107,7 +107,7 @@ impl DrillsPage {
 
     /// A session is on the disk, or could not be written.
     fn saved(&mut self, session: &Session, saved: Result<(), String>) -> Vec<DrillTask> {
-        let before = self.book.sessions().iter().find(|known| known.id == session.id);
+        let before = self.book.sessions.iter().find(|known| known.id == session.id);
         let taken_back = before.and_then(|before| before.attempts.get(session.attempts.len())).cloned();
         self.book.put(session);
         let tasks = self.turn.as_mut().map_or_else(Vec::new, |turn| turn.saved(session));
@@ -138,7 +138,7 @@ impl DrillsPage {
 
     /// The user's own positions, as far as they are listed.
     fn own(&self) -> impl Iterator<Item = &Exercise> {
-        let library = self.catalogue.library();
+        let library = &self.catalogue.library;
         library.exercises().iter().filter(|exercise| !library.is_bundled(&exercise.name))
     }
 

@@ -192,7 +192,7 @@ impl Turn {
         let shooter = self.session.shooter();
         let Some(what_if) = &mut self.what_if else { return Vec::new() };
         let id = QUESTIONS.fetch_add(1, Ordering::Relaxed);
-        let (cue, cancel) = (what_if.shot().cue, what_if.ask(id));
+        let (cue, cancel) = (what_if.shot.cue, what_if.ask(id));
         vec![DrillTask::Judge(Box::new(JudgedStroke { id, table, layout, rule, shooter, cue, cancel }))]
     }
 
@@ -254,7 +254,7 @@ impl Turn {
     /// The shot on the table: the one that is watched, the one that is taught while it is shown, or the player's own beside it.
     pub fn shot(&self) -> Option<&Shot> {
         if let Some(what_if) = self.what_if() {
-            return Some(what_if.shot());
+            return Some(&what_if.shot);
         }
         match self.watched() {
             Some(watched) if !self.shows_hint => watched.outcome.shot.as_deref(),

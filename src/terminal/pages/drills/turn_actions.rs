@@ -106,7 +106,7 @@ impl DrillsPage {
                     "the balls lie where the exercise has them"
                 };
                 self.message = Some(Message::plain(news));
-                return self.restart(None);
+                return some(self.restart(None));
             }
             Action::Goal => {
                 self.options.goal = match turn.session.goal {
@@ -115,7 +115,7 @@ impl DrillsPage {
                     Goal::Game { .. } => Goal::Match { innings: FIRST_GAME },
                     Goal::Match { .. } | Goal::Exam => Goal::Free,
                 };
-                return self.restart(None);
+                return some(self.restart(None));
             }
             Action::Count(step) => {
                 let step = i32::try_from(step).unwrap_or(0);
@@ -126,12 +126,12 @@ impl DrillsPage {
                     Goal::Match { innings } => Goal::Match { innings: counted(innings) },
                     other => other,
                 };
-                return self.restart(None);
+                return some(self.restart(None));
             }
             Action::Player => {
                 self.player.choose_next();
                 self.message = Some(Message::plain(format!("the player: {}", skill_word(self.player.skill))));
-                return self.restart(None);
+                return some(self.restart(None));
             }
             Action::Log(made) => return self.log(made),
             Action::Undo => return self.undo(),
@@ -143,30 +143,23 @@ impl DrillsPage {
     /// Begins the open exercise again where another player is to play it.
     pub(super) fn change_player(&mut self) -> Vec<DrillTask> {
         let is_other = |turn: &Turn| !turn.is_exam() && turn.skill() != self.player.skill;
-        if self.turn.as_ref().is_some_and(is_other)
-            && let Some(Effect::Drill(tasks)) = self.restart(None)
-        {
-            return tasks;
-        }
-        Vec::new()
+        if self.turn.as_ref().is_some_and(is_other) { self.restart(None) } else { Vec::new() }
     }
 
     /// Begins the same practice again with the options as they are now.
-    fn restart(&mut self, venue: Option<Venue>) -> Option<Effect> {
+    fn restart(&mut self, venue: Option<Venue>) -> Vec<DrillTask> {
         let (seed, options, skill) = (self.seed(), self.options, self.player.skill);
-        let turn = self.turn.as_mut()?;
+        let Some(turn) = &mut self.turn else { return Vec::new() };
         let venue = venue.unwrap_or(turn.newest().venue);
         let session = turn.again(options.goal, options.shifted, venue, skill, seed);
-        Some(Effect::Drill(turn.begin(session)))
+        turn.begin(session)
     }
 
     fn play(&mut self) -> Option<Effect> {
         let mut tasks = Vec::new();
-        if self.turn.as_ref()?.newest().venue == Venue::Table
-            && let Some(Effect::Drill(asked)) = self.restart(Some(Venue::Program))
-        {
+        if self.turn.as_ref()?.newest().venue == Venue::Table {
             // What is played here counts apart from what is noted.
-            tasks = asked;
+            tasks = self.restart(Some(Venue::Program));
         }
         tasks.push(self.turn.as_mut()?.play());
         Some(Effect::Drill(tasks))
@@ -188,7 +181,7 @@ impl DrillsPage {
                 self.pages = vec![Screen::Library, Screen::Result];
                 None
             }
-            None => self.restart(None),
+            None => some(self.restart(None)),
         }
     }
 
@@ -212,8 +205,7 @@ impl DrillsPage {
         let (newest, was_helped, layout) = (turn.newest(), turn.is_helped, turn.layout);
         let mut tasks = Vec::new();
         if newest.venue != Venue::Table || newest.is_over() {
-            let Some(Effect::Drill(asked)) = self.restart(Some(Venue::Table)) else { return None };
-            tasks.extend(asked);
+            tasks = self.restart(Some(Venue::Table));
         }
         let turn = self.turn.as_mut()?;
         // A hint that was seen is known in the new session too.

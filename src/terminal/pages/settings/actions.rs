@@ -6,10 +6,10 @@ use crate::{
     storage::is_called,
     table::PRESETS,
     terminal::{
-        Change, Effect, Settings, SettingsAction as Action, SettingsCondition,
+        Change, Effect, Settings, SettingsAction as Action, SettingsCondition, SettingsContext as Page,
         config::{ENTRIES, Entry},
         keymap::Chord,
-        pages::settings::{Input, LONGEST, Screen, SettingsPage, TABLE},
+        pages::settings::{Input, LONGEST, SettingsPage, TABLE},
         ui::{Message, TextField},
     },
 };
@@ -18,8 +18,8 @@ impl SettingsPage {
     /// Why a binding may not be used now; `None` where it may.
     pub fn disabled_reason(&self, when: SettingsCondition) -> Option<&'static str> {
         let is_changed = match self.page {
-            Screen::Values => self.is_changed(self.marked()),
-            Screen::Keys => self.keys.is_changed(&self.settings.keys),
+            Page::Keys => self.keys.is_changed(&self.settings.keys),
+            _ => self.is_changed(self.marked()),
         };
         (when == SettingsCondition::Changed && !is_changed).then_some("this is as it is by default")
     }
@@ -28,14 +28,15 @@ impl SettingsPage {
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.is_left = true,
-            Action::Turn => self.page = if self.page == Screen::Values { Screen::Keys } else { Screen::Values },
-            Action::Line(lines) if self.page == Screen::Keys => self.keys.move_mark(lines),
+            Action::Turn if self.page == Page::Keys => self.page = Page::Values,
+            Action::Turn => self.page = Page::Keys,
+            Action::Line(lines) if self.page == Page::Keys => self.keys.move_mark(lines),
             Action::Line(lines) => self.mark = self.mark.saturating_add_signed(lines).min(ENTRIES.len() - 1),
             Action::KeyContext(pages) => self.keys.choose_place(pages),
             Action::Value(step) => return self.step(step),
             Action::Type => self.input = Some(Input::Value(TextField::new(LONGEST))),
             Action::Press => self.input = Some(Input::Key),
-            Action::Default if self.page == Screen::Keys => {
+            Action::Default if self.page == Page::Keys => {
                 self.before.clone_from(&self.settings);
                 let change = self.keys.to_default(&mut self.settings.keys);
                 return Some(self.task(Some(change)));

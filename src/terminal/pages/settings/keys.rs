@@ -1,13 +1,11 @@
 //! The keys of the settings, a table for each page and for what is typed or answered there.
 
-use crossterm::event::KeyCode::{
-    Backspace, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up,
-};
+use crossterm::event::KeyCode::{Backspace, Delete, Enter, Esc, Left, Right, Tab};
 
 use crate::terminal::keymap::{
     Binding,
     Section::{self, OwnKeys, Program, Settings},
-    bind, key, letter, mark,
+    bind, key, letter, lines, mark,
 };
 
 use SettingsAction as A;
@@ -63,9 +61,6 @@ pub enum SettingsContext {
 }
 
 impl SettingsContext {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::Values, Self::Keys, Self::Typing, Self::Pressing, Self::Question];
-
     /// Its keys.
     pub const fn bindings(self) -> &'static [Binding<A, W>] {
         match self {
@@ -75,11 +70,6 @@ impl SettingsContext {
             Self::Pressing => PRESSING,
             Self::Question => QUESTION,
         }
-    }
-
-    /// Whether letters are typed there, or answers.
-    pub const fn takes_letters(self) -> bool {
-        matches!(self, Self::Typing | Self::Pressing | Self::Question)
     }
 }
 
@@ -92,10 +82,7 @@ pub const VALUES: &[Binding<A, W>] = &[
     bind(Settings, W::Here, &[key(Left, A::Value(-1)), key(Right, A::Value(1)), letter('h', A::Value(-1)), letter('l', A::Value(1))],
         Some(("change", 2)), "take the value before, the next value"),
     bind(Settings, W::Here, &[key(Enter, A::Type)], Some(("type", 1)), "type a value"),
-    bind(Settings, W::Here, &[
-        key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
-        key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)), key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
-        ], Some(("choose", 2)), "mark another setting"),
+    bind(Settings, W::Here, lines!(A::Line), Some(("choose", 2)), "mark another setting"),
     bind(Settings, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the default"),
     bind(Settings, W::Here, &[key(Tab, A::Turn)], Some(("keys", 1)), "to the keys"),
     BACK,
@@ -107,10 +94,7 @@ pub const KEYS: &[Binding<A, W>] = &[
     bind(OwnKeys, W::Here, &[key(Enter, A::Press)], Some(("new key", 1)), "choose a key for what is marked"),
     bind(OwnKeys, W::Here, &[key(Left, A::KeyContext(-1)), key(Right, A::KeyContext(1)), letter('h', A::KeyContext(-1)), letter('l', A::KeyContext(1))],
         Some(("page", 2)), "list the keys of another page"),
-    bind(OwnKeys, W::Here, &[
-        key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
-        key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)), key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
-        ], Some(("choose", 2)), "mark something else"),
+    bind(OwnKeys, W::Here, lines!(A::Line), Some(("choose", 2)), "mark something else"),
     bind(OwnKeys, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the keys that it has by default"),
     bind(OwnKeys, W::Here, &[key(Tab, A::Turn)], Some(("settings", 1)), "to the settings"),
     BACK,

@@ -6,10 +6,11 @@
 mod actions;
 pub mod keys;
 mod own_keys;
-mod page;
 mod view;
 
 use std::path::PathBuf;
+
+use ratatui::layout::Position;
 
 use crate::{
     storage::Places,
@@ -17,8 +18,8 @@ use crate::{
         Change, Effect, Settings, SettingsContext, SettingsReport, SettingsTask,
         config::{ENTRIES, Entry, quoted},
         keymap::{Chord, KeyPage},
-        pages::settings::own_keys::OwnKeys,
-        ui::{Message, TextField},
+        pages::{Page, PageArea, Target, settings::own_keys::OwnKeys},
+        ui::{Message, TextField, Ui},
     },
 };
 
@@ -27,15 +28,6 @@ const TABLE: &str = "table";
 
 /// Longest value that is typed, bytes: the path of a table is one.
 const LONGEST: usize = 1000;
-
-/// A page of the screen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Screen {
-    /// The settings.
-    Values,
-    /// The keys.
-    Keys,
-}
 
 /// What is being put in.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,21 +55,23 @@ pub struct SettingsPage {
     pub file: Option<Settings>,
     /// Whether the file can be read and changed, as far as is known.
     pub is_writable: bool,
-    /// The page that is open.
-    pub page: Screen,
+    /// The page that is open: the settings, or the keys.
+    pub page: SettingsContext,
     /// What is being put in.
     pub input: Option<Input>,
     /// The page of keys.
     pub keys: OwnKeys,
     /// What the status line says.
     pub message: Option<Message>,
-    mark: usize,
+    /// Place of the marked setting among all.
+    pub mark: usize,
     /// What was in force before the last change.
     before: Settings,
     /// The number of the last task, and of the last that came back.
     sent: u64,
     received: u64,
-    is_left: bool,
+    /// Whether one has gone back.
+    pub is_left: bool,
 }
 
 impl SettingsPage {
@@ -90,7 +84,7 @@ impl SettingsPage {
             settings: Settings::default(),
             file: None,
             is_writable: true,
-            page: Screen::Values,
+            page: SettingsContext::Values,
             input: None,
             keys: OwnKeys::new(pages),
             message: None,
@@ -107,16 +101,6 @@ impl SettingsPage {
         self.message = None;
         self.is_left = false;
         self.task(None)
-    }
-
-    /// Whether one has gone back.
-    pub const fn is_left(&self) -> bool {
-        self.is_left
-    }
-
-    /// Place of the marked setting among all.
-    pub const fn mark(&self) -> usize {
-        self.mark
     }
 
     /// The marked setting.
@@ -160,19 +144,7 @@ impl SettingsPage {
             (Some(Input::Value(_)), _) => SettingsContext::Typing,
             (Some(Input::Key), _) => SettingsContext::Pressing,
             (Some(Input::Taken(_)), _) => SettingsContext::Question,
-            (None, page) => Self::place_of(page),
-        }
-    }
-
-    /// The page's own keys, whatever is asked.
-    pub const fn page_place(&self) -> SettingsContext {
-        Self::place_of(self.page)
-    }
-
-    const fn place_of(page: Screen) -> SettingsContext {
-        match page {
-            Screen::Values => SettingsContext::Values,
-            Screen::Keys => SettingsContext::Keys,
+            (None, page) => page,
         }
     }
 
@@ -199,5 +171,23 @@ impl SettingsPage {
         }
         (self.received, self.file, self.is_writable) = (number, file, is_writable);
         troubles
+    }
+}
+
+impl Page for SettingsPage {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+        view::draw(self, area, ui)
+    }
+
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
+        view::target(self, area, at)
+    }
+
+    fn message_mut(&mut self) -> &mut Option<Message> {
+        &mut self.message
+    }
+
+    fn field_mut(&mut self) -> Option<&mut TextField> {
+        if let Some(Input::Value(value)) = &mut self.input { Some(value) } else { None }
     }
 }

@@ -5,7 +5,7 @@ use crossterm::event::KeyCode::{Char, Down, Enter, Esc, F, Tab, Up};
 use crate::terminal::{
     Change, Keys,
     keymap::{
-        Chord, KeyEntry, KeyPage, Section,
+        Chord, KeyEntry, KeyPage,
         remap::{chord as chord_named, name},
         works_of,
     },
@@ -17,14 +17,15 @@ pub struct OwnKeys {
     pages: Vec<KeyPage>,
     /// Place of the page whose keys are listed among `pages`.
     page: usize,
-    mark: usize,
+    /// Place of the mark among the commands.
+    pub mark: usize,
 }
 
 impl OwnKeys {
     /// The keys of `pages`, each in the order of the help.
     pub fn new(mut pages: Vec<KeyPage>) -> Self {
         for page in &mut pages {
-            page.entries.sort_by_key(|entry| Section::ALL.iter().position(|section| *section == entry.section));
+            page.entries.sort_by_key(|entry| entry.section as usize);
         }
         Self { pages, page: 0, mark: 0 }
     }
@@ -37,11 +38,6 @@ impl OwnKeys {
     /// What is marked.
     pub fn marked(&self) -> Option<&KeyEntry> {
         self.page().entries.get(self.mark)
-    }
-
-    /// Place of the mark among the commands.
-    pub const fn mark(&self) -> usize {
-        self.mark
     }
 
     /// Moves the mark by lines, down where positive.

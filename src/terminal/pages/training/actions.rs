@@ -9,8 +9,8 @@ use crate::{
     },
     storage::is_name,
     terminal::{
-        Effect, Keeping, Launch, TrainingAction as Action, TrainingCondition as Condition,
-        pages::training::{Form, Question, Screen, TrainingPage, Watch, watch::Named},
+        Effect, Keeping, Launch, TrainingAction as Action, TrainingCondition as Condition, TrainingContext,
+        pages::training::{Form, Question, TrainingPage, Watch, watch::Named},
         tasks::training::NO_POLICY,
         ui::Message,
     },
@@ -65,7 +65,7 @@ impl TrainingPage {
                 .or(refuse(watch.lacks_config(), "config.json of the run cannot be read: its table is not known"))
                 .or(refuse(!watch.has_policy, NO_POLICY)),
             Condition::Shots => {
-                refuse(watch.replay.reel().is_none(), "no shots yet: they come with the first measurement")
+                refuse(watch.replay.reel.is_none(), "no shots yet: they come with the first measurement")
             }
         }
     }
@@ -84,7 +84,7 @@ impl TrainingPage {
             Action::Choose => self.choose(),
             Action::New => {
                 self.form = Form::new();
-                self.pages.push(Screen::Form);
+                self.pages.push(TrainingContext::Form);
             }
             Action::Resume => return self.resume(),
             Action::Field(fields) => self.form.move_mark(fields),
@@ -99,14 +99,14 @@ impl TrainingPage {
     }
 
     fn back(&mut self) {
-        if self.pages.pop() == Some(Screen::Watch) {
+        if self.pages.pop() == Some(TrainingContext::Watch) {
             self.watch = None;
         }
     }
 
     fn choose(&mut self) {
         let Some(folder) = self.list.marked().map(|run| run.folder.clone()) else { return };
-        if self.page() != Screen::Compare {
+        if self.page() != TrainingContext::Compare {
             self.show(&folder);
             return;
         }
@@ -143,7 +143,7 @@ impl TrainingPage {
     }
 
     fn resume(&mut self) -> Option<Effect> {
-        if self.page() == Screen::Runs {
+        if self.page() == TrainingContext::Runs {
             let folder = self.list.marked()?.folder.clone();
             self.show(&folder);
         }
@@ -169,7 +169,7 @@ impl TrainingPage {
             Action::All => charts.show_all(),
             Action::Follow => charts.follow_end(),
             Action::Compare if watch.other.is_some() => watch.other = None,
-            Action::Compare => self.pages.push(Screen::Compare),
+            Action::Compare => self.pages.push(TrainingContext::Compare),
             Action::Pause => {
                 let request = if watch.is_paused() { Request::GoOn } else { Request::Pause };
                 return Some(Effect::Send(request, watch.folder().to_owned()));

@@ -1,13 +1,11 @@
 //! The keys of the training screen, a table for each of its pages and questions.
 
-use crossterm::event::KeyCode::{
-    BackTab, Backspace, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up,
-};
+use crossterm::event::KeyCode::{BackTab, Backspace, Down, End, Enter, Esc, Left, Right, Tab, Up};
 
 use crate::terminal::keymap::{
     Binding,
     Section::{self, Charts, Form, List, Program, Replay, Run},
-    bind, key, letter, mark,
+    bind, key, letter, lines, mark,
 };
 
 use TrainingAction as A;
@@ -92,9 +90,6 @@ pub enum TrainingContext {
 }
 
 impl TrainingContext {
-    /// All of them.
-    pub const ALL: [Self; 6] = [Self::Runs, Self::Compare, Self::Form, Self::Watch, Self::Question, Self::Name];
-
     /// Its keys.
     pub const fn bindings(self) -> &'static [Binding<A, W>] {
         match self {
@@ -105,11 +100,6 @@ impl TrainingContext {
             Self::Question => QUESTION,
             Self::Name => NAME,
         }
-    }
-
-    /// Whether letters are typed there, or answers.
-    pub const fn takes_letters(self) -> bool {
-        matches!(self, Self::Question | Self::Name)
     }
 }
 
@@ -147,10 +137,7 @@ pub enum TrainingCondition {
 const BACK: Binding<A, W> = bind(Program, W::Here, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before");
 
 #[rustfmt::skip]
-const MARK: Binding<A, W> = bind(List, W::Marked, &[
-    key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
-    key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)), key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
-    ], Some(("choose", 2)), "mark another run");
+const MARK: Binding<A, W> = bind(List, W::Marked, lines!(A::Line), Some(("choose", 2)), "mark another run");
 
 /// The list of runs.
 #[rustfmt::skip]

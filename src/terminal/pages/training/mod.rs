@@ -7,7 +7,6 @@ mod actions;
 mod charts;
 mod form;
 pub mod keys;
-mod page;
 mod question;
 mod replay;
 mod runs;
@@ -19,6 +18,8 @@ use std::{
     sync::Arc,
     time::{Duration, Instant},
 };
+
+use ratatui::layout::Position;
 
 use crate::{
     game::Reward,
@@ -32,7 +33,11 @@ use crate::{
     printing::shell_word,
     storage::Places,
     table::Table,
-    terminal::{CoachQuery, Failure, Keeping, Kept, Report, Slot, Subscriptions, TrainingContext, ui::Message},
+    terminal::{
+        CoachQuery, Failure, Keeping, Kept, Report, Slot, Subscriptions, TrainingContext,
+        pages::{Page, PageArea, Target},
+        ui::{Message, TextField, Typed, Ui},
+    },
 };
 
 pub use form::{Field, Form};
@@ -42,31 +47,6 @@ pub use watch::{Named, Watch};
 
 /// Time for which a run that is started is believed to come: within it nothing else is started in its folder.
 const LAUNCHING: Duration = Duration::from_secs(5);
-
-/// A page of the training screen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Screen {
-    /// The list of runs.
-    Runs,
-    /// The form for a new run.
-    Form,
-    /// The run that is watched.
-    Watch,
-    /// The list of runs, to choose one to compare with.
-    Compare,
-}
-
-impl Screen {
-    /// Whose keys it has.
-    pub const fn place(self) -> TrainingContext {
-        match self {
-            Self::Runs => TrainingContext::Runs,
-            Self::Form => TrainingContext::Form,
-            Self::Watch => TrainingContext::Watch,
-            Self::Compare => TrainingContext::Compare,
-        }
-    }
-}
 
 /// The state of the training screen.
 #[derive(Debug)]
@@ -92,7 +72,7 @@ pub struct TrainingPage {
     /// The folder of the run that was started last, and when, until it is seen to be at work or to have failed.
     launched: Option<(PathBuf, Instant)>,
     /// The pages one has come through; the last one is open.
-    pages: Vec<Screen>,
+    pages: Vec<TrainingContext>,
 }
 
 impl TrainingPage {
@@ -117,7 +97,7 @@ impl TrainingPage {
     pub fn open(&mut self) {
         self.message = None;
         if self.pages.is_empty() {
-            self.pages.push(Screen::Runs);
+            self.pages.push(TrainingContext::Runs);
         }
     }
 
@@ -125,7 +105,7 @@ impl TrainingPage {
     /// page.
     pub fn open_alone(&mut self, run: Option<PathBuf>, list: Option<PathBuf>) {
         self.alone = true;
-        self.pages = vec![Screen::Runs];
+        self.pages = vec![TrainingContext::Runs];
         if let Some(list) = list {
             self.folder = list;
         }
@@ -139,8 +119,8 @@ impl TrainingPage {
         let watch = Watch::new(folder, &self.places.runs);
         self.list.mark_named(&watch.own.name);
         self.watch = Some(watch);
-        self.pages.retain(|page| *page == Screen::Runs);
-        self.pages.push(Screen::Watch);
+        self.pages.retain(|page| *page == TrainingContext::Runs);
+        self.pages.push(TrainingContext::Watch);
     }
 
     /// Whether a process for the run in `folder` has been started and may still be on its way.
@@ -154,14 +134,14 @@ impl TrainingPage {
     }
 
     /// The page that is open.
-    pub fn page(&self) -> Screen {
-        self.pages.last().copied().unwrap_or(Screen::Runs)
+    pub fn page(&self) -> TrainingContext {
+        self.pages.last().copied().unwrap_or(TrainingContext::Runs)
     }
 
     /// What is on the screen: the page, or what is asked there.
     pub fn place(&self) -> TrainingContext {
         match &self.question {
-            None => self.page().place(),
+            None => self.page(),
             Some(Question::Name(_)) => TrainingContext::Name,
             Some(_) => TrainingContext::Question,
         }
@@ -169,7 +149,7 @@ impl TrainingPage {
 
     /// What has to be found out now.
     pub fn wanted(&self) -> Subscriptions {
-        let lists = matches!(self.page(), Screen::Runs | Screen::Form | Screen::Compare);
+        let lists = matches!(self.page(), TrainingContext::Runs | TrainingContext::Form | TrainingContext::Compare);
         let folder = |named: &Named| named.run.folder.clone();
         Subscriptions {
             runs: lists.then(|| self.folder.clone()),
@@ -227,7 +207,7 @@ impl TrainingPage {
     fn followed(&mut self, folder: &Path, update: Update) {
         let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) else { return };
         let before = watch.condition();
-        watch.apply(update);
+        watch.own.run.apply(update);
         let has_changed = !watch.condition().is_like(before);
         // Before it is seen for the first time it may have been as it was still.
         if has_changed && before != Condition::Unknown && self.is_launched(folder) {
@@ -274,7 +254,7 @@ impl TrainingPage {
                 self.message = Some(Message::good(format!("kept; use it by: carom recommend --policy {call}")));
             }
             // A player who has left the run meanwhile is not asked any more.
-            Ok(Kept::Taken) if self.page() == Screen::Watch && self.question.is_none() => {
+            Ok(Kept::Taken) if self.page() == TrainingContext::Watch && self.question.is_none() => {
                 self.question = Some(Question::Replace(name));
             }
             Ok(Kept::Taken) => {}
@@ -298,5 +278,46 @@ impl TrainingPage {
                 None
             }
         }
+    }
+}
+
+impl Page for TrainingPage {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+        view::draw(self, area, ui)
+    }
+
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
+        view::target(self, area, at)
+    }
+
+    fn message_mut(&mut self) -> &mut Option<Message> {
+        &mut self.message
+    }
+
+    fn field_mut(&mut self) -> Option<&mut TextField> {
+        if let Some(Question::Name(name)) = &mut self.question { Some(name) } else { None }
+    }
+
+    fn input(&mut self, typed: Typed) -> bool {
+        let is_form = self.page() == TrainingContext::Form && self.question.is_none();
+        let taken = match self.field_mut() {
+            Some(name) => name.take(typed),
+            None => typed.letters().chars().fold(false, |taken, letter| taken | (is_form && self.form.typed(letter))),
+        };
+        if taken {
+            self.message = None;
+        }
+        taken
+    }
+
+    fn tick(&mut self, seconds: f64) {
+        if let Some(watch) = &mut self.watch {
+            watch.replay.tick(seconds);
+        }
+    }
+
+    fn frame_interval(&self) -> Option<f64> {
+        let watch = self.watch.as_ref().filter(|_| self.page() == TrainingContext::Watch)?;
+        watch.replay.is_playing().then_some(replay::INTERVAL)
     }
 }

@@ -11,9 +11,10 @@ pub const INTERVAL: f64 = 0.1;
 const REST: f64 = 1.0;
 
 /// What moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Motion {
     /// Nothing: the set has been played, or the user has stopped it.
+    #[default]
     Stopped,
     /// The shot.
     Playing,
@@ -22,29 +23,19 @@ enum Motion {
 }
 
 /// Shots that are replayed.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Replay {
-    reel: Option<Reel>,
+    /// The set that is shown.
+    pub reel: Option<Reel>,
     /// A newer set that waits until this one is through.
     waiting: Option<Reel>,
-    index: usize,
-    playback: Playback,
+    /// The present shot's number in the set, from 0.
+    pub index: usize,
+    /// The clock of that shot.
+    pub playback: Playback,
     motion: Motion,
     /// Whether the user has stopped it: then nothing moves until it is started again.
     held: bool,
-}
-
-impl Default for Replay {
-    fn default() -> Self {
-        Self {
-            reel: None,
-            waiting: None,
-            index: 0,
-            playback: Playback::default(),
-            motion: Motion::Stopped,
-            held: false,
-        }
-    }
 }
 
 impl Replay {
@@ -73,24 +64,9 @@ impl Replay {
         self.playback.jump(0.0);
     }
 
-    /// The set that is shown.
-    pub const fn reel(&self) -> Option<&Reel> {
-        self.reel.as_ref()
-    }
-
-    /// The present shot's number in the set, from 0.
-    pub const fn index(&self) -> usize {
-        self.index
-    }
-
     /// The present shot.
     pub fn scene(&self) -> Option<&Scene> {
         self.reel.as_ref()?.scenes.get(self.index)
-    }
-
-    /// Seconds since the stroke.
-    pub const fn time(&self) -> f64 {
-        self.playback.time
     }
 
     /// Whether anything moves.
@@ -185,7 +161,7 @@ mod tests {
         let mut seen = Vec::new();
         let mut seconds = 0.0;
         while replay.is_playing() && seconds < 1e3 {
-            let now = (replay.reel().unwrap().after, replay.index());
+            let now = (replay.reel.as_ref().unwrap().after, replay.index);
             if seen.last() != Some(&now) {
                 seen.push(now);
             }
@@ -200,7 +176,7 @@ mod tests {
         let mut replay = Replay::default();
         replay.offer(reel(1));
         assert_eq!(pass(&mut replay), [(1, 0), (1, 1), (1, 2)]);
-        assert_eq!(replay.time(), replay.duration());
+        assert_eq!(replay.playback.time, replay.duration());
         replay.offer(reel(1));
         assert!(!replay.is_playing(), "the same set is no news");
         replay.toggle();
@@ -224,7 +200,7 @@ mod tests {
         replay.step(1);
         replay.offer(reel(2));
         assert!(!replay.is_playing());
-        assert_eq!((replay.reel().unwrap().after, replay.index()), (1, 1));
+        assert_eq!((replay.reel.as_ref().unwrap().after, replay.index), (1, 1));
         replay.toggle();
         assert_eq!(pass(&mut replay).last(), Some(&(2, 2)));
     }

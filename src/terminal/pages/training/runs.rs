@@ -12,9 +12,9 @@ pub struct RunList {
     /// The runs, newest first; nothing before they were looked for.
     known: Option<Vec<Summary>>,
     /// Why they cannot be listed.
-    trouble: Option<String>,
+    pub trouble: Option<String>,
     /// Sentences on those that cannot be read.
-    unreadable: Vec<String>,
+    pub unreadable: Vec<String>,
     /// Name of the marked run: it keeps its mark where others come before it.
     marked: Option<String>,
 }
@@ -41,16 +41,6 @@ impl RunList {
     /// Whether they have been looked for.
     pub const fn is_known(&self) -> bool {
         self.known.is_some()
-    }
-
-    /// Why they cannot be listed.
-    pub fn trouble(&self) -> Option<&str> {
-        self.trouble.as_deref()
-    }
-
-    /// Sentences on those that cannot be read.
-    pub fn unreadable(&self) -> &[String] {
-        &self.unreadable
     }
 
     /// Place of the marked run in the list; the first where none was marked or it is gone.

@@ -6,7 +6,7 @@ use crate::{
     game::Reward,
     learning::run::{
         POLICY,
-        follow::{Condition, Followed, Update},
+        follow::{Condition, Followed},
         status::Phase,
     },
     printing::shell_word,
@@ -63,11 +63,6 @@ impl Watch {
         Self { own: Named::new(folder, runs), other: None, charts, replay, has_policy: false, failure: None }
     }
 
-    /// Takes what has changed.
-    pub fn apply(&mut self, update: Update) {
-        self.own.run.apply(update);
-    }
-
     /// Where it is.
     pub fn folder(&self) -> &Path {
         &self.own.run.folder
@@ -101,11 +96,6 @@ impl Watch {
     /// Its table, where that is known.
     pub fn table(&self) -> Option<&Table> {
         self.own.run.config.as_ref().map(|config| &config.table)
-    }
-
-    /// Whether what its shots earn is a success or none.
-    pub fn is_share(&self) -> bool {
-        self.own.is_share()
     }
 
     /// How far it is, or the run that it is compared with: charts show both.

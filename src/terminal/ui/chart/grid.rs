@@ -224,8 +224,7 @@ fn braille(bits: u8) -> char {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::{Depth, Keys};
-    use ratatui::buffer::Buffer;
+    use crate::terminal::{Depth, ui::drawn};
 
     #[test]
     fn dots_become_the_braille_character_with_the_same_shape() {
@@ -242,8 +241,7 @@ mod tests {
         grid.set_run(Layer::Other, 1, -5, 100);
         grid.set_run(Layer::Other, 3, 3, 3);
         grid.set_run(Layer::Own, 4, 0, 0);
-        let mut buffer = Buffer::empty(area);
-        grid.paint(&mut Ui { theme: &theme, caps, keys: &Keys::default(), buffer: &mut buffer });
+        let buffer = drawn(area, caps, |ui| grid.paint(ui));
         assert_eq!((buffer[(0, 0)].symbol(), buffer[(0, 0)].fg), ("⠁", theme.curves[0]));
         assert_eq!((buffer[(1, 0)].symbol(), buffer[(1, 0)].fg), ("⢀", theme.curves[1]));
     }

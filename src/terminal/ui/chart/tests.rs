@@ -12,7 +12,7 @@ use crate::{
         metrics::Record,
         quantity::Quantity,
     },
-    terminal::{Capabilities, Depth, Glyphs, Keys, host::backend::AnsiBackend},
+    terminal::{Capabilities, Depth, Glyphs, Keys, host::backend::AnsiBackend, ui},
 };
 
 /// A point of one line.
@@ -71,10 +71,8 @@ fn draw(chart: &Chart, area: Rect, theme: &Theme, caps: Capabilities, buffer: &m
 }
 
 fn drawn(chart: &Chart, (width, height): (u16, u16), caps: Capabilities) -> Buffer {
-    let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
-    let area = buffer.area;
-    draw(chart, area, &Theme::new(caps.depth), caps, &mut buffer);
-    buffer
+    let area = Rect::new(0, 0, width, height);
+    ui::drawn(area, caps, |ui| draw_chart(chart, area, ui))
 }
 
 fn text(buffer: &Buffer) -> String {

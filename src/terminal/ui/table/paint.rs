@@ -146,8 +146,8 @@ mod tests {
         physics::CueInputs,
         table::{Layout, Table},
         terminal::{
-            Capabilities, Depth, Keys, Mapping, Palette, Shot,
-            ui::{TableView, draw_table},
+            Capabilities, Depth, Mapping, Palette, Shot,
+            ui::{TableView, draw_table, drawn},
         },
     };
 
@@ -158,11 +158,10 @@ mod tests {
         let table = Table::default();
         let layout = Layout::parse(layout, &table).unwrap();
         let shot = Shot::new(&table, &layout, CueInputs::parse(cue).unwrap(), false, "test").unwrap();
-        let theme = Theme::new(caps.depth);
-        let mut buffer = Buffer::empty(AREA);
-        let ui = &mut Ui { theme: &theme, caps, keys: &Keys::default(), buffer: &mut buffer };
-        let view = TableView { shot: Some(&shot), time, ..TableView::new(&table, &layout, ui) };
-        draw_table(&view, AREA, ui);
+        let buffer = drawn(AREA, caps, |ui| {
+            let view = TableView { shot: Some(&shot), time, ..TableView::new(&table, &layout, ui) };
+            draw_table(&view, AREA, ui);
+        });
         (buffer, shot, Mapping::fit(&table, AREA))
     }
 

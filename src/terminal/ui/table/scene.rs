@@ -193,7 +193,7 @@ mod tests {
         terminal::{
             Depth, Shot,
             ui::{
-                Theme,
+                drawn,
                 table::{CLEAR_PICTURES, CLEAR_RADII, apart},
             },
         },
@@ -206,40 +206,18 @@ mod tests {
         let layout = Layout::parse("-1,0 0,0.02 0.6,0.1", &table).unwrap();
         let shot = Shot::new(&table, &layout, CueInputs::parse("0,0.3,0,0,4").unwrap(), true, "test").unwrap();
         assert_eq!(shot.contacts.len(), 2, "{:?}", shot.contacts);
-        let theme = Theme::new(Depth::True);
-        let view = TableView {
-            table: &table,
-            layout: &layout,
-            shot: Some(&shot),
-            other: None,
-            other_name: "",
-            time,
-            is_moving: true,
-            front: 0,
-            is_lean: false,
-            is_numbered: false,
-            spots: &[],
-            note: None,
-            film: None,
-            theme: &theme,
-            caps: Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true },
-        };
-        let mapping = Mapping::fit(&table, Rect::new(0, 0, columns, 60));
-        let sprite = Sprite::new(&mapping, Glyphs::Sextant);
-        let reach = sprite.reach(&mapping, Glyphs::Sextant);
-        let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
-        let balls = apart(shot.recording.positions(time), 2.0 * reach);
-        let lying = Scene {
-            view: &view,
-            mapping,
-            time,
-            balls,
-            heights: [0.0; BALLS],
-            off_table: [false; BALLS],
-            sprite,
-            clear,
-        };
-        check(&lying, &shot);
+        let caps = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+        drawn(Rect::default(), caps, |ui| {
+            let view = TableView { shot: Some(&shot), time, ..TableView::new(&table, &layout, ui) };
+            let mapping = Mapping::fit(&table, Rect::new(0, 0, columns, 60));
+            let sprite = Sprite::new(&mapping, Glyphs::Sextant);
+            let reach = sprite.reach(&mapping, Glyphs::Sextant);
+            let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
+            let balls = apart(shot.recording.positions(time), 2.0 * reach);
+            let (heights, off_table) = ([0.0; BALLS], [false; BALLS]);
+            let lying = Scene { view: &view, mapping, time, balls, heights, off_table, sprite, clear };
+            check(&lying, &shot);
+        });
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::screens::player::Player;
 /// A shot that plays, somewhere on its way.
 fn watching() -> Player {
     let player = Player::new().press("Enter").answer().press("Space").wait(1.0);
-    assert_eq!(player.app.mode(), Mode::Watching);
+    assert_eq!(player.app.coach.mode, Mode::Watching);
     player
 }
 
@@ -20,10 +20,10 @@ fn watching() -> Player {
 fn tab_and_the_numbers_of_the_balls_lead_back_to_placing() {
     for (keys, ball) in [("Tab", 1), ("BackTab", 2), ("1", 0), ("2", 1), ("3", 2), ("Esc", 0)] {
         let player = watching().press(keys);
-        assert_eq!((player.app.mode(), player.app.selected()), (Mode::Placing, ball), "{keys}");
-        let before = player.app.layout().balls[ball];
+        assert_eq!((player.app.coach.mode, player.app.coach.selected), (Mode::Placing, ball), "{keys}");
+        let before = player.app.coach.layout().balls[ball];
         let moved = player.press("Left");
-        assert_ne!(moved.app.layout().balls[ball], before, "{keys}: arrows move it again");
+        assert_ne!(moved.app.coach.layout().balls[ball], before, "{keys}: arrows move it again");
     }
 }
 
@@ -32,16 +32,16 @@ fn a_click_on_a_ball_leads_back_to_placing_that_ball() {
     let mut player = watching();
     player.app.resize(ratatui::layout::Size::new(120, 40));
     let mapping = Mapping::fit(&Table::default(), Rect::new(4, 1, 112, 29));
-    let (time, layout) = (player.app.playback().time, *player.app.layout());
-    let red = player.app.watched().unwrap().recording.positions(time)[2];
+    let (time, layout) = (player.app.coach.playback.time, *player.app.coach.layout());
+    let red = player.app.coach.watched().unwrap().recording.positions(time)[2];
     let (column, row) = mapping.to_cell(red);
     let mouse = |kind, column| MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE };
     player.app.mouse(mouse(MouseEventKind::Down(MouseButton::Left), column));
-    assert_eq!((player.app.mode(), player.app.selected()), (Mode::Placing, 2));
+    assert_eq!((player.app.coach.mode, player.app.coach.selected), (Mode::Placing, 2));
     player.warns_nothing();
     // The ball went elsewhere under the hand: it is not dragged from there.
     player.app.mouse(mouse(MouseEventKind::Drag(MouseButton::Left), column + 3));
-    assert_eq!(*player.app.layout(), layout);
+    assert_eq!(*player.app.coach.layout(), layout);
 }
 
 #[test]

@@ -19,7 +19,7 @@ fn the_title_is_asked_over_the_table_and_one_stays_there() {
     assert_eq!(rows(&asked.text(120, 40)), rows(&table), "the balls are seen while one thinks of a title");
     let saved = asked.type_in("My corner #draw").press("Enter");
     saved.says("saved as my-corner").says("My positions");
-    assert_eq!((saved.app.screen(), saved.app.place()), (PageId::Coach, KeyContext::Coach));
+    assert_eq!((saved.app.screen, saved.app.place()), (PageId::Coach, KeyContext::Coach));
     assert_eq!(saved.store().positions().items[0].title, "My corner");
     saved.press("d Left").says("My corner").says("#draw");
 }
@@ -47,8 +47,8 @@ fn a_name_that_is_taken_is_asked_about_and_a_bundled_one_refused() {
     assert_eq!((kept.store().positions().items[0].layout, kept.app.place()), (first, KeyContext::Coach));
     let replaced = kept.press("s").type_in("mine").press("Enter y");
     replaced.says("saved as mine");
-    assert_eq!(replaced.store().positions().items[0].layout, *replaced.app.layout());
-    let bundled = replaced.app.drills().catalogue.library().exercises()[0].name.clone();
+    assert_eq!(replaced.store().positions().items[0].layout, *replaced.app.coach.layout());
+    let bundled = replaced.app.drills.catalogue.library.exercises()[0].name.clone();
     let refused = replaced.press("s").type_in(&bundled).press("Enter");
     refused.says("is the name of a bundled exercise");
 }

@@ -37,7 +37,7 @@ fn draw_tests(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
     }
     let best = sheet.best().map(|next| next.test);
     for ((n, test), y) in sheet.tests().enumerate().zip(inner.y..inner.bottom()) {
-        let is_marked = n == sheet.mark();
+        let is_marked = n == sheet.mark;
         let (entered, times) = (sheet.strokes(test).len(), sheet.times(test));
         let is_out = sheet.is_left_out(test);
         let style = match () {
@@ -92,7 +92,7 @@ fn draw_strokes(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
     if strokes.is_empty() {
         ui.buffer.set_stringn(inner.x + 2, inner.y, "none yet", usize::from(inner.width), ui.theme.faint());
     }
-    for (n, y) in list::in_view(sheet.stroke(), strokes.len(), usize::from(inner.height)).zip(inner.y..) {
+    for (n, y) in list::shown(sheet.stroke(), strokes.len(), inner) {
         let (place, entry) = strokes[n];
         let is_marked = n == sheet.stroke();
         let is_doubtful = is_doubtful(page, place, entry);

@@ -117,5 +117,5 @@ pub fn target(page: &CalibrationPage, area: &PageArea, at: Position) -> Option<T
     let list = Rect { height: left.height.min(rows + 1), ..left };
     // The first row is the title's.
     let line = at.y.checked_sub(left.y + 1).map(usize::from);
-    (page.input.is_none() && list.contains(at)).then(|| Target::list(line, sheet.mark()))
+    (page.input.is_none() && list.contains(at)).then(|| Target::list(line, sheet.mark))
 }

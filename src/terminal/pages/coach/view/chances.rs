@@ -36,10 +36,10 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
     }
     let inner = draw_title(title, area, ui);
     let Some(advised) = advised else { return draw_nothing(&[empty], inner, ui) };
-    for (n, row) in in_view(advised, inner) {
-        let is_chosen = n == advised.chosen();
+    for (n, row) in list::shown(advised.chosen, advised.choices.len(), inner) {
+        let is_chosen = n == advised.chosen;
         let style = if is_chosen { ui.theme.accent() } else { ui.theme.text() };
-        let proposal = &advised.choices()[n].proposal;
+        let proposal = &advised.choices[n].proposal;
         if is_chosen {
             ui.buffer.set_string(inner.x, row, ui.caps.pick("▸", ">"), ui.theme.accent());
         }
@@ -50,13 +50,13 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
         let sort = |proposal: &Proposal, is_exact: bool| sort_words(proposal, is_exact, room, ui);
         let words = sort(proposal, false);
         let like = |(other, choice): (usize, &Choice)| other != n && sort(&choice.proposal, false) == words;
-        let is_unclear = advised.choices().iter().enumerate().any(like);
+        let is_unclear = advised.choices.iter().enumerate().any(like);
         let words = if is_unclear { sort(proposal, true) } else { words };
         ui.buffer.set_stringn(inner.x + WORDS, row, words, room, style);
     }
     // What would miss the first shot by itself.
-    let mut row = inner.y + advised.choices().len() as u16;
-    if let (Some(risk), true) = (advised.choices()[0].proposal.risk, row < inner.bottom()) {
+    let mut row = inner.y + advised.choices.len() as u16;
+    if let (Some(risk), true) = (advised.choices[0].proposal.risk, row < inner.bottom()) {
         let [hand, table, placing] = [risk.hand, risk.table, risk.placing].map(percent);
         let words = format!("misses %: hand {hand}, table {table}, places {placing}");
         ui.buffer.set_stringn(inner.x + 1, row, words, usize::from(inner.width.saturating_sub(1)), ui.theme.faint());
@@ -64,7 +64,7 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
     }
     let rest = Rect { y: row, height: inner.bottom().saturating_sub(row), ..inner };
     if let Some(words) = list_words(advised, ui).filter(|_| says_why) {
-        let why = if advised.chosen() == 0 { "Why" } else { "Why shot 1 leads" };
+        let why = if advised.chosen == 0 { "Why" } else { "Why shot 1 leads" };
         write_lines(&format!("{why}: {words}"), rest, ui);
     }
 }
@@ -94,7 +94,7 @@ fn write_lines(words: &str, area: Rect, ui: &mut Ui) {
 
 /// Why the first shot leads, once that is known: as much as `rows` hold of such width.
 pub fn why_lines(advised: &AdviceState, width: usize, rows: usize, ui: &Ui) -> Option<Vec<String>> {
-    let name = if advised.chosen() == 0 { "Why" } else { "Why shot 1 leads" };
+    let name = if advised.chosen == 0 { "Why" } else { "Why shot 1 leads" };
     let sentences = advised.why.as_ref()?.brief(ui.theme.cue_ball);
     let mut tries = sentences.map(|words| wrap(&spell(&format!("{name}: {words}"), ui.caps), width));
     let mut lines = tries.next()?;
@@ -110,12 +110,7 @@ pub fn why_lines(advised: &AdviceState, width: usize, rows: usize, ui: &Ui) -> O
 pub fn choice_at(advised: &AdviceState, area: Rect, row: u16) -> Option<usize> {
     // The first row is the title's.
     let inner = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
-    in_view(advised, inner).find(|(_, y)| *y == row).map(|(n, _)| n)
-}
-
-/// The shots that have a row, and their rows.
-fn in_view(advised: &AdviceState, inner: Rect) -> impl Iterator<Item = (usize, u16)> {
-    list::in_view(advised.chosen(), advised.choices().len(), usize::from(inner.height)).zip(inner.y..)
+    list::line_at(advised.chosen, advised.choices.len(), inner, row)
 }
 
 /// What sort of shot it is, as players call it, or that it makes no point: the first ball, the pattern, how full, and how hard,

@@ -13,7 +13,7 @@ use crate::{
     terminal::{
         Glyphs, Mapping,
         pages::coach::lesson::Lesson,
-        ui::{Spot, Theme, Ui, columns, draw_title, wrap},
+        ui::{Spot, Theme, Ui, columns, draw_lines, draw_title, wrap},
         words::fixed,
     },
 };
@@ -122,9 +122,7 @@ pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
             let style = if is_main { ui.theme.text() } else { ui.theme.faint() };
             wrap(&words, width).into_iter().map(move |words| Line::styled(format!(" {words}"), style))
         });
-    for (line, row) in lines.collect::<Vec<_>>().into_iter().zip(inner.y..inner.bottom()) {
-        ui.buffer.set_line(inner.x, row, &line, inner.width);
-    }
+    draw_lines(lines.collect::<Vec<_>>(), inner, ui);
 }
 
 /// The sentences of the panel, and whether each is part of the arithmetic.

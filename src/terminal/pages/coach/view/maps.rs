@@ -12,7 +12,7 @@ use crate::{
     table::Table,
     terminal::{
         Glyphs,
-        ui::{Dot, Ink, Ui, draw_field, draw_title, face_in, field::Mark, spot_mark, write_right},
+        ui::{Dot, Ink, Ui, draw_field, draw_lines, draw_title, face_in, field::Mark, spot_mark, write_right},
         words::fixed,
     },
 };
@@ -158,9 +158,7 @@ pub fn draw_legend(area: Rect, ui: &mut Ui) {
     if !letters {
         add([Span::styled(" ○", ui.theme.text()), Span::styled(" twice your errors", ui.theme.faint())]);
     }
-    for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
-        ui.buffer.set_line(inner.x, row, line, inner.width);
-    }
+    draw_lines(lines, inner, ui);
 }
 
 /// The outcome at a place of the map: `x` and `y` from -1 to 1, to its ends.

@@ -64,7 +64,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let choice = coach.shown().map(AdviceState::choice);
     let planned = choice.filter(|_| coach.view == View::Plan && coach.what_if().is_none());
     let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
-    let lesson = coach.lesson();
+    let lesson = coach.lesson.as_ref();
     if let Some(lesson) = lesson {
         spots = lesson_spots(lesson, ui.theme);
     }
@@ -75,7 +75,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         time: coach.playback.time,
         is_moving: coach.mode == Mode::Watching,
         front: coach.selected,
-        other: coach.what_if().map(|what_if| &**what_if.coach()),
+        other: coach.what_if().map(|what_if| &*what_if.coach),
         other_name: COACH,
         // While the coach thinks each better shot would move them all.
         is_lean: planned.is_some() || lesson.is_some() || coach.spinner().is_some(),
@@ -105,7 +105,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
 
 /// Where the kiss lies in wait that spoils most strokes, and how many, before the shot that it is known of is played.
 fn kiss_note(coach: &CoachPage) -> Option<(DVec2, String)> {
-    let advised = coach.shown().filter(|advised| advised.chosen() == 0 && coach.what_if().is_none());
+    let advised = coach.shown().filter(|advised| advised.chosen == 0 && coach.what_if().is_none());
     let kiss = advised.filter(|_| coach.told().is_some() && coach.view == View::Shot)?.why.as_ref()?.kiss?;
     let names = coach.cue_ball().names();
     let balls = match kiss.balls {
@@ -144,7 +144,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     let explained = coach.shown().filter(|_| is_beside && chosen == View::Chances && coach.told().is_some());
     let is_explained = explained.is_some_and(|advised| draw_why(advised, panes.events, ui));
     for (view, area) in views(chosen, panes) {
-        match coach.lesson().filter(|_| view == chosen) {
+        match coach.lesson.as_ref().filter(|_| view == chosen) {
             Some(lesson) => draw_lesson(lesson, area, ui),
             None if told.is_some() && view == chosen => {}
             None => draw_info(coach, view, !has_told_why && !is_explained, area, ui),
@@ -290,7 +290,7 @@ fn selected_ball(coach: &CoachPage) -> String {
     let unit = coach.units.length;
     let length = |metres: f64| format!("{} {}", fine(metres, unit), unit.fine().1);
     let near = nearest.map_or(String::new(), |other| format!(", {} from {}", length(gap(other)), names[other]));
-    let place = if coach.counts_diamonds() {
+    let place = if coach.quarters {
         let place = in_diamonds(coach.table(), balls[ball]);
         format!("{}d,{}d", fixed(place.x, 2), fixed(place.y, 2))
     } else {

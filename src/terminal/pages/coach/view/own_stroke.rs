@@ -3,7 +3,6 @@
 use crate::{
     coach::words::TipUnit,
     terminal::{
-        Shot,
         pages::coach::{
             CoachPage,
             view::{draw_listed, panes::Panes, shot::draw_shot},
@@ -18,7 +17,7 @@ pub const COACH: &str = "coach";
 
 /// Draws the panels: both strokes where the view's panel is, the others for the player's own.
 pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &mut Ui) {
-    let (table, shot): (_, &Shot) = (coach.table(), what_if.shot());
+    let (table, shot) = (coach.table(), &*what_if.shot);
     let beside = Beside {
         teacher: COACH,
         made: coach.proposal().and_then(|proposal| proposal.made).map(|made| made.rate),

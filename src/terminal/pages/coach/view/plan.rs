@@ -11,7 +11,7 @@ use crate::{
     terminal::{
         Glyphs, Proposal,
         pages::coach::{Choice, view::chances::sort_words},
-        ui::{Spot, Theme, Ui, draw_nothing, draw_title, wrap},
+        ui::{Spot, Theme, Ui, draw_lines, draw_nothing, draw_title, wrap},
         words::{fixed, percent},
     },
 };
@@ -65,9 +65,7 @@ pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: R
             Span::styled(" the cue ball's way then; n goes on", ui.theme.faint()),
         ]));
     }
-    for (line, row) in lines.into_iter().zip(inner.y..inner.bottom()) {
-        ui.buffer.set_line(inner.x, row, &line, inner.width);
-    }
+    draw_lines(lines, inner, ui);
 }
 
 fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {

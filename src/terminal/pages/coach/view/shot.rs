@@ -11,7 +11,7 @@ use crate::{
     terminal::{
         Capabilities, Proposal, Shot,
         pages::coach::view::card::chance_span,
-        ui::{Theme, Ui, columns, draw_nothing, draw_title},
+        ui::{Theme, Ui, columns, draw_lines, draw_nothing, draw_title},
         words::{across_word, fixed, height_word, rail_word},
     },
 };
@@ -73,10 +73,8 @@ fn draw_rows(shot: &Shot, aim: String, table: &Table, inner: Rect, ui: &mut Ui) 
     } else {
         rows.into_iter().map(|row| line(row, if wide { 3 } else { 2 }, ui.theme)).collect()
     };
-    for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
-        let indent = u16::from(wide);
-        ui.buffer.set_line(inner.x + indent, row, line, inner.width.saturating_sub(indent));
-    }
+    let indent = u16::from(wide);
+    draw_lines(lines, Rect { x: inner.x + indent, width: inner.width.saturating_sub(indent), ..inner }, ui);
 }
 
 type Row = (&'static str, String, String);

@@ -1,7 +1,7 @@
 //! The panel of the shot in words: how to strike, which way the cue ball goes, where to aim, and why.
 
 use ratatui::{
-    layout::Rect,
+    layout::{Margin, Rect},
     style::Style,
     text::{Line, Span},
 };
@@ -14,7 +14,7 @@ use crate::{
             CoachPage,
             view::{card::chance_span, chances::why_lines},
         },
-        ui::{Ui, columns, draw_title, spell, wrap},
+        ui::{Ui, columns, draw_lines, draw_title, spell, wrap},
         words::{fixed, rail_word},
     },
 };
@@ -42,9 +42,7 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
     let says_why = why.is_some();
     lines.extend(why.into_iter().flatten().map(|line| Line::styled(line, ui.theme.faint())));
     let inner = draw_title(title.unwrap_or(bare), area, ui);
-    for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
-        ui.buffer.set_line(inner.x + 1, row, line, inner.width.saturating_sub(2));
-    }
+    draw_lines(lines, inner.inner(Margin::new(1, 0)), ui);
     says_why
 }
 

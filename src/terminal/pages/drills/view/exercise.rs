@@ -40,7 +40,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let time = turn.watched().filter(|_| !turn.shows_hint).map_or(0.0, |watched| watched.playback.time);
     let view = TableView {
         shot: turn.shot(),
-        other: what_if.map(|what_if| &**what_if.coach()),
+        other: what_if.map(|what_if| &*what_if.coach),
         other_name: turn.taught().map_or("", panels::teacher),
         time,
         spots: &spots,

@@ -1,9 +1,6 @@
 //! A filmed shot that is watched: simulated balls, the film's as outlines, and how far they are apart.
 
-use ratatui::{
-    layout::Rect,
-    text::{Line, Span},
-};
+use ratatui::layout::Rect;
 
 use crate::{
     coach::words::{LengthUnit, TipUnit},
@@ -20,8 +17,8 @@ use crate::{
         },
         shot::film::{Listed, table},
         ui::{
-            ListedEvents, Message, TableView, Ui, draw_events, draw_sight, draw_spin, draw_table, draw_tip, draw_title,
-            tip_rows, write_paragraphs,
+            ListedEvents, Message, TableView, Ui, draw_events, draw_lines, draw_sight, draw_spin, draw_table, draw_tip,
+            draw_title, pair, tip_rows, write_paragraphs,
         },
         words::fixed,
     },
@@ -101,13 +98,8 @@ fn draw_stroke(scene: Option<&FilmScene>, unit: TipUnit, area: Rect, ui: &mut Ui
         height,
         ("fitted", format!("2 s, {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),
     ];
-    for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
-        let line = Line::from(vec![
-            Span::styled(format!("{name:<7}"), ui.theme.faint()),
-            Span::styled(value, ui.theme.text()),
-        ]);
-        ui.buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
-    }
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
+    draw_lines(rows.map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
 }
 
 /// Draws how far each simulated ball is from the filmed one, and which is which.

@@ -55,28 +55,24 @@ fn halves(area: Rect) -> [Rect; 2] {
     [list, Rect { x: list.right() + 1, width: area.width.saturating_sub(list.width + 1), ..area }]
 }
 
-/// Places in the list of the shots in view: the marked one is among the first `most`.
-fn in_view(mark: usize, most: usize) -> impl Iterator<Item = (usize, &'static Listed)> {
-    list::in_view(mark, listed().len(), most).map(|n| (n, &listed()[n]))
-}
-
 /// What the mouse points at.
 pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
-    let [list, _] = halves(area);
-    let mark = drills.film.mark();
+    let [area, _] = halves(area);
+    let mark = drills.film.mark;
     // The first row is the title's.
-    let rows = list.y + 1..list.bottom();
-    let line = rows.clone().zip(in_view(mark, rows.len())).find(|(y, _)| *y == at.y).map(|(_, (n, _))| n);
-    list.contains(at).then(|| Target::list(line, mark))
+    let below = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
+    let line = list::line_at(mark, listed().len(), below, at.y);
+    area.contains(at).then(|| Target::list(line, mark))
 }
 
 fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
-    let mark = drills.film.mark();
+    let mark = drills.film.mark;
     let inner = draw_title(format!("All {}", listed().len()), area, ui);
     for (end, label) in [(SPEED_END, " m/s "), (LENGTH_END, " seconds ")] {
         write_right(ui.buffer, area.x, area.x + end + 1, area.y, label, ui.theme.faint());
     }
-    for ((n, listed), y) in in_view(mark, usize::from(inner.height)).zip(inner.y..inner.bottom()) {
+    for (n, y) in list::shown(mark, listed().len(), inner) {
+        let listed = &listed()[n];
         let style = if n == mark { ui.theme.accent() } else { ui.theme.text() };
         if n == mark {
             ui.buffer.set_string(inner.x, y, ui.caps.pick("▸", ">"), style);

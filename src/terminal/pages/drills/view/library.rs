@@ -17,8 +17,8 @@ use crate::{
             },
         },
         ui::{
-            Message, TableView, Theme, Ui, columns, draw_table, draw_title, list, shorten, wrap, write_paragraphs,
-            write_right,
+            Message, TableView, Theme, Ui, columns, draw_table, draw_title, list::Grouped, shorten, wrap,
+            write_paragraphs, write_right,
         },
         words,
     },
@@ -37,7 +37,7 @@ const TABLE_ROWS: u16 = 9;
 
 /// Draws the page; gives what the status line says while there is no news.
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
-    let sessions = drills.book.sessions().len();
+    let sessions = drills.book.sessions.len();
     let more = match sessions {
         0 => String::new(),
         1 => "1 session so far".to_owned(),
@@ -62,17 +62,11 @@ fn halves(area: Rect) -> [Rect; 2] {
 
 /// What the mouse points at.
 pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
-    let catalogue = &drills.catalogue;
     let [list, _] = halves(area);
     // The first row is the title's.
-    let rows = list.y + 1..list.bottom();
-    let found = catalogue.found();
-    let shown = in_view(&found, catalogue.mark(), rows.len());
-    let line = rows.zip(shown).find(|(y, _)| *y == at.y).and_then(|(_, row)| match row {
-        Row::Exercise(n, _) => Some(n),
-        Row::Heading(_) => None,
-    });
-    list.contains(at).then(|| Target::list(line, catalogue.mark()))
+    let below = Rect { y: list.y + 1, height: list.height.saturating_sub(1), ..list };
+    let line = grouped(drills).entry_at(below, at.y);
+    list.contains(at).then(|| Target::list(line, drills.catalogue.mark))
 }
 
 fn status_line(drills: &DrillsPage) -> Message {
@@ -86,19 +80,16 @@ fn status_line(drills: &DrillsPage) -> Message {
     Message::plain("choose an exercise; Enter opens it")
 }
 
-/// A row of the list.
-enum Row<'a> {
-    Heading(Category),
-    /// With its place among those that are listed.
-    Exercise(usize, &'a Exercise),
+/// The list, by categories.
+fn grouped(drills: &DrillsPage) -> Grouped<&Exercise> {
+    Grouped::new(drills.catalogue.found(), drills.catalogue.mark, |exercise| exercise.category.title())
 }
 
 fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
-    let catalogue = &drills.catalogue;
-    let found = catalogue.found();
-    let title = filter_words(drills, found.len());
+    let count = drills.catalogue.found().len();
+    let title = filter_words(drills, count);
     let inner = draw_title(title.as_str(), area, ui);
-    if found.is_empty() {
+    if count == 0 {
         return;
     }
     for (end, label) in [(GRADE_END, " grade "), (MADE_END, " made "), (RUN_END, " run ")] {
@@ -107,29 +98,7 @@ fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
             write_right(ui.buffer, area.x, end, area.y, label, ui.theme.faint());
         }
     }
-    for (row, y) in in_view(&found, catalogue.mark(), usize::from(inner.height)).zip(inner.y..inner.bottom()) {
-        let area = Rect { y, height: 1, ..inner };
-        match row {
-            Row::Heading(category) => {
-                ui.buffer.set_stringn(area.x + 1, y, category.title(), usize::from(area.width), ui.theme.good());
-            }
-            Row::Exercise(n, exercise) => draw_row(drills, exercise, n == catalogue.mark(), area, ui),
-        }
-    }
-}
-
-/// The rows of the list from the first one that is shown on, so that the marked one is among the first `most`.
-fn in_view<'a>(found: &[&'a Exercise], mark: usize, most: usize) -> impl Iterator<Item = Row<'a>> {
-    let mut rows = Vec::new();
-    for (n, exercise) in found.iter().enumerate() {
-        if n == 0 || found[n - 1].category != exercise.category {
-            rows.push(Row::Heading(exercise.category));
-        }
-        rows.push(Row::Exercise(n, exercise));
-    }
-    let marked = rows.iter().position(|row| matches!(row, Row::Exercise(n, _) if *n == mark)).unwrap_or(0);
-    let shown = list::in_view(marked, rows.len(), most);
-    rows.into_iter().skip(shown.start).take(most)
+    grouped(drills).draw(inner, ui, |exercise, is_marked, area, ui| draw_row(drills, exercise, is_marked, area, ui));
 }
 
 /// How many exercises are listed, and which.
@@ -147,11 +116,8 @@ fn filter_words(drills: &DrillsPage, found: usize) -> String {
 
 fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rect, ui: &mut Ui) {
     let style = if is_marked { ui.theme.accent() } else { ui.theme.text() };
-    if is_marked {
-        ui.buffer.set_string(area.x, area.y, ui.caps.pick("▸", ">"), ui.theme.accent());
-    }
-    let room = usize::from(area.width.saturating_sub(4 + GRADE_END));
-    ui.buffer.set_string(area.x + 2, area.y, shorten(&exercise.title, room, ui.caps), style);
+    let room = usize::from(area.width.saturating_sub(2 + GRADE_END));
+    ui.buffer.set_string(area.x, area.y, shorten(&exercise.title, room, ui.caps), style);
     let grade = if exercise.grade == 0 { "-".to_owned() } else { exercise.grade.to_string() };
     write_right(ui.buffer, area.x, area.right() - GRADE_END, area.y, &grade, ui.theme.faint());
     if let Some(score) = drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {

@@ -1,10 +1,6 @@
 //! The panels of the stroke: its numbers, where it is aimed, and how it compares with the model shot.
 
-use ratatui::{
-    layout::Rect,
-    style::Style,
-    text::{Line, Span},
-};
+use ratatui::{layout::Rect, style::Style};
 
 use crate::{
     coach::{
@@ -18,7 +14,7 @@ use crate::{
         Capabilities, DrillAction, Taught,
         keymap::{chord_of, keys_text},
         pages::drills::{Lesson, Meets, Sight, Turn, Watched, keys::EXERCISE, view::percent},
-        ui::{Ui, draw_title, tip_rows, wrap, write_paragraphs},
+        ui::{Ui, draw_lines, draw_title, pair, tip_rows, wrap, write_paragraphs},
         words::{fixed, rail_name},
     },
 };
@@ -34,13 +30,8 @@ pub fn draw_stroke(turn: &Turn, unit: TipUnit, area: Rect, ui: &mut Ui) {
         if turn.session.is_match() { format!("The stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
     let inner = draw_title(title, area, ui);
     let numbers = numbers(&cue, unit, turn.table.radius, ui.caps);
-    for ((name, value), row) in numbers.into_iter().zip(inner.y..inner.bottom()) {
-        let line = Line::from(vec![
-            Span::styled(format!("{name:<7}"), ui.theme.faint()),
-            Span::styled(value, ui.theme.text()),
-        ]);
-        ui.buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
-    }
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
+    draw_lines(numbers.map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
 }
 
 /// The numbers of a stroke with a ball of this radius, m, and what they are called; the tip's place in `unit`.

@@ -2,12 +2,7 @@
 
 use std::time::{Duration, UNIX_EPOCH};
 
-use ratatui::{
-    buffer::Buffer,
-    layout::Rect,
-    style::Style,
-    text::{Line, Span},
-};
+use ratatui::{buffer::Buffer, layout::Rect, style::Style, text::Span};
 
 use crate::{
     drills::{Goal, Record, Session, Venue},
@@ -21,7 +16,7 @@ use crate::{
         ui::{
             Message, Ui,
             chart::{Chart, Curve, SeriesId, draw_chart},
-            draw_title, shorten, write_paragraphs, write_right,
+            draw_lines, draw_title, pair, shorten, write_paragraphs, write_right,
         },
         words::chance_words,
     },
@@ -34,7 +29,7 @@ const NUMBERS: (u16, u16, u16) = (40, 38, 56);
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let scope = drills.records.scope();
     let title = scope.map_or("all exercises", |name| {
-        drills.catalogue.library().get(name).map_or(name, |exercise| exercise.title.as_str())
+        drills.catalogue.library.get(name).map_or(name, |exercise| exercise.title.as_str())
     });
     draw_header(drills, "record", title, header, ui);
     let sessions = drills.book.sessions_of(scope);
@@ -89,15 +84,9 @@ fn draw_numbers(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>,
     if record.helped > 0 {
         rows.push(("hints", format!("{} of the attempts", record.helped)));
     }
-    let mut y = inner.y;
-    for (name, value) in rows {
-        let line = Line::from(vec![
-            Span::styled(format!("{name:<10}"), ui.theme.faint()),
-            Span::styled(value, ui.theme.text()),
-        ]);
-        ui.buffer.set_line(inner.x + 1, y, &line, inner.width.saturating_sub(1));
-        y += 1;
-    }
+    let y = inner.y + rows.len() as u16;
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
+    draw_lines(rows.into_iter().map(|(name, value)| pair(name, 10, value, ui.theme)), text, ui);
     let skill = match &drills.records.estimate {
         Estimate::Unknown => return,
         Estimate::Working => ("your skill: being estimated".to_owned(), ui.theme.faint()),

@@ -5,28 +5,20 @@ use ratatui::{layout::Rect, text::Span};
 use crate::terminal::{
     Capabilities, SettingsPage,
     keymap::{Chord, KeyEntry, keys_text},
-    pages::settings::view::{Row, draw_list, write_words},
-    ui::{Ui, draw_title, shorten},
+    pages::settings::view::write_words,
+    ui::{Ui, draw_title, list::Grouped, shorten},
 };
 
 /// Columns of the keys.
 const KEYS: u16 = 14;
 
-/// All rows of the list.
-pub fn rows(settings: &SettingsPage) -> Vec<Row<&KeyEntry>> {
-    let mut rows = Vec::new();
-    let mut heading = None;
-    for (n, entry) in settings.keys.page().entries.iter().enumerate() {
-        if heading.replace(entry.section) != Some(entry.section) {
-            rows.push(Row::Heading(entry.section.title()));
-        }
-        rows.push(Row::Entry(n, entry));
-    }
-    rows
+/// The list, by the headings of the help.
+pub fn list(settings: &SettingsPage) -> Grouped<&KeyEntry> {
+    Grouped::new(&settings.keys.page().entries, settings.keys.mark, |entry| entry.section.title())
 }
 
 /// Draws the list and the words; gives what the status line says while there is no news.
-pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'static str {
+pub fn draw(settings: &SettingsPage, area: Rect, words: Rect, ui: &mut Ui) -> &'static str {
     let (left, right) = ui.caps.pick(("◂ ", " ▸"), ("< ", " >"));
     let title = vec![
         Span::styled("Keys ", ui.theme.text()),
@@ -34,9 +26,8 @@ pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'
         Span::styled(settings.keys.page().name, ui.theme.accent()),
         Span::styled(right, ui.theme.faint()),
     ];
-    let inner = draw_title(title, list, ui);
-    let rows = rows(settings);
-    draw_list(&rows, settings.keys.mark(), inner, ui, |entry, is_marked, area, ui| {
+    let inner = draw_title(title, area, ui);
+    list(settings).draw(inner, ui, |entry, is_marked, area, ui| {
         draw_entry(settings, entry, is_marked, area, ui);
     });
     if let Some(entry) = settings.keys.marked() {

@@ -3,20 +3,15 @@
 mod keys;
 mod values;
 
-use std::ops::Range;
-
 use ratatui::{
     layout::{Margin, Position, Rect},
     style::Style,
 };
 
 use crate::terminal::{
-    Capabilities, SettingsPage,
-    pages::{
-        PageArea, Target,
-        settings::{Input, Screen},
-    },
-    ui::{Message, Ui, draw_question, draw_status, end_of, list, write_paragraphs},
+    Capabilities, SettingsContext, SettingsPage,
+    pages::{PageArea, Target, settings::Input},
+    ui::{Message, Ui, draw_question, draw_status, end_of, write_paragraphs},
 };
 
 /// Columns of the list, of a hundred, and at most.
@@ -27,14 +22,6 @@ const BELOW: u16 = 7;
 /// Rows from which on paragraphs stand apart.
 const APART: u16 = 10;
 
-/// A row of a list.
-enum Row<T> {
-    /// What the rows below it have in common.
-    Heading(&'static str),
-    /// Something that can be marked, by its place among all of them.
-    Entry(usize, T),
-}
-
 /// Draws the page that is open; gives the first row of what stands below it.
 pub fn draw(settings: &SettingsPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let (rest, status) = (area.header, area.status);
@@ -42,8 +29,8 @@ pub fn draw(settings: &SettingsPage, area: &PageArea, ui: &mut Ui) -> u16 {
     ui.buffer.set_string(rest.x + 1, rest.y, path, ui.theme.faint());
     let [list, words] = halves(settings.page, area.body);
     let status_line = match settings.page {
-        Screen::Values => values::draw(settings, list, words, ui),
-        Screen::Keys => keys::draw(settings, list, words, ui),
+        SettingsContext::Keys => keys::draw(settings, list, words, ui),
+        _ => values::draw(settings, list, words, ui),
     };
     if let Some(question) = question(settings, ui.caps) {
         let field = if let Some(Input::Value(typed)) = &settings.input { Some(typed) } else { None };
@@ -71,8 +58,8 @@ fn question(settings: &SettingsPage, caps: Capabilities) -> Option<String> {
 }
 
 /// The list's part of the page, and that of the words.
-fn halves(page: Screen, area: Rect) -> [Rect; 2] {
-    if page == Screen::Keys && area.width < BESIDE {
+fn halves(page: SettingsContext, area: Rect) -> [Rect; 2] {
+    if page == SettingsContext::Keys && area.width < BESIDE {
         let list = Rect { height: area.height.saturating_sub(BELOW), ..area };
         return [list, Rect { y: list.bottom(), height: area.height - list.height, ..area }];
     }
@@ -83,46 +70,13 @@ fn halves(page: Screen, area: Rect) -> [Rect; 2] {
 /// What the mouse points at.
 pub fn target(settings: &SettingsPage, area: &PageArea, at: Position) -> Option<Target> {
     let [list, _] = halves(settings.page, area.body);
-    let (places, mark) = match settings.page {
-        Screen::Values => (places(&values::rows()), settings.mark()),
-        Screen::Keys => (places(&keys::rows(settings)), settings.keys.mark()),
-    };
     // The first row is the title's.
-    let inner = list.y + 1..list.bottom();
-    let shown = in_view(&places, mark, inner.len());
-    let line = inner.zip(&places[shown]).find(|(y, _)| *y == at.y).and_then(|(_, place)| *place);
+    let below = Rect { y: list.y + 1, height: list.height.saturating_sub(1), ..list };
+    let (line, mark) = match settings.page {
+        SettingsContext::Keys => (keys::list(settings).entry_at(below, at.y), settings.keys.mark),
+        _ => (values::list(settings).entry_at(below, at.y), settings.mark),
+    };
     list.contains(at).then(|| Target::list(line, mark))
-}
-
-/// The place of each row among those that can be marked; headings have none.
-fn places<T>(rows: &[Row<T>]) -> Vec<Option<usize>> {
-    let place = |row: &Row<T>| if let Row::Entry(place, _) = row { Some(*place) } else { None };
-    rows.iter().map(place).collect()
-}
-
-/// The rows of a list that are shown of `most`, the marked one among them.
-fn in_view(places: &[Option<usize>], mark: usize, most: usize) -> Range<usize> {
-    let marked = places.iter().position(|place| *place == Some(mark)).unwrap_or(0);
-    list::in_view(marked, places.len(), most)
-}
-
-/// Draws the rows of a list that are in view; `draw` draws those that can be marked into theirs.
-fn draw_list<T>(rows: &[Row<T>], mark: usize, area: Rect, ui: &mut Ui, draw: impl Fn(&T, bool, Rect, &mut Ui)) {
-    let shown = in_view(&places(rows), mark, usize::from(area.height));
-    for (row, y) in rows[shown].iter().zip(area.y..) {
-        match row {
-            Row::Heading(title) => {
-                ui.buffer.set_stringn(area.x + 1, y, title, usize::from(area.width), ui.theme.good());
-            }
-            Row::Entry(place, entry) => {
-                let is_marked = *place == mark;
-                if is_marked {
-                    ui.buffer.set_string(area.x, y, ui.caps.pick("▸", ">"), ui.theme.accent());
-                }
-                draw(entry, is_marked, Rect { x: area.x + 2, y, width: area.width.saturating_sub(2), height: 1 }, ui);
-            }
-        }
-    }
 }
 
 /// Writes the words on what is marked into a panel, with blank rows between the paragraphs where there is room.

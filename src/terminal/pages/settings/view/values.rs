@@ -8,32 +8,25 @@ use ratatui::{
 use crate::terminal::{
     Settings, SettingsPage,
     config::{ENTRIES, Entry},
-    pages::settings::view::{Row, draw_list, write_words},
-    ui::{Ui, columns, draw_title, shorten},
+    pages::settings::view::write_words,
+    ui::{Ui, columns, draw_title, list::Grouped, shorten},
 };
 
 /// Columns of the names.
 const NAME: u16 = 13;
 
-/// All rows of the list.
-pub fn rows() -> Vec<Row<&'static Entry>> {
-    let mut rows = Vec::new();
-    for (n, entry) in ENTRIES.iter().enumerate() {
-        if n == 0 || ENTRIES[n - 1].group != entry.group {
-            rows.push(Row::Heading(entry.group));
-        }
-        rows.push(Row::Entry(n, entry));
-    }
-    rows
+/// The list, by groups.
+pub fn list(settings: &SettingsPage) -> Grouped<&'static Entry> {
+    Grouped::new(ENTRIES, settings.mark, |entry| entry.group)
 }
 
 /// Draws the list and the words; gives what the status line says while there is no news.
-pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'static str {
+pub fn draw(settings: &SettingsPage, area: Rect, words: Rect, ui: &mut Ui) -> &'static str {
     let changed = ENTRIES.iter().filter(|entry| settings.is_changed(entry)).count();
     let of = if changed == 0 { String::new() } else { format!(" {changed} changed") };
     let title = vec![Span::styled("Settings", ui.theme.text()), Span::styled(of, ui.theme.faint())];
-    let inner = draw_title(title, list, ui);
-    draw_list(&rows(), settings.mark(), inner, ui, |entry, is_marked, area, ui| {
+    let inner = draw_title(title, area, ui);
+    list(settings).draw(inner, ui, |entry, is_marked, area, ui| {
         draw_entry(settings, entry, is_marked, area, ui);
     });
     draw_words(settings, words, ui);

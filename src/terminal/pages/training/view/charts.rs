@@ -78,6 +78,6 @@ fn points(run: &Followed, quantity: Quantity, range: &RangeInclusive<f64>) -> Ve
 /// The key and the quantity. What is measured is no share of successes where the reward says something else.
 fn title(n: usize, watch: &Watch) -> String {
     let quantity = Quantity::ALL[n];
-    let name = if quantity == Quantity::HeldOut && !watch.is_share() { "held-out reward" } else { quantity.name() };
+    let name = if quantity == Quantity::HeldOut && !watch.own.is_share() { "held-out reward" } else { quantity.name() };
     format!("{} {name}", n + 1)
 }

@@ -10,7 +10,7 @@ use crate::{
     learning::{agents::AGENTS, run::Schedule},
     terminal::{
         pages::training::{Field, Form, TrainingPage},
-        ui::{Ui, columns, draw_title, wrap},
+        ui::{Ui, columns, draw_lines, draw_title, wrap},
         words::count,
     },
 };
@@ -33,19 +33,9 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
         ui.buffer.set_string(area.x + 3, y, field.name(), ui.theme.faint());
         let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
         let x = area.x + 3 + NAME;
-        let end = ui
-            .buffer
-            .set_line(
-                x - 2,
-                y,
-                &Line::from(vec![
-                    Span::styled(left, ui.theme.faint()),
-                    Span::styled(value, style),
-                    Span::styled(right, ui.theme.faint()),
-                ]),
-                area.right() - x,
-            )
-            .0;
+        let [left, right] = [left, right].map(|sign| Span::styled(sign, ui.theme.faint()));
+        let value = Line::from(vec![left, Span::styled(value, style), right]);
+        let end = ui.buffer.set_line(x - 2, y, &value, area.right() - x).0;
         let x = (x + VALUE).max(end + 2);
         let room = usize::from(area.right().saturating_sub(x + 1));
         // The row below is free.
@@ -60,9 +50,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     let name =
         Line::from(vec![Span::styled("run           ", ui.theme.faint()), Span::styled(form.name(), ui.theme.text())]);
     let lines = lines.into_iter().map(|line| Line::styled(line, ui.theme.text())).chain([Line::default(), name]);
-    for (line, y) in lines.zip(inner.y..inner.bottom()) {
-        ui.buffer.set_line(inner.x + 3, y, &line, inner.width.saturating_sub(4));
-    }
+    draw_lines(lines, Rect { x: inner.x + 3, width: inner.width.saturating_sub(4), ..inner }, ui);
 }
 
 /// The command in lines of at most `width` columns, broken before an option.

@@ -7,36 +7,42 @@ mod numbers;
 mod panes;
 mod replay;
 mod runs;
-mod watch;
 
 use ratatui::layout::{Position, Rect};
 
-use crate::terminal::{
-    TrainingContext,
-    pages::{
-        PageArea, Target,
-        training::{Screen, TrainingPage},
+use crate::{
+    table::Table,
+    terminal::{
+        TrainingContext,
+        pages::{
+            PageArea, Target,
+            training::{TrainingPage, view::panes::Panes},
+        },
+        ui::{Message, Ui, draw_question, draw_status},
     },
-    ui::{Message, Ui, draw_question, draw_status},
 };
 
 /// Draws the page that is open; gives the first row of what stands below it.
 pub fn draw(training: &TrainingPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let (head, body, status) = (area.header, area.body, area.status);
     let status_line = match (training.page(), &training.watch) {
-        (Screen::Watch, Some(watch)) => {
+        (TrainingContext::Watch, Some(watch)) => {
             header::draw(watch, head, ui);
-            watch::draw(training, watch, body, ui);
+            // A table has the same shape everywhere, so that nothing jumps when the run's own is known.
+            let panes = Panes::new(watch.table().unwrap_or(&Table::default()), body);
+            charts::draw(watch, panes.charts, ui);
+            numbers::draw(training, watch, panes.numbers, ui);
+            replay::draw(watch, panes.replay, ui);
             let (sentence, is_bad) = watch.advice();
             if is_bad { Message::warning(sentence) } else { Message::plain(sentence) }
         }
-        (Screen::Form, _) => {
+        (TrainingContext::Form, _) => {
             title("a new run", head, ui);
             form::draw(training, body, ui);
             Message::plain(form::status_line(training))
         }
         (open, _) => {
-            let words = if open == Screen::Compare { "compare with" } else { "training runs" };
+            let words = if open == TrainingContext::Compare { "compare with" } else { "training runs" };
             title(words, head, ui);
             runs::draw(training, body, ui);
             runs::status_line(training)

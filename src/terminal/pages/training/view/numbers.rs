@@ -15,7 +15,7 @@ use crate::{
         ui::{
             Ui,
             chart::{SeriesId, curve_mark},
-            draw_title, write_right,
+            draw_lines, draw_title, write_right,
         },
         words::{count, time_words},
     },
@@ -75,9 +75,7 @@ fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
     let far = Line::styled(format!("   {far}"), ui.theme.text());
     let lines = [named(SeriesId::Own, &watch.own), named(SeriesId::Other, other), far];
     let rows = (lines.len() as u16).min(area.height);
-    for (line, y) in lines.iter().zip(area.y..area.y + rows) {
-        ui.buffer.set_line(area.x + 1, y, line, area.width.saturating_sub(1));
-    }
+    draw_lines(lines, Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area }, ui);
     Rect { y: area.y + rows, height: area.height - rows, ..area }
 }
 
@@ -107,7 +105,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let config = run.config.as_ref();
     let held_out = run.held_out();
     let mut learnt = vec![(measured(&watch.own), known(held_out, three)), ("best", known(run.best(), three))];
-    if watch.is_share() {
+    if watch.own.is_share() {
         learnt.insert(
             1,
             (

@@ -16,8 +16,7 @@ use crate::terminal::{
 pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     let replay = &watch.replay;
     let dot = ui.caps.pick(" · ", " - ");
-    let (Some(table), Some(reel), Some(Scene { example, shot })) = (watch.table(), replay.reel(), replay.scene())
-    else {
+    let (Some(table), Some(reel), Some(Scene { example, shot })) = (watch.table(), &replay.reel, replay.scene()) else {
         let inner = draw_title("Shots", area, ui);
         let words = if watch.lacks_config() {
             ["", "shots need the run's", "configuration"]
@@ -30,12 +29,12 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
         return;
     };
     let (outcome, style) = match example.reward {
-        reward if !watch.is_share() => (format!("{reward:.2}"), ui.theme.text()),
+        reward if !watch.own.is_share() => (format!("{reward:.2}"), ui.theme.text()),
         reward if reward >= 1.0 => ("point".to_owned(), ui.theme.good()),
         _ => ("miss".to_owned(), ui.theme.warning()),
     };
     let title = Line::from(vec![
-        Span::styled(format!("Shot {} of {}", replay.index() + 1, reel.scenes.len()), ui.theme.text()),
+        Span::styled(format!("Shot {} of {}", replay.index + 1, reel.scenes.len()), ui.theme.text()),
         Span::styled(dot, ui.theme.faint()),
         Span::styled(outcome, style),
     ]);
@@ -45,6 +44,7 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     if usize::from(area.right().saturating_sub(free)) > after.len() {
         write_right(ui.buffer, free, area.right().saturating_sub(1), area.y, &after, ui.theme.faint());
     }
-    let view = TableView { shot: shot.as_ref(), time: replay.time(), ..TableView::new(table, &example.layout, ui) };
+    let view =
+        TableView { shot: shot.as_ref(), time: replay.playback.time, ..TableView::new(table, &example.layout, ui) };
     draw_table(&view, inner, ui);
 }

@@ -10,10 +10,8 @@ use ratatui::{
 use crate::{
     learning::run::{follow::Condition, list::Summary, status::Phase},
     terminal::{
-        pages::{
-            Target,
-            training::{Screen, TrainingPage},
-        },
+        TrainingContext,
+        pages::{Target, training::TrainingPage},
         ui::{Message, Ui, columns, draw_title, list, write_right},
         words::{count, short_count},
     },
@@ -54,8 +52,7 @@ fn reward(value: Option<f64>) -> String {
 
 /// Draws the list and, below it, more of the marked run.
 pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
-    let list = &training.list;
-    let (runs, mark) = (list.runs(), list.mark());
+    let (runs, mark) = (training.list.runs(), training.list.mark());
     if runs.is_empty() {
         return draw_empty(training, area, ui);
     }
@@ -85,7 +82,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
         }
     };
     put(ui.buffer, area.y + 1, ui.theme.faint(), &|column| column.heading.to_owned());
-    for (n, y) in in_view(training, area) {
+    for (n, y) in list::shown(mark, runs.len(), rows(area)) {
         let run = &runs[n];
         let style = match run.state {
             _ if n == mark => ui.theme.accent(),
@@ -101,18 +98,16 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     draw_marked(training, &runs[mark], mark, Rect { y: area.bottom() - 3, height: 3, ..area }, ui);
 }
 
-/// The runs that have a row, by their place in the list, and their rows.
-fn in_view(training: &TrainingPage, area: Rect) -> impl Iterator<Item = (usize, u16)> {
-    let list = &training.list;
-    // Above it are a blank row and the headings, below it the details of the marked run.
-    let rows = area.height.saturating_sub(6);
-    list::in_view(list.mark(), list.runs().len(), usize::from(rows)).zip(area.y + 2..)
+/// The part of the runs: above it are a blank row and the headings, below it the details of the marked run.
+fn rows(area: Rect) -> Rect {
+    Rect { y: area.y + 2, height: area.height.saturating_sub(6), ..area }
 }
 
 /// What the mouse points at.
 pub fn target(training: &TrainingPage, area: Rect, at: Position) -> Option<Target> {
-    let run = in_view(training, area).find(|(_, y)| *y == at.y).map(|(n, _)| n);
-    area.contains(at).then(|| Target::list(run, training.list.mark()))
+    let runs = &training.list;
+    let line = list::line_at(runs.mark(), runs.runs().len(), rows(area), at.y);
+    area.contains(at).then(|| Target::list(line, runs.mark()))
 }
 
 /// The columns that fit into `room`.
@@ -155,10 +150,10 @@ fn people(moment: &str) -> String {
 
 fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     let list = &training.list;
-    let lines: &[&str] = match list.trouble() {
+    let lines: &[&str] = match list.trouble {
         Some(_) => &["The runs cannot be listed."],
         None if !list.is_known() => &["Looking for runs"],
-        None if training.page() == Screen::Compare => &["There is no run to compare with."],
+        None if training.page() == TrainingContext::Compare => &["There is no run to compare with."],
         None => &[
             "No agent has been trained here yet.",
             "",
@@ -174,11 +169,11 @@ fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
 /// What the status line says while there is no news.
 pub fn status_line(training: &TrainingPage) -> Message {
     let list = &training.list;
-    if let Some(sentence) = list.trouble() {
+    if let Some(sentence) = &list.trouble {
         return Message::warning(sentence);
     }
-    if !list.unreadable().is_empty() {
-        return Message::warning(list.unreadable().join("; "));
+    if !list.unreadable.is_empty() {
+        return Message::warning(list.unreadable.join("; "));
     }
     let running = list.runs().iter().filter(|run| run.state.is_at_work()).count();
     Message::plain(match running {
