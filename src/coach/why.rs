@@ -226,15 +226,15 @@ impl Why {
         let other = second.and_then(|second| second.make_probability);
         parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
             let [own, its] = [rate, other].map(percent);
-            if rate - other > TOLD_APART {
-                format!("made {own} of the time, the second-best shot {its}")
+            if (rate - other).abs() > TOLD_APART {
+                format!("made {own} of the time, the next shot {its}")
             } else {
-                format!("made {own} of the time, about as often as the second-best shot ({its})")
+                format!("made {own} of the time, about as often as the next shot ({its})")
             }
         }));
         parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
             Some(other) => {
-                format!("its aim may be {} off in all, that of the second-best {}", degrees(width), degrees(other))
+                format!("its aim may be {} off in all, that of the next shot {}", degrees(width), degrees(other))
             }
             None => format!("its aim may be {} off in all", degrees(width)),
         }));
@@ -307,7 +307,7 @@ fn degrees(width: f64) -> String {
 
 impl Difference {
     fn words(&self, names: [&'static str; 3]) -> String {
-        format!("the second-best: {}", self.parts(names))
+        format!("the next shot: {}", self.parts(names))
     }
 
     fn parts(&self, names: [&'static str; 3]) -> String {
@@ -359,8 +359,8 @@ mod tests {
         assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
         assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("off in all"), "{least}");
         let said = why.words(CueBall::White, Units::default());
-        assert!(said.ends_with('.') && said.contains("the second-best"), "{said}");
+        assert!(said.ends_with('.') && said.contains("the next shot"), "{said}");
         let alone = Why { second: None, ..why }.words(CueBall::White, Units::default());
-        assert!(alone.ends_with('.') && !alone.contains("second-best"), "{alone}");
+        assert!(alone.ends_with('.') && !alone.contains("next shot"), "{alone}");
     }
 }

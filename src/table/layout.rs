@@ -184,7 +184,8 @@ impl Layout {
     }
 
     /// Reads `"x,y x,y x,y"` in metres, or in diamonds where a number ends in `d`: those count from the lower left
-    /// corner of the playing area, 8 along the length and 4 along the width.
+    /// corner of the playing area, 8 along the length and 4 along the width. A ball that would be nearer to a cushion than its
+    /// radius touches it.
     ///
     /// # Errors
     /// [`LayoutError::Text`]; the positions are not checked against the table.
@@ -201,12 +202,19 @@ impl Layout {
 
 /// Reads one position, `"x,y"`, as [`Layout::parse`] does.
 pub(super) fn place(word: &str, table: &Table) -> Option<DVec2> {
-    let coordinate = |part: &str, half_extent: f64| match part.strip_suffix('d') {
-        Some(diamonds) => diamonds.parse::<f64>().ok().map(|n| n * table.diamond() - half_extent),
+    let coordinate = |part: &str, half_extent: f64, reach: f64| match part.strip_suffix('d') {
+        Some(diamonds) => {
+            let at = diamonds.parse::<f64>().ok()? * table.diamond() - half_extent;
+            // On a rail's diamonds, or nearer to them than its radius, a ball touches the cushion.
+            Some(if at.abs() <= half_extent { at.clamp(-reach, reach) } else { at })
+        }
         None => part.parse::<f64>().ok(),
     };
     let (x, y) = word.split_once(',').filter(|(x, y)| x.ends_with('d') == y.ends_with('d'))?;
-    Some(DVec2::new(coordinate(x, 0.5 * table.length)?, coordinate(y, 0.5 * table.width)?))
+    Some(DVec2::new(
+        coordinate(x, 0.5 * table.length, table.reach().x)?,
+        coordinate(y, 0.5 * table.width, table.reach().y)?,
+    ))
 }
 
 #[cfg(test)]
@@ -247,6 +255,17 @@ mod tests {
         for _ in 0..1000 {
             Layout::random(&table, &mut rng).validate(&table).unwrap();
         }
+    }
+
+    #[test]
+    fn a_ball_on_a_rails_diamonds_touches_the_cushion() {
+        let table = Table::default();
+        let reach = table.reach();
+        let layout = Layout::parse("0d,2d 6d,4d 7.95d,0.01d", &table).unwrap();
+        layout.validate(&table).unwrap();
+        assert_eq!((layout.balls[0].x, layout.balls[1].y), (-reach.x, reach.y));
+        assert_eq!(layout.balls[2], DVec2::new(reach.x, -reach.y));
+        assert!(Layout::parse("0d,2d 6d,4.1d 7d,1d", &table).unwrap().validate(&table).is_err());
     }
 
     #[test]

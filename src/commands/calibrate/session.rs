@@ -49,7 +49,10 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             "undo" => session.undo()?,
             "help" | "?" => tell(HELP),
             marks => match entry(table, test, marks) {
-                Ok(entry) => session.add(entry)?,
+                Ok(entry) => {
+                    session.add(entry)?;
+                    tell(format_args!("kept: stroke {} of {}, {}", session.count(test), test.times, test.name));
+                }
                 Err(what) => {
                     refused += 1;
                     tell(format_args!("{}: {what}; nothing was kept", test.name));
@@ -104,6 +107,11 @@ impl Session {
             session.entries = Entries::default();
         }
         Ok(session)
+    }
+
+    /// How many strokes of a test are kept.
+    fn count(&self, test: &Test) -> usize {
+        self.entries.trials.iter().filter(|entry| entry.test == test.name).count()
     }
 
     /// What is asked for next.
