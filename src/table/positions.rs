@@ -133,7 +133,7 @@ mod tests {
             ("red 2d,1d 3d,3d", "some have none"),
             ("9d,1d", "red at 9.00d,1.00d is outside the table; accepted are 0.09d to 7.91d, and 0.09d to 3.91d"),
             ("1.5,0.1", "|x| <= 1.389"),
-            ("nan,1d", "finite"),
+            ("nan,1", "finite"),
         ] {
             let error = typed(text).unwrap_err();
             assert!(error.contains(part), "{text}: {error}");
