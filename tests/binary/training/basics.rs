@@ -127,6 +127,8 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
         ("train --run new --config none.toml", 1, "none.toml"),
         ("train --run new --set heads", 2, "heads"),
         ("train --run new --set heads=0", 2, "heads = 0"),
+        ("train --run new --set heads=2.5", 2, "expected a whole number; accepted is 1 to 256"),
+        ("train --run new --agent thesis-ddpg --table thesis --set noise.simga=1", 2, "simga"),
         ("train --run new --set batch=16777216", 2, "65536"),
         ("train --run new --set exploration={unifrom=0.1}", 2, "unifrom"),
         ("train --run new --set actions=three", 2, "three"),
@@ -145,6 +147,33 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
         assert!(outcome.out.is_empty(), "{line}");
     }
     assert!(!here.join("new").exists() && !here.join("nowhere").exists());
+}
+
+#[test]
+fn one_part_of_a_setting_is_set_alone_and_the_others_stay() {
+    let folder = folder();
+    let here = folder.path();
+    let settings = |run: &str| -> Value {
+        let config: Value = serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap();
+        config["settings"].clone()
+    };
+    let short = "--table thesis --steps 100 --evaluation-layouts 5";
+    done(
+        here,
+        &format!("train --agent thesis-ddpg --reward r3 {short} --set noise.sigma=1 --set noise.dt=0.5 --run a"),
+    );
+    assert_eq!(settings("a")["noise"], serde_json::json!({"theta": 0.15, "sigma": 1.0, "dt": 0.5}));
+    // What the run that the weights come from has of the other parts stays as well.
+    done(here, &format!("train --from a {short} --set noise.theta=0.3 --run b"));
+    assert_eq!(settings("b")["noise"], serde_json::json!({"theta": 0.3, "sigma": 1.0, "dt": 0.5}));
+    for (agent, last) in [("q-learning", 0.05), ("dqn", 0.1)] {
+        done(here, &format!("train --agent {agent} --reward r1 {short} --set epsilon.first=0.5 --run {agent}"));
+        let epsilon = &settings(agent)["epsilon"];
+        assert_eq!((epsilon["first"].as_f64(), epsilon["last"].as_f64()), (Some(0.5), Some(last)), "{agent}");
+    }
+    fs::write(here.join("parts.toml"), "[noise]\nsigma = 2.0\n").unwrap();
+    done(here, &format!("train --from a {short} --config parts.toml --set noise.theta=0.3 --run c"));
+    assert_eq!(settings("c")["noise"], serde_json::json!({"theta": 0.3, "sigma": 2.0, "dt": 0.5}));
 }
 
 #[test]
