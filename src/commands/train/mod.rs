@@ -136,7 +136,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return listing::print(folder.as_deref(), args.json).map(drop);
     }
     let limit = args.minutes.map(minutes).transpose()?;
-    // The first signal waits for the iteration and the measurement.
+    // The first signal waits for the iteration and a measurement that is due, saves, and measures; the second ends that.
     let stop = stop_when_told(true).map_err(Failure::failed)?;
     // The run can be watched and stopped from the next terminal.
     outlive_hang_up().map_err(Failure::failed)?;

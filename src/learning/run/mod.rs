@@ -2,7 +2,7 @@
 //!
 //! A run can be killed at any moment. The order of writing sees to it that what it goes on from is complete: first the
 //! policy, then the lines of metrics, last the checkpoint; whatever is younger than the checkpoint is done again,
-//! to the same bits.
+//! to the same bits. A run that is stopped writes the checkpoint before it is measured, and the policy after that.
 
 mod accumulator;
 mod checkpoint;
