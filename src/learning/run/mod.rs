@@ -108,7 +108,7 @@ impl Run {
 
     /// The run in `folder` as its last whole checkpoint left it, and sentences about what may make
     /// it another run than the one that was interrupted: the last checkpoint is damaged, or this is another carom; also where the
-    /// last line of its metrics was cut off, which is then left out.
+    /// last line of its metrics was cut off, which is then left out, and where lines are missing.
     ///
     /// # Errors
     /// Where there is no whole checkpoint, or another process works in the folder.
@@ -126,6 +126,7 @@ impl Run {
         if metrics::is_torn(&folder.join(METRICS)) {
             notices.push(format!("the last line of {METRICS} is cut off and is left out"));
         }
+        notices.extend(metrics::gap(&folder.join(METRICS), learner.shots(), state.schedule.log_every));
         let config = Config::read(folder).or_else(|_| {
             // It was killed before it had one, or it was removed: the checkpoint has the same values.
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
