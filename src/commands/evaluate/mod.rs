@@ -43,7 +43,8 @@ pub struct Args {
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "match")]
     table: String,
-    /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.
+    /// The policy: "bundled", the path of a file that `carom train` wrote, the folder of its run, or the name under which one was
+    /// kept.
     #[arg(long, value_name = "FILE", default_value = "bundled")]
     policy: String,
     /// Play the networks' own shot: one pass, no simulator call. What they say of it is set against what comes of it.

@@ -42,6 +42,7 @@ use self::{
 };
 pub use self::{
     config::{Config, Schedule, Start, run_name},
+    contents::agent_of_checkpoint,
     error::{OriginError, RunError},
     training::{Ending, Limits, Watcher},
 };

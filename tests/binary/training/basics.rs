@@ -33,6 +33,27 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     let report: Value = serde_json::from_str(&measured.out).unwrap();
     assert_eq!(report["success"]["layouts"], 100);
 
+    // The run's folder is as good as the file in it; its checkpoint is another thing.
+    let of_folder: Value =
+        serde_json::from_str(&done(here, "evaluate --policy one --policy-only --layouts 100 --json").out).unwrap();
+    assert_eq!((&of_folder["success"], &of_folder["policy"]), (&report["success"], &"one".into()));
+    done(here, "train --agent dqn --table thesis --reward r1 --steps 100 --evaluation-layouts 5 --run plain");
+    for (policy, words) in [
+        ("one/checkpoint.safetensors", "is a checkpoint, not a policy; its run's policy is one/policy.safetensors"),
+        (
+            "plain/checkpoint.safetensors",
+            "is a checkpoint, not a policy; its agent is dqn, and only the agent ddpg writes",
+        ),
+        (
+            "plain",
+            "the run plain has no policy; its agent is dqn, and only the agent ddpg writes policies: as RUN/policy",
+        ),
+        (".", "is a folder without a policy.safetensors"),
+    ] {
+        let refused = carom(here, &format!("evaluate --policy {policy} --policy-only"));
+        assert!(refused.code == Some(1) && refused.err.contains(words), "{}", refused.err);
+    }
+
     let drawn = done(here, "evaluate --policy one/policy.safetensors --policy-only --drawn-tables --layouts 50 --json");
     let drawn: Value = serde_json::from_str(&drawn.out).unwrap();
     assert!(drawn["tenths"].as_array().is_some_and(|tenths| !tenths.is_empty()), "{drawn}");
