@@ -56,6 +56,9 @@ fn what_is_not_a_whole_is_refused_by_name() {
     let [one, two] = ["1/3", "2/3"].map(|shard| part(folder.path(), line, shard));
     let other = tempfile::tempdir().unwrap();
     let stranger = part(other.path(), "evaluate --layouts 4 --random-search 6", "3/3");
+    // The same number, of another number of parts and of another evaluation.
+    let halves = part(other.path(), line, "1/2");
+    let others = part(other.path(), "evaluate --layouts 4 --random-search 6", "1/3");
     let broken = folder.path().join("broken.json").display().to_string();
     fs::write(&broken, "{}").unwrap();
     for (files, said) in [
@@ -63,6 +66,8 @@ fn what_is_not_a_whole_is_refused_by_name() {
         (vec![&one, &two, &one], "which another file holds too"),
         (vec![&one, &two, &stranger], "different evaluations: "),
         (vec![&one, &two, &stranger], " 5 and 6"),
+        (vec![&one, &halves], "are parts of different evaluations: of 3 and of 2 parts"),
+        (vec![&one, &others], "are parts of different evaluations: random_search 5 and 6"),
         (vec![&broken], "is no part of an evaluation"),
     ] {
         let files: Vec<&str> = files.into_iter().map(String::as_str).collect();
