@@ -48,6 +48,23 @@ pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
     )))
 }
 
+/// What `--from` names: a folder or a file that is there, as [`run_named`] finds it.
+///
+/// # Errors
+/// Where there is none.
+pub fn weights_named(name: &Path) -> Result<PathBuf, Failure> {
+    let found = run_named(name);
+    if found.exists() {
+        return Ok(found);
+    }
+    Err(Failure::failed(format_args!(
+        "there is nothing called {} to start from, neither here nor among the runs in {}; accepted are a run (its folder or its \
+         name), a checkpoint file and a policy file",
+        name.display(),
+        Places::of_this_user().runs.display()
+    )))
+}
+
 /// The policy in the file `name`, that of the run in the folder `name`, or the one that the user has kept under this name.
 ///
 /// # Errors

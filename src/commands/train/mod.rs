@@ -245,6 +245,7 @@ fn failure(error: RunError) -> Failure {
     match error {
         RunError::Occupied(_)
         | RunError::Foreign { .. }
+        | RunError::NoFolder(_)
         | RunError::Agent(_)
         | RunError::Origin { .. }
         | RunError::Start(StartError::Settings(_)) => Failure::wrong_input(error),

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{Args, failure};
 use crate::{
-    commands::{Failure, input::table_named, lookup::run_named},
+    commands::{Failure, input::table_named, lookup::weights_named},
     learning::{
         learner::{AgentKind, TrainingPlan, lay_over},
         run::{
@@ -53,7 +53,8 @@ fn begin_in_free<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>)
 
 /// What the command line orders. Whatever it leaves open is as in the run that the weights come from, or the default.
 pub fn read(args: &Args) -> Result<Read, Failure> {
-    let weights = args.from.as_deref().map(|from| Weights::load(&run_named(from))).transpose().map_err(failure)?;
+    let from = args.from.as_deref().map(weights_named).transpose()?;
+    let weights = from.as_deref().map(Weights::load).transpose().map_err(failure)?;
     let start = weights.as_ref().map(|weights| &weights.start);
     let agent = args.agent.clone().or_else(|| start.map(|start| start.agent.clone()));
     let agent = agent.unwrap_or_else(|| "ddpg".to_owned());

@@ -87,14 +87,14 @@ impl Run {
     /// A new run of `learner` in `folder`, which is made where it is missing.
     ///
     /// # Errors
-    /// [`RunError::Occupied`] where it holds a run already.
+    /// [`RunError::Occupied`] where it holds a run already, [`RunError::NoFolder`] where it is a file.
     pub fn create(
         folder: &Path,
         learner: Box<dyn Learner>,
         schedule: Schedule,
         from: Option<Start>,
     ) -> Result<Self, RunError> {
-        std::fs::create_dir_all(folder).map_err(file(folder))?;
+        make_folder(folder)?;
         let lock = lock(folder)?;
         refuse_taken(folder)?;
         let config = Config::of(learner.as_ref(), schedule, from.clone());
@@ -209,6 +209,15 @@ pub fn discard(folder: &Path) -> Result<(), RunError> {
     // Somebody may have put something else there, which is not ours to remove.
     let _ = std::fs::remove_dir(folder);
     Ok(())
+}
+
+/// Makes a folder where it is missing.
+fn make_folder(folder: &Path) -> Result<(), RunError> {
+    // Also above it: a file there cannot hold it.
+    if let Some(in_the_way) = folder.ancestors().find(|path| path.is_file()) {
+        return Err(RunError::NoFolder(in_the_way.display().to_string()));
+    }
+    std::fs::create_dir_all(folder).map_err(file(folder))
 }
 
 /// Refuses a folder in which anything is: a run, or files that no run has written. A run would write over some of them.
