@@ -186,8 +186,9 @@ fn train(mut run: Run, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let learner = run.learner();
     if learner.is_finished() {
         tell(format_args!(
-            "{} is finished: all its {} shots have been played; start a new run with its weights by --from",
+            "{} is finished: it has played {} shots (asked for: {}); start a new run with its weights by --from",
             run.folder().display(),
+            learner.shots(),
             learner.plan().shots
         ));
     }

@@ -59,6 +59,16 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     assert!(drawn["tenths"].as_array().is_some_and(|tenths| !tenths.is_empty()), "{drawn}");
     assert_ne!(drawn["claimed"], report["claimed"], "other tables, other strokes");
 
+    // Whole rounds are played: what was played is told, not what was asked for.
+    let rounds = done(here, "train --config small.toml --steps 1 --evaluation-layouts 5 --run rounds");
+    assert!(rounds.out.contains("after 16 shots"), "{}", rounds.out);
+    for file in ["result.json", "state.json"] {
+        let said: Value = serde_json::from_slice(&fs::read(here.join("rounds").join(file)).unwrap()).unwrap();
+        assert_eq!(said["shots"], 16, "{file}");
+    }
+    let resumed = done(here, "train --resume rounds");
+    assert!(resumed.err.contains("it has played 16 shots (asked for: 1)"), "{}", resumed.err);
+
     let again = carom(here, &format!("{SHORT} --run one"));
     assert_eq!(again.code, Some(2));
     assert!(again.err.contains("--resume"), "{}", again.err);
