@@ -50,6 +50,19 @@ fn merged_parts_are_the_whole() {
 }
 
 #[test]
+fn the_bundled_networks_that_play_alone_are_named() {
+    let line = "evaluate --policy-only --rule three-cushion --layouts 5";
+    for (rest, networks) in [("", "match-three-cushion"), (" --skill club", "context-three-cushion")] {
+        let report = json(&format!("{line}{rest}"));
+        assert_eq!((&report["policy"], &report["networks"]), (&"bundled".into(), &networks.into()));
+        let text = asked(&words(&format!("{line}{rest}"))).assert().success().get_output().stdout.clone();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.starts_with(&format!("policy bundled ({networks}) on \"match\"")), "{text}");
+    }
+    assert_eq!(json("evaluate --layouts 3 --random-search 5").get("networks"), None);
+}
+
+#[test]
 fn what_is_not_a_whole_is_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();
     let line = "evaluate --layouts 4 --random-search 5";

@@ -153,6 +153,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     let spec = Spec {
         player: player.name().to_owned(),
         policy: args.random_search.is_none().then(|| args.policy.clone()),
+        networks: player.networks(),
         table,
         measure: args.reward.map_or(args.rule.name(), Reward::name).to_owned(),
         is_yes_or_no: reward == Reward::R1 || reward.rule().is_some(),

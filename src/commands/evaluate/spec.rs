@@ -24,6 +24,8 @@ pub struct Spec {
     pub player: String,
     /// The policy, of players that have one.
     pub policy: Option<String>,
+    /// Which of the bundled networks they are, where these play alone.
+    pub networks: Option<String>,
     pub table: Table,
     /// Whether every layout has a table of its own, drawn around that one.
     pub drawn_tables: bool,
