@@ -9,7 +9,7 @@ use crate::{
     learning::{
         Policy,
         policy::kept::{self, BUNDLED},
-        run::list::latest_in,
+        run::{Config, POLICY, agent_of_checkpoint, list::latest_in},
     },
     storage::Places,
 };
@@ -48,18 +48,75 @@ pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
     )))
 }
 
-/// The policy in the file `name`, or the one that the user has kept under this name.
+/// What `--from` names: a folder or a file that is there, as [`run_named`] finds it.
+///
+/// # Errors
+/// Where there is none.
+pub fn weights_named(name: &Path) -> Result<PathBuf, Failure> {
+    let found = run_named(name);
+    if found.exists() {
+        return Ok(found);
+    }
+    Err(Failure::failed(format_args!(
+        "there is nothing called {} to start from, neither here nor among the runs in {}; accepted are a run (its folder or its \
+         name), a checkpoint file and a policy file",
+        name.display(),
+        Places::of_this_user().runs.display()
+    )))
+}
+
+/// The policy in the file `name`, that of the run in the folder `name`, or the one that the user has kept under this name.
 ///
 /// # Errors
 /// Where there is none, or none that can be used.
 pub fn policy_called(name: &str) -> Result<Policy, Failure> {
-    let file = kept::find(&Places::of_this_user().policies, name);
-    if !file.exists() {
+    let found = kept::find(&Places::of_this_user().policies, name);
+    let found = if found.exists() { found } else { run_named(Path::new(name)) };
+    if !found.exists() {
         return Err(Failure::failed(format_args!(
-            "there is no policy {name}; accepted are {BUNDLED}, a file that carom train wrote, and the name of one that was kept"
+            "there is no policy {name}; accepted are {BUNDLED}, a file that carom train wrote, a run's folder, and the name of \
+             one that was kept"
         )));
     }
-    Policy::load(&file).map_err(Failure::failed)
+    if found.is_dir() {
+        return policy_of_run(&found);
+    }
+    if let Some(agent) = agent_of_checkpoint(&found) {
+        let shown = found.display();
+        let advice = if agent == WRITES_POLICIES {
+            format!("its run's policy is {}", found.with_file_name(POLICY).display())
+        } else {
+            no_policies_of(&agent)
+        };
+        return Err(Failure::failed(format_args!("{shown} is a checkpoint, not a policy; {advice}")));
+    }
+    Policy::load(&found).map_err(Failure::failed)
+}
+
+/// The policy in a run's folder.
+fn policy_of_run(folder: &Path) -> Result<Policy, Failure> {
+    let (file, shown) = (folder.join(POLICY), folder.display());
+    if file.exists() {
+        return Policy::load(&file).map_err(Failure::failed);
+    }
+    let agent = Config::read(folder).map(|config| config.agent);
+    Err(Failure::failed(match agent {
+        Ok(agent) if agent == WRITES_POLICIES => format!(
+            "the run {shown} has no {POLICY} yet: it is written at the first measurement, and when the run is stopped"
+        ),
+        Ok(agent) => format!("the run {shown} has no policy; {}", no_policies_of(&agent)),
+        Err(_) => format!("{shown} is a folder without a {POLICY}; accepted are a policy file and the folder of a run"),
+    }))
+}
+
+/// The agent whose runs write policies.
+const WRITES_POLICIES: &str = "ddpg";
+
+/// Why a run of another agent has no policy.
+fn no_policies_of(agent: &str) -> String {
+    format!(
+        "its agent is {agent}, and only the agent {WRITES_POLICIES} writes policies: as RUN/{POLICY}, in the folder of its run"
+    )
 }
 
 /// The word for the skill that the user has kept.

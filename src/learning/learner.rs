@@ -3,7 +3,7 @@
 use std::fmt::{Debug, Display};
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::{
     game::Reward,
@@ -29,10 +29,14 @@ pub struct AgentKind {
     pub name: &'static str,
     /// What it is, in one line for people.
     pub title: &'static str,
+    /// All settings as they are where nothing else is said, as an object.
+    pub defaults: fn() -> Value,
     /// An untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
     pub start: Start,
     /// The learner whose [`Learner::save`] filled the file and returned the note.
     pub restore: Restore,
+    /// Shots of a whole iteration with these settings; `None` where they do not say.
+    pub round: fn(&Value) -> Option<u64>,
     /// Settings that apply only when weights are loaded; `--from` does not pass them on.
     pub of_one_start: &'static [&'static str],
 }
@@ -55,31 +59,77 @@ impl StartError {
     }
 }
 
-/// An agent's settings, from an object of those that differ from its defaults.
+/// The settings of an agent as they are where nothing else is said, as an object.
+pub fn defaults_of<S: Default + Serialize>() -> Value {
+    // They are numbers, words and lists of them: they can be written.
+    note_of(&S::default()).unwrap_or_default()
+}
+
+/// Puts `changes` in the place of the values of the same names. Where an agent's defaults have an object, only the parts of it that
+/// are named change, and the others stay.
+pub fn lay_over(settings: &mut Value, changes: &Value, defaults: &Value) {
+    let Some(changes) = changes.as_object() else {
+        *settings = changes.clone();
+        return;
+    };
+    if !settings.is_object() {
+        *settings = Value::Object(serde_json::Map::new());
+    }
+    for (name, value) in changes {
+        match defaults.get(name) {
+            Some(parts) if parts.is_object() => lay_over(&mut settings[name.as_str()], value, parts),
+            _ => settings[name.as_str()] = value.clone(),
+        }
+    }
+}
+
+/// An agent's settings, from an object of those that differ from its defaults; of a setting that has parts, of the parts that differ.
 ///
 /// # Errors
 /// Where one is unknown or of another type, or `validate` refuses them.
-pub fn settings_from<S: DeserializeOwned>(
+pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
     object: &Value,
-    validate: impl FnOnce(&S) -> Result<(), SettingError>,
+    validate: impl Fn(&S) -> Result<(), SettingError>,
 ) -> Result<S, StartError> {
-    let settings = S::deserialize(object).map_err(|error| {
+    let defaults = defaults_of::<S>();
+    let read = |changes: &Value| {
+        let mut settings = defaults.clone();
+        lay_over(&mut settings, changes, &defaults);
+        S::deserialize(settings)
+    };
+    // A value that is refused tells what would be accepted in its place.
+    let accepted = |name: &str| {
+        [json!(0), json!(u32::MAX), json!([0])].into_iter().find_map(|value| {
+            let settings = read(&json!({ name: value })).ok()?;
+            validate(&settings).err()?.accepted_for(name)
+        })
+    };
+    let settings = read(object).map_err(|error| {
         // Which of them it is, where one alone cannot be read either.
         let alone = |(name, value): (&String, &Value)| {
-            let error = S::deserialize(serde_json::json!({ name: value })).err()?;
-            Some(format!("{name} = {value}: {error}"))
+            let error = read(&json!({ name: value })).err()?.to_string();
+            Some(format!("{name} = {value}: {}", in_plain_words(error, accepted(name))))
         };
         let named = object.as_object().and_then(|settings| settings.iter().find_map(alone));
-        StartError::settings(in_plain_words(named.unwrap_or_else(|| error.to_string())))
+        StartError::settings(named.unwrap_or_else(|| in_plain_words(error.to_string(), None)))
     })?;
     validate(&settings).map_err(StartError::settings)?;
     Ok(settings)
 }
 
-/// A message of serde with the types that it expects in words.
-fn in_plain_words(message: String) -> String {
-    let types = [("expected usize", "expected a whole number from 0 on"), ("expected f64", "expected a number")];
-    types.iter().fold(message, |message, (name, words)| message.replace(name, words))
+/// A message of serde with the types that it expects in words, and with what is accepted where that is known.
+fn in_plain_words(message: String, accepted: Option<&str>) -> String {
+    let types = [
+        ("expected usize", "expected a whole number", " from 0 on"),
+        ("expected u64", "expected a whole number", " from 0 on"),
+        ("expected u32", "expected a whole number", " from 0 on"),
+        ("expected f64", "expected a number", ""),
+        ("expected f32", "expected a number", ""),
+    ];
+    types.iter().fold(message, |message, (name, words, otherwise)| {
+        let range = accepted.map_or_else(|| (*otherwise).to_owned(), |range| format!("; accepted is {range}"));
+        message.replace(name, &format!("{words}{range}"))
+    })
 }
 
 /// What is to be learnt, and how long; the same for every agent.
@@ -194,4 +244,58 @@ pub trait Learner: Debug + Send {
 pub fn note_of(note: &impl Serialize) -> Result<Value, WeightsError> {
     let text = serde_json::to_string(note).map_err(safetensors::SafeTensorError::from)?;
     Ok(serde_json::from_str(&text).map_err(safetensors::SafeTensorError::from)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learning::agents::AGENTS;
+
+    #[test]
+    fn parts_of_a_setting_are_laid_over_the_others_for_every_agent() {
+        for (agent, changes, part, other) in [
+            ("ddpg", json!({"exploration": {"uniform": 0.05}}), "/exploration/uniform", "/exploration/noise"),
+            ("q-learning", json!({"epsilon": {"first": 0.5}}), "/epsilon/first", "/epsilon/over"),
+            ("dqn", json!({"epsilon": {"last": 0.5}}), "/epsilon/last", "/epsilon/first"),
+            ("thesis-ddpg", json!({"noise": {"sigma": 1.0}}), "/noise/sigma", "/noise/theta"),
+        ] {
+            let kind = AgentKind::named(agent).unwrap();
+            let plan = TrainingPlan { reward: Reward::R1, seed: 1, shots: 1 };
+            let settings = |changes: &Value| (kind.start)(plan, Table::default(), changes).unwrap().settings();
+            let (changed, defaults) = (settings(&changes), settings(&json!({})));
+            assert_eq!(changed.pointer(part), changes.pointer(part), "{agent}");
+            assert_eq!(changed.pointer(other), defaults.pointer(other), "{agent}");
+            assert_eq!(defaults, (kind.defaults)(), "{agent}");
+        }
+    }
+
+    #[test]
+    fn what_is_one_word_or_another_is_replaced_as_a_whole() {
+        let defaults = json!({"episode": "one-shot", "noise": {"theta": 1, "sigma": 2}});
+        let mut settings = json!({"episode": {"shots": 20}, "noise": {"theta": 3}});
+        lay_over(&mut settings, &json!({"episode": {"until-miss": 5}, "noise": {"sigma": 4}}), &defaults);
+        assert_eq!(settings, json!({"episode": {"until-miss": 5}, "noise": {"theta": 3, "sigma": 4}}));
+    }
+
+    #[test]
+    fn a_value_of_another_type_is_told_what_is_accepted() {
+        let refused = |agent: &str, changes: Value| {
+            let plan = TrainingPlan { reward: Reward::R1, seed: 1, shots: 1 };
+            let kind = AGENTS.into_iter().find(|kind| kind.name == agent).unwrap();
+            (kind.start)(plan, Table::default(), &changes).unwrap_err().to_string()
+        };
+        for (agent, changes, words) in [
+            ("ddpg", json!({"heads": 2.5}), "expected a whole number; accepted is 1 to 256"),
+            ("ddpg", json!({"searched": -1}), "expected a whole number; accepted is 0 to 4096"),
+            ("ddpg", json!({"actor_layers": [0.5]}), "expected a whole number; accepted is 1 to 8192 units a layer"),
+            ("ddpg", json!({"target_rate": "low"}), "expected a number; accepted is 0 to 1"),
+            ("dqn", json!({"target_every": 0.5}), "expected a whole number; accepted is 1 to 16777216"),
+            ("thesis-ddpg", json!({"noise": {"sigma": "x"}}), "noise = {\"sigma\":\"x\"}"),
+            ("thesis-ddpg", json!({"noise": {"simga": 1}}), "simga"),
+            ("thesis-ddpg", json!({"noise": 1}), "noise = 1"),
+        ] {
+            let message = refused(agent, changes);
+            assert!(message.contains(words), "{message}");
+        }
+    }
 }

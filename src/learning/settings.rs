@@ -9,6 +9,13 @@ pub struct SettingError {
     accepted: &'static str,
 }
 
+impl SettingError {
+    /// What is accepted for the setting of this name, if the error is about it.
+    pub fn accepted_for(&self, name: &str) -> Option<&'static str> {
+        (self.name == name).then_some(self.accepted)
+    }
+}
+
 /// Fails where `accept` is false.
 ///
 /// # Errors

@@ -50,12 +50,28 @@ fn merged_parts_are_the_whole() {
 }
 
 #[test]
+fn the_bundled_networks_that_play_alone_are_named() {
+    let line = "evaluate --policy-only --rule three-cushion --layouts 5";
+    for (rest, networks) in [("", "match-three-cushion"), (" --skill club", "context-three-cushion")] {
+        let report = json(&format!("{line}{rest}"));
+        assert_eq!((&report["policy"], &report["networks"]), (&"bundled".into(), &networks.into()));
+        let text = asked(&words(&format!("{line}{rest}"))).assert().success().get_output().stdout.clone();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.starts_with(&format!("policy bundled ({networks}) on \"match\"")), "{text}");
+    }
+    assert_eq!(json("evaluate --layouts 3 --random-search 5").get("networks"), None);
+}
+
+#[test]
 fn what_is_not_a_whole_is_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();
     let line = "evaluate --layouts 4 --random-search 5";
     let [one, two] = ["1/3", "2/3"].map(|shard| part(folder.path(), line, shard));
     let other = tempfile::tempdir().unwrap();
     let stranger = part(other.path(), "evaluate --layouts 4 --random-search 6", "3/3");
+    // The same number, of another number of parts and of another evaluation.
+    let halves = part(other.path(), line, "1/2");
+    let others = part(other.path(), "evaluate --layouts 4 --random-search 6", "1/3");
     let broken = folder.path().join("broken.json").display().to_string();
     fs::write(&broken, "{}").unwrap();
     for (files, said) in [
@@ -63,6 +79,8 @@ fn what_is_not_a_whole_is_refused_by_name() {
         (vec![&one, &two, &one], "which another file holds too"),
         (vec![&one, &two, &stranger], "different evaluations: "),
         (vec![&one, &two, &stranger], " 5 and 6"),
+        (vec![&one, &halves], "are parts of different evaluations: of 3 and of 2 parts"),
+        (vec![&one, &others], "are parts of different evaluations: random_search 5 and 6"),
         (vec![&broken], "is no part of an evaluation"),
     ] {
         let files: Vec<&str> = files.into_iter().map(String::as_str).collect();

@@ -43,7 +43,8 @@ pub struct Args {
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "match")]
     table: String,
-    /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.
+    /// The policy: "bundled", the path of a file that `carom train` wrote, the folder of its run, or the name under which one was
+    /// kept.
     #[arg(long, value_name = "FILE", default_value = "bundled")]
     policy: String,
     /// Play the networks' own shot: one pass, no simulator call. What they say of it is set against what comes of it.
@@ -152,6 +153,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     let spec = Spec {
         player: player.name().to_owned(),
         policy: args.random_search.is_none().then(|| args.policy.clone()),
+        networks: player.networks(),
         table,
         measure: args.reward.map_or(args.rule.name(), Reward::name).to_owned(),
         is_yes_or_no: reward == Reward::R1 || reward.rule().is_some(),

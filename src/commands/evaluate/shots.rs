@@ -47,6 +47,14 @@ impl Player {
             Self::RandomSearch(_) => "random search",
         }
     }
+
+    /// Which of the bundled networks play alone, if any do.
+    pub fn networks(&self) -> Option<String> {
+        match self {
+            Self::Policy(policy) => policy.bundled_name(),
+            Self::Recommender(..) | Self::RandomSearch(_) => None,
+        }
+    }
 }
 
 /// A decision.
@@ -143,6 +151,9 @@ struct EvaluationReport<'a> {
     player: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     policy: Option<&'a str>,
+    /// Of bundled networks that play alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    networks: Option<&'a str>,
     table: String,
     /// The reward or the rule.
     measure: &'a str,
@@ -195,6 +206,7 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
     EvaluationReport {
         player: &spec.player,
         policy: spec.policy.as_deref(),
+        networks: spec.networks.as_deref(),
         table: if spec.drawn_tables { format!("tables like {}", spec.table.name) } else { spec.table.name.clone() },
         measure: &spec.measure,
         seed: spec.seed,
@@ -210,8 +222,9 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
 }
 
 fn print_text(out: &mut impl Write, report: &EvaluationReport<'_>, layouts: usize) -> std::io::Result<()> {
-    let EvaluationReport { player, policy, table, measure, .. } = report;
-    let policy = policy.map_or_else(String::new, |policy| format!(" {policy}"));
+    let EvaluationReport { player, policy, networks, table, measure, .. } = report;
+    let networks = networks.map_or_else(String::new, |networks| format!(" ({networks})"));
+    let policy = policy.map_or_else(String::new, |policy| format!(" {policy}{networks}"));
     let layouts = plural(layouts, "layout");
     match report.success {
         Some(SuccessRate { rate, low, high, .. }) => writeln!(
@@ -244,6 +257,7 @@ mod tests {
         Spec {
             player: "random search".to_owned(),
             policy: None,
+            networks: None,
             table: Table::default(),
             measure: "straight".to_owned(),
             is_yes_or_no: true,

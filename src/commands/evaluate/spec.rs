@@ -24,6 +24,8 @@ pub struct Spec {
     pub player: String,
     /// The policy, of players that have one.
     pub policy: Option<String>,
+    /// Which of the bundled networks they are, where these play alone.
+    pub networks: Option<String>,
     pub table: Table,
     /// Whether every layout has a table of its own, drawn around that one.
     pub drawn_tables: bool,
@@ -161,17 +163,19 @@ pub fn merged(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
     let mut seen = BTreeSet::new();
     for path in files {
         let part = read(path)?;
+        let different = |what| MergeError::Different { one: files[0].clone(), other: path.clone(), what };
+        // First, as parts of another evaluation may have the same number.
+        if let Some(what) = whole.as_ref().and_then(|whole| whole.difference(&part)) {
+            return Err(different(what));
+        }
         if !seen.insert(part.shard.part) {
             return Err(MergeError::Twice { path: path.clone(), shard: part.shard });
         }
         match &mut whole {
             None => whole = Some(part),
             Some(whole) => {
-                let difference = whole.difference(&part);
-                let what =
-                    difference.or_else(|| (!whole.records.append(part.records)).then(|| "other records".to_owned()));
-                if let Some(what) = what {
-                    return Err(MergeError::Different { one: files[0].clone(), other: path.clone(), what });
+                if !whole.records.append(part.records) {
+                    return Err(different("other records".to_owned()));
                 }
             }
         }

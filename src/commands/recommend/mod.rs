@@ -77,7 +77,8 @@ pub struct Args {
     /// Give the networks' own shot, without any search.
     #[arg(long)]
     policy_only: bool,
-    /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.
+    /// The policy: "bundled", the path of a file that `carom train` wrote, the folder of its run, or the name under which one was
+    /// kept.
     #[arg(long, value_name = "FILE", default_value = "bundled")]
     policy: String,
     /// Seed of the search: while time does not run out, the same seed finds the same shot.

@@ -136,7 +136,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return listing::print(folder.as_deref(), args.json).map(drop);
     }
     let limit = args.minutes.map(minutes).transpose()?;
-    // The first signal waits for the iteration and the measurement.
+    // The first signal waits for the iteration and a measurement that is due, saves, and measures; the second ends that.
     let stop = stop_when_told(true).map_err(Failure::failed)?;
     // The run can be watched and stopped from the next terminal.
     outlive_hang_up().map_err(Failure::failed)?;
@@ -186,8 +186,9 @@ fn train(mut run: Run, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let learner = run.learner();
     if learner.is_finished() {
         tell(format_args!(
-            "{} is finished: all its {} shots have been played; start a new run with its weights by --from",
+            "{} is finished: it has played {} shots (asked for: {}); start a new run with its weights by --from",
             run.folder().display(),
+            learner.shots(),
             learner.plan().shots
         ));
     }
@@ -245,6 +246,7 @@ fn failure(error: RunError) -> Failure {
     match error {
         RunError::Occupied(_)
         | RunError::Foreign { .. }
+        | RunError::NoFolder(_)
         | RunError::Agent(_)
         | RunError::Origin { .. }
         | RunError::Start(StartError::Settings(_)) => Failure::wrong_input(error),

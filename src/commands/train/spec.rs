@@ -6,9 +6,9 @@ use serde_json::Value;
 
 use super::{Args, failure};
 use crate::{
-    commands::{Failure, input::table_named, lookup::run_named},
+    commands::{Failure, input::table_named, lookup::weights_named},
     learning::{
-        learner::{AgentKind, TrainingPlan},
+        learner::{AgentKind, TrainingPlan, lay_over},
         run::{
             Config, RunError, Schedule, Start,
             origin::Weights,
@@ -53,7 +53,8 @@ fn begin_in_free<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>)
 
 /// What the command line orders. Whatever it leaves open is as in the run that the weights come from, or the default.
 pub fn read(args: &Args) -> Result<Read, Failure> {
-    let weights = args.from.as_deref().map(|from| Weights::load(&run_named(from))).transpose().map_err(failure)?;
+    let from = args.from.as_deref().map(weights_named).transpose()?;
+    let weights = from.as_deref().map(Weights::load).transpose().map_err(failure)?;
     let start = weights.as_ref().map(|weights| &weights.start);
     let agent = args.agent.clone().or_else(|| start.map(|start| start.agent.clone()));
     let agent = agent.unwrap_or_else(|| "ddpg".to_owned());
@@ -67,10 +68,13 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     // Another agent's settings mean nothing here; that its weights do not either is said when they are given.
     let mut known =
         weights.as_ref().filter(|weights| weights.start.agent == agent).map(|weights| weights.settings.clone());
-    if let (Some(Value::Object(settings)), Ok(agent)) = (&mut known, AgentKind::named(&agent)) {
-        settings.retain(|name, _| !agent.of_one_start.contains(&name.as_str()));
+    // An agent that is not known is refused by name when the run starts.
+    let kind = AgentKind::named(&agent).ok();
+    if let (Some(Value::Object(settings)), Some(kind)) = (&mut known, kind) {
+        settings.retain(|name, _| !kind.of_one_start.contains(&name.as_str()));
     }
-    let settings = settings(args.config.as_deref(), &args.set, known)?;
+    let defaults = kind.map(|kind| (kind.defaults)()).unwrap_or_default();
+    let settings = settings(args.config.as_deref(), &args.set, known, &defaults)?;
     let layouts = args.evaluation_layouts as usize;
     let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);
     let folder = args.run.clone().unwrap_or_else(|| {
@@ -128,14 +132,15 @@ fn known_spec(folder: &Path) -> Option<(TrainingSpec, Option<Start>, Option<u64>
     Some((TrainingSpec { agent, plan, settings, schedule, table }, from, None))
 }
 
-/// The settings `known` with what the TOML file at `path` and then the pairs in `set` say instead of them.
-fn settings(path: Option<&Path>, set: &[String], known: Option<Value>) -> Result<Value, Failure> {
+/// The settings `known` with what the TOML file at `path` and then the pairs in `set` say instead of them. Where the agent's
+/// `defaults` have parts, a part may be named alone.
+fn settings(path: Option<&Path>, set: &[String], known: Option<Value>, defaults: &Value) -> Result<Value, Failure> {
     let mut settings = known.unwrap_or_else(|| serde_json::json!({}));
     if let Some(path) = path {
         let shown = path.display();
         let text = storage::read_text(path, storage::SMALL)
             .map_err(|error| Failure::failed(format_args!("{shown}: {error}")))?;
-        replace(&mut settings, &text, &format!("the settings in {shown}"))?;
+        replace(&mut settings, &text, &format!("the settings in {shown}"), defaults)?;
     }
     for pair in set {
         let shown = format!("--set {pair}");
@@ -144,13 +149,13 @@ fn settings(path: Option<&Path>, set: &[String], known: Option<Value>) -> Result
         };
         // A word needs no quotes here.
         let value: toml::Value = value.parse().unwrap_or_else(|_| toml::Value::String(value.to_owned()));
-        replace(&mut settings, &format!("{name} = {value}"), &shown)?;
+        replace(&mut settings, &format!("{name} = {value}"), &shown, defaults)?;
     }
     Ok(settings)
 }
 
-/// Puts the values of a TOML text in the place of those of the same names.
-fn replace(settings: &mut Value, text: &str, origin: &str) -> Result<(), Failure> {
+/// Puts the values of a TOML text in the place of those of the same names ([`lay_over`]).
+fn replace(settings: &mut Value, text: &str, origin: &str, defaults: &Value) -> Result<(), Failure> {
     let refuse = |reason: &str| Failure::wrong_input(format_args!("{origin}: {reason}"));
     let read: toml::Table = toml::from_str(text).map_err(|error| refuse(error.message()))?;
     for (name, value) in read {
@@ -159,7 +164,7 @@ fn replace(settings: &mut Value, text: &str, origin: &str) -> Result<(), Failure
         if value.is_null() {
             return Err(refuse(&format!("{name} is not a finite number")));
         }
-        settings[name] = value;
+        lay_over(settings, &serde_json::json!({ name: value }), defaults);
     }
     Ok(())
 }

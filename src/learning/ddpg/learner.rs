@@ -16,7 +16,9 @@ use super::{
 use crate::{
     learning::{
         evaluation::Score,
-        learner::{AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, note_of, settings_from},
+        learner::{
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, defaults_of, note_of, settings_from,
+        },
         nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
@@ -35,6 +37,7 @@ const CRITIC: usize = 1;
 pub const AGENT: AgentKind = AgentKind {
     name: "ddpg",
     title: "deep deterministic policy gradient with several actor heads",
+    defaults: defaults_of::<Hyperparameters>,
     start: |plan, table, settings| {
         let hyperparameters: Hyperparameters = settings_from(settings, Hyperparameters::validate)?;
         if hyperparameters.searched > 0 && !hyperparameters.context {
@@ -51,6 +54,7 @@ pub const AGENT: AgentKind = AgentKind {
         Ok(Box::new(Trainer::new(Task { plan, hyperparameters }, table)?))
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
+    round: |settings| settings.get("shots_per_update")?.as_u64(),
     of_one_start: &["new_actor"],
 };
 

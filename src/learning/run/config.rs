@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::{error::RunError, json};
 use crate::{
     game::Reward,
-    learning::learner::{Learner, TrainingPlan},
+    learning::learner::{AgentKind, Learner, TrainingPlan},
     printing::{SOURCE, VERSION, now},
     storage,
     table::Table,
@@ -121,6 +121,13 @@ impl Config {
     /// Whatever the file system reports.
     pub fn write(&self, folder: &Path) -> Result<(), RunError> {
         json::write(&folder.join(FILE), self)
+    }
+
+    /// Most shots that lie between two lines of metrics: a line comes after a whole iteration, and one iteration may be longer than
+    /// the schedule asks for. `None` where the agent's iterations are not known here.
+    pub fn longest_gap(&self) -> Option<u64> {
+        let round = (AgentKind::named(&self.agent).ok()?.round)(&self.settings)?;
+        Some(self.schedule.log_every.saturating_add(round))
     }
 
     /// The version of the carom that started the run, where it is newer than this one.

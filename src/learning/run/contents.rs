@@ -88,6 +88,16 @@ pub fn is_checkpoint(bytes: &[u8]) -> bool {
     is_whole(bytes).is_some()
 }
 
+/// The agent whose run wrote the checkpoint at `path`; `None` where that is no checkpoint, or cannot be read.
+pub fn agent_of_checkpoint(path: &Path) -> Option<String> {
+    #[derive(Deserialize)]
+    struct Whose {
+        agent: String,
+    }
+    let bytes = storage::read(path, storage::LARGE).ok().filter(|bytes| is_checkpoint(bytes))?;
+    Some(Reader::new(&bytes).ok()?.note::<Whose>().ok()?.agent)
+}
+
 /// The part of a note that every version has.
 #[derive(Deserialize)]
 struct Version {

@@ -18,6 +18,9 @@ pub enum RunError {
         /// Something in it.
         entry: String,
     },
+    /// There is a file in the folder's place.
+    #[error("{0} is a file, and a run needs a folder of its own; choose one that is new or empty by --run")]
+    NoFolder(String),
     /// The folder holds no run.
     #[error(
         "{0} holds no run to go on with: it has no checkpoint.safetensors; carom train --list shows the runs there are"

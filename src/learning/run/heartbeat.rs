@@ -90,7 +90,7 @@ impl Heartbeat {
             self.status.shots_per_second = (shots - first.1) as f64 / passed;
             self.status.updates_per_second = (updates - first.2) as f64 / passed;
         }
-        if phase == Phase::Measuring {
+        if matches!(phase, Phase::Measuring | Phase::Stopping) {
             // A measurement is no part of the speed: it is measured again from its end.
             self.track.clear();
         }

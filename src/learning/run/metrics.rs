@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{printing, storage};
 
-use super::number;
+use super::{METRICS, number};
 
 /// One line of a run's metrics. Means are over the updates since the line before. Numbers that are not finite stand in the
 /// file by their names.
@@ -79,6 +79,26 @@ pub fn read(path: &Path) -> io::Result<Vec<Record>> {
 /// Whether the file ends within a line; what cannot be read is told by who opens it.
 pub fn is_torn(path: &Path) -> bool {
     content(path).is_ok_and(|bytes| bytes.last().is_some_and(|byte| *byte != b'\n'))
+}
+
+/// A sentence where lines are missing in the file of a run that goes on after `shots` shots: there is one for every `log_every` shots.
+/// What cannot be read is told by who opens it.
+pub fn gap(path: &Path, shots: u64, log_every: u64) -> Option<String> {
+    let records = read(path).ok()?;
+    let last = records.iter().map(|record| record.shots).filter(|last| *last <= shots).max();
+    // A checkpoint is written after all lines before it: none is missing where no line is due between the last one and it.
+    let number = |shots: u64| shots / log_every.max(1);
+    if number(last.unwrap_or(0)) == number(shots) {
+        return None;
+    }
+    let lost = "those lines are lost, and the training goes on as if they were there";
+    Some(match last {
+        None if !path.exists() => format!("{METRICS} is missing: there is no line of the {shots} shots played; {lost}"),
+        last => {
+            let last = last.unwrap_or(0);
+            format!("{METRICS} has been emptied or cut off: it ends after {last} of the {shots} shots played; {lost}")
+        }
+    })
 }
 
 /// A run's file of metrics while the run writes it. Lines that cannot be written wait in memory.
@@ -211,6 +231,24 @@ mod tests {
         file.push(&record(4));
         file.sync().unwrap();
         assert_eq!(read(&path).unwrap(), [record(1), record(2), record(4)]);
+    }
+
+    #[test]
+    fn lines_that_are_missing_before_a_checkpoint_are_told_with_the_gap() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        assert_eq!(gap(&path, 99, 100), None, "no line is due yet");
+        assert!(gap(&path, 640, 100).unwrap().contains("is missing: there is no line of the 640 shots"));
+        let (mut file, _) = MetricsFile::open(&path, 0).unwrap();
+        for shots in [192, 384, 576] {
+            file.push(&record(shots));
+        }
+        file.flush().unwrap();
+        // Lines that are younger than the checkpoint are no gap: they come again.
+        for (shots, is_whole) in [(192, true), (576, true), (599, true), (600, false)] {
+            assert_eq!(gap(&path, shots, 100).is_none(), is_whole, "{shots}");
+        }
+        assert!(gap(&path, 960, 60).unwrap().contains("it ends after 576 of the 960 shots played"));
     }
 
     #[test]

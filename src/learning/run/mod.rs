@@ -2,7 +2,7 @@
 //!
 //! A run can be killed at any moment. The order of writing sees to it that what it goes on from is complete: first the
 //! policy, then the lines of metrics, last the checkpoint; whatever is younger than the checkpoint is done again,
-//! to the same bits.
+//! to the same bits. A run that is stopped writes the checkpoint before it is measured, and the policy after that.
 
 mod accumulator;
 mod checkpoint;
@@ -42,6 +42,7 @@ use self::{
 };
 pub use self::{
     config::{Config, Schedule, Start, run_name},
+    contents::agent_of_checkpoint,
     error::{OriginError, RunError},
     training::{Ending, Limits, Watcher},
 };
@@ -86,14 +87,14 @@ impl Run {
     /// A new run of `learner` in `folder`, which is made where it is missing.
     ///
     /// # Errors
-    /// [`RunError::Occupied`] where it holds a run already.
+    /// [`RunError::Occupied`] where it holds a run already, [`RunError::NoFolder`] where it is a file.
     pub fn create(
         folder: &Path,
         learner: Box<dyn Learner>,
         schedule: Schedule,
         from: Option<Start>,
     ) -> Result<Self, RunError> {
-        std::fs::create_dir_all(folder).map_err(file(folder))?;
+        make_folder(folder)?;
         let lock = lock(folder)?;
         refuse_taken(folder)?;
         let config = Config::of(learner.as_ref(), schedule, from.clone());
@@ -108,7 +109,7 @@ impl Run {
 
     /// The run in `folder` as its last whole checkpoint left it, and sentences about what may make
     /// it another run than the one that was interrupted: the last checkpoint is damaged, or this is another carom; also where the
-    /// last line of its metrics was cut off, which is then left out.
+    /// last line of its metrics was cut off, which is then left out, and where lines are missing.
     ///
     /// # Errors
     /// Where there is no whole checkpoint, or another process works in the folder.
@@ -126,6 +127,7 @@ impl Run {
         if metrics::is_torn(&folder.join(METRICS)) {
             notices.push(format!("the last line of {METRICS} is cut off and is left out"));
         }
+        notices.extend(metrics::gap(&folder.join(METRICS), learner.shots(), state.schedule.log_every));
         let config = Config::read(folder).or_else(|_| {
             // It was killed before it had one, or it was removed: the checkpoint has the same values.
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
@@ -207,6 +209,15 @@ pub fn discard(folder: &Path) -> Result<(), RunError> {
     // Somebody may have put something else there, which is not ours to remove.
     let _ = std::fs::remove_dir(folder);
     Ok(())
+}
+
+/// Makes a folder where it is missing.
+fn make_folder(folder: &Path) -> Result<(), RunError> {
+    // Also above it: a file there cannot hold it.
+    if let Some(in_the_way) = folder.ancestors().find(|path| path.is_file()) {
+        return Err(RunError::NoFolder(in_the_way.display().to_string()));
+    }
+    std::fs::create_dir_all(folder).map_err(file(folder))
 }
 
 /// Refuses a folder in which anything is: a run, or files that no run has written. A run would write over some of them.

@@ -24,7 +24,7 @@ pub enum Request {
     Pause,
     /// Go on after a pause.
     GoOn,
-    /// Measure, save and end.
+    /// Save, measure and end.
     Stop,
     /// End at once and remove the run.
     Abandon,

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::{error::RunError, json};
 use crate::{
+    game::Reward,
     learning::{
         evaluation::Score,
         learner::{Learner, TrainingPlan},
@@ -21,9 +22,12 @@ pub const FILE: &str = "result.json";
 pub struct RunResult {
     /// The agent's name.
     pub agent: String,
-    /// Reward, seed and number of shots.
-    #[serde(flatten)]
-    pub plan: TrainingPlan,
+    /// What earned a reward.
+    pub reward: Reward,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Shots played: those of the last iteration beyond the plan included.
+    pub shots: u64,
     /// Name of the table.
     pub table: String,
     /// Updates made.
@@ -40,9 +44,12 @@ pub struct RunResult {
 impl RunResult {
     /// What `learner` has come to with this last measurement.
     pub fn of(learner: &dyn Learner, score: Score) -> Self {
+        let TrainingPlan { reward, seed, .. } = learner.plan();
         Self {
             agent: learner.agent().to_owned(),
-            plan: learner.plan(),
+            reward,
+            seed,
+            shots: learner.shots(),
             table: learner.table().name.clone(),
             updates: learner.progress().updates,
             held_out_reward: score.mean_reward,

@@ -117,7 +117,7 @@ impl Group {
     pub fn create(folder: &Path, spec: TrainingSpec, seeds: u64, weights: Option<Weights>) -> Result<Self, RunError> {
         // What is refused is refused before anything is written.
         spec.untrained(spec.plan.seed, weights.as_ref())?;
-        std::fs::create_dir_all(folder).map_err(file(folder))?;
+        super::make_folder(folder)?;
         let lock = super::lock(folder)?;
         super::refuse_taken(folder)?;
         if let Some(weights) = &weights {

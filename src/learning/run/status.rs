@@ -23,6 +23,8 @@ pub enum Phase {
     Measuring,
     /// It waits for a request to go on.
     Paused,
+    /// It was told to stop, has saved, and plays the held-out layouts before it ends.
+    Stopping,
     /// It has played all its shots.
     Finished,
     /// It was stopped and can go on.
@@ -38,6 +40,7 @@ impl Phase {
             Self::Training => "training",
             Self::Measuring => "measuring",
             Self::Paused => "paused",
+            Self::Stopping => "stopping",
             Self::Finished => "finished",
             Self::Stopped => "stopped",
             Self::Failed => "failed",

@@ -139,6 +139,20 @@ fn a_checkpoint_that_cannot_be_written_is_told_and_training_goes_on_to_the_next(
 }
 
 #[test]
+fn a_run_that_is_stopped_saves_before_it_is_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = small_run(folder.path());
+    // A policy that cannot be written shows what was saved before the measurement.
+    fs::create_dir(folder.path().join(POLICY)).unwrap();
+    let asked = Cell::new(0);
+    let stop = || asked.replace(asked.get() + 1) == 3;
+    let ending = run.train(&Limits { time: None, stop: &stop }, &mut Told::default());
+    assert!(ending.unwrap_err().to_string().contains("after 48 shots"));
+    drop(run);
+    assert_eq!(Run::resume(folder.path()).unwrap().0.learner().shots(), 48);
+}
+
+#[test]
 fn a_folder_belongs_to_one_run_at_a_time() {
     let folder = tempfile::tempdir().unwrap();
     let run = small_run(folder.path());

@@ -104,7 +104,7 @@ impl Run {
 
     fn iterate_until(&mut self, limits: &Limits<'_>, reporting: &mut Reporting<'_>) -> Result<Ending, RunError> {
         if self.learner.is_finished() {
-            let score = self.measure(reporting)?;
+            let score = self.measure(reporting, Phase::Measuring)?;
             if !self.policy_path().exists() {
                 self.write_policy(score)?;
             }
@@ -125,8 +125,10 @@ impl Run {
                 Some(Request::GoOn) | None => {}
             }
             if stops {
-                let score = self.measure(reporting)?;
-                self.save(&mut reporting.metrics, Some(score)).map_err(|reason| self.unsaved(reason))?;
+                // Nothing waits for the measurement, which may take long: whoever cannot wait ends it by a second signal.
+                self.save(&mut reporting.metrics, None).map_err(|reason| self.unsaved(reason))?;
+                let score = self.measure(reporting, Phase::Stopping)?;
+                self.write_policy(score).map_err(|reason| self.unsaved(reason))?;
                 return Ok(Ending::Stopped(score));
             }
             let score = self.iterate(reporting)?;
@@ -162,10 +164,10 @@ impl Run {
         request
     }
 
-    /// Plays the held-out layouts.
-    fn measure(&self, reporting: &mut Reporting<'_>) -> Result<Score, RunError> {
+    /// Plays the held-out layouts; `phase` says on which occasion.
+    fn measure(&self, reporting: &mut Reporting<'_>, phase: Phase) -> Result<Score, RunError> {
         let learner = self.learner.as_ref();
-        reporting.heartbeat.beat(Phase::Measuring, learner, reporting.clock.seconds());
+        reporting.heartbeat.beat(phase, learner, reporting.clock.seconds());
         let score = learner.score(&reporting.layouts)?;
         reporting.heartbeat.measured(score.mean_reward);
         // They are for looking at: where they cannot be written, nothing is lost.
@@ -183,7 +185,7 @@ impl Run {
         let passed = |every: u64| before / every != shots / every;
         let trained = reporting.clock.seconds();
         let is_due = is_finite && (self.learner.is_finished() || passed(evaluate_every));
-        let score = if is_due { Some(self.measure(reporting)?) } else { None };
+        let score = if is_due { Some(self.measure(reporting, Phase::Measuring)?) } else { None };
         if !is_finite || score.is_some() || passed(log_every) {
             let measuring = reporting.clock.seconds() - trained;
             let record = reporting.clock.record(self.learner.as_ref(), self.state.accumulator.take(), score, measuring);

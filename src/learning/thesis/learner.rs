@@ -15,7 +15,9 @@ use super::{
 use crate::{
     learning::{
         evaluation::Score,
-        learner::{AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, note_of, settings_from},
+        learner::{
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, defaults_of, note_of, settings_from,
+        },
         nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
@@ -33,7 +35,15 @@ pub const DQN: AgentKind = line::<Dqn>();
 pub const DDPG: AgentKind = line::<PlainDdpg>();
 
 const fn line<A: Agent + 'static>() -> AgentKind {
-    AgentKind { name: A::NAME, title: A::TITLE, start: start::<A>, restore: restore::<A>, of_one_start: &[] }
+    AgentKind {
+        name: A::NAME,
+        title: A::TITLE,
+        defaults: defaults_of::<A::Settings>,
+        start: start::<A>,
+        restore: restore::<A>,
+        round: |_| Some(SHOTS_PER_ITERATION),
+        of_one_start: &[],
+    }
 }
 
 fn start<A: Agent + 'static>(

@@ -33,10 +33,41 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     let report: Value = serde_json::from_str(&measured.out).unwrap();
     assert_eq!(report["success"]["layouts"], 100);
 
+    // The run's folder is as good as the file in it; its checkpoint is another thing.
+    let of_folder: Value =
+        serde_json::from_str(&done(here, "evaluate --policy one --policy-only --layouts 100 --json").out).unwrap();
+    assert_eq!((&of_folder["success"], &of_folder["policy"]), (&report["success"], &"one".into()));
+    done(here, "train --agent dqn --table thesis --reward r1 --steps 100 --evaluation-layouts 5 --run plain");
+    for (policy, words) in [
+        ("one/checkpoint.safetensors", "is a checkpoint, not a policy; its run's policy is one/policy.safetensors"),
+        (
+            "plain/checkpoint.safetensors",
+            "is a checkpoint, not a policy; its agent is dqn, and only the agent ddpg writes",
+        ),
+        (
+            "plain",
+            "the run plain has no policy; its agent is dqn, and only the agent ddpg writes policies: as RUN/policy",
+        ),
+        (".", "is a folder without a policy.safetensors"),
+    ] {
+        let refused = carom(here, &format!("evaluate --policy {policy} --policy-only"));
+        assert!(refused.code == Some(1) && refused.err.contains(words), "{}", refused.err);
+    }
+
     let drawn = done(here, "evaluate --policy one/policy.safetensors --policy-only --drawn-tables --layouts 50 --json");
     let drawn: Value = serde_json::from_str(&drawn.out).unwrap();
     assert!(drawn["tenths"].as_array().is_some_and(|tenths| !tenths.is_empty()), "{drawn}");
     assert_ne!(drawn["claimed"], report["claimed"], "other tables, other strokes");
+
+    // Whole rounds are played: what was played is told, not what was asked for.
+    let rounds = done(here, "train --config small.toml --steps 1 --evaluation-layouts 5 --run rounds");
+    assert!(rounds.out.contains("after 16 shots"), "{}", rounds.out);
+    for file in ["result.json", "state.json"] {
+        let said: Value = serde_json::from_slice(&fs::read(here.join("rounds").join(file)).unwrap()).unwrap();
+        assert_eq!(said["shots"], 16, "{file}");
+    }
+    let resumed = done(here, "train --resume rounds");
+    assert!(resumed.err.contains("it has played 16 shots (asked for: 1)"), "{}", resumed.err);
 
     let again = carom(here, &format!("{SHORT} --run one"));
     assert_eq!(again.code, Some(2));
@@ -127,13 +158,22 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
         ("train --run new --config none.toml", 1, "none.toml"),
         ("train --run new --set heads", 2, "heads"),
         ("train --run new --set heads=0", 2, "heads = 0"),
+        ("train --run new --set heads=2.5", 2, "expected a whole number; accepted is 1 to 256"),
+        ("train --run new --agent thesis-ddpg --table thesis --set noise.simga=1", 2, "simga"),
         ("train --run new --set batch=16777216", 2, "65536"),
         ("train --run new --set exploration={unifrom=0.1}", 2, "unifrom"),
         ("train --run new --set actions=three", 2, "three"),
         ("train --run new --set hindsight=0.5", 2, "hindsight = 0.5"),
         ("train --run new --set demonstrations=0.2", 2, "accepted is 0"),
         ("train --run new --agent thesis-ddpg --reward r1 --set hindsight=0.5", 2, "hindsight"),
-        ("train --run new --from nowhere", 1, "nowhere"),
+        ("train --run new --from nowhere", 1, "there is nothing called nowhere to start from"),
+        (
+            "train --run new --from nowhere",
+            1,
+            "accepted are a run (its folder or its name), a checkpoint file and a policy",
+        ),
+        ("train --run wrong.toml", 2, "wrong.toml is a file, and a run needs a folder"),
+        ("train --run wrong.toml/below --seeds 2", 2, "wrong.toml is a file, and a run needs a folder"),
         ("train --run new --from broken.safetensors", 1, "broken.safetensors"),
         ("train --resume nowhere", 1, "nowhere"),
         ("train --resume new --seed 2", 2, "--seed"),
@@ -145,6 +185,33 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
         assert!(outcome.out.is_empty(), "{line}");
     }
     assert!(!here.join("new").exists() && !here.join("nowhere").exists());
+}
+
+#[test]
+fn one_part_of_a_setting_is_set_alone_and_the_others_stay() {
+    let folder = folder();
+    let here = folder.path();
+    let settings = |run: &str| -> Value {
+        let config: Value = serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap();
+        config["settings"].clone()
+    };
+    let short = "--table thesis --steps 100 --evaluation-layouts 5";
+    done(
+        here,
+        &format!("train --agent thesis-ddpg --reward r3 {short} --set noise.sigma=1 --set noise.dt=0.5 --run a"),
+    );
+    assert_eq!(settings("a")["noise"], serde_json::json!({"theta": 0.15, "sigma": 1.0, "dt": 0.5}));
+    // What the run that the weights come from has of the other parts stays as well.
+    done(here, &format!("train --from a {short} --set noise.theta=0.3 --run b"));
+    assert_eq!(settings("b")["noise"], serde_json::json!({"theta": 0.3, "sigma": 1.0, "dt": 0.5}));
+    for (agent, last) in [("q-learning", 0.05), ("dqn", 0.1)] {
+        done(here, &format!("train --agent {agent} --reward r1 {short} --set epsilon.first=0.5 --run {agent}"));
+        let epsilon = &settings(agent)["epsilon"];
+        assert_eq!((epsilon["first"].as_f64(), epsilon["last"].as_f64()), (Some(0.5), Some(last)), "{agent}");
+    }
+    fs::write(here.join("parts.toml"), "[noise]\nsigma = 2.0\n").unwrap();
+    done(here, &format!("train --from a {short} --config parts.toml --set noise.theta=0.3 --run c"));
+    assert_eq!(settings("c")["noise"], serde_json::json!({"theta": 0.3, "sigma": 2.0, "dt": 0.5}));
 }
 
 #[test]

@@ -53,6 +53,27 @@ fn a_last_line_of_metrics_that_is_cut_off_is_reported_once_and_spoils_nothing() 
     assert!(!done(here, "train --resume run").err.contains("cut off"));
 }
 
+#[test]
+fn lines_of_metrics_that_are_missing_are_told_with_the_gap_and_spoil_nothing() {
+    let folder = folder();
+    let here = folder.path();
+    let run = here.join("run");
+    done(here, &format!("{SHORT} --run run"));
+    let checkpoint = fs::read(run.join("checkpoint.safetensors")).unwrap();
+    assert!(!done(here, "train --resume run").err.contains("warning"));
+    let lines = fs::read_to_string(run.join("metrics.jsonl")).unwrap();
+    let half: String = lines.lines().take(20).map(|line| line.to_owned() + "\n").collect();
+    fs::write(run.join("metrics.jsonl"), half).unwrap();
+    let resumed = done(here, "train --resume run");
+    let told = "warning: metrics.jsonl has been emptied or cut off: it ends after 320 of the 640 shots played";
+    assert_eq!(resumed.err.matches(told).count(), 1, "{}", resumed.err);
+    fs::remove_file(run.join("metrics.jsonl")).unwrap();
+    let resumed = done(here, "train --resume run");
+    let told = "warning: metrics.jsonl is missing: there is no line of the 640 shots played";
+    assert_eq!(resumed.err.matches(told).count(), 1, "{}", resumed.err);
+    assert!(fs::read(run.join("checkpoint.safetensors")).unwrap() == checkpoint);
+}
+
 /// A limit on the size of files stands for a full disk: no mount is needed.
 #[cfg(unix)]
 #[test]

@@ -131,6 +131,33 @@ fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
     assert!(stopped.err.contains(&told), "{told}: {}", stopped.err);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_second_signal_costs_a_stopped_run_nothing_but_its_measurement() {
+    let folder = folder();
+    let here = folder.path();
+    let run = here.join("run");
+    let line = "train --config small.toml --steps 100000000 --evaluate-every 100000000 --set calibrated=0";
+    let mut training = start(here, &format!("{line} --evaluation-layouts 6000 --run run"));
+    let standing = || -> Value {
+        serde_json::from_slice(&fs::read(run.join("state.json")).unwrap_or_default()).unwrap_or_default()
+    };
+    wait_until(&mut training, "it has played", || standing()["shots"].as_u64() > Some(0));
+    signal(&training, "TERM");
+    wait_until(&mut training, "it is measured", || standing()["phase"] == "stopping");
+    let shots = standing()["shots"].clone();
+    signal(&training, "TERM");
+    assert_eq!(training.wait().unwrap().code(), Some(75));
+    let listed = || lines(&done(here, "train --list . --json").out).remove(0);
+    let start = Instant::now();
+    while listed()["state"] != "stopped" {
+        assert!(start.elapsed() < Duration::from_secs(10), "{}", listed());
+        thread::sleep(Duration::from_millis(100));
+    }
+    let resumed = unfinished(here, "train --resume run --minutes 0.0000001");
+    assert!(resumed.out.contains(&format!("after {shots} shots")), "{shots}: {}", resumed.out);
+}
+
 #[test]
 fn odd_files_give_a_sentence_each_and_no_crash() {
     let folder = folder();

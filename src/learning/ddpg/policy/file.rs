@@ -130,6 +130,16 @@ impl Policy {
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\"")))
     }
 
+    /// What the bundled file with these networks is called (`models/README.md`), without `.safetensors`; `None` where they are no
+    /// bundled ones.
+    pub fn bundled_name(&self) -> Option<String> {
+        let mut all = BUNDLED.into_iter().chain(WITH_CONTEXT.map(|(reward, bytes)| ("context", reward, bytes)));
+        // Seed, shots and settings tell them apart.
+        let is_this =
+            |bytes| Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin));
+        all.find(|(.., bytes)| is_this(*bytes)).map(|(whose, reward, _)| format!("{whose}-{reward}"))
+    }
+
     /// Reads a policy from a file.
     ///
     /// # Errors
@@ -215,6 +225,20 @@ mod tests {
                 assert_eq!(policy.origin().reward, Reward::for_rule(rule));
             }
         }
+        for (table, errs, name) in [
+            ("match", false, "match-three-cushion"),
+            ("match", true, "context-three-cushion"),
+            ("textbook", false, "match-three-cushion"),
+            ("thesis", true, "thesis-three-cushion"),
+        ] {
+            let table = Table::preset(table).unwrap();
+            let policy = Policy::bundled_for(&table, Rule::ThreeCushion, errs).unwrap().unwrap();
+            assert_eq!(policy.bundled_name().as_deref(), Some(name));
+            assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.safetensors")).exists());
+        }
+        let mut another = bundled();
+        another.origin.seed += 1;
+        assert_eq!(another.bundled_name(), None);
         let [erring, flawless] =
             [true, false].map(|errs| Policy::bundled_for(&own, Rule::ThreeCushion, errs).unwrap().unwrap());
         assert_ne!(erring.origin().seed, flawless.origin().seed);

@@ -51,7 +51,7 @@ impl Condition {
     /// In a word, for lists and for programs.
     pub const fn word(self) -> &'static str {
         match self {
-            Self::Is(Phase::Training | Phase::Measuring) => "running",
+            Self::Is(Phase::Training | Phase::Measuring | Phase::Stopping) => "running",
             Self::Is(phase) => phase.name(),
             Self::Stalled(_) => "stalled",
             Self::Died => "died",
@@ -147,12 +147,15 @@ pub fn condition(signs: &Signs) -> Condition {
         Some(phase) if phase.is_over() && held && silent >= FRESH => Condition::Is(Phase::Training),
         Some(phase) if phase.is_over() => Condition::Is(phase),
         Some(phase) => {
-            let timeout = if phase == Phase::Measuring { MEASURING_TIMEOUT } else { HEARTBEAT_TIMEOUT };
+            let is_measured = matches!(phase, Phase::Measuring | Phase::Stopping);
+            let timeout = if is_measured { MEASURING_TIMEOUT } else { HEARTBEAT_TIMEOUT };
+            // One that is told to stop saves before it is measured: a second signal, which ends it at once, has stopped it.
+            let gone = if phase == Phase::Stopping { Condition::Is(Phase::Stopped) } else { Condition::Died };
             match is_held {
                 Some(true) if silent >= timeout => Condition::Stalled(whole_seconds(silent)),
-                Some(false) if silent >= FRESH => Condition::Died,
+                Some(false) if silent >= FRESH => gone,
                 // Where there are no locks, silence is all there is to tell by.
-                None if silent >= timeout => Condition::Died,
+                None if silent >= timeout => gone,
                 _ => Condition::Is(phase),
             }
         }
@@ -189,6 +192,8 @@ mod tests {
             assert_eq!(at(phase, free, 5), Condition::Died);
             assert_eq!(at(phase, free, 1), Condition::Is(phase), "it has just begun to hold the lock");
         }
+        assert_eq!(at(Phase::Stopping, held, 40), Condition::Is(Phase::Stopping), "it is measured");
+        assert_eq!(at(Phase::Stopping, free, 5), Condition::Is(Phase::Stopped), "a second signal has ended it");
         assert_eq!(at(Phase::Training, held, 40), Condition::Stalled(Duration::from_secs(40)));
         assert_eq!(at(Phase::Measuring, held, 40), Condition::Is(Phase::Measuring));
         assert_eq!(at(Phase::Measuring, held, 700), Condition::Stalled(Duration::from_secs(700)));

@@ -108,7 +108,9 @@ impl Followed {
             }
             Condition::Is(Phase::Stopped) => {
                 // What is measured at a stop has no line of metrics, which must not depend on where a run was stopped.
-                let reward = self.status.as_ref().and_then(|status| status.held_out_reward);
+                // A second signal leaves that of the measurement before.
+                let status = self.status.as_ref().filter(|status| status.phase == Phase::Stopped);
+                let reward = status.and_then(|status| status.held_out_reward);
                 let reward = reward.map_or_else(String::new, |reward| format!(", held-out reward {reward:.4}"));
                 format!("the run was stopped{after}{reward}; {go_on}")
             }

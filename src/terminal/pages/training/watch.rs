@@ -171,6 +171,7 @@ impl Watch {
             },
             Condition::Is(Phase::Paused) => ("paused and saved; p lets it go on".to_owned(), false),
             Condition::Is(Phase::Measuring) => ("plays the held-out layouts".to_owned(), false),
+            Condition::Is(Phase::Stopping) => ("saved; it plays the held-out layouts and ends".to_owned(), false),
             Condition::Is(Phase::Training) => {
                 (format!("it goes on without this screen: carom watch {}", shell_word(name)), false)
             }
