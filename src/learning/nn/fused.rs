@@ -112,13 +112,14 @@ impl CustomOp2 for Fused {
                     input_gradient = Some(Tensor::from_vec(values, (rows, before), &Device::Cpu)?);
                 }
             } else {
-                let mut previous = product(delta, weights.transposed());
+                let slopes = product(delta, weights.transposed());
+                // Into the other vector: in place these become masked stores, slow on AMD's processors without AVX-512.
+                errors.clear();
                 Arch::new().dispatch(|| {
-                    for (error, output) in previous.iter_mut().zip(from) {
-                        *error = if *output > 0.0 { *error } else { 0.0 };
-                    }
+                    let passed =
+                        slopes.iter().zip(from).map(|(slope, output)| if *output > 0.0 { *slope } else { 0.0 });
+                    errors.extend(passed);
                 });
-                errors = previous;
             }
         }
         let count = parameter_gradient.len();

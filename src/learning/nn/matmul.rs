@@ -16,7 +16,8 @@ use pulp::{Arch, Simd, WithSimd};
 /// Rows of the output that are computed together. With 4 vectors a row this fills 24 of 32 registers.
 const ROWS: usize = 6;
 
-/// The same where nothing is copied: eight sums at a time hide how long a multiply-add takes.
+/// The same for small matrices with one vector a row, and half as many with two: eight sums at a time hide how long a multiply-add
+/// takes.
 const SMALL_ROWS: usize = 8;
 
 /// Most values of a right matrix that is read where it is; it fits into the innermost cache.
@@ -86,17 +87,6 @@ impl<'a> Matrix<'a> {
         }
     }
 
-    /// The values of a transposed matrix in the order of its own rows.
-    fn transposed_values(&self) -> Vec<f32> {
-        let mut values = vec![0.0; self.values.len()];
-        for (column, from) in self.values.chunks_exact(self.rows).enumerate() {
-            for (row, value) in from.iter().enumerate() {
-                values[row * self.columns + column] = *value;
-            }
-        }
-        values
-    }
-
     #[inline(always)]
     fn row(&self, row: usize) -> &'a [f32] {
         &self.values[row * self.columns..][..self.columns]
@@ -132,10 +122,11 @@ impl WithSimd for Product<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let columns = self.right.columns;
         let is_small = self.right.values.len() <= SMALL && self.left.rows >= SMALL_ROWS;
+        let whole = |vectors: usize| columns.is_multiple_of(vectors * S::F32_LANES);
         // As many vectors a row as the registers hold, but no more than the matrix fills.
         match columns.div_ceil(S::F32_LANES) {
-            _ if is_small && columns.is_multiple_of(S::F32_LANES) => self.tiles::<S, true>(simd),
-            1 if is_small => self.tiles::<S, false>(simd),
+            _ if is_small && whole(2) => self.tiles::<S, { SMALL_ROWS / 2 }, 2>(simd),
+            vectors if is_small && (vectors == 1 || whole(1)) => self.tiles::<S, SMALL_ROWS, 1>(simd),
             1 => self.blocks::<S, 1>(simd),
             2 => self.blocks::<S, 2>(simd),
             _ if S::REGISTER_COUNT < 32 => self.blocks::<S, 2>(simd),
@@ -173,34 +164,41 @@ impl Product<'_> {
         }
     }
 
-    /// The product of small matrices, read where they are: copying them takes longer than multiplying them. The last tile of
-    /// rows overlaps the one before. A right matrix is as wide as some vectors, or else (not `WHOLE`) narrower than one.
+    /// The product of small matrices, read where they are: copying them takes longer than multiplying them. Only a right matrix
+    /// that is transposed or narrower than a vector is copied, and any other must be as wide as some tiles. The last tile of
+    /// rows overlaps the one before.
     #[inline(always)]
-    fn tiles<S: Simd, const WHOLE: bool>(self, simd: S) {
+    fn tiles<S: Simd, const ROWS: usize, const WIDTH: usize>(self, simd: S) {
         let Product { left, right, out } = self;
-        let columns = right.columns;
-        let transposed = if right.transposed { right.transposed_values() } else { Vec::new() };
-        let values = if right.transposed { &transposed } else { right.values };
-        for row in (0..left.rows).step_by(SMALL_ROWS).map(|row| row.min(left.rows - SMALL_ROWS)) {
-            for column in (0..columns).step_by(S::F32_LANES) {
-                let vectors = values[column..].chunks(columns).map(|row| {
-                    [if WHOLE { S::as_simd_f32s(&row[..S::F32_LANES]).0[0] } else { simd.partial_load_f32s(row) }]
+        let (columns, tile_width) = (right.columns, WIDTH * S::F32_LANES);
+        let width = columns.next_multiple_of(tile_width);
+        let mut copy = Vec::new();
+        if right.transposed || width > columns {
+            copy.resize(right.rows * width, 0.0);
+            right.pack_columns(0, width, &mut copy);
+        }
+        let values = if copy.is_empty() { right.values } else { &copy };
+        for row in (0..left.rows).step_by(ROWS).map(|row| row.min(left.rows - ROWS)) {
+            for column in (0..width).step_by(tile_width) {
+                let vectors = values.chunks_exact(width).map(|row| {
+                    let vectors = S::as_simd_f32s(&row[column..column + tile_width]).0;
+                    *vectors.first_chunk().unwrap_or(&[simd.splat_f32s(0.0); WIDTH])
                 });
-                let sums: [[S::f32s; 1]; SMALL_ROWS] = if left.transposed {
+                let sums: [[S::f32s; WIDTH]; ROWS] = if left.transposed {
                     let lines = left.values.chunks_exact(left.rows);
-                    let lines = lines.map(|line| *line[row..].first_chunk().unwrap_or(&[0.0; SMALL_ROWS]));
+                    let lines = lines.map(|line| *line[row..].first_chunk().unwrap_or(&[0.0; ROWS]));
                     tile(simd, lines.zip(vectors))
                 } else {
-                    let lines: [&[f32]; SMALL_ROWS] = std::array::from_fn(|index| left.row(row + index));
+                    let lines: [&[f32]; ROWS] = std::array::from_fn(|index| left.row(row + index));
                     let lines = (0..left.columns).map(|inner| std::array::from_fn(|index| lines[index][inner]));
                     tile(simd, lines.zip(vectors))
                 };
-                for (index, [sum]) in sums.into_iter().enumerate() {
+                for (index, sums) in sums.iter().enumerate() {
                     let to = &mut out[(row + index) * columns + column..];
-                    if WHOLE {
-                        S::as_mut_simd_f32s(&mut to[..S::F32_LANES]).0[0] = sum;
+                    if width > columns {
+                        simd.partial_store_f32s(&mut to[..columns], sums[0]);
                     } else {
-                        simd.partial_store_f32s(&mut to[..columns], sum);
+                        S::as_mut_simd_f32s(&mut to[..tile_width]).0.copy_from_slice(sums);
                     }
                 }
             }
