@@ -303,7 +303,8 @@ mod tests {
         assert_eq!(some["heads"], 2);
         assert!(start(serde_json::json!({ "head": 2 })).unwrap_err().to_string().contains("head"));
         let wrong = start(serde_json::json!({ "heads": 2, "ranking": "abc" })).unwrap_err().to_string();
-        assert!(wrong.contains("ranking = \"abc\": invalid type") && wrong.ends_with("expected a number"), "{wrong}");
+        assert!(wrong.contains("ranking = \"abc\": invalid type"), "{wrong}");
+        assert!(wrong.ends_with("expected a number; accepted is 0 to 1"), "{wrong}");
         assert!(start(serde_json::json!({ "searched": 1 })).unwrap_err().to_string().contains("context = true"));
         // Expert iteration that began from a round in which the critic alone learnt went on so for ten rounds unnoticed.
         let frozen =
