@@ -52,7 +52,7 @@ pub fn play_in_steps(
     let finest = Steps::finest(table, &strike(table, cue), MOST_STEPS);
     if steps.dt < finest {
         return Err(Failure::wrong_input(format_args!(
-            "dt = {} s might take more than four million steps; accepted is {finest:.0e} s or more for this shot on \"{}\"",
+            "dt = {} s might take more than {MOST_STEPS} steps; accepted is {finest:.0e} s or more for this shot on \"{}\"",
             steps.dt, table.name
         )));
     }

@@ -180,29 +180,17 @@ impl PlacedEvent {
 #[derive(Serialize)]
 struct Moment {
     t: f64,
-    balls: [Moving; BALLS],
-}
-
-/// Where a ball is, m, and how it moves, m/s and rad/s; the third coordinate is its height over the cloth.
-#[derive(Serialize)]
-struct Moving {
-    position: DVec3,
-    velocity: DVec3,
-    spin: DVec3,
+    balls: [SpatialState; BALLS],
 }
 
 impl Moment {
     fn of(recording: &Recording, t: f64) -> Self {
-        let moving = |ball| {
-            let SpatialState { position, velocity, spin } = recording.spatial_state(ball, t);
-            Moving { position, velocity, spin }
-        };
-        Self { t, balls: std::array::from_fn(moving) }
+        Self { t, balls: std::array::from_fn(|ball| recording.spatial_state(ball, t)) }
     }
 
     fn describe(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "after {} s:", self.t)?;
-        for (name, Moving { position, velocity, spin }) in BALL_NAMES.iter().zip(&self.balls) {
+        for (name, SpatialState { position, velocity, spin }) in BALL_NAMES.iter().zip(&self.balls) {
             let [place, speed, turn] =
                 [position, velocity, spin].map(|v| format!("({:.6}, {:.6}, {:.6})", v.x, v.y, v.z));
             writeln!(out, "  {name} at {place} m, velocity {speed} m/s, spin {turn} rad/s")?;
@@ -232,7 +220,7 @@ struct SimulateAnswer {
     events: Vec<PlacedEvent>,
     /// The balls at the moments that were asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    at: Vec<Moment>,
+    moments: Vec<Moment>,
     #[serde(rename = "final")]
     end: Layout,
     /// Balls that left the table; in `final` they are on their spots.
@@ -298,7 +286,7 @@ impl SimulateAnswer {
             cushions_before_second: verdict.tally.met_both().then_some(verdict.tally.cushions_before_second),
             cue_room,
             impulse: GivenImpulse::of(recording.impulse()),
-            at: moments.iter().map(|&t| Moment::of(recording, t)).collect(),
+            moments: moments.iter().map(|&t| Moment::of(recording, t)).collect(),
             events: recording.events().iter().map(|&event| PlacedEvent::of(recording, event)).collect(),
             end: recording.final_layout(),
             off_table: verdict

@@ -1,12 +1,13 @@
 //! Balls that leave the cloth: how it answers a ball that is pressed into it or comes down on it (thesis 6.1.3).
 
 use glam::{DVec2, DVec3};
+use serde::Serialize;
 
 use super::{BallState, slip};
 use crate::table::Table;
 
 /// Where a ball is in space and how it moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SpatialState {
     /// Centre, m; `z` is its height above where it is when the ball lies on the cloth.
     pub position: DVec3,

@@ -164,7 +164,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for (ball, changed) in changed.iter_mut().enumerate() {
             *changed = contacts.hold(ball);
         }
-        // Through that of a micro-collision the ball falls before the next; one that is jammed gets room behind the cushion.
+        // A ball falls through the room of a micro-collision before it bounces again; one that is jammed gets room behind the cushion.
         let room = match self.micro_collisions {
             Some(_) => c.tolerance.micro_room,
             None if self.rounds > JAMMED_ROUNDS => -ROOM_FOR_JAMMED * c.tolerance.touching,

@@ -24,7 +24,8 @@ pub enum PositionsError {
     Mixed,
     /// A ball was put outside the table in diamonds.
     #[error(
-        "{name} at {x:.2}d,{y:.2}d is outside the table; accepted are {least:.2}d to {along:.2}d, and {least:.2}d to {up:.2}d"
+        "{name} at {x:.2}d,{y:.2}d is outside the table; accepted are {least:.2}d to {along:.2}d, and {least:.2}d to {up:.2}d; \
+         nearer to a rail the ball touches it"
     )]
     Outside {
         /// The ball's name.

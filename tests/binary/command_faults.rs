@@ -60,8 +60,8 @@ fn the_impulse_and_the_balls_at_any_moment_are_told() {
     let line = json!({"preset": "match", "layout": [[-0.5, 0], [0, 0], [0.5, 0.03]], "impulse": stroke["impulse"]});
     let output = carom(&["simulate", "--batch", "-", "--at", "0.5"]).write_stdin(line.to_string()).assert().success();
     let replayed: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
-    assert_eq!((&replayed["final"], &replayed["at"][0]), (&stroke["final"], &stroke["at"][1]));
-    let white = |moment: usize| &stroke["at"][moment]["balls"][0];
+    assert_eq!((&replayed["final"], &replayed["moments"][0]), (&stroke["final"], &stroke["moments"][1]));
+    let white = |moment: usize| &stroke["moments"][moment]["balls"][0];
     let speed = |moment: usize| white(moment)["velocity"][0].as_f64().unwrap();
     assert_eq!(white(0)["velocity"][0], stroke["impulse"]["velocity"][0]);
     assert!(speed(0) > speed(1) && speed(2) == 0.0, "{stroke}");

@@ -51,7 +51,7 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             marks => match entry(table, test, marks) {
                 Ok(entry) => {
                     session.add(entry)?;
-                    tell(format_args!("kept: stroke {} of {}, {}", session.count(test), test.times, test.name));
+                    tell(format_args!("kept: {}, stroke {}", test.name, session.count(test)));
                 }
                 Err(what) => {
                     refused += 1;

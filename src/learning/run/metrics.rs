@@ -94,11 +94,13 @@ pub fn gap(path: &Path, shots: u64, log_every: u64) -> Option<String> {
     let lost = "those lines are lost, and the training goes on as if they were there";
     Some(match last {
         None if !path.exists() => format!("{METRICS} is missing: there is no line of the {shots} shots played; {lost}"),
-        last => {
-            let last = last.unwrap_or(0);
-            format!("{METRICS} has been emptied or cut off: it ends after {last} of the {shots} shots played; {lost}")
-        }
+        last => format!("{}; {lost}", cut_off(last.unwrap_or(0), shots)),
     })
+}
+
+/// The sentence about a file whose last line is of `last` shots, where `shots` were played and lines are missing.
+pub fn cut_off(last: u64, shots: u64) -> String {
+    format!("{METRICS} has been emptied or cut off: it ends after {last} of the {shots} shots played")
 }
 
 /// A run's file of metrics while the run writes it. Lines that cannot be written wait in memory.

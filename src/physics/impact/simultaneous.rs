@@ -2,7 +2,7 @@
 //!
 //! The impacts run through touching balls in rounds, as in Smith, Kaufman, Vouga, Tamstorf and Grinspun, "Reflections on
 //! simultaneous impact" (2012). A round takes all contacts that close at that moment. One that shares no ball with another is
-//! a single impact. For the others together Moreau's law gives the normal impulses: `0 ≤ v⁺ + e v⁻ ⊥ P ≥ 0`. Since each of them
+//! a single impact. For each group that shares balls Moreau's law gives the normal impulses: `0 ≤ v⁺ + e v⁻ ⊥ P ≥ 0`. Since each of them
 //! closes, `v⁻ < 0`, the round takes the energy `½ Σ (1 - e) P |v⁻|` and never adds any; where all have the same `e`, that is the share
 //! `1 - e²` of the energy of their approach. Each contact's friction then follows from its slip before the round and its `P` by the law of
 //! a single impact; should they together add energy, they are scaled down until they do not. A contact whose impulse is zero, since the

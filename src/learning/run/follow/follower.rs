@@ -18,7 +18,7 @@ use crate::{
         config::{self, Config},
         examples::{self, Examples},
         holds_checkpoints,
-        metrics::Record,
+        metrics::{self, Record},
         status::{self, RunStatus},
     },
     storage::Lock,
@@ -208,10 +208,7 @@ impl Follower {
                 0 if self.condition.is_over() && self.tail.is_torn() => {
                     Some(format!("the last line of {METRICS} is cut off and is left out"))
                 }
-                0 if is_behind => Some(format!(
-                    "{METRICS} has been emptied or cut off: it ends after {read} of the {} shots played",
-                    self.said
-                )),
+                0 if is_behind => Some(metrics::cut_off(read, self.said)),
                 0 => None,
                 1 => Some(format!("1 line of {METRICS} cannot be read and is left out")),
                 lines => Some(format!("{lines} lines of {METRICS} cannot be read and are left out")),
