@@ -36,7 +36,7 @@ pub struct AgentKind {
     /// The learner whose [`Learner::save`] filled the file and returned the note.
     pub restore: Restore,
     /// Shots of a whole iteration with these settings; `None` where they do not say.
-    pub round: fn(&Value) -> Option<u64>,
+    pub shots_per_iteration: fn(&Value) -> Option<u64>,
     /// Settings that apply only when weights are loaded; `--from` does not pass them on.
     pub of_one_start: &'static [&'static str],
 }

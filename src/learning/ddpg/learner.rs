@@ -54,7 +54,7 @@ pub const AGENT: AgentKind = AgentKind {
         Ok(Box::new(Trainer::new(Task { plan, hyperparameters }, table)?))
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
-    round: |settings| settings.get("shots_per_update")?.as_u64(),
+    shots_per_iteration: |settings| settings.get("shots_per_update")?.as_u64(),
     of_one_start: &["new_actor"],
 };
 

@@ -126,8 +126,8 @@ impl Config {
     /// Most shots that lie between two lines of metrics: a line comes after a whole iteration, and one iteration may be longer than
     /// the schedule asks for. `None` where the agent's iterations are not known here.
     pub fn longest_gap(&self) -> Option<u64> {
-        let round = (AgentKind::named(&self.agent).ok()?.round)(&self.settings)?;
-        Some(self.schedule.log_every.saturating_add(round))
+        let iteration = (AgentKind::named(&self.agent).ok()?.shots_per_iteration)(&self.settings)?;
+        Some(self.schedule.log_every.saturating_add(iteration))
     }
 
     /// The version of the carom that started the run, where it is newer than this one.

@@ -41,7 +41,7 @@ const fn line<A: Agent + 'static>() -> AgentKind {
         defaults: defaults_of::<A::Settings>,
         start: start::<A>,
         restore: restore::<A>,
-        round: |_| Some(SHOTS_PER_ITERATION),
+        shots_per_iteration: |_| Some(SHOTS_PER_ITERATION),
         of_one_start: &[],
     }
 }
