@@ -4,9 +4,10 @@ use std::fs;
 
 use carom::{
     calibration::{Edit, Entries, Entry, PROTOCOL, edit_entries},
-    terminal::{CalibrationContext, KeyContext, PageId},
+    terminal::{CalibrationContext, Effect, KeyContext, PageId},
 };
 
+use super::keys::key;
 use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at};
 
 /// The marks of a slow roll and of a lag as `match` plays, in the order of their forms.
@@ -207,7 +208,7 @@ fn the_command_and_the_page_share_the_file_and_what_cannot_be_read_is_not_writte
     fs::write(broken.path("calibration.toml"), "broken").unwrap();
     let broken = broken.press("F7");
     broken.warns("line 1");
-    broken.press("Enter").warns("the file of entries was not read yet, or cannot be");
+    broken.press("Enter").warns("the file of entries cannot be read: mend it, or N keeps it aside");
 }
 
 #[test]
@@ -239,4 +240,12 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     assert!(kept(&checked).trials.len() == 2 && checked.path("calibration-daily.toml").exists());
     checked.press("d").shows(&["slow-roll"]);
     Player::new().press("F7 d").warns("a check of the day needs a table that was calibrated before");
+}
+
+#[test]
+fn strokes_that_contradict_each_other_are_named_and_make_no_table() {
+    let player = ["5", "9", "16"].iter().fold(new(), |player, time| enter(player.press("Home"), &[time, "5", "", ""]));
+    let values = player.press("Tab");
+    values.shows(&["contradict", "unsure", "of slow-roll"]).is_silent_on(" better").is_silent_on(" well");
+    values.press("s").warns("strokes contradict each other");
 }

@@ -1,7 +1,7 @@
 //! What each key of the calibration's page does, and why it may not be used now.
 
 use crate::{
-    calibration::{Edit, Entries},
+    calibration::{Calibration, Edit, Entries},
     table::PRESETS,
     terminal::{
         CalibrationAction as Action, CalibrationCondition as Condition, CalibrationTask, Effect,
@@ -34,6 +34,10 @@ impl CalibrationPage {
                 (false, "an entry is odd, as the values say: amend it or take it out first")
             }
             Condition::Found => (found().is_some(), "nothing is entered yet that a table could follow from"),
+            Condition::Found if found().is_some_and(Calibration::is_contradictory) => (
+                false,
+                "strokes contradict each other, as the values say: play them again, amend or take them out first",
+            ),
             Condition::Saved => {
                 (self.saved.is_some(), "save the table first: s; one that was saved before is chosen by its name, F5")
             }
