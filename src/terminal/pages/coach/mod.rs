@@ -70,6 +70,8 @@ struct Position {
     policy: Option<(String, Arc<Policy>)>,
     layout: Layout,
     cue_ball: CueBall,
+    /// What counted as a point before this step and since, where the step itself has changed it.
+    rules: Option<[Rule; 2]>,
     advised: Option<AdviceState>,
 }
 
@@ -184,6 +186,7 @@ impl CoachPage {
                 cue_ball: CueBall::White,
                 advised: None,
             }),
+                rules: None,
             drag: None,
             before: None,
             left_exam: None,
@@ -331,7 +334,7 @@ impl CoachPage {
     pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
         let policy = self.query.policy.clone().filter(|_| self.table() == table);
         self.take(table, layout, CoachQuery { policy, rule, ..self.query.clone() });
-        self.message = Some(Message::plain("the balls of the exercise; Enter asks the coach"));
+        self.message = Some(Message::plain(format!("the balls of the exercise{its_rule}; Enter asks the coach")));
     }
 
     /// Puts balls on a table, as a step that can be taken back, for `query` to be asked.
@@ -341,7 +344,9 @@ impl CoachPage {
         let known = &self.balls.present().table;
         let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
         let cue_ball = self.cue_ball();
-        self.balls.push(Position { table, policy: query.policy.clone(), layout, cue_ball, advised: None });
+        let rules = Some([self.query.rule, query.rule]).filter(|[before, after]| before != after);
+        self.balls.push(Position { table, policy: query.policy.clone(), layout, cue_ball, rules, advised: None });
+        let its_rule = if rule == self.query.rule { String::new() } else { format!(" and its rule, {rule}") };
         self.query = query;
         self.rest();
     }
