@@ -15,6 +15,9 @@ use crate::{
 /// The version of the file that is written.
 const VERSION: u32 = 1;
 
+/// Most former sessions that are kept with the last one.
+const MOST_FORMER: usize = 4;
+
 /// What is remembered of a session. What is large is borrowed from the screens until it is written down: whether anything has
 /// changed since is asked at every wake.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,6 +39,10 @@ pub struct SavedSession<'a> {
     /// What was practised, where that was on the screen and not over.
     #[serde(default)]
     pub practice: Option<Cow<'a, Session>>,
+    /// Sessions before it that nobody has gone on with since, the latest first: a key that was pressed by mistake at the start
+    /// does not take the place of what was there.
+    #[serde(default, skip_serializing_if = "<[_]>::is_empty")]
+    former: Cow<'a, [SavedSession<'static>]>,
 }
 
 impl<'a> SavedSession<'a> {
@@ -50,23 +57,49 @@ impl<'a> SavedSession<'a> {
         practice: Option<&'a Session>,
     ) -> Self {
         let (table, practice) = (Cow::Borrowed(table), practice.map(Cow::Borrowed));
-        Self { version: VERSION, table, layout, cue_ball, rule, skill, plan, practice }
+        Self { version: VERSION, table, layout, cue_ball, rule, skill, plan, practice, former: Cow::Borrowed(&[]) }
+    }
+
+    /// The same after former sessions that were not gone on with, the latest first.
+    #[must_use]
+    pub fn after(mut self, former: &'a [SavedSession<'static>]) -> Self {
+        self.former = Cow::Borrowed(&former[..former.len().min(MOST_FORMER)]);
+        self
     }
 
     /// The same with nothing borrowed.
     pub fn into_owned(self) -> SavedSession<'static> {
-        let Self { version, table, layout, cue_ball, rule, skill, plan, practice } = self;
+        let Self { version, table, layout, cue_ball, rule, skill, plan, practice, former } = self;
         let practice = practice.map(|practice| Cow::Owned(practice.into_owned()));
-        let table = Cow::Owned(table.into_owned());
-        SavedSession { version, table, layout, cue_ball, rule, skill, plan, practice }
+        let (table, former) = (Cow::Owned(table.into_owned()), Cow::Owned(former.into_owned()));
+        SavedSession { version, table, layout, cue_ball, rule, skill, plan, practice, former }
     }
 
     /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
     /// the player need not know.
     pub fn load(path: &Path) -> Option<Self> {
-        let mut last: Self = serde_json::from_slice(&storage::read(path, storage::PRACTICE).ok()?).ok()?;
-        last.table = Cow::Owned(renewed(last.table.into_owned()));
-        (last.version == VERSION && last.layout.validate(&last.table).is_ok()).then_some(last)
+        let last: Self = serde_json::from_slice(&storage::read(path, storage::PRACTICE).ok()?).ok()?;
+        last.checked()
+    }
+
+    /// The same on the table that it means now, if it is one that can be gone on with.
+    fn checked(mut self) -> Option<Self> {
+        self.table = Cow::Owned(renewed(self.table.into_owned()));
+        (self.version == VERSION && self.layout.validate(&self.table).is_ok()).then_some(self)
+    }
+
+    /// It, then the former sessions, each by itself. What was practised in several is gone on with in the latest.
+    pub fn with_former(mut self) -> Vec<SavedSession<'static>> {
+        let former = std::mem::take(&mut self.former).into_owned();
+        let mut sessions = vec![self.into_owned()];
+        for mut session in former.into_iter().filter_map(SavedSession::checked) {
+            let practised = |session: &SavedSession| session.practice.as_ref().map(|practice| practice.id.clone());
+            if sessions.iter().any(|later| practised(later) == practised(&session)) {
+                session.practice = None;
+            }
+            sessions.push(session);
+        }
+        sessions
     }
 
     /// Writes it down.
@@ -123,6 +156,22 @@ mod tests {
         assert_eq!(SavedSession::load(&path), None, "no shot would end on this table");
         std::fs::write(&path, "{").unwrap();
         assert_eq!(SavedSession::load(&path), None);
+    }
+
+    #[test]
+    fn former_sessions_are_kept_with_the_last_one_as_long_as_nobody_goes_on_with_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("last.json");
+        let table = Table::default();
+        let by = |skill: Skill| SavedSession { skill, ..session(&table) }.into_owned();
+        let skills: Vec<Skill> = (1..=9).map(|number| Skill::CLUB.scaled(0.1 * f64::from(number))).collect();
+        for skill in &skills {
+            let former = SavedSession::load(&path).map_or_else(Vec::new, SavedSession::with_former);
+            by(*skill).after(&former).save(&path).unwrap();
+        }
+        let kept = SavedSession::load(&path).unwrap().with_former();
+        let expected: Vec<SavedSession> = skills.iter().rev().take(1 + MOST_FORMER).map(|skill| by(*skill)).collect();
+        assert_eq!(kept, expected);
     }
 
     #[test]

@@ -47,7 +47,7 @@ impl CoachPage {
             ),
             CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
             CoachCondition::Interrupted => refuse(
-                self.before.is_none() && self.left_exam.is_none(),
+                self.before.is_empty() && self.left_exam.is_none(),
                 "no exam was left and no earlier session waits; what is practised now is behind F3",
             ),
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),

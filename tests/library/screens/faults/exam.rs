@@ -1,6 +1,6 @@
 //! An exam: what comes is told before the first stroke, and one that was left is gone on with.
 
-use carom::terminal::{DrillContext, KeyContext};
+use carom::terminal::{DrillContext, KeyContext, SavedSession};
 
 use crate::screens::player::{Player, TRUE_COLOUR, check};
 
@@ -48,4 +48,29 @@ fn an_exam_of_which_only_the_first_page_was_seen_has_not_begun() {
         let seen = Player::at_library(TRUE_COLOUR, &[], &[]).press(keys);
         assert!(seen.app.last().is_none_or(|last| last.practice.is_none()), "{keys}");
     }
+}
+
+#[test]
+fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
+    let place = |player: &Player| *player.app.coach.layout();
+    let next = |player: &Player| {
+        let last = player.app.last().map(SavedSession::into_owned);
+        let mut next = Player::new();
+        next.app = next.app.with_last(last);
+        next
+    };
+    let first = Player::new().press("r");
+    let left = place(&first);
+    // A key by mistake at the next start, and at the one after it.
+    let second = next(&first).press("r");
+    let third = next(&second).press("o r");
+    let (at_second, at_third) = (place(&second), place(&third));
+    let fourth = next(&third).press("c");
+    assert_eq!(place(&fourth), at_third);
+    fourth.says("c goes back to the one before");
+    let back = fourth.press("c");
+    assert_eq!(place(&back), at_second);
+    let back = back.press("c");
+    assert_eq!(place(&back), left);
+    back.press("c").says("no earlier session waits");
 }
