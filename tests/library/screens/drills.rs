@@ -281,7 +281,7 @@ fn the_records() {
 #[test]
 fn the_record_has_what_another_program_has_noted_meanwhile() {
     let player = played();
-    player.store().save(&session(7, "opening", Goal::Free, "xxx")).unwrap();
+    player.store().save(&session(7, "opening", Goal::Free, "xxx"), &[]).unwrap();
     player.press("r").shows(&["attempts  40"]);
 }
 
@@ -451,7 +451,7 @@ fn a_note_that_was_corrected_before_it_was_on_the_disk_stays_corrected() {
     let mut player = Player::practising(TRUE_COLOUR);
     let noted = |player: &mut Player, name: &str| {
         let saved = asked(player, name).into_iter().find_map(|task| match task {
-            DrillTask::Save(session) => Some(session),
+            DrillTask::Save(session, _) => Some(session),
             _ => None,
         });
         saved.expect("a session is saved")

@@ -51,6 +51,41 @@ fn an_exam_of_which_only_the_first_page_was_seen_has_not_begun() {
 }
 
 #[test]
+fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter");
+    let elsewhere = |player: &Player, notes: usize| {
+        let mut exam = player.store().sessions().items.remove(0);
+        let before = exam.attempts.clone();
+        (0..notes).for_each(|_| exam.log(true).unwrap());
+        player.store().save(&exam, &before).unwrap();
+    };
+    for notes in [2, 1] {
+        elsewhere(&player, notes);
+        let kept = player.kept();
+        player = player.press("Space");
+        player.warns("another program has changed this session");
+        assert_eq!(player.kept(), kept);
+        player.says(&format!("exercise {} of 20", kept + 1));
+    }
+    let on = player.press("Space Enter Enter");
+    assert_eq!(on.kept(), 5);
+    // Who opens the drills again sees it before the next stroke.
+    elsewhere(&on, 3);
+    let seen = on.press("F2 F3");
+    seen.says("another program has gone on with this session").says("exercise 9 of 20");
+    elsewhere(&seen, 12);
+    seen.press("Space").says("Grade: ");
+    // Notes from a real table, and those that are taken back.
+    let mut noted = Player::practising(TRUE_COLOUR).press("m m");
+    elsewhere(&noted, 2);
+    for key in ["m", "u"] {
+        noted = noted.press(key);
+        assert_eq!(noted.kept(), if key == "m" { 4 } else { 3 });
+    }
+    noted.says("taken back: made, 3 of 3 now");
+}
+
+#[test]
 fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
     let place = |player: &Player| *player.app.coach.layout();
     let next = |player: &Player| {
