@@ -109,3 +109,25 @@ fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
     assert_eq!(place(&back), left);
     back.press("c").says("no earlier session waits");
 }
+
+#[test]
+fn an_open_run_is_given_up_only_on_demand_and_gone_on_with_where_it_was_left() {
+    let sessions = |player: &Player| player.store().sessions().items.len();
+    let run = Player::practising(TRUE_COLOUR).press("o Space Enter Enter");
+    for key in ["x", "o", "<", "p", "m"] {
+        let asked = Player::practising(TRUE_COLOUR).press("o Space Enter Enter").press(key);
+        asked.says("give up the run after 1 attempt? It stays in the record. y/n");
+        let stays = asked.press("n Space");
+        assert_eq!((stays.kept(), sessions(&stays)), (2, 1), "{key}");
+    }
+    let left = run.press("Esc");
+    assert_eq!(left.app.place(), LIBRARY);
+    left.says("what you have begun is kept; Enter on the exercise goes on with it");
+    assert_eq!(left.app.last().and_then(|last| last.practice.map(|run| run.attempts.len())), Some(1));
+    let on = left.press("Enter");
+    on.says("run of 5: it goes on here after 1 played");
+    let played = on.press("Space Enter Enter");
+    assert_eq!((played.kept(), sessions(&played)), (2, 1), "one run");
+    let other = played.press("x y Space");
+    assert_eq!((other.kept(), sessions(&other)), (3, 2), "another one");
+}
