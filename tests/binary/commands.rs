@@ -109,6 +109,15 @@ fn a_recommendation_is_told_as_a_player_says_it() {
     assert!(told.lines().nth(2).unwrap().contains(" mm on the "), "{told}");
 }
 
+    assert!(
+        told.contains("\nFor a player of skill \"club\" under the rule straight; --skill and --rule choose"),
+        "{told}"
+    );
+    let others: Vec<&str> = told.lines().filter(|line| line.starts_with("or ")).collect();
+    assert!(
+        !others.is_empty() && others.iter().all(|line| line.contains("; first ") || line.contains("; cushion first"))
+    );
+    assert!(others.iter().all(|line| line.contains(" % of the time (")), "{told}");
 #[test]
 fn where_balls_roll_is_listed_where_it_is_asked_for() {
     let text = |more: &[&str]| {

@@ -331,6 +331,11 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     if let Some(why) = &answer.why {
         why.describe(out, units())?;
     }
+    writeln!(
+        out,
+        "For a player of skill \"{}\" under the rule {}; --skill and --rule choose others, whatever the screen is set to.",
+        args.skill, args.rule
+    )?;
     if answer.told.is_some() {
         writeln!(out)?;
     }
