@@ -18,6 +18,12 @@ const VERSION: u32 = 1;
 /// Most former sessions that are kept with the last one.
 const MOST_FORMER: usize = 4;
 
+/// The part of the file that tells its version.
+#[derive(Deserialize)]
+struct Header {
+    version: u32,
+}
+
 /// What is remembered of a session. What is large is borrowed from the screens until it is written down: whether anything has
 /// changed since is asked at every wake.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -75,24 +81,54 @@ impl<'a> SavedSession<'a> {
         SavedSession { version, table, layout, cue_ball, rule, skill, plan, practice, former }
     }
 
-    /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
-    /// the player need not know.
-    pub fn load(path: &Path) -> Option<Self> {
-        let last: Self = serde_json::from_slice(&storage::read(path, storage::PRACTICE).ok()?).ok()?;
-        last.checked()
+    /// What the file says; nothing where there is none.
+    ///
+    /// # Errors
+    /// Why it cannot be gone on from: it cannot be read, is damaged, or is from a newer version.
+    pub fn load(path: &Path) -> Result<Option<Self>, String> {
+        let bytes = match storage::read(path, storage::PRACTICE) {
+            Ok(bytes) => bytes,
+            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+                return Ok(None);
+            }
+            Err(error) => return Err(error.to_string()),
+        };
+        let header: Header = serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {error}"))?;
+        if header.version != VERSION {
+            return Err(format!("it is of version {}, and {VERSION} is understood", header.version));
+        }
+        let last: Self = serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {error}"))?;
+        last.checked().map(Some)
     }
 
-    /// The same on the table that it means now, if it is one that can be gone on with.
-    fn checked(mut self) -> Option<Self> {
+    /// The same on the table that it means now, if the balls can lie there.
+    fn checked(mut self) -> Result<Self, String> {
         self.table = Cow::Owned(renewed(self.table.into_owned()));
-        (self.version == VERSION && self.layout.validate(&self.table).is_ok()).then_some(self)
+        self.layout.validate(&self.table).map_err(|error| format!("it is damaged: {error}"))?;
+        Ok(self)
+    }
+
+    /// The same at the start of the program: a file that cannot be gone on from is put aside, since this session will be
+    /// written in its place.
+    ///
+    /// # Errors
+    /// A sentence about that.
+    pub fn load_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
+        Self::load(path).map_err(|error| {
+            let aside = path.with_extension("unread.json");
+            let kept = match std::fs::rename(path, &aside) {
+                Ok(()) => format!("it is kept as {}", aside.display()),
+                Err(error) => format!("it cannot be kept aside: {error}"),
+            };
+            format!("{}: {error}; the last session cannot be gone on with, and {kept}", path.display())
+        })
     }
 
     /// It, then the former sessions, each by itself. What was practised in several is gone on with in the latest.
     pub fn with_former(mut self) -> Vec<SavedSession<'static>> {
         let former = std::mem::take(&mut self.former).into_owned();
         let mut sessions = vec![self.into_owned()];
-        for mut session in former.into_iter().filter_map(SavedSession::checked) {
+        for mut session in former.into_iter().flat_map(SavedSession::checked) {
             let practised = |session: &SavedSession| session.practice.as_ref().map(|practice| practice.id.clone());
             if sessions.iter().any(|later| practised(later) == practised(&session)) {
                 session.practice = None;
@@ -130,32 +166,40 @@ mod tests {
     }
 
     #[test]
-    fn a_session_is_read_back_and_whatever_else_stands_there_is_ignored() {
+    fn a_session_is_read_back_and_whatever_else_stands_there_is_named() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("state/last.json");
-        assert_eq!(SavedSession::load(&path), None);
+        assert_eq!(SavedSession::load(&path), Ok(None));
         let table = Table::default();
         let last = session(&table);
+        let refused = |what: &str| {
+            let said = SavedSession::load(&path).unwrap_err();
+            assert!(said.starts_with(what), "{said}");
+        };
         last.save(&path).unwrap();
-        assert_eq!(SavedSession::load(&path), Some(last.clone()));
+        assert_eq!(SavedSession::load(&path).as_ref(), Ok(&Some(last.clone())));
         // After some thousand attempts a session has more than a mebibyte.
         let mut long = std::fs::read(&path).unwrap();
         long.resize(2 << 20, b' ');
         std::fs::write(&path, long).unwrap();
-        assert_eq!(SavedSession::load(&path), Some(last.clone()));
+        assert_eq!(SavedSession::load(&path).as_ref(), Ok(&Some(last.clone())));
         let newer = SavedSession { version: VERSION + 1, ..last.clone() };
         newer.save(&path).unwrap();
-        assert_eq!(SavedSession::load(&path), None);
+        refused("it is of version 2");
         let mut impossible = last;
         impossible.layout.balls[1] = impossible.layout.balls[0];
         impossible.save(&path).unwrap();
-        assert_eq!(SavedSession::load(&path), None);
+        refused("it is damaged");
         let mut endless = session(&table);
         endless.table.to_mut().sliding_friction = 0.0;
         endless.save(&path).unwrap();
-        assert_eq!(SavedSession::load(&path), None, "no shot would end on this table");
+        refused("it is damaged");
         std::fs::write(&path, "{").unwrap();
-        assert_eq!(SavedSession::load(&path), None);
+        refused("it is damaged");
+        let said = SavedSession::load_or_put_aside(&path).unwrap_err();
+        assert!(said.contains("last.json: it is damaged") && said.contains("last.unread.json"), "{said}");
+        assert_eq!(std::fs::read(path.with_extension("unread.json")).unwrap(), b"{");
+        assert_eq!(SavedSession::load_or_put_aside(&path), Ok(None));
     }
 
     #[test]
@@ -163,15 +207,17 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("last.json");
         let table = Table::default();
-        let by = |skill: Skill| SavedSession { skill, ..session(&table) }.into_owned();
-        let skills: Vec<Skill> = (1..=9).map(|number| Skill::CLUB.scaled(0.1 * f64::from(number))).collect();
-        for skill in &skills {
-            let former = SavedSession::load(&path).map_or_else(Vec::new, SavedSession::with_former);
-            by(*skill).after(&former).save(&path).unwrap();
+        let by = |number: u32| {
+            let mut session = session(&table).into_owned();
+            session.layout.balls[2].y = 0.05 * f64::from(number);
+            session
+        };
+        for number in 1..=9 {
+            let former = SavedSession::load(&path).unwrap().map_or_else(Vec::new, SavedSession::with_former);
+            by(number).after(&former).save(&path).unwrap();
         }
-        let kept = SavedSession::load(&path).unwrap().with_former();
-        let expected: Vec<SavedSession> = skills.iter().rev().take(1 + MOST_FORMER).map(|skill| by(*skill)).collect();
-        assert_eq!(kept, expected);
+        let kept = SavedSession::load(&path).unwrap().unwrap().with_former();
+        assert_eq!(kept, (1..=9).rev().take(1 + MOST_FORMER).map(by).collect::<Vec<_>>());
     }
 
     #[test]
@@ -181,7 +227,7 @@ mod tests {
         let on = |textbook: &str, name: &str| {
             let table = Table { name: name.to_owned(), ..Table::preset(textbook).unwrap() };
             session(&table).save(&path).unwrap();
-            SavedSession::load(&path).unwrap().table.into_owned()
+            SavedSession::load(&path).unwrap().unwrap().table.into_owned()
         };
         assert_eq!(on("textbook", "match"), Table::default());
         assert_eq!(on("thesis", "match").length, Table::preset("thesis").unwrap().length, "somebody's own");

@@ -249,3 +249,18 @@ fn strokes_that_contradict_each_other_are_named_and_make_no_table() {
     values.shows(&["contradict", "unsure", "of slow-roll"]).is_silent_on(" better").is_silent_on(" well");
     values.press("s").warns("strokes contradict each other");
 }
+
+#[test]
+fn a_file_that_cannot_be_read_is_kept_aside_on_demand() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("calibration.toml"), "half").unwrap();
+    let player = Player::in_folder(TRUE_COLOUR, folder).press("F7");
+    player.warns("calibration.toml");
+    let refused = player.press("Enter");
+    refused.warns("N keeps it aside and begins anew");
+    let anew = refused.press("N y");
+    anew.says("the file that cannot be read is kept as");
+    assert_eq!(fs::read_to_string(anew.path("calibration.before.toml")).unwrap(), "half");
+    let entered = enter(anew, &ROLL);
+    assert_eq!(kept(&entered).trials.len(), 1);
+}

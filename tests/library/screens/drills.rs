@@ -380,8 +380,12 @@ fn files_that_cannot_be_read_are_named_and_left_alone() {
     write("sessions/20260101-000000-00000001.json", r#"{"format":"carom-session","version":9}"#);
     write("positions/broken.json", "{\"half");
     let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
-    let text = player.text(200, 40);
+    player.warns("version 9");
+    player.shows(&["some of what was kept cannot be read: F6 names it"]);
+    let all = player.press("F6");
+    let text = all.text(200, 40);
     assert!(text.contains("version 9") && text.contains("broken.json"), "{text}");
+    let player = all;
     assert_eq!(std::fs::read(player.path("positions/broken.json")).unwrap(), b"{\"half");
 }
 

@@ -26,7 +26,7 @@ impl CalibrationPage {
             Condition::Stroke => (sheet.marked_stroke().is_some(), "no stroke of this test is entered yet"),
             Condition::Entered => {
                 let is_entered = sheet.entries.as_ref().is_some_and(|entries| !entries.trials.is_empty());
-                (is_entered, "nothing is entered yet")
+                (is_entered || sheet.trouble.is_some(), "nothing is entered yet")
             }
             Condition::Undo => (sheet.can_undo(), "nothing was changed here yet; Delete takes the marked stroke out"),
             Condition::Found if sheet.is_asking() => (false, "the values are being worked out; one moment"),
@@ -169,6 +169,11 @@ impl CalibrationPage {
             Input::Name(typed) => self.save(typed.text().trim(), false),
             Input::Replace(name) => self.save(&name, true),
             Input::Anew => {
+            Input::Anew if self.sheet().trouble.is_some() => {
+                let said = format!("the file that cannot be read is kept as {}", self.beside().display());
+                self.message = Some(Message::plain(said));
+                Some(Effect::Calibrate(vec![CalibrationTask::PutAside(self.sheet().path.clone())]))
+            }
                 let count = self.sheet().entries.as_ref().map_or(0, |entries| entries.trials.len());
                 let strokes = if count == 1 { "1 stroke is".to_owned() } else { format!("{count} strokes are") };
                 let said = format!("{strokes} kept as {}; u takes this back", self.beside().display());
