@@ -251,6 +251,18 @@ fn strokes_that_contradict_each_other_are_named_and_make_no_table() {
 }
 
 #[test]
+fn a_stroke_can_be_entered_before_the_file_was_read() {
+    let mut player = Player::with(TRUE_COLOUR);
+    // What the key asks for is not done yet.
+    player.app.handle(&key("F7"));
+    player.app.handle(&key("Enter"));
+    player.warns_nothing();
+    assert_eq!(player.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
+    let player = ROLL.iter().fold(player, |player, mark| player.type_in(mark).press("Enter"));
+    assert_eq!(kept(&player).trials.len(), 1);
+}
+
+#[test]
 fn a_file_that_cannot_be_read_is_kept_aside_on_demand() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("calibration.toml"), "half").unwrap();
@@ -263,4 +275,20 @@ fn a_file_that_cannot_be_read_is_kept_aside_on_demand() {
     assert_eq!(fs::read_to_string(anew.path("calibration.before.toml")).unwrap(), "half");
     let entered = enter(anew, &ROLL);
     assert_eq!(kept(&entered).trials.len(), 1);
+}
+
+#[test]
+fn marks_that_are_typed_in_part_are_not_lost_without_a_word() {
+    let mut player = new().press("Enter").type_in("9.6").press("F2");
+    player.event(&key("C-c"));
+    player.warns("a stroke of slow-roll is typed in part");
+    assert!(player.effects.is_empty() && player.app.screen == PageId::Calibration);
+    player.event(&key("C-c"));
+    assert!(matches!(player.effects.last(), Some(Effect::Quit)));
+    // Nothing is lost of what is kept, or was not typed.
+    for keys in ["Enter", "Enter 9 Esc"] {
+        let mut player = new().press(keys);
+        player.event(&key("C-c"));
+        assert!(matches!(player.effects.last(), Some(Effect::Quit)), "{keys}");
+    }
 }
