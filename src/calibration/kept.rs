@@ -30,7 +30,7 @@ pub enum KeptError {
     #[error("{0} cannot be read: {1}")]
     Unread(PathBuf, io::Error),
     /// It holds no entries.
-    #[error("{0}: {1}; carom calibrate --template prints a file of entries to begin with")]
+    #[error("{0}: {1}")]
     Wrong(PathBuf, EntriesError),
     /// It cannot be written.
     #[error("{0} cannot be written, so this change is not kept: {1}")]
@@ -115,8 +115,27 @@ fn aged(path: &Path, age: usize) -> PathBuf {
 /// How often entries that were put aside are kept.
 const MOST_KEPT: usize = 9;
 
-/// Keeps entries beside the file; what was kept there before becomes one older.
+/// Keeps a file beside its place that holds no entries that can be read, so that others can be kept there.
+///
+/// # Errors
+/// Where it cannot be moved: then it stays.
+pub fn put_aside_unread(path: &Path) -> Result<(), KeptError> {
+    // Another program may have mended it, or put it aside.
+    if kept_entries(path).is_ok() {
+        return Ok(());
+    }
+    make_room_beside(path)?;
+    std::fs::rename(path, beside(path)).map_err(|error| KeptError::Unwritten(beside(path), error))
+}
+
+/// Keeps entries beside the file.
 fn put_aside(path: &Path, entries: &Entries) -> Result<(), KeptError> {
+    make_room_beside(path)?;
+    write(&beside(path), entries)
+}
+
+/// What was kept beside the file before becomes one older.
+fn make_room_beside(path: &Path) -> Result<(), KeptError> {
     for age in (1..MOST_KEPT).rev() {
         let (from, to) = (aged(path, age), aged(path, age + 1));
         match std::fs::rename(&from, &to) {
@@ -124,7 +143,7 @@ fn put_aside(path: &Path, entries: &Entries) -> Result<(), KeptError> {
             _ => {}
         }
     }
-    write(&beside(path), entries)
+    Ok(())
 }
 
 /// Writes the entries, whole or not at all.
@@ -191,5 +210,10 @@ mod tests {
         fs::write(&path, "broken").unwrap();
         assert!(edit_entries(&path, &Edit::Add(entry("7"))).unwrap_err().to_string().contains("line 1"));
         assert_eq!(fs::read_to_string(&path).unwrap(), "broken");
+        put_aside_unread(&path).unwrap();
+        assert_eq!(fs::read_to_string(beside(&path)).unwrap(), "broken");
+        edit_entries(&path, &Edit::Add(entry("7"))).unwrap();
+        put_aside_unread(&path).unwrap();
+        assert_eq!(kept_entries(&path).unwrap().trials, [entry("7")], "it can be read");
     }
 }

@@ -33,7 +33,7 @@ pub use calibrate::{Calibration, CalibrationError, Change, Next, Strange, Verdic
 pub use daily::{DAILY, Play, overnight};
 pub use entries::{Entries, EntriesError, Entry, Oddity, Written};
 pub use estimate::{Reading, Trial};
-pub use kept::{Edit, KeptError, beside, edit_entries, entries_of, kept_entries};
+pub use kept::{Edit, KeptError, beside, edit_entries, entries_of, kept_entries, put_aside_unread};
 pub use protocol::{Mark, Moment, PROTOCOL, Quantity, Test, Unit};
 pub use saved::{SaveError, save_table};
 pub use simulated::{Coverage, calibrated, coverage};

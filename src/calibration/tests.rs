@@ -142,6 +142,11 @@ fn marks_that_contradict_each_other_are_said_to() {
     assert_eq!(odd, []);
     let found = calibrate("club", &table, &doubt, &trials).unwrap();
     assert!(found.is_contradictory(), "{:?}", found.verdicts);
+    let said = found.agreement(|trial, test| format!("stroke {trial} of {test}"));
+    for trial in found.misread() {
+        assert!(said.contains(&format!("stroke {trial} of slow-roll")), "{said}");
+    }
+    assert!(found.constants.iter().all(|change| found.known(change) == "unsure"));
 }
 
 #[test]

@@ -7,8 +7,8 @@ use super::{
 use crate::table::Rail;
 
 impl Change {
-    /// In a word, how much the marks have told.
-    pub fn known(&self) -> &'static str {
+    /// In a word, how much the marks have told, if they agree.
+    fn known(&self) -> &'static str {
         match self.after_deviation / self.before_deviation {
             left if left < 0.5 => "well",
             left if left < 0.9 => "better",
@@ -143,15 +143,28 @@ impl Calibration {
         Rail::ALL.into_iter().filter_map(differs).collect()
     }
 
-    /// Whether the marks agree.
-    pub fn agreement(&self) -> &'static str {
+    /// In a word, how much the marks have told of a constant: nothing that one could rely on where they contradict each other.
+    pub fn known(&self, change: &Change) -> &'static str {
+        if self.is_contradictory() { "unsure" } else { change.known() }
+    }
+
+    /// Whether the marks agree, of strokes that `called` has names for.
+    pub fn agreement(&self, called: impl Fn(usize, &str) -> String) -> String {
         if self.is_contradictory() {
-            "so many tests look misread that they contradict each other: look at the largest first, or play them again"
-        } else if self.misread().is_empty() {
+            let mut strokes: Vec<String> =
+                self.verdicts.iter().filter(|one| one.misread).map(|one| called(one.trial, one.test)).collect();
+            strokes.dedup();
+            return format!(
+                "so many strokes contradict the others that no value can be relied on: {}; play them again, or take out those that are wrong",
+                strokes.join(", ")
+            );
+        }
+        let words = if self.misread().is_empty() {
             "all marks agree with each other"
         } else {
             "the other marks agree with each other; those above hardly count"
-        }
+        };
+        words.to_owned()
     }
 }
 

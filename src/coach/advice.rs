@@ -89,6 +89,8 @@ pub struct Recommendation {
     /// Probability of the point after this one, an estimate, where that was asked for and the table is the one that the
     /// estimate was fitted on.
     pub next_probability: Option<f64>,
+    /// Whether the shots are ranked by this point and the next, so that one may lead that is made less often than another.
+    pub is_planned: bool,
     /// Other strokes that make the point, the best of each kind, the best first; none that is made less than half as often
     /// as the recommended one.
     pub alternatives: Vec<Alternative>,

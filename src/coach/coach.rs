@@ -211,6 +211,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         make_probability: probability(0),
         risk: risk(&best.shot.cue, task, request, judging_seed(request.seed)),
         next_probability: told_next(best.next),
+        is_planned: request.plan,
         alternatives,
         ..first_point(found)
     }
@@ -277,6 +278,7 @@ fn first_point(found: &Found) -> Recommendation {
         make_probability: first.map(|_| certain),
         risk: None,
         next_probability: None,
+        is_planned: false,
         alternatives: others
             .into_iter()
             .map(|(shot, kind)| Alternative {

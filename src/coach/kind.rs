@@ -4,7 +4,11 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::{candidates::MAX_ELEVATION, trial::Course};
+use super::{
+    candidates::MAX_ELEVATION,
+    trial::Course,
+    words::{LengthUnit, short},
+};
 use crate::{
     physics::CueInputs,
     table::{BALL_NAMES, BALLS},
@@ -84,12 +88,21 @@ impl fmt::Display for Way {
     }
 }
 
+impl Pace {
+    /// In words, for who is told distances in `unit`.
+    pub fn words(self, unit: LengthUnit) -> String {
+        let (in_it, symbol) = unit.speed();
+        let speed = short(in_it * HARD, 1);
+        match self {
+            Self::Soft => format!("below {speed} {symbol}"),
+            Self::Hard => format!("{speed} {symbol} and more"),
+        }
+    }
+}
+
 impl fmt::Display for Pace {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.pad(match self {
-            Self::Soft => "below 2.5 m/s",
-            Self::Hard => "2.5 m/s and more",
-        })
+        formatter.pad(&self.words(LengthUnit::Metres))
     }
 }
 

@@ -6,6 +6,7 @@ use super::{
     Doubt, Input,
     candidates::playable,
     draws::{QuasiRandomDraws, Size, World, Worlds},
+    words::LengthUnit,
 };
 use crate::{
     game::{Point, Referee, Rule, Tally},
@@ -28,6 +29,20 @@ pub struct Margin {
     pub less: Option<f64>,
     /// How much more it may be.
     pub more: Option<f64>,
+}
+
+impl Margin {
+    /// What it is told in where distances are told in `unit`: how many of that are one of its own unit, and the symbol.
+    pub fn told_in(&self, unit: LengthUnit) -> (f64, &'static str) {
+        match self.input {
+            Input::Side | Input::Height => {
+                let (in_a_metre, symbol, _) = unit.fine();
+                (1e-3 * in_a_metre, symbol)
+            }
+            Input::Speed => unit.speed(),
+            Input::Elevation | Input::Direction => (1.0, self.unit),
+        }
+    }
 }
 
 /// What comes of a stroke.

@@ -61,6 +61,9 @@ pub struct Difference {
     pub make_probability: Option<f64>,
     /// By how much its direction may be off in all, degrees; `None` where there is no end to that.
     pub aim_deg: Option<f64>,
+    /// Probability of the point after it, where that counts too.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub next_probability: Option<f64>,
 }
 
 /// Why a shot leads.
@@ -76,6 +79,9 @@ pub struct Why {
     pub next_probability: Option<f64>,
     /// The next best shot.
     pub second: Option<Difference>,
+    /// Whether the shots are ranked by this point and the next.
+    #[serde(skip)]
+    is_planned: bool,
     /// A diamond, m, and the middle of the table from its lower left corner.
     #[serde(skip)]
     scale: (f64, DVec2),
@@ -107,6 +113,7 @@ pub fn why(
             harder: lengths(&other.cue) - lengths(&advice.cue),
             make_probability: other.make_probability.map(|rate| rate.rate),
             aim_deg: aim_width(&sensitivity, &other.cue),
+            next_probability: other.next_probability,
         })
     });
     Ok(Why {
@@ -115,6 +122,7 @@ pub fn why(
         kiss: kiss(shooter, rule, table, layout, &advice.cue, seed),
         next_probability: advice.next_probability,
         second: second.transpose()?,
+        is_planned: advice.is_planned,
         scale: (table.diamond(), 0.5 * DVec2::new(table.length, table.width)),
     })
 }
@@ -224,6 +232,7 @@ impl Why {
         let mut parts = Vec::new();
         let second = self.second.as_ref();
         let other = second.and_then(|second| second.make_probability);
+        let plan = self.plan_words("the next shot");
         parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
             let [own, its] = [rate, other].map(percent);
             if (rate - other).abs() > TOLD_APART {
@@ -232,6 +241,7 @@ impl Why {
                 format!("made {own} of the time, about as often as the next shot ({its})")
             }
         }));
+        parts.extend(plan.clone().filter(|_| self.is_by_plan()));
         parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
             Some(other) => {
                 format!("its aim may be {} off in all, that of the next shot {}", degrees(width), degrees(other))
@@ -252,7 +262,7 @@ impl Why {
                 percent(share)
             )
         }));
-        parts.extend(self.next_probability.map(|next| format!("it leaves the next point at {}", percent(next))));
+        parts.extend(plan.filter(|_| !self.is_by_plan()));
         parts.extend(second.map(|second| second.words(names)));
         if parts.is_empty() {
             return "Nothing else makes the point.".to_owned();
@@ -260,8 +270,26 @@ impl Why {
         words::capital(&format!("{}.", parts.join("; ")))
     }
 
-    /// The same in few words beside the chance that it is made, for who plays with `cue_ball`: how the second-best shot differs first.
-    /// What comes first says all; every further sentence is a fact shorter.
+    /// Whether the second-best shot is made more often, and this one leads because the next point counts too.
+    fn is_by_plan(&self) -> bool {
+        let other = self.second.as_ref().and_then(|second| second.make_probability);
+        self.is_planned && self.make_probability.zip(other).is_some_and(|(own, other)| own < other)
+    }
+
+    /// How the next point is left, beside how the second-best shot, which is called `other`, leaves it.
+    fn plan_words(&self, other: &str) -> Option<String> {
+        let there = self.second.as_ref().and_then(|second| second.next_probability);
+        let there = there.map_or_else(String::new, |there| format!(" (after {other}: {})", percent(there)));
+        let left = self.next_probability.map(|next| format!("it leaves the next point at {}{there}", percent(next)));
+        match left {
+            Some(left) if self.is_by_plan() => Some(format!("the plan decides: {left}")),
+            None if self.is_by_plan() => Some("the plan decides: the next point counts too".to_owned()),
+            left => left,
+        }
+    }
+
+    /// The same in few words beside the chance that it is made, for who plays with `cue_ball`: how the second-best shot differs first,
+    /// and that the plan decides where it does. What comes first says all; every further sentence is a fact shorter.
     pub fn brief(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let names = cue_ball.names();
         let second = self.second.as_ref().map_or_else(
@@ -271,16 +299,17 @@ impl Why {
                 format!("shot 2 ({}){made}", second.parts(names))
             },
         );
-        let parts: Vec<String> = std::iter::once(second).chain(self.facts(cue_ball)).collect();
-        (1..=parts.len()).rev().map(move |many| format!("{}.", parts[..many].join("; ")))
+        let mut facts = self.facts(cue_ball);
+        let first = if self.is_by_plan() { format!("{second}; {}", facts.remove(0)) } else { second };
+        ever_shorter(std::iter::once(first).chain(facts).collect())
     }
 
-    /// The part of it that a list of the shots with their chances does not say; `None` where there is nothing.
-    pub fn beside_the_list(&self, cue_ball: CueBall) -> Option<String> {
-        let facts = self.facts(cue_ball);
-        (!facts.is_empty()).then(|| words::capital(&format!("{}.", facts.join("; "))))
+    /// The part of it that a list of the shots with their chances does not say, ever shorter; nothing where there is nothing.
+    pub fn beside_the_list(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
+        ever_shorter(self.facts(cue_ball)).map(|sentence| words::capital(&sentence))
     }
 
+    /// What the list of the shots does not say. That the plan decides comes first, where it does.
     fn facts(&self, cue_ball: CueBall) -> Vec<String> {
         let names = cue_ball.names();
         let mut parts = Vec::new();
@@ -292,9 +321,17 @@ impl Why {
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
             format!("{} and {} kiss in {}", names[one], names[other], percent(share))
         }));
-        parts.extend(self.next_probability.map(|next| format!("it leaves the next point at {}", percent(next))));
+        if let Some(plan) = self.plan_words("shot 2") {
+            let place = if self.is_by_plan() { 0 } else { parts.len() };
+            parts.insert(place, plan);
+        }
         parts
     }
+}
+
+/// Sentences of these parts, the first with all, every further one without the last of the one before.
+fn ever_shorter(parts: Vec<String>) -> impl Iterator<Item = String> {
+    (1..=parts.len()).rev().map(move |many| format!("{}.", parts[..many].join("; ")))
 }
 
 fn percent(share: f64) -> String {
@@ -360,6 +397,24 @@ mod tests {
         assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("off in all"), "{least}");
         let said = why.words(CueBall::White, Units::default());
         assert!(said.ends_with('.') && said.contains("the next shot"), "{said}");
+        // Where the next point counts too, a shot may lead that is made less often.
+        let second = why.second.clone().map(|second| Difference {
+            make_probability: Some(0.9),
+            next_probability: Some(0.31),
+            ..second
+        });
+        let planned =
+            Why { make_probability: Some(0.8), next_probability: Some(0.62), second, is_planned: true, ..why.clone() };
+        let reason = "the plan decides: it leaves the next point at 62 %";
+        assert!(
+            planned.words(CueBall::White, Units::default()).contains(&format!("{reason} (after the next shot: 31 %)"))
+        );
+        for sentence in planned.brief(CueBall::White) {
+            assert!(sentence.contains(&format!("{reason} (after shot 2: 31 %)")), "{sentence}");
+        }
+        assert!(planned.beside_the_list(CueBall::White).all(|sentence| sentence.starts_with("The plan decides")));
+        let unknown = Why { next_probability: None, ..planned }.words(CueBall::White, Units::default());
+        assert!(unknown.contains("the plan decides: the next point counts too"), "{unknown}");
         let alone = Why { second: None, ..why }.words(CueBall::White, Units::default());
         assert!(alone.ends_with('.') && !alone.contains("next shot"), "{alone}");
     }

@@ -97,6 +97,15 @@ pub struct Attempt {
     pub advised_chance: Option<f64>,
 }
 
+impl Attempt {
+    /// Whether `all` begin with `first`, however good the strokes were found to be since.
+    pub fn begin(all: &[Self], first: &[Self]) -> bool {
+        let is_same =
+            |(one, other): (&Self, &Self)| (&one.exercise, one.at, one.made) == (&other.exercise, other.at, other.made);
+        first.len() <= all.len() && first.iter().zip(all).all(is_same)
+    }
+}
+
 /// A session of practice. It holds its exercises as they were: whatever becomes of them, it can be read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Session {

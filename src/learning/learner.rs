@@ -292,7 +292,9 @@ mod tests {
             ("dqn", json!({"target_every": 0.5}), "expected a whole number; accepted is 1 to 16777216"),
             ("thesis-ddpg", json!({"noise": {"sigma": "x"}}), "noise = {\"sigma\":\"x\"}"),
             ("thesis-ddpg", json!({"noise": {"simga": 1}}), "simga"),
-            ("thesis-ddpg", json!({"noise": 1}), "noise = 1"),
+            ("thesis-ddpg", json!({"noise": 1}), "noise = 1: invalid type: integer `1`, expected theta, sigma and dt"),
+            ("dqn", json!({"epsilon": 1}), "expected first, last and over"),
+            ("ddpg", json!({"exploration": 1}), "expected noise and uniform"),
         ] {
             let message = refused(agent, changes);
             assert!(message.contains(words), "{message}");

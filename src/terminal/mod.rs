@@ -110,14 +110,19 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
     let places = &seat.places;
     // A file that cannot be read is named by the drill screens.
     let own = Store::new(places).own_skill().unwrap_or_default();
+    let (last, unread) = match SavedSession::load_or_put_aside(&places.last) {
+        Ok(last) => (last, None),
+        Err(sentence) => (None, Some(sentence)),
+    };
     let app = App::new(table, layout, detect(settings), seed())?
         .with_detection(detect)
         .with_seat(&seat)
         .with_settings(settings)
-        .with_last(SavedSession::load(&places.last))
+        .with_last(last)
         .with_own_skill(own.map(|own| own.skill))
         .with_notice(storage::notice(places))
         .with_notice(seat.warning().as_deref())
+        .with_notice(unread.as_deref())
         .with_complaints(&places.settings, complaints);
     Ok(host::runner::run(app, seat.places)?)
 }

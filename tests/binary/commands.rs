@@ -85,7 +85,11 @@ fn recommend_gives_a_shot_that_simulates_to_a_point() {
 
 #[test]
 fn a_recommendation_is_told_as_a_player_says_it() {
-    let args = ["recommend", "--layout", LAYOUT, "--skill", "club", "--budget-ms", "5000", "--simulations", "4000"];
+    let args = [
+        &["recommend", "--layout", LAYOUT, "--skill", "club", "--margins"][..],
+        &["--budget-ms", "5000", "--simulations", "4000"],
+    ]
+    .concat();
     let answer = json(&[&args[..], &["--json"]].concat());
     let words = &answer["words"];
     let sentence = words["sentence"].as_str().unwrap();
@@ -105,8 +109,19 @@ fn a_recommendation_is_told_as_a_player_says_it() {
     let told = text("");
     assert_eq!(told.lines().next(), Some(sentence), "{told}");
     assert!(told.contains("\nPattern: ") && told.contains("\nWhy: "), "{told}");
+    assert!(
+        told.contains("\nFor a player of skill \"club\" under the rule straight; --skill and --rule choose"),
+        "{told}"
+    );
+    let others: Vec<&str> = told.lines().filter(|line| line.starts_with("or ")).collect();
+    assert!(
+        !others.is_empty() && others.iter().all(|line| line.contains("; first ") || line.contains("; cushion first"))
+    );
+    assert!(others.iter().all(|line| line.contains(" % of the time (")), "{told}");
     let told = text("tip_unit = \"mm\"\nplace_unit = \"mm\"\n");
     assert!(told.lines().nth(2).unwrap().contains(" mm on the "), "{told}");
+    let told = text("length_unit = \"feet\"\n");
+    assert!(told.contains(" more, ft/s") && told.contains(" more, in\n"), "{told}");
 }
 
 #[test]

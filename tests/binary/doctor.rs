@@ -58,6 +58,23 @@ fn what_is_wrong_is_named_and_the_exit_code_says_so() {
 }
 
 #[test]
+fn strokes_of_a_calibration_and_a_last_session_that_cannot_be_read_are_named() {
+    let home = tempfile::tempdir().unwrap();
+    for file in ["carom/calibration.toml", "carom/calibration-daily.toml", "state/carom/last.json"] {
+        let path = home.path().join(file);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, "{").unwrap();
+        let said = carom(home.path(), &["doctor"]);
+        assert_eq!(said.code, Some(1), "{file}: {}", said.out);
+        assert!(
+            said.out.lines().any(|line| line.starts_with("wrong: ") && line.contains(file)),
+            "{file}: {}",
+            said.out
+        );
+    }
+}
+
+#[test]
 fn nobodys_control_characters_reach_the_terminal() {
     let home = tempfile::tempdir().unwrap();
     let mut command = crate::program::command(home.path(), &["doctor"]);

@@ -93,6 +93,14 @@ impl LengthUnit {
         }
     }
 
+    /// What speeds are told in: how many of it are a metre a second, and its symbol.
+    pub const fn speed(self) -> (f64, &'static str) {
+        match self {
+            Self::Metres => (1.0, "m/s"),
+            Self::Feet => (1.0 / (12.0 * INCH), "ft/s"),
+        }
+    }
+
     /// A distance of so many metres, in the smaller of the two units where that is below a hundred centimetres or 24 inches.
     pub fn words(self, metres: f64) -> String {
         match self {

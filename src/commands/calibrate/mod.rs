@@ -88,7 +88,12 @@ fn entries_in(file: &Path) -> Result<Entries, Failure> {
 
 /// What is wrong inside a file is wrong input.
 fn failure(error: KeptError) -> Failure {
-    if matches!(error, KeptError::Wrong(..)) { Failure::wrong_input(error) } else { Failure::failed(error) }
+    if matches!(error, KeptError::Wrong(..)) {
+        return Failure::wrong_input(format_args!(
+            "{error}; carom calibrate --template prints a file of entries to begin with"
+        ));
+    }
+    Failure::failed(error)
 }
 
 /// What is not known of the table now: for a check of the day, what may have changed overnight too.
@@ -124,7 +129,13 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
         let many = if odd.len() == 1 { "one entry is odd" } else { "some entries are odd" };
         return Err(Failure::wrong_input(format_args!("{many}{written}: mend what is named above, or take it out")));
     }
-    args.out.as_ref().map_or(Ok(()), |out| write(out, &found, args.json))
+    let Some(out) = &args.out else { return Ok(()) };
+    if found.is_contradictory() {
+        return Err(Failure::wrong_input(
+            "the strokes contradict each other, and no table is written: mend what is named above",
+        ));
+    }
+    write(out, &found, args.json)
 }
 
 /// Writes the table, and says so.

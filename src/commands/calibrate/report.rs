@@ -70,7 +70,7 @@ impl<'a> Report<'a> {
                 one.name.clone(),
                 format!("{:.5} ± {:.5}", one.before, one.before_deviation),
                 format!("{:.5} ± {:.5}", one.after, one.after_deviation),
-                one.known().to_owned(),
+                self.found.known(one).to_owned(),
             ]
         };
         let rows: Vec<_> = std::iter::once(heads).chain(self.constants.iter().map(row)).collect();
@@ -83,7 +83,7 @@ impl<'a> Report<'a> {
             line(strange.words(&in_file(strange.trial, strange.test)))?;
         }
         self.found.rails_apart().iter().try_for_each(line)?;
-        line(self.found.agreement())?;
+        line(self.found.agreement(in_file))?;
         if let Some([before, now]) = &self.play {
             return line(format_args!("today {}", now.against(before)));
         }

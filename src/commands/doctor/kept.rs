@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::{
+    calibration::kept_entries,
     drills::Store,
     learning::run::list::{Listing, runs_in},
     storage::{self, Places, room_in},
     table::Table,
-    terminal::Complaint,
+    terminal::{Complaint, SavedSession},
 };
 
 /// Room on the disk below which it counts as full, bytes: the last checkpoints of a run and a few sessions.
@@ -69,6 +70,12 @@ pub struct Kept {
     pub positions: Found,
     /// The skill that the player has kept as their own.
     pub player: Found,
+    /// Strokes of a calibration.
+    pub calibration: Found,
+    /// Strokes of the last check of the day.
+    pub daily_check: Found,
+    /// Where the last session ended.
+    pub last: Found,
 }
 
 /// How much there is of something, and what of it cannot be used.
@@ -99,14 +106,36 @@ impl Kept {
                 count: usize::from(own.as_ref().is_ok_and(Option::is_some)),
                 wrong: own.err().iter().map(ToString::to_string).collect(),
             },
+            calibration: strokes(&places.calibration),
+            daily_check: strokes(&places.daily_check),
+            last: last(&places.last),
         }
     }
 
     /// A sentence for each thing that is wrong.
     pub fn problems(&self) -> impl Iterator<Item = String> {
-        let Self { settings, tables, runs, sessions, positions, player } = self;
-        [settings, tables, runs, sessions, positions, player].into_iter().flat_map(|found| found.wrong.iter().cloned())
+        let Self { settings, tables, runs, sessions, positions, player, calibration, daily_check, last } = self;
+        let all = [settings, tables, runs, sessions, positions, player, calibration, daily_check, last];
+        all.into_iter().flat_map(|found| found.wrong.iter().cloned())
     }
+}
+
+/// The strokes in a file of a calibration.
+fn strokes(path: &Path) -> Found {
+    let (count, wrong) = match kept_entries(path) {
+        Ok(entries) => (entries.trials.len(), Vec::new()),
+        Err(error) => (0, vec![error.to_string()]),
+    };
+    Found { path: path.to_owned(), count, wrong }
+}
+
+/// The last session, and those before it that can be gone on with.
+fn last(path: &Path) -> Found {
+    let (last, wrong) = match SavedSession::load(path) {
+        Ok(last) => (last, Vec::new()),
+        Err(error) => (None, vec![format!("{}: {error}", path.display())]),
+    };
+    Found { path: path.to_owned(), count: last.map_or(0, |last| last.with_former().len()), wrong }
 }
 
 /// The user's own tables.

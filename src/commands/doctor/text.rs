@@ -45,6 +45,14 @@ fn rows(report: &Report) -> Vec<[String; 2]> {
     for (name, found) in kinds {
         rows.push((name, format!("{} of your own, {} cannot be read", found.count, found.wrong.len())));
     }
+    for (name, what, found) in [
+        ("calibration", "strokes", &kept.calibration),
+        ("daily check", "strokes", &kept.daily_check),
+        ("last session", "to be gone on with", &kept.last),
+    ] {
+        let unread = if found.wrong.is_empty() { "" } else { "; the file cannot be read" };
+        rows.push((name, format!("{} {what}{unread}", found.count)));
+    }
     if let Some(engine) = &self_test.engine {
         let word = if engine.is_right { "as on other machines" } else { "WRONG" };
         rows.push(("engine", format!("{} shots, hash {:016x}: {word}", engine.shots, engine.hash)));

@@ -15,7 +15,7 @@ use crate::{
         input::whole,
         output::{json_line, line, of_refused_lines, prompt, tell},
     },
-    drills::{Goal, Session, Venue},
+    drills::{Attempt, Goal, Session, Venue},
     storage::Lock,
 };
 
@@ -68,7 +68,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let exercise = workspace.exercise(&args.name)?.clone();
     let name = exercise.name.clone();
     let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
-    let mut log = Log { workspace, session, name, json: args.json, lock: None };
+    let mut log = Log { workspace, session, name, json: args.json, known: Vec::new(), lock: None };
     if let (Some(made), Some(of)) = (args.made, args.of) {
         if made > of {
             return Err(Failure::wrong_input(format_args!(
@@ -95,6 +95,8 @@ struct Log {
     /// The exercise's.
     name: String,
     json: bool,
+    /// The attempts that the session's file is known to have.
+    known: Vec<Attempt>,
     /// Of the sessions, from the first note that is taken back: another program's would be lost or come back.
     lock: Option<Lock>,
 }
@@ -113,8 +115,9 @@ impl Log {
         if self.lock.is_none() {
             self.lock = Some(self.workspace.store.lock().map_err(Failure::failed)?);
             // Another program may have taken something of it back meanwhile.
-            let known = self.workspace.sessions().into_iter().find(|known| known.id == self.session.id);
-            self.session = known.unwrap_or_else(|| self.session.clone());
+            if let Some(known) = self.workspace.sessions().into_iter().find(|known| known.id == self.session.id) {
+                self.go_on_with(known);
+            }
         }
         if self.session.attempts.is_empty() {
             let is_noted = |earlier: &Session| {
@@ -122,8 +125,8 @@ impl Log {
                     && earlier.attempts.last().is_some_and(|last| last.exercise == self.name)
             };
             let mut earlier = self.workspace.sessions().into_iter().rev();
-            self.session =
-                earlier.find(is_noted).ok_or_else(|| Failure::wrong_input("there is no attempt to take back"))?;
+            let noted = earlier.find(is_noted);
+            self.go_on_with(noted.ok_or_else(|| Failure::wrong_input("there is no attempt to take back"))?);
         }
         if self.session.unordered {
             // They were noted together, so the last one is not known.
@@ -133,12 +136,29 @@ impl Log {
             self.session.undo();
         }
         // The next word may take back what stands in another session.
-        self.workspace.store.save(&self.session).map_err(Failure::failed)
+        self.save()
+    }
+
+    /// Goes on with a session as it is on the disk.
+    fn go_on_with(&mut self, session: Session) {
+        self.known.clone_from(&session.attempts);
+        self.session = session;
+    }
+
+    fn save(&mut self) -> Result<(), Failure> {
+        let Self { workspace, session, known, lock, .. } = self;
+        let saved = match lock {
+            Some(lock) => workspace.store.save_locked(lock, session, known),
+            None => workspace.store.save(session, known),
+        };
+        saved.map_err(Failure::failed)?;
+        known.clone_from(&session.attempts);
+        Ok(())
     }
 
     /// Saves the session and tells the score.
-    fn keep(&self) -> Result<(), Failure> {
-        self.workspace.store.save(&self.session).map_err(Failure::failed)?;
+    fn keep(&mut self) -> Result<(), Failure> {
+        self.save()?;
         let record = self.session.record();
         if self.json {
             return Ok(json_line(&Logged { session: &self.session.id, score: record.into() })?);

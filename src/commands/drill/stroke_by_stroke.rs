@@ -203,7 +203,8 @@ impl<'a> StrokeByStroke<'a> {
             attempt.advised = advice.map(|advice| advice.cue);
             attempt.advised_chance = advice.map(|advice| advice.chance.rate);
         }
-        if let Err(error) = self.store.save(&self.session) {
+        let attempts = &self.session.attempts;
+        if let Err(error) = self.store.save(&self.session, &attempts[..attempts.len() - 1]) {
             // The score counts what is kept.
             self.session.undo();
             return Err(Failure::failed(error));

@@ -1,11 +1,11 @@
 //! `carom recommend --margins`: how far off the shot may be, and where to aim.
 
-use std::fmt;
+use std::io::{self, Write};
 
 use serde::Serialize;
 
 use crate::{
-    coach::{Aim, Doubt, Input, Map, Margin, Sensitivity, aim},
+    coach::{Aim, Doubt, Input, Map, Margin, Sensitivity, aim, words::LengthUnit},
     game::Rule,
     physics::CueInputs,
     simulation::ShotError,
@@ -48,13 +48,12 @@ impl Margins {
             ],
         })
     }
-}
 
-impl fmt::Display for Margins {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+    /// The same for people to read.
+    pub fn describe(&self, out: &mut impl Write, unit: LengthUnit) -> io::Result<()> {
         let Aim { ahead, behind, hit } = &self.aim;
         write!(
-            formatter,
+            out,
             "aim from {} {:.2} to {} {:.2} diamonds",
             behind.rail.name(),
             behind.diamond,
@@ -64,13 +63,15 @@ impl fmt::Display for Margins {
         match hit {
             Some(hit) => {
                 let side = if hit.left { "left" } else { "right" };
-                writeln!(formatter, ": hits {} {:.0} % full, {side} side", BALL_NAMES[hit.ball], 100.0 * hit.fullness)?;
+                writeln!(out, ": hits {} {:.0} % full, {side} side", BALL_NAMES[hit.ball], 100.0 * hit.fullness)?;
             }
-            None => writeln!(formatter)?,
+            None => writeln!(out)?,
         }
-        for Margin { input, unit, less, more } in self.inputs.iter().flatten() {
-            let end = |end: &Option<f64>| end.map_or_else(|| "any".to_owned(), |end| format!("{end:.3}"));
-            writeln!(formatter, "{:<6} {:>8} less to {:>8} more, {unit}", input.name(), end(less), end(more))?;
+        for margin in self.inputs.iter().flatten() {
+            let (factor, symbol) = margin.told_in(unit);
+            let end = |end: Option<f64>| end.map_or_else(|| "any".to_owned(), |end| format!("{:.3}", factor * end));
+            let (name, less, more) = (margin.input.name(), end(margin.less), end(margin.more));
+            writeln!(out, "{name:<6} {less:>8} less to {more:>8} more, {symbol}")?;
         }
         Ok(())
     }

@@ -331,6 +331,11 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     if let Some(why) = &answer.why {
         why.describe(out, units())?;
     }
+    writeln!(
+        out,
+        "For a player of skill \"{}\" under the rule {}; --skill and --rule choose others, whatever the screen is set to.",
+        args.skill, args.rule
+    )?;
     if answer.told.is_some() {
         writeln!(out)?;
     }
@@ -365,7 +370,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         writeln!(out, "after it the next point is made about {:.0} % of the time", 100.0 * next)?;
     }
     if let Some(margins) = &answer.margins {
-        write!(out, "{margins}")?;
+        margins.describe(out, units().length)?;
     }
     for Alternative { cue, chance, sort, told, .. } in &answer.alternatives {
         let CueInputs { a, b, theta, speed, .. } = *cue;

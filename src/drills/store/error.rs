@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    super::{CodeError, ExerciseError, LibraryFileError, SessionError},
+    super::{CodeError, ExerciseError, LibraryFileError, Session, SessionError},
     MarkError,
 };
 
@@ -69,6 +69,9 @@ pub enum StoreError {
         /// Why.
         error: SessionError,
     },
+    /// Another program has noted something in this session or taken it back; it is given as it stands now.
+    #[error("another program has changed the session \"{}\" meanwhile; nothing of yours was written over it", .0.id)]
+    Changed(Box<Session>),
     /// An exercise cannot be played.
     #[error(transparent)]
     Exercise(#[from] ExerciseError),

@@ -1,6 +1,6 @@
 //! Where practice is kept: one file a session and one file a position of the player's own, so that sessions of programs that
-//! run at the same time are never in each other's way. Only a later correction or an import writes a session's file from
-//! elsewhere; whichever program writes last then counts. What cannot be read is named in a sentence and left as it is.
+//! run at the same time are never in each other's way. Two programs may go on with one session, as with an exam that was left:
+//! what one has noted meanwhile, the other does not write over. What cannot be read is named in a sentence and left as it is.
 
 mod error;
 mod marked;
@@ -22,7 +22,7 @@ pub use self::{
     player::OwnSkill,
     transfer::{Imported, Practice},
 };
-use super::{Category, Exercise, ExerciseError, Library, LibraryFile, LibraryFileError, Session};
+use super::{Attempt, Category, Exercise, ExerciseError, Library, LibraryFile, LibraryFileError, Session};
 use crate::storage::{self, Lock, Places, create_atomic, is_name, remove_abandoned_files, write_atomic};
 
 /// What a session's file says that it is.
@@ -65,16 +65,38 @@ impl Store {
         found
     }
 
-    /// Writes a session's file, or replaces it. When this returns, the session is safe on the disk.
+    /// Writes a session's file, or replaces it, where it has no other attempts than those that were known `before`. When this
+    /// returns, the session is safe on the disk.
     ///
     /// # Errors
-    /// Where that fails, or a file of this name holds something else or is of a newer version; the file is then what it was.
-    pub fn save(&self, session: &Session) -> Result<(), StoreError> {
+    /// [`StoreError::Changed`] where another program has noted something in it or taken it back; where writing fails, or a file
+    /// of this name holds something else or is of a newer version. The file is then what it was.
+    pub fn save(&self, session: &Session, before: &[Attempt]) -> Result<(), StoreError> {
+        self.save_locked(&self.lock()?, session, before)
+    }
+
+    /// The same for who has the lock already.
+    ///
+    /// # Errors
+    /// As [`Store::save`].
+    pub fn save_locked(&self, lock: &Lock, session: &Session, before: &[Attempt]) -> Result<(), StoreError> {
+        let path = file(&self.sessions, &session.id)?;
+        if path.exists() {
+            let kept: Kept = read_marked(&path)?;
+            is_called(&path, &kept.id)?;
+            // It may have fewer: what the disk has refused is only known here.
+            if !Attempt::begin(before, &kept.attempts) {
+                return Err(StoreError::Changed(Box::new(read_session(&path)?)));
+            }
+        }
+        self.write(lock, session)
+    }
+
+    /// Writes a session's file, whatever attempts are in it.
+    fn write(&self, _lock: &Lock, session: &Session) -> Result<(), StoreError> {
         let path = file(&self.sessions, &session.id)?;
         let bytes = marked::write(SESSION, session).map_err(|error| StoreError::file(&path, io::Error::from(error)))?;
         let written = if path.exists() {
-            // It was written by this session, or nothing is written.
-            is_called(&path, &read_marked::<SessionName>(&path)?.id)?;
             write_atomic(&path, &bytes)
         } else {
             let created = create_atomic(&path, &bytes);
@@ -85,7 +107,7 @@ impl Store {
         written.map_err(|error| StoreError::file(&path, error))
     }
 
-    /// The right to take notes back, which one program has at a time; waits for it.
+    /// The right to write sessions, which one program has at a time; waits for it.
     ///
     /// # Errors
     /// Where another keeps it for long, or whatever the file system reports.
@@ -173,10 +195,11 @@ fn file(folder: &Path, name: &str) -> Result<PathBuf, StoreError> {
     }
 }
 
-/// The part of a session's file that tells whose it is.
+/// The part of a session's file that tells whose it is, and what is noted there.
 #[derive(Deserialize)]
-struct SessionName {
+struct Kept {
     id: String,
+    attempts: Vec<Attempt>,
 }
 
 fn read_marked<T: DeserializeOwned>(path: &Path) -> Result<T, StoreError> {

@@ -28,14 +28,47 @@ fn a_session_grows_in_its_own_file_and_shrinks_when_an_attempt_is_taken_back() {
     assert!(store.sessions().items.is_empty() && store.sessions().notes.is_empty(), "nobody has practised yet");
     let mut session = session(Goal::Free, "x");
     for _ in 0..3 {
-        store.save(&session).unwrap();
+        store.save(&session, &session.attempts[..session.attempts.len() - 1]).unwrap();
         session.log(false).unwrap();
     }
+    let before = session.attempts.clone();
     session.undo();
     session.undo();
-    store.save(&session).unwrap();
+    store.save(&session, &before).unwrap();
     assert_eq!(store.sessions().items, [session]);
-    assert_eq!(fs::read_dir(&store.sessions).unwrap().count(), 1);
+    let files = fs::read_dir(&store.sessions).unwrap().filter(|file| file.as_ref().unwrap().file_name() != Lock::FILE);
+    assert_eq!(files.count(), 1);
+}
+
+#[test]
+fn what_another_program_has_noted_in_a_session_is_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = store(&folder);
+    let known = session(Goal::Run(9), "x");
+    store.save(&known, &[]).unwrap();
+    let [mut here, mut there] = [(); 2].map(|()| known.clone());
+    there.log(true).unwrap();
+    store.save(&there, &known.attempts).unwrap();
+    // As many, and the same as far as one can tell: they are two attempts all the same.
+    here.attempts.push(there.attempts[1].clone());
+    here.log(false).unwrap();
+    let mut shorter = known.clone();
+    shorter.undo();
+    for refused in [&here, &shorter] {
+        match store.save(refused, &known.attempts) {
+            Err(StoreError::Changed(stored)) => assert_eq!(*stored, there),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert_eq!(store.sessions().items, [there.clone()]);
+    // What the disk has refused before is written with the next attempt, and how good a stroke was makes no other of it.
+    let mut ahead = there.clone();
+    ahead.attempts[0].chance = Some(0.5);
+    ahead.log(true).unwrap();
+    let before = ahead.attempts.clone();
+    ahead.log(false).unwrap();
+    store.save(&ahead, &before).unwrap();
+    assert_eq!(store.sessions().items, [ahead]);
 }
 
 #[test]
@@ -43,7 +76,7 @@ fn files_of_a_newer_version_and_damaged_ones_are_told_and_never_written() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     let session = session(Goal::Free, "x-");
-    store.save(&session).unwrap();
+    store.save(&session, &[]).unwrap();
     let path = file(&store.sessions, &session.id).unwrap();
     let text = fs::read_to_string(&path).unwrap().replace("\"version\":1", "\"version\":2");
     fs::write(&path, &text).unwrap();
@@ -53,7 +86,7 @@ fn files_of_a_newer_version_and_damaged_ones_are_told_and_never_written() {
     assert_eq!((found.items.len(), found.notes.len()), (0, 2), "{:?}", found.notes);
     assert!(found.notes.iter().any(|note| note.contains("version 2") && note.contains("newer")), "{:?}", found.notes);
     assert!(found.notes.iter().any(|note| note.contains("half.json") && note.contains("damaged")), "{:?}", found.notes);
-    assert!(store.save(&session).is_err());
+    assert!(store.save(&session, &session.attempts).is_err());
     assert_eq!(fs::read_to_string(&path).unwrap(), text);
 
     let newer = write(&store.positions, "mine.json", r#"{"format":"carom-library","version":2,"exercises":3}"#);
@@ -85,7 +118,7 @@ fn a_copy_of_a_file_under_another_name_counts_nothing_twice() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     let session = session(Goal::Free, "xx");
-    store.save(&session).unwrap();
+    store.save(&session, &[]).unwrap();
     fs::copy(file(&store.sessions, &session.id).unwrap(), store.sessions.join("copy.json")).unwrap();
     let found = store.sessions();
     assert!(found.items == [session] && found.notes[0].contains("copy.json"), "{:?}", found.notes);
@@ -96,10 +129,10 @@ fn what_is_exported_here_is_imported_there_once_and_the_longer_session_wins() {
     let [here, there] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let [here, there] = [&here, &there].map(store);
     let mut session = session(Goal::Free, "x");
-    here.save(&session).unwrap();
-    there.save(&session).unwrap();
+    here.save(&session, &[]).unwrap();
+    there.save(&session, &[]).unwrap();
     session.log(true).unwrap();
-    here.save(&session).unwrap();
+    here.save(&session, &session.attempts[..1]).unwrap();
     here.save_position(&exercise("mine"), false).unwrap();
     here.save_position(&exercise("ours"), false).unwrap();
     there.save_position(&Exercise { title: "Mine".to_owned(), ..exercise("mine") }, false).unwrap();

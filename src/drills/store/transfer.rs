@@ -102,13 +102,14 @@ impl Store {
     fn import_session(&self, session: &Session) -> Result<Taken, StoreError> {
         let path = file(&self.sessions, &session.id)?;
         validate(session)?;
+        let lock = self.lock()?;
         let here = if path.exists() { Some(read_session(&path)?) } else { None };
         let taken = match here {
             None => Taken::New,
             Some(here) if here.attempts.len() < session.attempts.len() => Taken::Longer,
             Some(_) => return Ok(Taken::Known),
         };
-        self.save(session)?;
+        self.write(&lock, session)?;
         Ok(taken)
     }
 }

@@ -8,7 +8,7 @@ use crate::statistics::normal_pair;
 
 /// How far the agent strays from its own choice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[serde(default, deny_unknown_fields, expecting = "noise and uniform, or one of them, like { uniform = 0.1 }")]
 pub struct Exploration {
     /// Standard deviations of the noise, in units of half an action's range; each shot draws one of them. Small ones
     /// show the critic the edges of a success window, large ones other windows.

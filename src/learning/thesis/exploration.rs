@@ -8,7 +8,7 @@ use crate::statistics::normal_pair;
 
 /// The probability of a random action, which falls in a straight line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "first, last and over, or some of them, like { last = 0.1 }")]
 pub struct Epsilon {
     /// At the first shot.
     pub first: f64,
@@ -28,7 +28,7 @@ impl Epsilon {
 
 /// The process of Ornstein and Uhlenbeck around nought, as keras-rl steps it: `x += -theta x dt + sigma sqrt(dt) n`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "theta, sigma and dt, or some of them, like { sigma = 0.3 }")]
 pub struct OrnsteinUhlenbeck {
     /// How fast it falls back to nought.
     pub theta: f64,

@@ -40,6 +40,7 @@ impl App {
             };
         }
         if self.input(Typed::Key(key)) {
+            self.has_warned = false;
             self.toasts.go_on();
             return None;
         }

@@ -96,6 +96,8 @@ pub struct App {
     /// The same where yellow is the cue ball.
     yellow_theme: Theme,
     palette: Palette,
+    /// Whether the player was just told what quitting would lose.
+    has_warned: bool,
     /// Whether the player is a guest of this machine.
     is_guest: bool,
     /// Finds out what the terminal can show under some settings; without it that stays as at the start.
@@ -129,6 +131,7 @@ impl App {
             theme: Theme::new(caps.depth),
             yellow_theme: Theme::new(caps.depth).with_cue_ball(CueBall::Yellow),
             palette: Palette::default(),
+            has_warned: false,
             is_guest: false,
             detect: None,
         })
@@ -242,8 +245,9 @@ impl App {
 
     /// Does what an enabled binding asks for.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
+        let has_warned = std::mem::take(&mut self.has_warned);
         match action {
-            Action::Quit => return Some(Effect::Quit),
+            Action::Quit => return self.quit(has_warned),
             Action::Suspend => return Some(Effect::Suspend),
             Action::OpenHelp => self.lay_over(Overlay::Help),
             Action::OpenMessages => self.lay_over(Overlay::Messages),
@@ -318,6 +322,17 @@ impl App {
                 return self.set(effect);
             }
         }
+        None
+    }
+
+    /// Ends the program. Where a stroke of a calibration is typed in part, which would be lost, only the second time in a row.
+    fn quit(&mut self, has_warned: bool) -> Option<Effect> {
+        let Some(test) = self.calibration.half_entered().filter(|_| !has_warned) else { return Some(Effect::Quit) };
+        (self.screen, self.has_warned, self.help) = (PageId::Calibration, true, None);
+        self.toasts.push(
+            format!("a stroke of {test} is typed in part: Enter goes on to keep it, Ctrl-C once more quits without it"),
+            true,
+        );
         None
     }
 

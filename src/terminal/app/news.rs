@@ -47,7 +47,10 @@ impl App {
             }
             other => other,
         };
+        let known = self.drills.book.troubles.clone();
         let tasks = self.drills.receive(report);
+        let troubles = self.drills.book.troubles.iter().filter(|trouble| !known.contains(trouble));
+        self.toasts.push_first(&troubles.cloned().collect::<Vec<_>>());
         self.coach.own = self.drills.player.own.or(self.coach.own);
         self.gather(false);
         tasks

@@ -15,6 +15,15 @@ use crate::{
 /// The version of the file that is written.
 const VERSION: u32 = 1;
 
+/// Most former sessions that are kept with the last one.
+const MOST_FORMER: usize = 4;
+
+/// The part of the file that tells its version.
+#[derive(Deserialize)]
+struct Header {
+    version: u32,
+}
+
 /// What is remembered of a session. What is large is borrowed from the screens until it is written down: whether anything has
 /// changed since is asked at every wake.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,6 +45,10 @@ pub struct SavedSession<'a> {
     /// What was practised, where that was on the screen and not over.
     #[serde(default)]
     pub practice: Option<Cow<'a, Session>>,
+    /// Sessions before it that nobody has gone on with since, the latest first: a key that was pressed by mistake at the start
+    /// does not take the place of what was there.
+    #[serde(default, skip_serializing_if = "<[_]>::is_empty")]
+    former: Cow<'a, [SavedSession<'static>]>,
 }
 
 impl<'a> SavedSession<'a> {
@@ -50,23 +63,79 @@ impl<'a> SavedSession<'a> {
         practice: Option<&'a Session>,
     ) -> Self {
         let (table, practice) = (Cow::Borrowed(table), practice.map(Cow::Borrowed));
-        Self { version: VERSION, table, layout, cue_ball, rule, skill, plan, practice }
+        Self { version: VERSION, table, layout, cue_ball, rule, skill, plan, practice, former: Cow::Borrowed(&[]) }
+    }
+
+    /// The same after former sessions that were not gone on with, the latest first.
+    #[must_use]
+    pub fn after(mut self, former: &'a [SavedSession<'static>]) -> Self {
+        self.former = Cow::Borrowed(&former[..former.len().min(MOST_FORMER)]);
+        self
     }
 
     /// The same with nothing borrowed.
     pub fn into_owned(self) -> SavedSession<'static> {
-        let Self { version, table, layout, cue_ball, rule, skill, plan, practice } = self;
+        let Self { version, table, layout, cue_ball, rule, skill, plan, practice, former } = self;
         let practice = practice.map(|practice| Cow::Owned(practice.into_owned()));
-        let table = Cow::Owned(table.into_owned());
-        SavedSession { version, table, layout, cue_ball, rule, skill, plan, practice }
+        let (table, former) = (Cow::Owned(table.into_owned()), Cow::Owned(former.into_owned()));
+        SavedSession { version, table, layout, cue_ball, rule, skill, plan, practice, former }
     }
 
-    /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
-    /// the player need not know.
-    pub fn load(path: &Path) -> Option<Self> {
-        let mut last: Self = serde_json::from_slice(&storage::read(path, storage::PRACTICE).ok()?).ok()?;
-        last.table = Cow::Owned(renewed(last.table.into_owned()));
-        (last.version == VERSION && last.layout.validate(&last.table).is_ok()).then_some(last)
+    /// What the file says; nothing where there is none.
+    ///
+    /// # Errors
+    /// Why it cannot be gone on from: it cannot be read, is damaged, or is from a newer version.
+    pub fn load(path: &Path) -> Result<Option<Self>, String> {
+        let bytes = match storage::read(path, storage::PRACTICE) {
+            Ok(bytes) => bytes,
+            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+                return Ok(None);
+            }
+            Err(error) => return Err(error.to_string()),
+        };
+        let header: Header = serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {error}"))?;
+        if header.version != VERSION {
+            return Err(format!("it is of version {}, and {VERSION} is understood", header.version));
+        }
+        let last: Self = serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {error}"))?;
+        last.checked().map(Some)
+    }
+
+    /// The same on the table that it means now, if the balls can lie there.
+    fn checked(mut self) -> Result<Self, String> {
+        self.table = Cow::Owned(renewed(self.table.into_owned()));
+        self.layout.validate(&self.table).map_err(|error| format!("it is damaged: {error}"))?;
+        Ok(self)
+    }
+
+    /// The same at the start of the program: a file that cannot be gone on from is put aside, since this session will be
+    /// written in its place.
+    ///
+    /// # Errors
+    /// A sentence about that.
+    pub fn load_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
+        Self::load(path).map_err(|error| {
+            let aside = path.with_extension("unread.json");
+            let kept = match std::fs::rename(path, &aside) {
+                Ok(()) => format!("it is kept as {}", aside.display()),
+                Err(error) => format!("it cannot be kept aside: {error}"),
+            };
+            format!("{}: {error}; the last session cannot be gone on with, and {kept}", path.display())
+        })
+    }
+
+    /// It, then the former sessions, each by itself. What was practised in several is gone on with in the latest.
+    pub fn with_former(mut self) -> Vec<SavedSession<'static>> {
+        let former = std::mem::take(&mut self.former).into_owned();
+        let mut sessions = vec![self.into_owned()];
+        for mut session in former.into_iter().flat_map(SavedSession::checked) {
+            let practised = |session: &SavedSession| session.practice.as_ref().map(|practice| practice.id.clone());
+            if sessions.iter().any(|later| practised(later) == practised(&session)) {
+                session.practice = None;
+            }
+            sessions.push(session);
+        }
+        sessions
     }
 
     /// Writes it down.
@@ -97,32 +166,58 @@ mod tests {
     }
 
     #[test]
-    fn a_session_is_read_back_and_whatever_else_stands_there_is_ignored() {
+    fn a_session_is_read_back_and_whatever_else_stands_there_is_named() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("state/last.json");
-        assert_eq!(SavedSession::load(&path), None);
+        assert_eq!(SavedSession::load(&path), Ok(None));
         let table = Table::default();
         let last = session(&table);
+        let refused = |what: &str| {
+            let said = SavedSession::load(&path).unwrap_err();
+            assert!(said.starts_with(what), "{said}");
+        };
         last.save(&path).unwrap();
-        assert_eq!(SavedSession::load(&path), Some(last.clone()));
+        assert_eq!(SavedSession::load(&path).as_ref(), Ok(&Some(last.clone())));
         // After some thousand attempts a session has more than a mebibyte.
         let mut long = std::fs::read(&path).unwrap();
         long.resize(2 << 20, b' ');
         std::fs::write(&path, long).unwrap();
-        assert_eq!(SavedSession::load(&path), Some(last.clone()));
+        assert_eq!(SavedSession::load(&path).as_ref(), Ok(&Some(last.clone())));
         let newer = SavedSession { version: VERSION + 1, ..last.clone() };
         newer.save(&path).unwrap();
-        assert_eq!(SavedSession::load(&path), None);
+        refused("it is of version 2");
         let mut impossible = last;
         impossible.layout.balls[1] = impossible.layout.balls[0];
         impossible.save(&path).unwrap();
-        assert_eq!(SavedSession::load(&path), None);
+        refused("it is damaged");
         let mut endless = session(&table);
         endless.table.to_mut().sliding_friction = 0.0;
         endless.save(&path).unwrap();
-        assert_eq!(SavedSession::load(&path), None, "no shot would end on this table");
+        refused("it is damaged");
         std::fs::write(&path, "{").unwrap();
-        assert_eq!(SavedSession::load(&path), None);
+        refused("it is damaged");
+        let said = SavedSession::load_or_put_aside(&path).unwrap_err();
+        assert!(said.contains("last.json: it is damaged") && said.contains("last.unread.json"), "{said}");
+        assert_eq!(std::fs::read(path.with_extension("unread.json")).unwrap(), b"{");
+        assert_eq!(SavedSession::load_or_put_aside(&path), Ok(None));
+    }
+
+    #[test]
+    fn former_sessions_are_kept_with_the_last_one_as_long_as_nobody_goes_on_with_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("last.json");
+        let table = Table::default();
+        let by = |number: u32| {
+            let mut session = session(&table).into_owned();
+            session.layout.balls[2].y = 0.05 * f64::from(number);
+            session
+        };
+        for number in 1..=9 {
+            let former = SavedSession::load(&path).unwrap().map_or_else(Vec::new, SavedSession::with_former);
+            by(number).after(&former).save(&path).unwrap();
+        }
+        let kept = SavedSession::load(&path).unwrap().unwrap().with_former();
+        assert_eq!(kept, (1..=9).rev().take(1 + MOST_FORMER).map(by).collect::<Vec<_>>());
     }
 
     #[test]
@@ -132,7 +227,7 @@ mod tests {
         let on = |textbook: &str, name: &str| {
             let table = Table { name: name.to_owned(), ..Table::preset(textbook).unwrap() };
             session(&table).save(&path).unwrap();
-            SavedSession::load(&path).unwrap().table.into_owned()
+            SavedSession::load(&path).unwrap().unwrap().table.into_owned()
         };
         assert_eq!(on("textbook", "match"), Table::default());
         assert_eq!(on("thesis", "match").length, Table::preset("thesis").unwrap().length, "somebody's own");

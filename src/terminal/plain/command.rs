@@ -65,7 +65,7 @@ pub enum Command {
 pub const HELP: &[(&str, &str)] = &[
     ("shot", "ask the coach for a shot; an empty line does the same"),
     ("other", "the next of the other shots"),
-    ("numbers", "the shot in millimetres, metres a second and degrees"),
+    ("numbers", "the shot in numbers: small distances, speed and degrees"),
     ("system", "what a player counts on the diamonds for the shot, and what that is on this table"),
     ("words", "what the words for a shot mean: tips, o'clock, full, table lengths, diamonds"),
     ("tell", "what the balls meet in the shot, and what comes of it"),

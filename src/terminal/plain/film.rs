@@ -1,6 +1,7 @@
 //! Filmed shots in sentences: which there are, and how far the simulated balls are from the filmed ones.
 
 use crate::{
+    coach::words::LengthUnit,
     study::filmed::FITTED,
     table::{BALL_NAMES, BALLS, CueBall},
     terminal::{
@@ -29,7 +30,7 @@ pub fn list() -> String {
 }
 
 /// One of them, played beside the film.
-pub fn tell(number: u32) -> String {
+pub fn tell(number: u32, unit: LengthUnit) -> String {
     let Some(shot) = listed().iter().find(|listed| listed.filmed.number == number) else {
         return format!("There is no filmed shot {number}; film says which there are.");
     };
@@ -40,23 +41,29 @@ pub fn tell(number: u32) -> String {
     let outcome = |is_point| if is_point { "a point" } else { "no point" };
     let mut lines = vec![
         format!(
-            "Shot {number} of the film: {}, {} metres a second, {} seconds long.",
+            "Shot {number} of the film: {}, {} {}, {} seconds long.",
             outcome(shot.is_point),
-            fixed(shot.filmed.speed(), 1),
+            fixed(unit.speed().0 * shot.filmed.speed(), 1),
+            speech::of_speed(unit),
             fixed(shot.filmed.lasts(), 1)
         ),
-        speech::places(table(), &shot.layout, CueBall::White),
+        speech::places(table(), &shot.layout, CueBall::White, unit),
         format!("The stroke was fitted on the first {FITTED} seconds; all that comes later is predicted."),
     ];
     let end = scene.replay.duration();
+    let small = match unit {
+        LengthUnit::Metres => "centimetres",
+        LengthUnit::Feet => "inches",
+    };
+    let (in_a_metre, _) = unit.small();
     let distances = |time: f64| {
         let apart = scene.replay.apart(time);
-        let each = (0..BALLS).map(|ball| format!("{} {}", BALL_NAMES[ball], fixed(100.0 * apart[ball], 1)));
+        let each = (0..BALLS).map(|ball| format!("{} {}", BALL_NAMES[ball], fixed(in_a_metre * apart[ball], 1)));
         each.collect::<Vec<_>>().join(", ")
     };
     for time in TOLD.into_iter().filter(|time| *time < end) {
-        let unit = if time == 1.0 { "second" } else { "seconds" };
-        lines.push(format!("{time} {unit}: from the film, in centimetres: {}.", distances(time)));
+        let seconds = if time == 1.0 { "second" } else { "seconds" };
+        lines.push(format!("{time} {seconds}: from the film, in {small}: {}.", distances(time)));
     }
     lines.push(format!("{} seconds: all balls lie still: {}.", fixed(end, 2), distances(end)));
     lines.push(format!("The simulated shot is {}.", outcome(scene.is_point)));

@@ -102,7 +102,8 @@ impl Teller<'_> {
             lines.push(format!("{name} is at another screen."));
         }
         if told.layout.replace(shown.layout) != Some(shown.layout) {
-            lines.extend(speech::places(&shown.table, &shown.layout, shown.cue_ball).lines().map(str::to_owned));
+            let places = speech::places(&shown.table, &shown.layout, shown.cue_ball, self.units.length);
+            lines.extend(places.lines().map(str::to_owned));
             told.cue = None;
         }
         let Some((stroke, shot)) = shown.shot.zip(seen.shot.as_ref()) else { return lines };

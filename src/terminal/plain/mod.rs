@@ -127,7 +127,7 @@ impl Conversation {
     }
 
     fn places(&self) -> String {
-        speech::places(self.table(), self.layout(), self.cue_ball())
+        speech::places(self.table(), self.layout(), self.cue_ball(), self.units.length)
     }
 
     fn answer(&mut self, command: Command) -> String {
@@ -186,18 +186,18 @@ impl Conversation {
                 let Request { rule, .. } = talk.request;
                 let doubt = talk.request.shooter().doubts();
                 match Sensitivity::new(rule, talk.table(), talk.layout(), doubt).margins(&shot.cue) {
-                    Some(found) => speech::margins(&found),
+                    Some(found) => speech::margins(&found, talk.units.length),
                     None => "This shot makes no point.".to_owned(),
                 }
             }),
             Command::Numbers => self.about_the_shot(|talk, shot| {
                 let aim = aim(talk.table(), talk.layout(), &shot.cue).ok();
-                speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball())
+                speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball(), talk.units.length)
             }),
             Command::System => self.about_the_shot(|talk, shot| {
                 talk.recorded(shot, |recording| speech::system(guide(talk.table(), recording).as_ref()))
             }),
-            Command::Words => speech::words(self.table()),
+            Command::Words => speech::words(self.table(), self.units.length),
             Command::Tell(all) => self.about_the_shot(|talk, shot| {
                 talk.recorded(shot, |recording| {
                     let verdict = Verdict::of(talk.request.rule, talk.table(), talk.layout(), recording);
@@ -213,7 +213,7 @@ impl Conversation {
                 None => NO_SHOT.to_owned(),
             },
             Command::Films => film::list(),
-            Command::Film(number) => film::tell(number),
+            Command::Film(number) => film::tell(number, self.units.length),
             Command::Undo => {
                 if self.balls.undo() {
                     self.forget(self.places())
@@ -287,7 +287,7 @@ impl Conversation {
                 let pattern = Pattern::of(&technique);
                 lines.extend(pattern.map(|pattern| format!("Pattern: {}: {}.", pattern.name, pattern.course)));
             }
-            lines.push(speech::chance(shot.kind, shot.rate, talk.request.skill, cue_ball));
+            lines.push(speech::chance(shot.kind, shot.rate, talk.request.skill, cue_ball, units.length));
             let why = talk.why.as_ref().filter(|_| talk.chosen == 0);
             lines.extend(why.map(|why| why.words(cue_ball, units)));
             let system = recording.filter(|_| shot.kind.is_some()).and_then(|shot| guide(talk.table(), &shot));
@@ -313,6 +313,7 @@ const NO_SHOT: &str = "There is no shot yet; say shot to ask for one.";
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::coach::words::LengthUnit;
     use std::time::Instant;
 
     fn talk(lines: &str) -> String {
@@ -347,6 +348,25 @@ mod tests {
         }
         let first = "White lies at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
         assert_eq!(said.matches(first).count(), 2, "at the start and after undo, but not after quit: {said}");
+    }
+
+    #[test]
+    fn distances_and_speeds_are_told_in_the_unit_of_the_settings() {
+        let table = Table::default();
+        let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
+        let units = Units { length: LengthUnit::Feet, ..Units::default() };
+        let settings = Settings { think_ms: 1_000, units, ..Settings::default() };
+        let (mut output, beginning) = (Vec::new(), Beginning { layout, own: None, seed: 1 });
+        let lines = b"words\nshot\nnumbers\nmargins\ntell\n";
+        converse(Coach::new(table), beginning, &settings, &lines[..], &mut output, "").unwrap();
+        let said = String::from_utf8(output).unwrap();
+        for words in
+            ["-19.69 and 0.00 inches from the middle", "0.121 inches each", "feet a second, ", "feet a second softer"]
+        {
+            assert!(said.contains(words), "{words}: {said}");
+        }
+        assert!(said.contains(" ft/s") && !said.contains("m/s") && !said.contains("metres a second"), "{said}");
+        assert!(!said.contains("millimetres"), "{said}");
     }
 
     #[test]

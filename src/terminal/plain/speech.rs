@@ -13,19 +13,37 @@ use crate::{
     terminal::words::{event_words, fixed, in_diamonds, percent, rail_name},
 };
 
+/// A small distance in words, and the decimals that it is told with: how many of it are a metre.
+const fn small(unit: LengthUnit, decimals: usize) -> (f64, &'static str, usize) {
+    let (in_a_metre, ..) = unit.fine();
+    match unit {
+        LengthUnit::Metres => (in_a_metre, "millimetres", decimals),
+        LengthUnit::Feet => (in_a_metre, "inches", decimals + 2),
+    }
+}
+
+/// What speeds are told in, in words.
+pub const fn of_speed(unit: LengthUnit) -> &'static str {
+    match unit {
+        LengthUnit::Metres => "metres a second",
+        LengthUnit::Feet => "feet a second",
+    }
+}
+
 /// Where the balls lie; which is the cue ball is said where it is not white.
-pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall) -> String {
+pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUnit) -> String {
+    let (in_a_metre, small, decimals) = small(unit, 0);
     let names = cue_ball.ordered(["White", "Yellow", "Red"]);
     let place = |ball: usize| {
         let at = layout.balls[ball];
         let diamonds = in_diamonds(table, at);
         format!(
-            "{} lies at {} diamonds along and {} up, {} and {} millimetres from the middle.",
+            "{} lies at {} diamonds along and {} up, {} and {} {small} from the middle.",
             names[ball],
             fixed(diamonds.x, 2),
             fixed(diamonds.y, 2),
-            fixed(1e3 * at.x, 0),
-            fixed(1e3 * at.y, 0)
+            fixed(in_a_metre * at.x, decimals),
+            fixed(in_a_metre * at.y, decimals)
         )
     };
     let places = cue_ball.ordered([0, 1, 2]).map(place).join("\n");
@@ -33,10 +51,11 @@ pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall) -> String {
 }
 
 /// How to strike.
-pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBall) -> String {
-    let offset = |value: f64, plus: &str, minus: &str| match fixed(1e3 * table.radius * value.abs(), 1) {
-        zero if zero == "0.0" => None,
-        distance => Some(format!("{distance} millimetres {}", if value > 0.0 { plus } else { minus })),
+pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBall, unit: LengthUnit) -> String {
+    let (in_a_metre, small, decimals) = small(unit, 1);
+    let offset = |value: f64, plus: &str, minus: &str| match fixed(in_a_metre * table.radius * value.abs(), decimals) {
+        zero if zero.chars().all(|letter| matches!(letter, '0' | '.')) => None,
+        distance => Some(format!("{distance} {small} {}", if value > 0.0 { plus } else { minus })),
     };
     let tip = [offset(cue.a, "left", "right"), offset(cue.b, "above", "below")];
     let tip = tip.into_iter().flatten().collect::<Vec<_>>().join(" and ");
@@ -45,8 +64,8 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBa
         "0.0" => "level cue".to_owned(),
         degrees => format!("cue raised {degrees} degrees"),
     };
-    let speed =
-        format!("Speed {} metres a second, {cue_words}, direction {} degrees.", fixed(cue.speed, 2), cue.phi_text(2));
+    let (speed, word) = (fixed(unit.speed().0 * cue.speed, 2), of_speed(unit));
+    let speed = format!("Speed {speed} {word}, {cue_words}, direction {} degrees.", cue.phi_text(2));
     let mut lines = vec![tip, speed];
     if let Some(Aim { ahead, behind, hit }) = aim {
         lines.push(format!(
@@ -96,10 +115,11 @@ pub fn system(guide: Option<&Guide>) -> String {
 }
 
 /// What the words for a shot mean.
-pub fn words(table: &Table) -> String {
-    let tip = fixed(1e3 * TIP * table.radius, 1);
+pub fn words(table: &Table, unit: LengthUnit) -> String {
+    let (in_a_metre, small, decimals) = small(unit, 1);
+    let tip = fixed(in_a_metre * TIP * table.radius, decimals);
     format!(
-        "Tips: how far the cue's tip is from the middle of the ball, {tip} millimetres each; above and below, or of left and right side.\n\
+        "Tips: how far the cue's tip is from the middle of the ball, {tip} {small} each; above and below, or of left and right side.\n\
          O'clock: in which direction from the middle, as you look along the cue.\n\
          Running side makes the way off the first cushion longer, reverse side shorter.\n\
          Full: how much of the ball is covered as the cue ball comes on; on the left is its left half.\n\
@@ -109,8 +129,15 @@ pub fn words(table: &Table) -> String {
 }
 
 /// What sort of shot, and how often the player makes it.
-pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill, cue_ball: CueBall) -> String {
-    let kind = kind.map_or("No point was found; this is the best attempt".to_owned(), |kind| sort(kind, cue_ball));
+pub fn chance(
+    kind: Option<Kind>,
+    rate: Option<SuccessRate>,
+    skill: Skill,
+    cue_ball: CueBall,
+    unit: LengthUnit,
+) -> String {
+    let kind =
+        kind.map_or("No point was found; this is the best attempt".to_owned(), |kind| sort(kind, cue_ball, unit));
     match rate {
         Some(rate) => format!(
             "{kind}. Player {skill} makes it {} percent of the time, between {} and {}.",
@@ -123,7 +150,7 @@ pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill, cue_b
 }
 
 /// What sort of shot it is.
-fn sort(kind: Kind, cue_ball: CueBall) -> String {
+fn sort(kind: Kind, cue_ball: CueBall, unit: LengthUnit) -> String {
     let (first, names) = (kind.first_ball.clamp(1, BALLS - 1), cue_ball.names());
     let (first, other) = (names[first], names[BALLS - first]);
     let start = if kind.cushion_first { "a cushion, then " } else { "" };
@@ -132,21 +159,23 @@ fn sort(kind: Kind, cue_ball: CueBall) -> String {
         Way::OffCushion => "over one or two cushions in all",
         Way::AroundTheTable => "over three cushions or more in all",
     };
-    format!("First {start}{first}, then {other}, {way}, {}", kind.pace)
+    format!("First {start}{first}, then {other}, {way}, {}", kind.pace.words(unit))
 }
 
 /// How far off each input may be.
-pub fn margins(margins: &[Margin]) -> String {
+pub fn margins(margins: &[Margin], unit: LengthUnit) -> String {
+    let (_, small, _) = small(unit, 0);
     let line = |margin: &Margin| {
-        let (name, unit, less, more) = match margin.input {
-            Input::Side => ("Side", "millimetres", "further right", "further left"),
-            Input::Height => ("Height", "millimetres", "lower", "higher"),
+        let (name, word, less, more) = match margin.input {
+            Input::Side => ("Side", small, "further right", "further left"),
+            Input::Height => ("Height", small, "lower", "higher"),
             Input::Elevation => ("Cue", "degrees", "flatter", "steeper"),
             Input::Direction => ("Direction", "degrees", "to the right", "to the left"),
-            Input::Speed => ("Speed", "metres a second", "softer", "harder"),
+            Input::Speed => ("Speed", of_speed(unit), "softer", "harder"),
         };
+        let (factor, _) = margin.told_in(unit);
         let end = |end: Option<f64>, way: &str| match end {
-            Some(end) => format!("up to {} {unit} {way}", fixed(end, 2)),
+            Some(end) => format!("up to {} {word} {way}", fixed(factor * end, 2)),
             None => format!("as much {way} as you like"),
         };
         format!("{name}: {}, {}.", end(margin.less, less), end(margin.more, more))

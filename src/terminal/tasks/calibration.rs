@@ -7,7 +7,8 @@ use std::{
 
 use crate::{
     calibration::{
-        Calibration, Edit, Entries, Next, Play, Trial, calibrate, edit_entries, kept_entries, prospects, save_table,
+        Calibration, Edit, Entries, Next, Play, Trial, calibrate, edit_entries, kept_entries, prospects,
+        put_aside_unread, save_table,
     },
     table::{Table, TableDoubt},
 };
@@ -19,6 +20,8 @@ pub enum CalibrationTask {
     Read(PathBuf),
     /// Change them; whether that takes an earlier change back.
     Edit(PathBuf, Edit, bool),
+    /// Put a file of entries aside that cannot be read, so that others can be kept.
+    PutAside(PathBuf),
     /// Find out what entries say of the table.
     Judge(Box<Judging>),
     /// Write a table to a file, over another table only where that is wanted.
@@ -90,6 +93,10 @@ impl CalibrationTask {
                 let kept = kept_entries(&path).map(|entries| Box::new(KeptEntries { entries, back: None }));
                 CalibrationReport::Entries(path, kept.map_err(|error| error.to_string()))
             }
+            Self::PutAside(path) => match put_aside_unread(&path) {
+                Ok(()) => Self::Read(path).run(),
+                Err(error) => CalibrationReport::Entries(path, Err(error.to_string())),
+            },
             Self::Edit(path, edit, is_back) => match edit_entries(&path, &edit) {
                 Ok((entries, back)) => {
                     CalibrationReport::Entries(path, Ok(Box::new(KeptEntries { entries, back: Some((back, is_back)) })))

@@ -4,7 +4,7 @@ use std::sync::{Arc, atomic::AtomicBool};
 
 use crate::{
     coach::{Shooter, Skill},
-    drills::{Advice, Exercise, Played, Session},
+    drills::{Advice, Attempt, Exercise, Played, Session},
     game::Rule,
     physics::CueInputs,
     statistics::SuccessRate,
@@ -25,8 +25,8 @@ pub enum DrillTask {
     Play(Box<Stroke>),
     /// Find out how often the player makes a stroke that is not played.
     Judge(Box<JudgedStroke>),
-    /// Save a session, in which something was noted or taken back.
-    Save(Box<Session>),
+    /// Save a session, in which something was noted or taken back; with the attempts that it had before.
+    Save(Box<Session>, Vec<Attempt>),
     /// Save a position, over one of the same name only where that is wanted.
     SavePosition(Box<Exercise>, bool),
     /// Remove the position of this name.
@@ -153,6 +153,9 @@ pub enum DrillReport {
     StrokeJudged(u64, SuccessRate),
     /// Of [`DrillTask::Save`].
     Saved(Box<Session>, Result<(), String>),
+    /// Of [`DrillTask::Play`] and [`DrillTask::Save`] where another program has changed the session: how it stands now, without
+    /// what was to be played or saved.
+    Changed(Box<Session>),
     /// Of [`DrillTask::SavePosition`]: whether it is saved, or the name is taken.
     PositionSaved(Box<Exercise>, Result<bool, String>),
     /// Of [`DrillTask::RemovePosition`].

@@ -9,7 +9,7 @@ use std::{
 use crate::{
     coach::{Coach, Request, Skill},
     drills::{
-        Advice, Session, advise, chance,
+        Advice, Attempt, Session, advise, chance,
         estimate::{Estimate, estimate},
         store::{Store, StoreError},
     },
@@ -63,10 +63,10 @@ impl PracticeWorker {
                     reply(DrillReport::StrokeJudged(*id, made));
                 }
             }
-            DrillTask::Save(session) => {
-                let saved = self.save(&session);
-                reply(DrillReport::Saved(session, saved));
-            }
+            DrillTask::Save(session, before) => match self.save(&session, &before) {
+                Ok(saved) => reply(DrillReport::Saved(session, saved)),
+                Err(stored) => reply(DrillReport::Changed(stored)),
+            },
             DrillTask::SavePosition(exercise, replaces) => {
                 let saved = match self.store.as_ref().map(|store| store.save_position(&exercise, replaces)) {
                     Some(Err(StoreError::Taken(_))) => Ok(false),
@@ -111,8 +111,14 @@ impl PracticeWorker {
         work(store).map_err(|error| error.to_string())
     }
 
-    fn save(&self, session: &Session) -> Result<(), String> {
-        self.with_store(|store| store.save(session))
+    /// Saves a session that had these attempts before; gives why it is not saved, or how it stands if another program has
+    /// changed it.
+    fn save(&self, session: &Session, before: &[Attempt]) -> Result<Result<(), String>, Box<Session>> {
+        match self.store.as_ref().map(|store| store.save(session, before)) {
+            Some(Err(StoreError::Changed(stored))) => Err(stored),
+            Some(saved) => Ok(saved.map_err(|error| error.to_string())),
+            None => Ok(Err(UNKNOWN.to_owned())),
+        }
     }
 
     fn teach(&mut self, position: &Position) -> Result<Option<Taught>, String> {
@@ -168,15 +174,19 @@ impl PracticeWorker {
             session.attempts[number].advised = Some(advice.cue);
             session.attempts[number].advised_chance = Some(advice.chance.rate);
         }
-        let saved = self.save(&session);
+        let saved = match self.save(&session, &session.attempts[..number]) {
+            Ok(saved) => saved,
+            // The balls may lie elsewhere by now: the stroke is not told.
+            Err(stored) => return reply(DrillReport::Changed(stored)),
+        };
         let shot = (!played.miscue).then(|| Shot::new(&table, &layout, played.stroke, played.made, "player"));
         let shot = shot.and_then(Result::ok).map(Arc::new);
         let next = session.position().ok().flatten();
         reply(DrillReport::Played(Ok(Box::new(Outcome { session: session.clone(), played, shot, next })), saved));
         let share = chance(session.shooter(), rule, &table, &layout, &meant).rate;
         session.attempts[number].chance = Some(share);
-        // An error of the disk has just been reported.
-        let _ = self.save(&session);
+        // An error of the disk has just been reported, and who has gone on with the session may do so without the share.
+        let _ = self.save(&session, &session.attempts);
         reply(DrillReport::Judged(session.id.clone(), number, share));
         self.last = Some(session);
     }

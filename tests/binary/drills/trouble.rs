@@ -87,7 +87,8 @@ fn on_a_full_disk_a_sentence_says_so_and_what_was_written_stays() {
     assert!(full.code == Some(1) && full.err.contains("sessions") && full.err.contains("large"), "{}", full.err);
     assert!(told > 5 && told < 500, "{told} were told");
     assert_eq!(tried(folder.path()), told);
-    let left = fs::read_dir(folder.path().join("carom/sessions")).unwrap().count();
+    let left = fs::read_dir(folder.path().join("carom/sessions")).unwrap();
+    let left = left.filter(|file| file.as_ref().unwrap().file_name() != "lock").count();
     assert_eq!(left, 1, "nothing half written is left");
 }
 

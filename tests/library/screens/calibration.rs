@@ -4,9 +4,10 @@ use std::fs;
 
 use carom::{
     calibration::{Edit, Entries, Entry, PROTOCOL, edit_entries},
-    terminal::{CalibrationContext, KeyContext, PageId},
+    terminal::{CalibrationContext, Effect, KeyContext, PageId},
 };
 
+use super::keys::key;
 use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at};
 
 /// The marks of a slow roll and of a lag as `match` plays, in the order of their forms.
@@ -207,7 +208,7 @@ fn the_command_and_the_page_share_the_file_and_what_cannot_be_read_is_not_writte
     fs::write(broken.path("calibration.toml"), "broken").unwrap();
     let broken = broken.press("F7");
     broken.warns("line 1");
-    broken.press("Enter").warns("the file of entries was not read yet, or cannot be");
+    broken.press("Enter").warns("the file of entries cannot be read: mend it, or N keeps it aside");
 }
 
 #[test]
@@ -239,4 +240,55 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     assert!(kept(&checked).trials.len() == 2 && checked.path("calibration-daily.toml").exists());
     checked.press("d").shows(&["slow-roll"]);
     Player::new().press("F7 d").warns("a check of the day needs a table that was calibrated before");
+}
+
+#[test]
+fn strokes_that_contradict_each_other_are_named_and_make_no_table() {
+    let player = ["5", "9", "16"].iter().fold(new(), |player, time| enter(player.press("Home"), &[time, "5", "", ""]));
+    let values = player.press("Tab");
+    values.shows(&["contradict", "unsure", "of slow-roll"]).is_silent_on(" better").is_silent_on(" well");
+    values.press("s").warns("strokes contradict each other");
+}
+
+#[test]
+fn a_stroke_can_be_entered_before_the_file_was_read() {
+    let mut player = Player::with(TRUE_COLOUR);
+    // What the key asks for is not done yet.
+    player.app.handle(&key("F7"));
+    player.app.handle(&key("Enter"));
+    player.warns_nothing();
+    assert_eq!(player.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
+    let player = ROLL.iter().fold(player, |player, mark| player.type_in(mark).press("Enter"));
+    assert_eq!(kept(&player).trials.len(), 1);
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_kept_aside_on_demand() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("calibration.toml"), "half").unwrap();
+    let player = Player::in_folder(TRUE_COLOUR, folder).press("F7");
+    player.warns("calibration.toml");
+    let refused = player.press("Enter");
+    refused.warns("N keeps it aside and begins anew");
+    let anew = refused.press("N y");
+    anew.says("the file that cannot be read is kept as");
+    assert_eq!(fs::read_to_string(anew.path("calibration.before.toml")).unwrap(), "half");
+    let entered = enter(anew, &ROLL);
+    assert_eq!(kept(&entered).trials.len(), 1);
+}
+
+#[test]
+fn marks_that_are_typed_in_part_are_not_lost_without_a_word() {
+    let mut player = new().press("Enter").type_in("9.6").press("F2");
+    player.event(&key("C-c"));
+    player.warns("a stroke of slow-roll is typed in part");
+    assert!(player.effects.is_empty() && player.app.screen == PageId::Calibration);
+    player.event(&key("C-c"));
+    assert!(matches!(player.effects.last(), Some(Effect::Quit)));
+    // Nothing is lost of what is kept, or was not typed.
+    for keys in ["Enter", "Enter 9 Esc"] {
+        let mut player = new().press(keys);
+        player.event(&key("C-c"));
+        assert!(matches!(player.effects.last(), Some(Effect::Quit)), "{keys}");
+    }
 }

@@ -98,6 +98,7 @@ fn a_shot_is_recommended() {
 #[test]
 fn why_a_shot_leads_is_told_to_its_end_and_the_kiss_is_marked_on_the_table_before_the_stroke() {
     let second = Difference {
+        next_probability: None,
         pattern: Some("one cushion, reverse"),
         first_ball: Some(2),
         fuller: -0.2,

@@ -281,7 +281,7 @@ fn the_records() {
 #[test]
 fn the_record_has_what_another_program_has_noted_meanwhile() {
     let player = played();
-    player.store().save(&session(7, "opening", Goal::Free, "xxx")).unwrap();
+    player.store().save(&session(7, "opening", Goal::Free, "xxx"), &[]).unwrap();
     player.press("r").shows(&["attempts  40"]);
 }
 
@@ -380,8 +380,12 @@ fn files_that_cannot_be_read_are_named_and_left_alone() {
     write("sessions/20260101-000000-00000001.json", r#"{"format":"carom-session","version":9}"#);
     write("positions/broken.json", "{\"half");
     let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
-    let text = player.text(200, 40);
+    player.warns("version 9");
+    player.shows(&["some of what was kept cannot be read: F6 names it"]);
+    let all = player.press("F6");
+    let text = all.text(200, 40);
     assert!(text.contains("version 9") && text.contains("broken.json"), "{text}");
+    let player = all;
     assert_eq!(std::fs::read(player.path("positions/broken.json")).unwrap(), b"{\"half");
 }
 
@@ -451,7 +455,7 @@ fn a_note_that_was_corrected_before_it_was_on_the_disk_stays_corrected() {
     let mut player = Player::practising(TRUE_COLOUR);
     let noted = |player: &mut Player, name: &str| {
         let saved = asked(player, name).into_iter().find_map(|task| match task {
-            DrillTask::Save(session) => Some(session),
+            DrillTask::Save(session, _) => Some(session),
             _ => None,
         });
         saved.expect("a session is saved")

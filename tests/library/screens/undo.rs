@@ -4,7 +4,7 @@ use super::{
     player::{Player, TRUE_COLOUR},
     practice::exercise,
 };
-use carom::{drills::Exercise, table::Layout};
+use carom::{drills::Exercise, game::Rule, table::Layout};
 
 #[test]
 fn changes_of_the_stroke_are_taken_back_input_by_input() {
@@ -37,4 +37,20 @@ fn balls_that_come_from_an_exercise_on_another_table_are_one_step() {
     let again = back.press("U");
     assert_eq!(place(&again), taken);
     again.press("u u").says("there is nothing to take back");
+}
+
+#[test]
+fn the_rule_of_an_exercise_goes_with_its_balls_when_they_are_taken_back() {
+    let exercise = Exercise { rule: Rule::OneCushion, ..exercise("other", "Under another rule") };
+    let rule = |player: &Player| player.app.coach.query.rule;
+    let taken = Player::at_library(TRUE_COLOUR, &[exercise], &[]).press("Left c");
+    assert_eq!(rule(&taken), Rule::OneCushion);
+    taken.says("the balls of the exercise and its rule, one-cushion");
+    let back = taken.press("u");
+    assert_eq!(rule(&back), Rule::StraightRail);
+    back.says("what counts: straight");
+    let again = back.press("U");
+    assert_eq!(rule(&again), Rule::OneCushion);
+    // A rule that was chosen since stays.
+    assert_eq!(rule(&again.press("R u")), Rule::ThreeCushion);
 }

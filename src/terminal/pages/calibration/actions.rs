@@ -1,7 +1,7 @@
 //! What each key of the calibration's page does, and why it may not be used now.
 
 use crate::{
-    calibration::{Edit, Entries},
+    calibration::{Calibration, Edit, Entries},
     table::PRESETS,
     terminal::{
         CalibrationAction as Action, CalibrationCondition as Condition, CalibrationTask, Effect,
@@ -20,19 +20,24 @@ impl CalibrationPage {
         let found = || sheet.judged.as_ref().and_then(|judged| judged.found.as_ref());
         let (can, reason) = match when {
             Condition::Here => (true, ""),
-            Condition::Known => {
-                (sheet.entries.is_some(), "the file of entries was not read yet, or cannot be: mend it first")
-            }
+            Condition::Known => (
+                sheet.trouble.is_none(),
+                "the file of entries cannot be read: mend it, or N keeps it aside and begins anew",
+            ),
             Condition::Stroke => (sheet.marked_stroke().is_some(), "no stroke of this test is entered yet"),
             Condition::Entered => {
                 let is_entered = sheet.entries.as_ref().is_some_and(|entries| !entries.trials.is_empty());
-                (is_entered, "nothing is entered yet")
+                (is_entered || sheet.trouble.is_some(), "nothing is entered yet")
             }
             Condition::Undo => (sheet.can_undo(), "nothing was changed here yet; Delete takes the marked stroke out"),
             Condition::Found if sheet.is_asking() => (false, "the values are being worked out; one moment"),
             Condition::Found if !sheet.odd(&self.table).is_empty() => {
                 (false, "an entry is odd, as the values say: amend it or take it out first")
             }
+            Condition::Found if found().is_some_and(Calibration::is_contradictory) => (
+                false,
+                "strokes contradict each other, as the values say: play them again, amend or take them out first",
+            ),
             Condition::Found => (found().is_some(), "nothing is entered yet that a table could follow from"),
             Condition::Saved => {
                 (self.saved.is_some(), "save the table first: s; one that was saved before is chosen by its name, F5")
@@ -164,6 +169,11 @@ impl CalibrationPage {
             Input::Marks(form) => self.keep(form),
             Input::Name(typed) => self.save(typed.text().trim(), false),
             Input::Replace(name) => self.save(&name, true),
+            Input::Anew if self.sheet().trouble.is_some() => {
+                let said = format!("the file that cannot be read is kept as {}", self.beside().display());
+                self.message = Some(Message::plain(said));
+                Some(Effect::Calibrate(vec![CalibrationTask::PutAside(self.sheet().path.clone())]))
+            }
             Input::Anew => {
                 let count = self.sheet().entries.as_ref().map_or(0, |entries| entries.trials.len());
                 let strokes = if count == 1 { "1 stroke is".to_owned() } else { format!("{count} strokes are") };

@@ -47,6 +47,15 @@ impl Form {
         self.field = (self.field + self.fields.len()).saturating_add_signed(by) % self.fields.len();
     }
 
+    /// Whether something is typed that is not kept yet.
+    pub fn is_begun(&self) -> bool {
+        let before = self
+            .amends
+            .as_ref()
+            .map_or_else(|| Self::new(self.test), |(place, entry)| Self::of(self.test, *place, entry));
+        self.fields.iter().zip(&before.fields).any(|((_, typed), (_, known))| typed.text() != known.text())
+    }
+
     /// Whether the last field is typed into.
     pub fn is_at_the_end(&self) -> bool {
         self.field + 1 == self.fields.len()

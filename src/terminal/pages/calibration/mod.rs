@@ -135,6 +135,14 @@ impl CalibrationPage {
         }
     }
 
+    /// The test of a stroke whose marks are typed in part: quitting would lose them.
+    pub fn half_entered(&self) -> Option<&'static str> {
+        match &self.input {
+            Some(Input::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.test.name),
+            _ => None,
+        }
+    }
+
     /// Asks what the entries say.
     fn judge(&mut self) -> Vec<CalibrationTask> {
         let table = self.table.clone();
@@ -154,6 +162,7 @@ impl CalibrationPage {
                     return self.judge();
                 }
                 Err(sentence) => {
+                    let sentence = format!("{sentence}; N keeps the file aside and begins anew");
                     let sheet = self.sheet_mut();
                     (sheet.entries, sheet.trouble) = (None, Some(sentence.clone()));
                     self.message = Some(Message::warning(sentence));

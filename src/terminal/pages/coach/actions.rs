@@ -5,13 +5,13 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::{
-    game::Point,
+    game::{Point, Rule},
     table::{BALLS, CueBall, Layout, LayoutError, Opening, Side},
     terminal::{
         CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode,
         pages::coach::{CoachPage, Position},
         shot::{
-            History, OwnStroke,
+            OwnStroke,
             placing::{self, STEPS},
         },
         ui::Message,
@@ -47,7 +47,7 @@ impl CoachPage {
             ),
             CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
             CoachCondition::Interrupted => refuse(
-                self.before.is_none() && self.left_exam.is_none(),
+                self.before.is_empty() && self.left_exam.is_none(),
                 "no exam was left and no earlier session waits; what is practised now is behind F3",
             ),
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),
@@ -88,8 +88,8 @@ impl CoachPage {
                 let layout = Layout::random(&self.balls.present().table, &mut self.rng);
                 self.place(layout);
             }
-            Action::Undo => self.travel(History::undo),
-            Action::Redo => self.travel(History::redo),
+            Action::Undo => self.undo(),
+            Action::Redo => self.redo(),
             Action::Recommend => return Some(self.ask()),
             Action::SavePosition => self.ask_title(),
             Action::Yes if self.typed.is_some() => self.take_positions(),
@@ -221,12 +221,28 @@ impl CoachPage {
     /// The same table and policy with the balls elsewhere, on which there is no advice yet.
     pub(super) fn position(&self, layout: Layout) -> Position {
         let Position { table, policy, cue_ball, .. } = self.balls.present();
-        Position { table: Arc::clone(table), policy: policy.clone(), layout, cue_ball: *cue_ball, advised: None }
+        let (table, policy) = (Arc::clone(table), policy.clone());
+        Position { table, policy, layout, cue_ball: *cue_ball, rules: None, advised: None }
     }
 
-    fn travel(&mut self, step: impl Fn(&mut History<Position>) -> bool) {
-        step(&mut self.balls);
+    fn undo(&mut self) {
+        let rules = self.balls.present().rules;
+        self.balls.undo();
+        self.travelled(rules);
+    }
+
+    fn redo(&mut self) {
+        self.balls.redo();
+        self.travelled(self.balls.present().rules.map(|[before, after]| [after, before]));
+    }
+
+    /// A step was taken back or made again, which changes the second rule to the first. One that was chosen since stays.
+    fn travelled(&mut self, rules: Option<[Rule; 2]>) {
         self.query.policy.clone_from(&self.balls.present().policy);
+        if let Some([rule, _]) = rules.filter(|[_, now]| *now == self.query.rule) {
+            self.query.rule = rule;
+            self.message = Some(Message::plain(format!("what counts: {rule}")));
+        }
         self.rest();
     }
 

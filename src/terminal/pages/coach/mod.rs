@@ -70,6 +70,8 @@ struct Position {
     policy: Option<(String, Arc<Policy>)>,
     layout: Layout,
     cue_ball: CueBall,
+    /// What counted as a point before this step and since, where the step itself has changed it.
+    rules: Option<[Rule; 2]>,
     advised: Option<AdviceState>,
 }
 
@@ -101,6 +103,7 @@ impl View {
 
 /// The state of the coach's screen.
 #[derive(Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a choice or a fact of its own")]
 pub struct CoachPage {
     /// What the arrow keys are for.
     pub mode: Mode,
@@ -133,8 +136,10 @@ pub struct CoachPage {
     balls: History<Position>,
     /// The selected ball is held by the mouse.
     drag: Option<Drag>,
-    /// Where the last session ended, until it is gone on with.
-    before: Option<SavedSession<'static>>,
+    /// Where the last sessions ended that were not gone on with, the last one first.
+    before: Vec<SavedSession<'static>>,
+    /// Whether one of them was gone on with.
+    has_gone_back: bool,
     /// The exam that was left before its end, until it is gone on with.
     pub left_exam: Option<Session>,
     /// What is asked before the balls are saved.
@@ -182,10 +187,12 @@ impl CoachPage {
                 policy: None,
                 layout,
                 cue_ball: CueBall::White,
+                rules: None,
                 advised: None,
             }),
             drag: None,
-            before: None,
+            before: Vec::new(),
+            has_gone_back: false,
             left_exam: None,
             saving: Saving::default(),
             typed: None,
@@ -206,13 +213,16 @@ impl CoachPage {
         self.typed.as_ref().map(|_| QuestionContext::Positions).or_else(|| self.saving.context())
     }
 
-    /// Offers to go on from where the last session ended, if that is somewhere else.
+    /// Offers to go on from where the last session ended, and those before it that were not gone on with, as far as that is
+    /// somewhere else.
     pub fn offer(&mut self, last: Option<SavedSession<'static>>) {
         let is_elsewhere = |last: &SavedSession| {
             last.layout != *self.layout() || *last.table != *self.table() || last.practice.is_some()
         };
-        self.before = last.filter(is_elsewhere);
-        let words = match &self.before {
+        let mut before = last.map_or_else(Vec::new, SavedSession::with_former);
+        before.retain(is_elsewhere);
+        self.before = before;
+        let words = match self.before.first() {
             None => return,
             Some(SavedSession { practice: Some(practice), .. }) if practice.is_exam() => {
                 "c goes on with the exam of the last session"
@@ -227,10 +237,10 @@ impl CoachPage {
     pub fn last<'a>(&'a self, practised: Option<&'a Session>) -> Option<SavedSession<'a>> {
         let CoachQuery { rule, skill, plan, .. } = self.query;
         let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
-        let of_before = || self.before.as_ref()?.practice.as_deref().filter(|practice| practice.is_exam());
+        let of_before = || self.before.first()?.practice.as_deref().filter(|practice| practice.is_exam());
         let exam = self.left_exam.as_ref().or_else(of_before);
         let practice = if practised.is_some_and(Session::is_exam) { practised } else { exam.or(practised) };
-        let last = SavedSession::new(table, layout, cue_ball, rule, skill, plan, practice);
+        let last = SavedSession::new(table, layout, cue_ball, rule, skill, plan, practice).after(&self.before);
         let is_begun = self.is_begun() || practised.is_some() || self.left_exam.is_some();
         (self.followed().is_none() && is_begun).then_some(last)
     }
@@ -245,11 +255,17 @@ impl CoachPage {
         if let Some(exam) = self.left_exam.take() {
             return Some(exam);
         }
-        let last = self.before.take()?;
+        if self.before.is_empty() {
+            return None;
+        }
+        let last = self.before.remove(0);
         self.take_position(&last.table, last.layout, last.rule);
         self.balls.present_mut().cue_ball = last.cue_ball;
         self.query = CoachQuery { skill: last.skill, plan: last.plan, ..self.query.clone() };
-        self.message = Some(Message::good("this is where the last session ended; Enter asks the coach"));
+        let which = if std::mem::replace(&mut self.has_gone_back, true) { "that earlier" } else { "the last" };
+        let more = if self.before.is_empty() { "" } else { "; c goes back to the one before" };
+        let said = format!("this is where {which} session ended; Enter asks the coach{more}");
+        self.message = Some(Message::good(said));
         last.practice.map(Cow::into_owned)
     }
 
@@ -330,8 +346,9 @@ impl CoachPage {
     /// is the same.
     pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
         let policy = self.query.policy.clone().filter(|_| self.table() == table);
+        let its_rule = if rule == self.query.rule { String::new() } else { format!(" and its rule, {rule}") };
         self.take(table, layout, CoachQuery { policy, rule, ..self.query.clone() });
-        self.message = Some(Message::plain("the balls of the exercise; Enter asks the coach"));
+        self.message = Some(Message::plain(format!("the balls of the exercise{its_rule}; Enter asks the coach")));
     }
 
     /// Puts balls on a table, as a step that can be taken back, for `query` to be asked.
@@ -341,7 +358,8 @@ impl CoachPage {
         let known = &self.balls.present().table;
         let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
         let cue_ball = self.cue_ball();
-        self.balls.push(Position { table, policy: query.policy.clone(), layout, cue_ball, advised: None });
+        let rules = Some([self.query.rule, query.rule]).filter(|[before, after]| before != after);
+        self.balls.push(Position { table, policy: query.policy.clone(), layout, cue_ball, rules, advised: None });
         self.query = query;
         self.rest();
     }

@@ -163,8 +163,14 @@ impl CoachPage {
         self.query = CoachQuery { rule: shown.rule, skill: shown.skill, ..self.query.clone() };
         self.selected = shown.selected;
         let table = Arc::new(shown.table);
-        let mut position =
-            Position { table, policy: None, layout: shown.layout, cue_ball: shown.cue_ball, advised: None };
+        let mut position = Position {
+            table,
+            policy: None,
+            layout: shown.layout,
+            cue_ball: shown.cue_ball,
+            rules: None,
+            advised: None,
+        };
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
         if let Some((shot, told)) = shot.zip(shown.shot) {

@@ -84,7 +84,12 @@ impl DrillsPage {
         self.pages.pop();
         self.film.playback.pause();
         if self.page() == Screen::Library {
+            let is_kept = self.turn.as_ref().is_some_and(Turn::is_under_way);
             self.leave_page();
+            if is_kept {
+                self.message =
+                    Some(Message::plain("what you have begun is kept; Enter on the exercise goes on with it"));
+            }
         }
     }
 
@@ -98,8 +103,16 @@ impl DrillsPage {
     }
 
     fn open_marked(&mut self) -> Option<Effect> {
-        let exercise = self.catalogue.marked()?.clone();
-        Some(self.begin(self.options.goal, vec![exercise]))
+        let exercises = vec![self.catalogue.marked()?.clone()];
+        let Some(place) = self.left.iter().position(|left| left.exercises == exercises) else {
+            return Some(self.begin(self.options.goal, exercises));
+        };
+        let left = self.left.remove(place);
+        (self.options.goal, self.options.shifted) = (left.goal, left.shifted);
+        let (what, made) = (left.goal.words(), left.attempts.len());
+        let tasks = self.practise(left);
+        self.message = Some(Message::plain(format!("{what}: it goes on here after {made} played")));
+        Some(Effect::Drill(tasks))
     }
 
     /// Begins a session of these exercises and opens the page of the first.
@@ -220,6 +233,7 @@ impl DrillsPage {
                 self.message = Some(Message::plain("the exam is kept; c on the coach's page (F2) goes on with it"));
                 return None;
             }
+            Question::GiveUp(action, ..) => return self.act(*action),
         };
         match answer {
             Ok(exercise) => save(exercise, false),

@@ -133,6 +133,8 @@ pub struct DrillsPage {
     pages: Vec<Screen>,
     /// An exam that was left before its end.
     left_exam: Option<Session>,
+    /// Runs, games and matches that were left before their end, one an exercise; opening that goes on with it.
+    left: Vec<Session>,
     rng: Xoshiro256PlusPlus,
 }
 
@@ -157,6 +159,7 @@ impl DrillsPage {
             for_coach: None,
             pages: Vec::new(),
             left_exam: None,
+            left: Vec::new(),
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         }
     }
@@ -203,10 +206,12 @@ impl DrillsPage {
         Effect::Drill(tasks)
     }
 
-    /// The session that is practised, as long as it is not over. An exam has not begun before its first stroke.
+    /// The session that is practised, or was left last, as long as it is not over. An exam has not begun before its first
+    /// stroke.
     pub fn unfinished(&self) -> Option<&Session> {
-        let turn = self.turn.as_ref().filter(|turn| !turn.is_exam() || !turn.session.attempts.is_empty());
-        turn.map(|turn| &turn.session).filter(|session| !session.is_over())
+        let Some(turn) = &self.turn else { return self.left.last() };
+        let has_begun = !turn.is_exam() || !turn.session.attempts.is_empty();
+        Some(&turn.session).filter(|session| has_begun && !session.is_over())
     }
 
     /// Whether one has gone back to the coach from the first page.
@@ -266,10 +271,13 @@ impl DrillsPage {
 
     /// Closes the exercise; what was played is on the disk.
     fn leave_turn(&mut self) {
-        if let Some(turn) = &mut self.turn {
+        if let Some(mut turn) = self.turn.take() {
             turn.stop_asking();
+            if turn.is_under_way() {
+                self.left.retain(|left| left.exercises != turn.session.exercises);
+                self.left.push(turn.newest().clone());
+            }
         }
-        self.turn = None;
         self.pages.retain(|page| *page == Screen::Library);
     }
 

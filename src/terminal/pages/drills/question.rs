@@ -1,6 +1,9 @@
 //! What the drill screens ask before they do something.
 
-use crate::{drills::Exercise, terminal::ui::TextField};
+use crate::{
+    drills::Exercise,
+    terminal::{DrillAction, ui::TextField},
+};
 
 /// Longest text that is typed or pasted, bytes: a code of many lines that a chat has wrapped fits.
 pub(super) const LONGEST: usize = 4000;
@@ -18,6 +21,9 @@ pub enum Question {
     Remove(String),
     /// Whether to leave an exam that is not over: attempts made and to be made.
     Leave(usize, usize),
+    /// Whether to do what begins another session, though the run, game or match that is called this is not over, after so many
+    /// attempts.
+    GiveUp(DrillAction, &'static str, usize),
 }
 
 impl Question {
@@ -32,6 +38,10 @@ impl Question {
             Self::Remove(name) => format!("remove your position {name}? Its results stay. y/n"),
             Self::Leave(made, all) => {
                 format!("leave the exam after {made} of {all} exercises? c on the coach's page goes on with it. y/n")
+            }
+            Self::GiveUp(_, what, made) => {
+                let attempts = if *made == 1 { "1 attempt? It stays" } else { &format!("{made} attempts? They stay") };
+                format!("give up the {what} after {attempts} in the record. y/n")
             }
         }
     }

@@ -16,9 +16,11 @@ impl DrillsPage {
         match report {
             DrillReport::Loaded(loaded) => {
                 self.loaded(*loaded);
+                let mut tasks = self.catch_up();
                 if self.page() == Screen::Record {
-                    return vec![DrillTask::Estimate(self.records.ask(), self.book.shared())];
+                    tasks.push(DrillTask::Estimate(self.records.ask(), self.book.shared()));
                 }
+                return tasks;
             }
             DrillReport::AdviceState(id, answer) => {
                 let taught = answer.unwrap_or_else(|sentence| {
@@ -56,6 +58,14 @@ impl DrillsPage {
                 }
             }
             DrillReport::Saved(session, saved) => return self.saved(&session, saved),
+            DrillReport::Changed(stored) => {
+                self.book.put(&stored);
+                let tasks = self.go_on_with(*stored);
+                self.message = Some(Message::warning(
+                    "another program has changed this session: it goes on here as it stands there, and what you did last is not in it",
+                ));
+                return tasks;
+            }
             DrillReport::PositionSaved(exercise, outcome) => match outcome {
                 Ok(true) => self.position_saved(&exercise),
                 Ok(false) => self.question = Some(Question::Replace(exercise)),
@@ -103,6 +113,25 @@ impl DrillsPage {
                 self.player.skill = skill;
             }
         }
+    }
+
+    /// Goes on from where another program has come with the session that is open here, as the disk has just told.
+    fn catch_up(&mut self) -> Vec<DrillTask> {
+        let Some(turn) = &self.turn else { return Vec::new() };
+        let stored = self.book.sessions.iter().find(|stored| stored.id == turn.session.id && turn.is_behind(stored));
+        let Some(stored) = stored.cloned() else { return Vec::new() };
+        self.message =
+            Some(Message::plain("another program has gone on with this session: it goes on here from there"));
+        self.go_on_with(stored)
+    }
+
+    /// Takes the open session as another program has left it.
+    fn go_on_with(&mut self, stored: Session) -> Vec<DrillTask> {
+        let Some(turn) = self.turn.as_mut().filter(|turn| turn.session.id == stored.id) else { return Vec::new() };
+        if stored.is_exam() && stored.is_over() {
+            self.pages = vec![Screen::Library, Screen::Result];
+        }
+        turn.go_on_with(stored)
     }
 
     /// A session is on the disk, or could not be written.

@@ -12,7 +12,7 @@ use crate::{
         Skill,
         words::{LengthUnit, no_jump_words},
     },
-    drills::{Exercise, ExerciseError, Session, Venue},
+    drills::{Attempt, Exercise, ExerciseError, Goal, Session, Venue},
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
     statistics::SuccessRate,
     table::{CueBall, Layout, Table},
@@ -217,6 +217,12 @@ impl Turn {
         self.session.is_exam()
     }
 
+    /// Whether a run, a game or a match has begun and is not over: another session would end it.
+    pub(super) fn is_under_way(&self) -> bool {
+        let newest = self.newest();
+        !matches!(newest.goal, Goal::Free | Goal::Exam) && !newest.attempts.is_empty() && !newest.is_over()
+    }
+
     /// The stroke that is watched.
     pub const fn watched(&self) -> Option<&Watched> {
         if let Stage::Watching(watched) = &self.stage { Some(watched) } else { None }
@@ -384,8 +390,21 @@ impl Turn {
 
     /// What saves `session`, in which something was noted or taken back.
     pub(super) fn save(&mut self, session: Session) -> DrillTask {
+        let before = self.newest().attempts.clone();
         self.ahead = Some(session.clone());
-        DrillTask::Save(Box::new(session))
+        DrillTask::Save(Box::new(session), before)
+    }
+
+    /// Whether another program has gone on with the session, as it is `stored`, and nothing here is on its way to the disk.
+    pub(super) fn is_behind(&self, stored: &Session) -> bool {
+        let (known, stored) = (&self.session.attempts, &stored.attempts);
+        self.is_aiming() && self.ahead.is_none() && known.len() < stored.len() && Attempt::begin(stored, known)
+    }
+
+    /// Goes on with the session as another program has left it.
+    pub(super) fn go_on_with(&mut self, stored: Session) -> Vec<DrillTask> {
+        self.stage = Stage::Aiming;
+        self.begin(stored)
     }
 
     /// A session is on the disk, or cannot be; asks for what is taught where the balls lie elsewhere next.

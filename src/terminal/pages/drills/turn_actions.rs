@@ -5,7 +5,7 @@ use crate::{
     drills::{Attempt, Goal, Session, Venue},
     terminal::{
         DrillAction as Action, DrillCondition as Condition, DrillTask, Effect, Taught,
-        pages::drills::{DrillsPage, Lesson, Screen, Stage, Turn},
+        pages::drills::{DrillsPage, Lesson, Question, Screen, Stage, Turn},
         shot::OwnStroke,
         ui::Message,
         words::skill_word,
@@ -65,6 +65,16 @@ impl Turn {
         }
     }
 
+    /// Whether a key begins another session.
+    fn is_ended_by(&self, action: Action) -> bool {
+        match action {
+            Action::Shift | Action::Goal | Action::Count(_) | Action::Player => true,
+            Action::Play => self.newest().venue == Venue::Table,
+            Action::Log(_) => self.newest().venue != Venue::Table,
+            _ => false,
+        }
+    }
+
     /// The same practice from its beginning: with other options it is another session.
     fn again(&self, goal: Goal, shifted: bool, venue: Venue, skill: Skill, seed: u64) -> Session {
         let exercises = self.session.exercises.clone();
@@ -75,8 +85,25 @@ impl Turn {
 }
 
 impl DrillsPage {
-    /// What the keys do to the exercise that is practised.
+    /// What the keys do to the exercise that is practised. Before one that ends an open run by beginning another session, it is
+    /// asked whether that is meant.
     pub(super) fn update_turn(&mut self, action: Action) -> Option<Effect> {
+        let turn = self.turn.as_ref()?;
+        if turn.is_under_way() && turn.is_ended_by(action) {
+            let Session { goal, attempts, .. } = turn.newest();
+            let what = match goal {
+                Goal::Run(_) => "run",
+                Goal::Match { .. } => "match",
+                _ => "game",
+            };
+            self.question = Some(Question::GiveUp(action, what, attempts.len()));
+            return None;
+        }
+        self.act(action)
+    }
+
+    /// The same without a question.
+    pub(super) fn act(&mut self, action: Action) -> Option<Effect> {
         let turn = self.turn.as_mut()?;
         match action {
             Action::Stroke(change) => match turn.change_stroke(change) {
@@ -140,9 +167,9 @@ impl DrillsPage {
         None
     }
 
-    /// Begins the open exercise again where another player is to play it.
+    /// Begins the open exercise again where another player is to play it. Who has begun an exam or a run plays it to its end.
     pub(super) fn change_player(&mut self) -> Vec<DrillTask> {
-        let is_other = |turn: &Turn| !turn.is_exam() && turn.skill() != self.player.skill;
+        let is_other = |turn: &Turn| !turn.is_exam() && !turn.is_under_way() && turn.skill() != self.player.skill;
         if self.turn.as_ref().is_some_and(is_other) { self.restart(None) } else { Vec::new() }
     }
 
@@ -157,7 +184,8 @@ impl DrillsPage {
 
     fn play(&mut self) -> Option<Effect> {
         let mut tasks = Vec::new();
-        if self.turn.as_ref()?.newest().venue == Venue::Table {
+        let newest = self.turn.as_ref()?.newest();
+        if newest.venue == Venue::Table || newest.is_over() {
             // What is played here counts apart from what is noted.
             tasks = self.restart(Some(Venue::Program));
         }

@@ -1,6 +1,6 @@
 //! An exam: what comes is told before the first stroke, and one that was left is gone on with.
 
-use carom::terminal::{DrillContext, KeyContext};
+use carom::terminal::{DrillContext, KeyContext, SavedSession};
 
 use crate::screens::player::{Player, TRUE_COLOUR, check};
 
@@ -48,4 +48,86 @@ fn an_exam_of_which_only_the_first_page_was_seen_has_not_begun() {
         let seen = Player::at_library(TRUE_COLOUR, &[], &[]).press(keys);
         assert!(seen.app.last().is_none_or(|last| last.practice.is_none()), "{keys}");
     }
+}
+
+#[test]
+fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter");
+    let elsewhere = |player: &Player, notes: usize| {
+        let mut exam = player.store().sessions().items.remove(0);
+        let before = exam.attempts.clone();
+        (0..notes).for_each(|_| exam.log(true).unwrap());
+        player.store().save(&exam, &before).unwrap();
+    };
+    for notes in [2, 1] {
+        elsewhere(&player, notes);
+        let kept = player.kept();
+        player = player.press("Space");
+        player.warns("another program has changed this session");
+        assert_eq!(player.kept(), kept);
+        player.says(&format!("exercise {} of 20", kept + 1));
+    }
+    let on = player.press("Space Enter Enter");
+    assert_eq!(on.kept(), 5);
+    // Who opens the drills again sees it before the next stroke.
+    elsewhere(&on, 3);
+    let seen = on.press("F2 F3");
+    seen.says("another program has gone on with this session").says("exercise 9 of 20");
+    elsewhere(&seen, 12);
+    seen.press("Space").says("Grade: ");
+    // Notes from a real table, and those that are taken back.
+    let mut noted = Player::practising(TRUE_COLOUR).press("m m");
+    elsewhere(&noted, 2);
+    for key in ["m", "u"] {
+        noted = noted.press(key);
+        assert_eq!(noted.kept(), if key == "m" { 4 } else { 3 });
+    }
+    noted.says("taken back: made, 3 of 3 now");
+}
+
+#[test]
+fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
+    let place = |player: &Player| *player.app.coach.layout();
+    let next = |player: &Player| {
+        let last = player.app.last().map(SavedSession::into_owned);
+        let mut next = Player::new();
+        next.app = next.app.with_last(last);
+        next
+    };
+    let first = Player::new().press("r");
+    let left = place(&first);
+    // A key by mistake at the next start, and at the one after it.
+    let second = next(&first).press("r");
+    let third = next(&second).press("o r");
+    let (at_second, at_third) = (place(&second), place(&third));
+    let fourth = next(&third).press("c");
+    assert_eq!(place(&fourth), at_third);
+    fourth.says("c goes back to the one before");
+    let back = fourth.press("c");
+    assert_eq!(place(&back), at_second);
+    let back = back.press("c");
+    assert_eq!(place(&back), left);
+    back.press("c").says("no earlier session waits");
+}
+
+#[test]
+fn an_open_run_is_given_up_only_on_demand_and_gone_on_with_where_it_was_left() {
+    let sessions = |player: &Player| player.store().sessions().items.len();
+    let run = Player::practising(TRUE_COLOUR).press("o Space Enter Enter");
+    for key in ["x", "o", "<", "p", "m"] {
+        let asked = Player::practising(TRUE_COLOUR).press("o Space Enter Enter").press(key);
+        asked.says("give up the run after 1 attempt? It stays in the record. y/n");
+        let stays = asked.press("n Space");
+        assert_eq!((stays.kept(), sessions(&stays)), (2, 1), "{key}");
+    }
+    let left = run.press("Esc");
+    assert_eq!(left.app.place(), LIBRARY);
+    left.says("what you have begun is kept; Enter on the exercise goes on with it");
+    assert_eq!(left.app.last().and_then(|last| last.practice.map(|run| run.attempts.len())), Some(1));
+    let on = left.press("Enter");
+    on.says("run of 5: it goes on here after 1 played");
+    let played = on.press("Space Enter Enter");
+    assert_eq!((played.kept(), sessions(&played)), (2, 1), "one run");
+    let other = played.press("x y Space");
+    assert_eq!((other.kept(), sessions(&other)), (3, 2), "another one");
 }

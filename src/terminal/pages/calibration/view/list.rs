@@ -119,8 +119,10 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     if area.height < 3 {
         return;
     }
-    let inner = draw_title("Best known so far", area, ui);
-    let Some(found) = found(page) else {
+    let found = found(page);
+    let is_unsure = found.is_some_and(Calibration::is_contradictory);
+    let inner = draw_title(if is_unsure { "Unsure: marks disagree" } else { "Best known so far" }, area, ui);
+    let Some(found) = found else {
         ui.buffer.set_stringn(inner.x + 2, inner.y, "nothing yet", usize::from(inner.width), ui.theme.faint());
         return;
     };
@@ -129,7 +131,7 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     constants.sort_by(|one, other| left(one).total_cmp(&left(other)));
     for (one, y) in constants.into_iter().zip(inner.y..inner.bottom()) {
         let room = NAME.max(usize::from(inner.width).saturating_sub(20));
-        let style = if one.known() == "as before" { ui.theme.faint() } else { ui.theme.text() };
+        let style = if found.known(one) == "as before" { ui.theme.faint() } else { ui.theme.text() };
         draw_called(one, room, style, Position::new(inner.x + 2, y), ui);
         let sign = ui.caps.pick("±", "+-");
         let value = format!("{:.4} {sign} {:.4}", one.after, one.after_deviation);

@@ -27,7 +27,7 @@ const NARROW_KNOWN_END: u16 = 47;
 
 /// A row of the part.
 enum Row<'a> {
-    Constant(&'a Change),
+    Constant(&'a Change, &'static str),
     Text(String, Style),
 }
 
@@ -38,7 +38,8 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let said = said(page, found, ui)
         .into_iter()
         .flat_map(|(words, style)| wrap(&words, width).into_iter().map(move |line| Row::Text(line, style)));
-    let constants = found.map_or(&[][..], |found| &found.constants).iter().map(Row::Constant);
+    let constants =
+        found.into_iter().flat_map(|found| found.constants.iter().map(|one| Row::Constant(one, found.known(one))));
     let rows: Vec<Row> = constants.chain(said).collect();
     let height = usize::from(area.height.saturating_sub(1)).max(1);
     let pages = rows.len().div_ceil(height).max(1);
@@ -49,7 +50,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title(format!("The table's values{paged}"), area, ui);
     for (row, y) in rows.chunks(height).nth(number).unwrap_or_default().iter().zip(inner.y..inner.bottom()) {
         match row {
-            Row::Constant(one) => draw_constant(one, Rect { y, height: 1, ..inner }, ui),
+            Row::Constant(one, known) => draw_constant(one, known, Rect { y, height: 1, ..inner }, ui),
             Row::Text(line, style) => ui.buffer.set_string(inner.x + 1, y, line, *style),
         }
     }
@@ -72,9 +73,9 @@ fn said(page: &CalibrationPage, found: Option<&Calibration>, ui: &Ui) -> Vec<(St
     said
 }
 
-fn draw_constant(one: &Change, area: Rect, ui: &mut Ui) {
-    let known = one.known();
+fn draw_constant(one: &Change, known: &str, area: Rect, ui: &mut Ui) {
     let style = match known {
+        "unsure" => ui.theme.warning(),
         "well" => ui.theme.good(),
         "better" => ui.theme.text(),
         _ => ui.theme.faint(),
@@ -122,8 +123,14 @@ pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(S
     let strange = found.strange.iter();
     said.extend(strange.map(|one| (one.words(&stroke(one.trial, one.test)), ui.theme.warning())));
     said.extend(found.rails_apart().into_iter().map(|sentence| (sentence, ui.theme.accent())));
-    let agreement = if found.misread().is_empty() { ui.theme.good() } else { ui.theme.text() };
-    said.push((found.agreement().to_owned(), agreement));
+    let agreement = if found.is_contradictory() {
+        ui.theme.warning()
+    } else if found.misread().is_empty() {
+        ui.theme.good()
+    } else {
+        ui.theme.text()
+    };
+    said.push((found.agreement(stroke), agreement));
     if let Some([before, now]) = page.sheet().judged.as_ref().and_then(|judged| judged.play) {
         said.push((format!("today {}", now.against(&before)), ui.theme.accent()));
     }

@@ -63,30 +63,36 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
         row += 1;
     }
     let rest = Rect { y: row, height: inner.bottom().saturating_sub(row), ..inner };
-    if let Some(words) = list_words(advised, ui).filter(|_| says_why) {
-        let why = if advised.chosen == 0 { "Why" } else { "Why shot 1 leads" };
-        write_lines(&format!("{why}: {words}"), rest, ui);
+    if says_why {
+        let why = if advised.chosen == 0 { "Why: " } else { "Why shot 1 leads: " };
+        write_why(advised, why, rest, ui);
     }
 }
 
 /// Draws a panel of why the first shot leads; `false` where that is not known.
 pub fn draw_why(advised: &AdviceState, area: Rect, ui: &mut Ui) -> bool {
-    let Some(words) = list_words(advised, ui) else { return false };
+    if beside_the_list(advised, ui).next().is_none() {
+        return false;
+    }
     let inner = draw_title(Span::styled("Why shot 1 leads", ui.theme.text()), area, ui);
-    write_lines(&words, inner, ui);
+    write_why(advised, "", inner, ui);
     true
 }
 
-/// What the list does not say of why the first shot leads, once that is known.
-fn list_words(advised: &AdviceState, ui: &Ui) -> Option<String> {
-    Some(spell(&advised.why.as_ref()?.beside_the_list(ui.theme.cue_ball)?, ui.caps))
+/// What the list does not say of why the first shot leads, once that is known, ever shorter.
+fn beside_the_list(advised: &AdviceState, ui: &Ui) -> impl Iterator<Item = String> + use<> {
+    let why = advised.why.as_ref().map(|why| why.beside_the_list(ui.theme.cue_ball).collect::<Vec<_>>());
+    why.unwrap_or_default().into_iter()
 }
 
-/// Writes as much as there is room for.
-fn write_lines(words: &str, area: Rect, ui: &mut Ui) {
+/// Writes it after the word for it, as much as there is room for.
+fn write_why(advised: &AdviceState, word: &str, area: Rect, ui: &mut Ui) {
     let width = usize::from(area.width.saturating_sub(2));
-    let lines =
-        if area.is_empty() { Vec::new() } else { cut(wrap(words, width), usize::from(area.height), width, ui.caps) };
+    if area.is_empty() {
+        return;
+    }
+    let sentences = beside_the_list(advised, ui).map(|words| format!("{word}{words}"));
+    let lines = fitting(sentences, width, usize::from(area.height), ui).unwrap_or_default();
     for (line, row) in lines.iter().zip(area.y..) {
         ui.buffer.set_stringn(area.x + 1, row, line, width, ui.theme.faint());
     }
@@ -96,7 +102,12 @@ fn write_lines(words: &str, area: Rect, ui: &mut Ui) {
 pub fn why_lines(advised: &AdviceState, width: usize, rows: usize, ui: &Ui) -> Option<Vec<String>> {
     let name = if advised.chosen == 0 { "Why" } else { "Why shot 1 leads" };
     let sentences = advised.why.as_ref()?.brief(ui.theme.cue_ball);
-    let mut tries = sentences.map(|words| wrap(&spell(&format!("{name}: {words}"), ui.caps), width));
+    fitting(sentences.map(|words| format!("{name}: {words}")), width, rows, ui)
+}
+
+/// The first of ever shorter sentences that `rows` of such width hold, in lines; the last is cut where it does not fit either.
+fn fitting(sentences: impl Iterator<Item = String>, width: usize, rows: usize, ui: &Ui) -> Option<Vec<String>> {
+    let mut tries = sentences.map(|sentence| wrap(&spell(&sentence, ui.caps), width));
     let mut lines = tries.next()?;
     while lines.len() > rows
         && let Some(shorter) = tries.next()

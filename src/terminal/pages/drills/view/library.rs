@@ -75,7 +75,7 @@ fn status_line(drills: &DrillsPage) -> Message {
         return Message::plain("reading what was played so far");
     }
     if !book.troubles.is_empty() {
-        return Message::warning(book.troubles.join("; "));
+        return Message::warning("some of what was kept cannot be read: F6 names it, and all else is here");
     }
     Message::plain("choose an exercise; Enter opens it")
 }
