@@ -112,7 +112,7 @@ impl Tolerance {
             slowest_lossless_bounce: 2e-8 * speed,
             slowest_in_air: 4e-3 * speed,
             fastest_micro_collision: 1e-3 * speed,
-            micro_room: 8e5 * f64::EPSILON * table.length.max(table.width),
+            micro_room: 7e5 * f64::EPSILON * table.length.max(table.width),
             first_bounce: FIRST_BOUNCE * speed,
             slowest_coupled_bounce: 2e-8 * speed,
             negligible: 2e-12 * speed,
