@@ -249,8 +249,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
         let states = self.states_with(now, freed, bounced);
-        let bounces = (self.law.restitution(contact), shrinking);
-        let end = chatter_end(self.table, &self.constants, contact, &states, self.on_cloth(), bounces, &self.effort)?;
+        let end = chatter_end(self.table, &self.constants, &self.law, contact, &states, self.on_cloth(), shrinking)?;
         (now + end.lasts < self.next_meeting_aloft()).then_some(end.contacts)
     }
 

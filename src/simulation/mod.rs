@@ -14,7 +14,6 @@ mod engine;
 mod events;
 mod extrapolation;
 mod flights;
-mod guards;
 mod hops;
 mod impacts;
 mod jumps;
