@@ -98,11 +98,11 @@ pub struct Attempt {
 }
 
 impl Attempt {
-    /// Whether `all` begin with `first`, however good the strokes were found to be since.
-    pub fn begin(all: &[Self], first: &[Self]) -> bool {
+    /// Whether `prefix` is how `all` begin, however good the strokes were found to be since.
+    pub fn is_prefix(prefix: &[Self], all: &[Self]) -> bool {
         let is_same =
             |(one, other): (&Self, &Self)| (&one.exercise, one.at, one.made) == (&other.exercise, other.at, other.made);
-        first.len() <= all.len() && first.iter().zip(all).all(is_same)
+        prefix.len() <= all.len() && prefix.iter().zip(all).all(is_same)
     }
 }
 

@@ -85,7 +85,7 @@ impl Store {
             let kept: Kept = read_marked(&path)?;
             is_called(&path, &kept.id)?;
             // It may have fewer: what the disk has refused is only known here.
-            if !Attempt::begin(before, &kept.attempts) {
+            if !Attempt::is_prefix(&kept.attempts, before) {
                 return Err(StoreError::Changed(Box::new(read_session(&path)?)));
             }
         }

@@ -398,7 +398,7 @@ impl Turn {
     /// Whether another program has gone on with the session, as it is `stored`, and nothing here is on its way to the disk.
     pub(super) fn is_behind(&self, stored: &Session) -> bool {
         let (known, stored) = (&self.session.attempts, &stored.attempts);
-        self.is_aiming() && self.ahead.is_none() && known.len() < stored.len() && Attempt::begin(stored, known)
+        self.is_aiming() && self.ahead.is_none() && known.len() < stored.len() && Attempt::is_prefix(known, stored)
     }
 
     /// Goes on with the session as another program has left it.

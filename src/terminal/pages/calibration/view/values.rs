@@ -40,7 +40,12 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
         .flat_map(|(words, style)| wrap(&words, width).into_iter().map(move |line| Row::Text(line, style)));
     let constants =
         found.into_iter().flat_map(|found| found.constants.iter().map(|one| Row::Constant(one, found.known(one))));
-    let rows: Vec<Row> = constants.chain(said).collect();
+    // What makes all values unsure stands before them.
+    let rows: Vec<Row> = if found.is_some_and(Calibration::is_contradictory) {
+        said.chain(constants).collect()
+    } else {
+        constants.chain(said).collect()
+    };
     let height = usize::from(area.height.saturating_sub(1)).max(1);
     let pages = rows.len().div_ceil(height).max(1);
     let number = page.values_page.rem_euclid(pages.cast_signed()).cast_unsigned();
@@ -75,7 +80,6 @@ fn said(page: &CalibrationPage, found: Option<&Calibration>, ui: &Ui) -> Vec<(St
 
 fn draw_constant(one: &Change, known: &str, area: Rect, ui: &mut Ui) {
     let style = match known {
-        "unsure" => ui.theme.warning(),
         "well" => ui.theme.good(),
         "better" => ui.theme.text(),
         _ => ui.theme.faint(),
