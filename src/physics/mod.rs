@@ -10,8 +10,8 @@ mod rolling;
 mod slope;
 
 pub use contact::{
-    ActiveSet, Contact, Contacts, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Resolved, accelerations, factorize,
-    forces, resolve, stop_by_impulses, substitute, yielding,
+    ActiveSet, Contact, Contacts, Effort, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Resolved, accelerations,
+    factorize, forces, resolve, stop_by_impulses, substitute, yielding,
 };
 pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
 #[cfg(test)]

@@ -6,8 +6,8 @@ use glam::DVec2;
 use super::{Constants, contacts::close_gaps, extrapolation::State, segment::slides, tolerance::Tolerance};
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, resolve, rolling_spin, slip,
-        stop_by_impulses,
+        ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, MAX_CONTACTS, Resolved, resolve,
+        rolling_spin, slip, stop_by_impulses,
     },
     table::{BALLS, Table},
 };
@@ -78,6 +78,7 @@ pub fn lawful(
     contacts: &mut Contacts,
     least_push: f64,
     previous: Option<Ended<'_>>,
+    effort: &Effort,
 ) -> Option<(State, Resolved)> {
     if stand_on_slope(constants, balls, contacts) {
         return None;
@@ -101,14 +102,14 @@ pub fn lawful(
             |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts[..] == *touching;
         let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts, touching);
         let similar = previous.filter(same).map(of_these);
-        let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref())?;
+        let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref(), effort)?;
         if resolved.is_paradox() {
             return Some(Stopped { begin, resolved, departs: false });
         }
         if let Some(sticking) = resolved.sticking {
             set = sticking;
             remove_rounding(table, constants, &mut begin, touching, &set);
-            resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref())?;
+            resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref(), effort)?;
         }
         let departs = resolved.set != set && {
             let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);

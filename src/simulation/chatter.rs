@@ -13,7 +13,7 @@ use super::{
     contacts::{PAIRS_OF, contacts_where},
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Contacts, ImpactLaw, resolve, slip},
+    physics::{ActiveSet, BallState, Contact, Contacts, Effort, resolve, slip},
     table::{BALLS, PAIRS, Table},
 };
 
@@ -127,12 +127,13 @@ impl Chatters {
     }
 
     /// When each chatter of a ball is over, s, if it bounces no more: those with the other balls, by their index, and at its own
-    /// index those with cushions.
-    pub fn ends(&self, ball: usize) -> [f64; BALLS] {
+    /// index those with cushions. Any bounce, told or not, may be followed by others after a `pause`, s.
+    pub fn ends(&self, ball: usize, pause: f64) -> [f64; BALLS] {
         let mut ends = [f64::NEG_INFINITY; BALLS];
         let cushions = (0..4).map(|rail| (ball, PAIRS.len() + 4 * ball + rail));
         for (other, place) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
             let bounces = self.0[place];
+            ends[other] = ends[other].max(bounces.last + pause);
             if bounces.count > TOLD {
                 ends[other] = ends[other].max(bounces.last + bounces.longest_pause());
             }
@@ -169,20 +170,19 @@ pub struct ChatterEnd {
 }
 
 /// The contacts that come to rest together with one that has just bounced, and opens in the state `balls`: forces press them
-/// once their bounces have ended, and what is left of those can no longer be told. None if it goes on. `shrinking` is by how much the last flight was
-/// shorter than the one before.
+/// once their bounces have ended, and what is left of those can no longer be told. None if it goes on. Of its bounces the restitution is told,
+/// and by how much the last flight was shorter than the one before.
 pub fn chatter_end(
     table: &Table,
     constants: &Constants,
-    law: &ImpactLaw,
     contact: &Contact,
     balls: &[BallState; BALLS],
     on_cloth: [bool; BALLS],
-    shrinking: f64,
+    (restitution, shrinking): (f64, f64),
+    effort: &Effort,
 ) -> Option<ChatterEnd> {
     let tolerance = &constants.tolerance;
     let speed = contact.opening_speed(balls);
-    let restitution = law.restitution(contact);
     // Bounces that lose nothing never fade.
     let slowest = if restitution < 1.0 { tolerance.slowest_bounce } else { tolerance.slowest_lossless_bounce };
     if speed <= slowest {
@@ -230,7 +230,7 @@ pub fn chatter_end(
         return None;
     }
     let set = ActiveSet::of(table, balls, &contacts, none);
-    let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None)?;
+    let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None, effort)?;
     let index = resolved.contacts.iter().position(|pressing| pressing == contact)?;
     let pull = bodies * resolved.forces.normal[index];
     // Balls that never slip lose with each impact the slip that their flight has made, which the other contacts feel as a
@@ -286,8 +286,8 @@ mod tests {
             now += flight;
         }
         assert_eq!(told, TOLD);
-        assert!(chatters.ends(1)[0] > now && chatters.ends(2)[0] < now);
-        assert!(chatters.ends(0)[1] < now + 1.0);
+        assert!(chatters.ends(1, 0.0)[0] > now && chatters.ends(2, 0.0)[0] < now);
+        assert!(chatters.ends(0, 0.0)[1] < now + 1.0);
     }
 
     /// Bounces between a ball and a cushion: each time when the cushion throws the ball back they begin anew, and shorter.
@@ -307,7 +307,7 @@ mod tests {
             longest *= 0.95;
         }
         assert_eq!(told, TOLD);
-        assert!(chatters.ends(0)[1] > now && chatters.ends(0)[1] < now + 0.2);
+        assert!(chatters.ends(0, 0.0)[1] > now && chatters.ends(0, 0.0)[1] < now + 0.2);
     }
 
     /// Two contacts in turn throw a ball back, each with two bounces, after pauses that grow shorter.
@@ -330,7 +330,7 @@ mod tests {
     #[test]
     fn a_chatter_goes_on_that_another_ball_would_cut_short() {
         let table = Table::preset("thesis").unwrap();
-        let (constants, law) = (Constants::of(&table), ImpactLaw::of(&table));
+        let constants = Constants::of(&table);
         let contact = Contact::with_cushion(0, glam::DVec2::NEG_X);
         let ends = |gap: f64| {
             let place = glam::DVec2::new(table.reach().x, 0.0);
@@ -339,7 +339,8 @@ mod tests {
             balls[0].velocity.x = -1e-6;
             balls[0].spin.y = 100.0;
             balls[1].velocity.x = 0.1;
-            chatter_end(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3).is_some()
+            let bounces = (table.rail_restitution, 0.3);
+            chatter_end(&table, &constants, &contact, &balls, [true; BALLS], bounces, &Effort::default()).is_some()
         };
         assert!(ends(1e-6) && !ends(1e-8));
     }
@@ -348,7 +349,7 @@ mod tests {
     #[test]
     fn a_chatter_ends_without_the_contact_that_is_in_flight() {
         let table = Table::preset("thesis").unwrap();
-        let (constants, law) = (Constants::of(&table), ImpactLaw::of(&table));
+        let constants = Constants::of(&table);
         let contact = Contact::with_cushion(0, glam::DVec2::NEG_X);
         let ends = |up: f64| {
             let mut balls =
@@ -359,7 +360,8 @@ mod tests {
                 velocity: glam::DVec2::new(-1e-9, -up),
                 spin: glam::DVec3::new(-100.0, 100.0, 0.0),
             };
-            chatter_end(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3)
+            let bounces = (table.rail_restitution, 0.3);
+            chatter_end(&table, &constants, &contact, &balls, [true; BALLS], bounces, &Effort::default())
                 .expect("the chatter ends")
                 .contacts
                 .to_vec()

@@ -10,37 +10,21 @@ use super::{
     chatter::Chatters,
     contact_mode::ContactMode,
     contacts::PAIRS_OF,
+    guards::{
+        BOUNCE, IMPACT_IN_THE_AIR, MOST_BOUNCING, MOST_IN_THE_AIR, MOST_RESTING, MOST_TURNS,
+        MOST_TURNS_BOUNCING,
+    },
     resting::Resting,
     savings::{All, Savings},
 };
 use crate::{
-    physics::{BallState, Cloth, ImpactLaw, Impulse, Motion},
+    physics::{BallState, Cloth, Effort, ImpactLaw, Impulse, Motion},
     table::{BALLS, Layout, PAIRS, Table},
 };
 
 /// Impacts that follow each other within this time are at the same moment, s: a ball moves by less than a gap that counts as
 /// none meanwhile, at any speed on a table.
 pub(super) const MOMENT: f64 = 1e-15;
-
-/// Work after which nothing rests any more, in the simplest bounces of chatters, of which a step of a resting contact takes as long as
-/// [`STEP_WORK`]: see [`super::micro_collisions`]. Of 10⁶ random shots on "thesis" a few take so much.
-const MOST_RESTING_WORK: u32 = 20_000;
-
-/// Work after which a shot is brought to its end. This is a guard, not physics: what takes part in another contact stands still from
-/// then on. The stability table counts the shots that come to it.
-const MOST_WORK: u32 = 105_000;
-
-/// Turns of the general loop after which a shot ends where it is: ends of motions, impacts, and bounces and steps of resting contacts that
-/// are not told as events. This is a guard, not physics, for what repeats in the air without end; a shot takes some ten turns, and one
-/// with a chatter some hundred.
-const MOST_TURNS: u32 = 50_000;
-
-/// The same once nothing rests any more: a micro-collision takes some of them.
-const MOST_TURNS_BOUNCING: u32 = 250_000;
-
-/// Bounces that take as long as a step of one resting contact, and as an impact in the air.
-const STEP_WORK: u32 = 6;
-pub(super) const IMPACT_IN_THE_AIR: u32 = 4;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,9 +115,6 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) law: ImpactLaw,
     /// Whether nothing bounces on this table.
     pub(super) inelastic: bool,
-    /// Work that a bounce of a chatter on the cloth counts as. Where bounces lose nothing, a ball that is pressed bounces until
-    /// its spin has died down: there are more of them, and they are the simplest.
-    bounce_work: u32,
     /// The cloth, where balls can leave it.
     pub(super) cloth: Option<Cloth>,
     pub(super) observer: &'a mut O,
@@ -151,10 +132,10 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     /// Time of the last impact, s, and how many there have been at that moment.
     pub(super) last_impact: f64,
     pub(super) rounds: u32,
-    /// Bounces of chatters so far, and steps of resting contacts and searches for forces as if they were bounces.
-    pub(super) work: u32,
-    /// Work of impacts in the air, which micro-collisions would not spare.
-    pub(super) work_in_air: u32,
+    /// What bounces of chatters and resting contacts have taken so far.
+    pub(super) effort: Effort,
+    /// What impacts in the air have, which micro-collisions would not spare.
+    pub(super) effort_in_air: Effort,
     /// The laws of slow impacts once nothing rests any more.
     pub(super) micro_collisions: Option<Box<ImpactLaw>>,
     /// The slow bounces, once there is one.
@@ -169,7 +150,6 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             table,
             constants: Constants::of(table),
             law: ImpactLaw::of(table),
-            bounce_work: if restitution < 1.0 { 2 } else { 1 },
             inelastic: restitution == 0.0,
             cloth: Cloth::of(table),
             observer,
@@ -182,8 +162,8 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             pressed: false,
             last_impact: f64::NEG_INFINITY,
             rounds: 0,
-            work: 0,
-            work_in_air: 0,
+            effort: Effort::default(),
+            effort_in_air: Effort::default(),
             micro_collisions: None,
             chatters: None,
             savings: PhantomData,
@@ -217,7 +197,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         let mut most_turns = MOST_TURNS;
         while flow.is_continue() && turns < most_turns {
             turns += 1;
-            if self.work > MOST_RESTING_WORK && self.micro_collisions.is_none() {
+            if self.rests_in_vain() {
                 flow = self.begin_micro_collisions(now);
                 most_turns = MOST_TURNS_BOUNCING;
                 if flow.is_break() {
@@ -317,26 +297,31 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         self.set(index, segment, lasts);
     }
 
+    /// Whether resting contacts have taken more work than any should.
+    pub(super) fn rests_in_vain(&self) -> bool {
+        self.micro_collisions.is_none() && self.effort.spent() > MOST_RESTING
+    }
+
     /// Whether the shot has taken more work than any should.
-    pub(super) const fn is_exhausted(&self) -> bool {
-        self.work + self.work_in_air > MOST_WORK
+    pub(super) fn is_exhausted(&self) -> bool {
+        self.micro_collisions.is_some() && self.effort.spent() > MOST_BOUNCING
+            || self.effort_in_air.spent() > MOST_IN_THE_AIR
     }
 
     /// As if the shot had taken more work than any should.
     #[cfg(test)]
-    pub(super) fn exhaust(&mut self) {
-        self.work = MOST_WORK + 1;
+    pub(super) fn exhaust(&self) {
+        self.effort_in_air.add(MOST_IN_THE_AIR + 1);
     }
 
     /// Takes note of a bounce of a chatter on the cloth.
-    pub(super) const fn chatter_bounce(&mut self) {
-        self.work += self.bounce_work;
+    pub(super) fn chatter_bounce(&self) {
+        self.effort.add(BOUNCE);
     }
 
-    /// Takes note of a step of resting contacts, by what the last one was like.
-    pub(super) fn contact_step(&mut self, last: Option<&Resting>) -> ControlFlow<()> {
-        self.work += last.map_or(STEP_WORK, |last| STEP_WORK * last.contacts.len() as u32 + last.search_work.take());
-        self.observer.contact_step()
+    /// Takes note of an impact in the air.
+    pub(super) fn impact_in_the_air(&self) {
+        self.effort_in_air.add(IMPACT_IN_THE_AIR);
     }
 
     pub(super) fn state(&self, index: usize, now: f64) -> BallState {

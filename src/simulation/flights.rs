@@ -8,7 +8,7 @@ use super::{
     chatter::Chatters,
     contact_mode::ContactMode,
     contacts::PAIRS_OF,
-    engine::{Ball, Engine, IMPACT_IN_THE_AIR, Meeting, only},
+    engine::{Ball, Engine, Meeting, only},
     hops::Hops,
     savings::Savings,
     segment::Course,
@@ -113,7 +113,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// A ball in the air meets the nose of a cushion, or comes down behind it.
     #[cold]
     pub(super) fn rebound_in_space(&mut self, index: usize, now: f64) -> ControlFlow<()> {
-        self.work_in_air += IMPACT_IN_THE_AIR;
+        self.impact_in_the_air();
         let Ball { rail_after, rail, .. } = self.balls[index];
         let c = self.constants;
         let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
@@ -141,7 +141,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Two balls meet of which one at least is in the air.
     #[cold]
     pub(super) fn collide_in_space(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
-        self.work_in_air += IMPACT_IN_THE_AIR;
+        self.impact_in_the_air();
         let (first, second) = PAIRS[pair];
         let Meeting { since, after, .. } = self.pairs[pair];
         let mut changed = only(first);

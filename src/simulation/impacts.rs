@@ -249,7 +249,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
         let states = self.states_with(now, freed, bounced);
-        let end = chatter_end(self.table, &self.constants, &self.law, contact, &states, self.on_cloth(), shrinking)?;
+        let bounces = (self.law.restitution(contact), shrinking);
+        let end = chatter_end(self.table, &self.constants, contact, &states, self.on_cloth(), bounces, &self.effort)?;
         (now + end.lasts < self.next_meeting_aloft()).then_some(end.contacts)
     }
 

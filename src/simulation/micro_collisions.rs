@@ -8,9 +8,9 @@
 
 use std::ops::ControlFlow;
 
-use super::{Observer, contact_mode::ContactMode, engine::Engine, savings::Savings};
+use super::{Constants, Observer, contact_mode::ContactMode, engine::Engine, savings::Savings};
 use crate::{
-    physics::{BallState, ImpactLaw},
+    physics::{BallState, Effort, ImpactLaw},
     table::BALLS,
 };
 
@@ -20,6 +20,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn begin_micro_collisions(&mut self, now: f64) -> ControlFlow<()> {
         self.micro_collisions = Some(Box::new(self.law.with_restitution(1.0)));
         self.cut(now);
+        self.effort = Effort::default();
         self.ended = None;
         if let Some(resting) = self.resting.take() {
             for index in (0..BALLS).filter(|&index| resting.members[index]) {
@@ -37,6 +38,17 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         match &self.micro_collisions {
             Some(lossless) if approach < self.constants.tolerance.fastest_micro_collision => lossless,
             _ => &self.law,
+        }
+    }
+
+    /// How long a micro-collision and the next of the same contact may be apart, s: what presses may be a tenth of the friction of a ball
+    /// that slides. Less than nothing while there are none.
+    pub(super) fn longest_pause(&self) -> f64 {
+        let Constants { tolerance, sliding, .. } = &self.constants;
+        if self.micro_collisions.is_some() {
+            20.0 * tolerance.fastest_micro_collision / sliding
+        } else {
+            f64::NEG_INFINITY
         }
     }
 

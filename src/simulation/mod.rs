@@ -14,6 +14,7 @@ mod engine;
 mod events;
 mod extrapolation;
 mod flights;
+mod guards;
 mod hops;
 mod impacts;
 mod jumps;

@@ -23,7 +23,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
         if !self.is_exhausted() && resting.go_on(self.table) {
-            self.contact_step(Some(&resting))?;
+            self.effort.absorb(&resting.effort);
+            self.observer.contact_step()?;
             let members = resting.members;
             self.resting = Some(resting);
             for index in (0..BALLS).filter(|&index| members[index]) {
@@ -117,9 +118,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
         let previous = self.resting.take().or(self.ended.take());
-        self.contact_step(previous.as_deref())?;
-        if let (Some(chatters), Some(previous)) = (&mut self.chatters, &previous) {
-            previous.contacts.iter().for_each(|contact| chatters.rest(contact, now));
+        self.observer.contact_step()?;
+        if let Some(previous) = &previous {
+            self.effort.absorb(&previous.effort);
+            if let Some(chatters) = &mut self.chatters {
+                previous.contacts.iter().for_each(|contact| chatters.rest(contact, now));
+            }
         }
         let on_cloth = self.on_cloth();
         self.resting = match Resting::begin(
@@ -132,6 +136,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             self.next_step,
         ) {
             Outcome::Rests(resting) => {
+                self.effort.absorb(&resting.effort);
                 self.next_step = resting.next_step;
                 let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
                 resting.contacts.iter().for_each(|contact| chatters.begin_rest(contact, now));
@@ -145,7 +150,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 }
                 Some(resting)
             }
-            Outcome::Free(ended, balls) => {
+            Outcome::Free(ended, balls, effort) => {
+                self.effort.absorb(&effort);
                 // A slip that ends here ends for good.
                 for index in (0..BALLS).filter(|&index| balls[index]) {
                     self.end_segment(index, now);
@@ -199,10 +205,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Whether a ball may bounce again before one of its chatters is over: where its own next event, or any of the ball with which
-    /// it chatters, comes in time for that.
+    /// it chatters, comes in time for that; micro-collisions begin again by whatever happens.
     fn may_bounce(&self, index: usize) -> bool {
         let Some(chatters) = &self.chatters else { return false };
-        let (ends, own) = (chatters.ends(index), self.times[index]);
+        let (ends, own) = (chatters.ends(index, self.longest_pause()), self.times[index]);
+        if self.micro_collisions.is_some() {
+            return self.times.iter().any(|time| ends.iter().any(|end| time <= end));
+        }
         let next = |other: usize| {
             PAIRS_OF[other]
                 .iter()

@@ -6,12 +6,11 @@
 //! ends like an exponential and everything stays smooth.
 
 mod bounds;
+mod breaking;
 mod course;
 mod interruption;
 mod stiffness;
 mod stillness;
-
-use std::cell::Cell;
 
 use glam::{DVec2, DVec3};
 
@@ -20,12 +19,13 @@ use super::{
     active_set::{Ended, lawful, remove_rounding, transient_pressing, without_ending_slips},
     contacts::{close_gaps, touching},
     extrapolation::{Phase, State, Step, extrapolate},
+    guards::{HELD, MOST_RESTING, MOST_STEP, STEP},
     tolerance::Tolerance,
 };
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, accelerations, forces, resolve, slip,
-        yielding,
+        ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, Resolved, accelerations, forces, resolve,
+        slip, yielding,
     },
     table::{BALLS, Table},
 };
@@ -56,9 +56,6 @@ const MOST_SHORT_STEPS: u32 = 16;
 /// After so many steps in a row that began anew, forces that are not unique are sought near to those before. Sought from nothing, they
 /// may lie at the edge of a law and break it at once, in every step.
 const MOST_RESTARTS: u32 = 8;
-
-/// Sweeps of the solver that take as long as the simplest bounce of a chatter.
-const SWEEPS_A_BOUNCE: u32 = 2;
 
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
@@ -101,8 +98,8 @@ pub struct Resting {
     restarts: u32,
     /// Whether all that holds at the end is what held at the beginning.
     goes_on: bool,
-    /// What the searches for forces have cost, in bounces of chatters.
-    pub(super) search_work: Cell<u32>,
+    /// What the searches for forces have taken.
+    pub(super) effort: Effort,
     /// Whether something else has ended the step.
     pub(super) interrupted: bool,
     /// Step that is tried, s; behind the step the one to try next.
@@ -122,8 +119,8 @@ struct Trial {
 pub enum Outcome {
     /// A step of balls that press each other.
     Rests(Box<Resting>),
-    /// Nothing presses; the balls as they go on, and those of them whose slips end here.
-    Free(State, [bool; BALLS]),
+    /// Nothing presses; the balls as they go on, those of them whose slips end here, and what it took to know.
+    Free(State, [bool; BALLS], Effort),
 }
 
 impl Resting {
@@ -141,13 +138,14 @@ impl Resting {
         let Tolerance { slack, .. } = constants.tolerance;
         let mut contacts =
             touching(constants, balls, on_cloth, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
-        let mut free = *balls;
+        let (mut free, effort) = (*balls, Effort::default());
+        effort.add(STEP);
         let least_push = slack + transient_pressing(constants, balls, &contacts);
         let Some((begin, resolved)) =
-            lawful(table, constants, &mut free, &mut contacts, least_push, previous.map(Self::ended))
+            lawful(table, constants, &mut free, &mut contacts, least_push, previous.map(Self::ended), &effort)
         else {
             let ended = without_ending_slips(table, constants, &free, &contacts);
-            return Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]));
+            return Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]), effort);
         };
         let Resolved { contacts, set, forces, shared, .. } = resolved;
         let mut resting = Self {
@@ -165,7 +163,7 @@ impl Resting {
             short_steps: previous.map_or(0, |previous| previous.short_steps),
             restarts: previous.map_or(0, |previous| previous.restarts + 1),
             goes_on: false,
-            search_work: Cell::new(forces.sweeps / SWEEPS_A_BOUNCE),
+            effort,
             interrupted: false,
             next_step,
             constants: *constants,
@@ -190,6 +188,7 @@ impl Resting {
         if self.goes_on && !self.is_still() {
             (self.start, self.begin, self.first) = (self.start + self.step, self.end, self.last);
             self.restarts = 0;
+            self.effort.add(STEP);
             self.advance(table);
             return true;
         }
@@ -222,7 +221,11 @@ impl Resting {
                 return;
             }
         }
-        if trial.step.end.time.is_nan() || trial.step.end.time <= 0.0 {
+        if self.is_given_up() {
+            // The shot goes on in micro-collisions.
+            self.effort.add(MOST_RESTING);
+        }
+        if self.is_given_up() || trial.step.end.time.is_nan() || trial.step.end.time <= 0.0 {
             // Nothing can be followed: time goes on.
             (self.step, self.end, self.goes_on) = (shortest, self.begin, false);
             return;
@@ -300,6 +303,11 @@ impl Resting {
         self.short_steps > MOST_SHORT_STEPS
     }
 
+    /// Whether the step has taken more work than any should.
+    fn is_given_up(&self) -> bool {
+        self.effort.spent() > MOST_STEP
+    }
+
     /// Where the step begins.
     const fn beginning(&self) -> Trial {
         let step = Step { end: Phase { balls: self.begin, time: 0.0 }, error: 0.0, best_length: 0.0 };
@@ -317,6 +325,7 @@ impl Resting {
                 last = self.sought(table, &self.set, &phase.balls, &last);
                 (last.linear, last.angular)
             } else {
+                self.effort.add(HELD * contacts.len() as u64);
                 accelerations(table, &phase.balls, contacts, &self.set, &self.first)
                     .unwrap_or((self.first.linear, self.first.angular))
             };
@@ -329,62 +338,6 @@ impl Resting {
         Trial { span, step, forces: self.forces(table, &self.set, &step.end.balls, &from.forces) }
     }
 
-    /// Shortens a step at whose end a law of its active set is broken to just after the moment when that happened.
-    fn until_a_law_breaks(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
-        if whole.forces.slack < -self.constants.tolerance.slack {
-            let shorter = self.until_the_slack_ends(table, begin, whole);
-            if !self.shared || !self.holds(table, &shorter) {
-                return shorter;
-            }
-        }
-        self.while_it_holds(table, begin, whole)
-    }
-
-    /// Finds the zero of the slack, by false position (Illinois) and by halves; each guess begins at the last place before.
-    fn until_the_slack_ends(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
-        let allowed = self.constants.tolerance.slack;
-        let (mut before, mut after) = (*begin, *whole);
-        let (mut low_value, mut high_value) = ((self.first.slack + allowed).max(0.0), after.forces.slack + allowed);
-        let mut same_side = 0_i32;
-        for _ in 0..MAX_GUESSES {
-            if high_value >= -allowed || after.span - before.span <= self.constants.tolerance.shortest_step {
-                break;
-            }
-            let secant = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
-            let share = if same_side.abs() > 2 { 0.5 } else { secant };
-            let middle = self.reach(table, &before, before.span + share * (after.span - before.span));
-            let value = middle.forces.slack + allowed;
-            if value < 0.0 {
-                (after, high_value) = (middle, value);
-                same_side = same_side.max(0) + 1;
-                if same_side > 1 {
-                    low_value *= 0.5;
-                }
-            } else {
-                (before, low_value) = (middle, value);
-                same_side = same_side.min(0) - 1;
-                if same_side < -1 {
-                    high_value *= 0.5;
-                }
-            }
-        }
-        after
-    }
-
-    /// The same where what is held is held more than once, so that only trying tells how long it holds.
-    fn while_it_holds(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
-        let (mut before, mut after) = (*begin, *whole);
-        while after.span - before.span > self.constants.tolerance.shortest_step.max(1e-9 * after.span) {
-            let middle = self.reach(table, &before, 0.5 * (before.span + after.span));
-            if self.holds(table, &middle) {
-                before = middle;
-            } else {
-                after = middle;
-            }
-        }
-        after
-    }
-
     /// Whether the forces at a step's end are those that obey all laws.
     fn holds(&self, table: &Table, trial: &Trial) -> bool {
         let end = &trial.step.end.balls;
@@ -395,11 +348,13 @@ impl Resting {
         if (0..BALLS).any(|ball| self.members[ball] && turned(ball)) {
             return false;
         }
-        let lawful =
-            resolve(table, end, &self.contacts, &self.set, self.constants.tolerance.slack, Some(&trial.forces));
-        self.note_search(lawful.as_ref().map_or(0, |lawful| lawful.forces.sweeps));
+        if self.is_given_up() {
+            return false;
+        }
+        let slack = self.constants.tolerance.slack;
+        let lawful = resolve(table, end, &self.contacts, &self.set, slack, Some(&trial.forces), &self.effort);
         lawful.is_some_and(|lawful| {
-            trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * self.constants.tolerance.slack
+            trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * slack
                 && lawful.contacts[..] == self.contacts[..]
                 && !lawful.set.lets_go(&self.set)
         })
@@ -463,18 +418,16 @@ impl Resting {
         if set.yields() || self.seeks() {
             return self.sought(table, set, state, near);
         }
+        self.effort.add(HELD * self.contacts.len() as u64);
         forces(table, state, &self.contacts, set, Some(&self.first)).unwrap_or(self.first)
     }
 
     /// The forces in an active set by the solver.
     fn sought(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
-        let forces = yielding(table, state, &self.contacts, set, near);
-        self.note_search(forces.sweeps);
-        forces
-    }
-
-    fn note_search(&self, sweeps: u32) {
-        self.search_work.set(self.search_work.get() + sweeps / SWEEPS_A_BOUNCE);
+        if self.is_given_up() {
+            return *near;
+        }
+        yielding(table, state, &self.contacts, set, near, &self.effort)
     }
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {

@@ -41,7 +41,7 @@ pub struct Tolerance {
     /// meanwhile, and it is never more than 1e-13 s.
     /// Larger: what ends is overshot, and flips. Smaller: steps are rounded away.
     pub shortest_step: f64,
-    /// In shorter steps, s, the places at both ends, which are rounded, say less of the velocity than the velocities do.
+    /// In shorter steps, s, the places at both ends, which are rounded, say less of the velocity than the velocities do where both agree.
     pub shortest_quintic: f64,
     /// Estimated error that a step of a resting contact may make, in m, m/s, or R times rad/s. A contact takes some tens
     /// of steps.
@@ -112,7 +112,7 @@ impl Tolerance {
             slowest_lossless_bounce: 2e-8 * speed,
             slowest_in_air: 4e-3 * speed,
             fastest_micro_collision: 1e-3 * speed,
-            micro_room: 8e5 * f64::EPSILON * table.length.max(table.width),
+            micro_room: 7e5 * f64::EPSILON * table.length.max(table.width),
             first_bounce: FIRST_BOUNCE * speed,
             slowest_coupled_bounce: 2e-8 * speed,
             negligible: 2e-12 * speed,

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{
-    ActiveSet, Contact, Contacts, Friction, MAX_CONTACTS,
+    ActiveSet, Contact, Contacts, Effort, Friction, MAX_CONTACTS,
     margin::{rates, with_margin},
     problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown, coefficient},
     solve::{Side, Solution, solve, solve_near},
@@ -36,8 +36,6 @@ pub struct Forces {
     pub slack: f64,
     /// Whether all laws hold to rounding where forces have been sought.
     pub converged: bool,
-    /// How long that search took, in sweeps over the laws.
-    pub sweeps: u32,
     /// Whether they are one of many that do the same, as the balls are held more often than needed.
     pub(super) redundant: bool,
     /// Friction per ball mass in each contact, along `t = z×n` and along z, m/s².
@@ -81,8 +79,9 @@ pub(super) fn read_off(
     set: &ActiveSet,
     slack: f64,
     (problem, solution): (&Problem, &Solution),
+    effort: &Effort,
 ) -> Option<Resolved> {
-    let spared = with_margin(problem, solution, DEPARTING * table.gravity);
+    let spared = with_margin(problem, solution, DEPARTING * table.gravity, effort);
     let solution = spared.as_ref().unwrap_or(solution);
     let accelerations = problem.accelerations(&solution.sizes);
     let mut resolved = Resolved {
@@ -146,19 +145,17 @@ pub(super) fn solved(
     contacts: &[Contact],
     set: &ActiveSet,
     similar: Option<&Forces>,
-    seek: fn(&Problem, &Sizes) -> Solution,
+    (seek, effort): (fn(&Problem, &Sizes, &Effort) -> Solution, &Effort),
 ) -> (Problem, Solution) {
     let mut problem = Problem::new(table, balls, contacts, set);
-    let mut solution = seek(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)));
+    let mut solution = seek(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)), effort);
     let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.place, side), (Place::Contact(index), Side::Limited(_)) if contacts[index].never_slips(table));
     if problem.unknowns.iter().zip(&solution.sides).any(reaches_its_limit) {
         problem.grip(contacts);
-        let mut gripped = solve_near(&problem, &solution.sizes);
-        let sweeps = solution.sweeps + gripped.sweeps;
+        let gripped = solve_near(&problem, &solution.sizes, effort);
         if gripped.converged {
-            std::mem::swap(&mut solution, &mut gripped);
+            solution = gripped;
         }
-        solution.sweeps = sweeps;
     }
     (problem, solution)
 }
@@ -181,10 +178,11 @@ pub fn yielding(
     contacts: &[Contact],
     set: &ActiveSet,
     similar: &Forces,
+    effort: &Effort,
 ) -> Forces {
     // Where the state before has no forces the step mostly fails: a long search in each of its states is not worth its time.
     let seek = if similar.converged { solve } else { solve_near };
-    let (problem, solution) = solved(table, balls, contacts, set, Some(similar), seek);
+    let (problem, solution) = solved(table, balls, contacts, set, Some(similar), (seek, effort));
     let accelerations = problem.accelerations(&solution.sizes);
     let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);
     forces.slack = spin_slack(table.radius, balls, set);
@@ -239,7 +237,6 @@ impl Forces {
         normal: [0.0; MAX_CONTACTS],
         slack: f64::INFINITY,
         converged: true,
-        sweeps: 0,
         redundant: false,
         friction: [DVec2::ZERO; MAX_CONTACTS],
         cloth: [DVec2::ZERO; BALLS],
@@ -248,8 +245,8 @@ impl Forces {
     };
 
     fn of(radius: f64, problem: &Problem, solution: &Solution, accelerations: &Row) -> Self {
-        let Solution { sizes, converged, sweeps, .. } = solution;
-        let mut forces = Self { converged: *converged, sweeps: *sweeps, ..Self::NONE };
+        let Solution { sizes, converged, .. } = solution;
+        let mut forces = Self { converged: *converged, ..Self::NONE };
         for ball in 0..BALLS {
             let (linear, angular) = accelerations.of_ball(ball);
             forces.linear[ball] = linear;
@@ -325,7 +322,7 @@ mod tests {
             list.push(*contact);
         }
         let set = ActiveSet::of(&table, &balls, contacts, 1e-10);
-        resolve(&table, &balls, &list, &set, 1e-11, None)
+        resolve(&table, &balls, &list, &set, 1e-11, None, &Effort::default())
     }
 
     fn right_cushion() -> (Table, Contact, DVec2) {
@@ -359,11 +356,16 @@ mod tests {
         assert!(resolved.forces.converged && held.distance(&resolved.forces, table.radius) < 1e-12);
     }
 
+    /// Nor is the search for such forces free of charge.
     #[test]
     fn a_cushion_never_pulls() {
-        let (_, contact, position) = right_cushion();
+        let (table, contact, position) = right_cushion();
         let ball = BallState { position, velocity: DVec2::ZERO, spin: DVec3::new(0.0, -80.0, 0.0) };
-        assert!(resolved(ball, &[contact]).is_none());
+        let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
+        let mut contacts = Contacts::NONE;
+        contacts.push(contact);
+        let (set, effort) = (ActiveSet::of(&table, &balls, &contacts, 1e-10), Effort::default());
+        assert!(resolve(&table, &balls, &contacts, &set, 1e-11, None, &effort).is_none() && effort.spent() > 0);
     }
 
     /// What keeps a rolling ball from opening the contact also keeps it from slipping upwards there: the matrix is singular.

@@ -7,6 +7,7 @@
 //! then last for a while.
 
 use super::{
+    Effort,
     problem::{Limit, Place, Problem},
     solve::{Side, Solution, solve_near},
 };
@@ -53,15 +54,15 @@ fn is_at_edge(problem: &Problem, solution: &Solution, index: usize, none: f64) -
 
 /// Forces away from the edges, where nothing slips faster than at the rate `none`, m/s²; `None` if none are at
 /// an edge, or no others obey all laws.
-pub fn with_margin(problem: &Problem, solution: &Solution, none: f64) -> Option<Solution> {
+pub fn with_margin(problem: &Problem, solution: &Solution, none: f64, effort: &Effort) -> Option<Solution> {
     let at_edge = |index: &usize| is_at_edge(problem, solution, *index, none);
     // The normal forces come first: if the last is one, no friction's share matters.
     let last = (0..problem.unknowns.len()).rev().find(at_edge)?;
     let shares = if matches!(problem.unknowns[last].place, Place::Normal(_)) { &SHARES[..1] } else { &SHARES };
-    shares.iter().find_map(|share| with_share(problem, solution, none, *share))
+    shares.iter().find_map(|share| with_share(problem, solution, none, *share, effort))
 }
 
-fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64) -> Option<Solution> {
+fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64, effort: &Effort) -> Option<Solution> {
     let (mut eased, mut found) = (problem.clone(), solution.clone());
     let mut spared = vec![false; problem.unknowns.len()];
     for _ in 0..ROUNDS {
@@ -84,7 +85,7 @@ fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64) -> 
             }
             return Some(found);
         }
-        found = solve_near(&eased, &found.sizes);
+        found = solve_near(&eased, &found.sizes, effort);
         let holds = |index: usize| match problem.unknowns[index].place {
             Place::Normal(_) => {
                 rates(&eased, &found, index)[0] >= -LEFT * solution.sizes[problem.unknowns[index].first].abs()
@@ -103,7 +104,7 @@ mod tests {
     use glam::{DVec2, DVec3};
 
     use crate::{
-        physics::{ActiveSet, BallState, Contact, Contacts, resolve},
+        physics::{ActiveSet, BallState, Contact, Contacts, Effort, resolve},
         table::Table,
     };
 
@@ -122,7 +123,7 @@ mod tests {
         contacts.push(Contact::with_cushion(1, DVec2::Y));
         contacts.push(Contact::of_balls(0, 1));
         let set = ActiveSet::of(&table, &balls, &contacts, 1e-10);
-        let resolved = resolve(&table, &balls, &contacts, &set, 1e-11, None).unwrap();
+        let resolved = resolve(&table, &balls, &contacts, &set, 1e-11, None, &Effort::default()).unwrap();
         assert!(resolved.forces.converged && !resolved.shared);
         assert!(resolved.forces.slack > 1e-3 * table.gravity, "{}", resolved.forces.slack);
         assert!(resolved.forces.linear[1].length() < 1e-10);

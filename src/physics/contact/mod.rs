@@ -6,6 +6,7 @@
 //! unknowns: [`resolve`] solves it, [`forces`] follows its solution while nothing changes sides.
 
 mod active_set;
+mod effort;
 mod forces;
 mod held;
 mod linear;
@@ -19,6 +20,7 @@ use glam::{DVec2, DVec3};
 use super::BallState;
 use crate::table::{BALLS, Table};
 pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
+pub use effort::Effort;
 pub use forces::{Forces, Resolved, yielding};
 pub use held::{accelerations, forces, stop_by_impulses};
 pub use linear::{factorize, substitute};

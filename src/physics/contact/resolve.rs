@@ -8,7 +8,7 @@
 use glam::DVec2;
 
 use super::{
-    ActiveSet, Contacts, Forces, Friction,
+    ActiveSet, Contacts, Effort, Forces, Friction,
     forces::{DEPARTING, Resolved, read_off, solved},
     held::forces,
     margin::rates,
@@ -36,12 +36,13 @@ pub fn resolve(
     set: &ActiveSet,
     slack: f64,
     similar: Option<&Forces>,
+    effort: &Effort,
 ) -> Option<Resolved> {
-    let (mut problem, mut solution) = solved(table, balls, contacts, set, similar, solve);
-    if let Some(eased) = easing(table, balls, contacts, set, slack, (&mut problem, &mut solution)) {
+    let (mut problem, mut solution) = solved(table, balls, contacts, set, similar, (solve, effort));
+    if let Some(eased) = easing(table, balls, contacts, set, slack, (&mut problem, &mut solution), effort) {
         return Some(eased);
     }
-    read_off(table, balls, contacts, set, slack, (&problem, &solution))
+    read_off(table, balls, contacts, set, slack, (&problem, &solution), effort)
 }
 
 /// What holds where a ball's resistance eases; none where none does. From a ball that slides even without its resistance the problem and
@@ -53,6 +54,7 @@ fn easing(
     set: &ActiveSet,
     slack: f64,
     (problem, solution): (&mut Problem, &mut Solution),
+    effort: &Effort,
 ) -> Option<Resolved> {
     let rolls = |ball: usize| set.cloth[ball] == Friction::Sticks && matches!(set.roll[ball], Friction::Slips(_));
     for ball in (0..BALLS).filter(|&ball| contacts.hold(ball) && rolls(ball) && !set.yields()) {
@@ -62,7 +64,7 @@ fn easing(
         let without = |share: f64, near: &Solution| {
             let mut eased = problem.clone();
             eased.ease(table, ball, &balls[ball], share);
-            let solution = solve_near(&eased, &near.sizes);
+            let solution = solve_near(&eased, &near.sizes, effort);
             (eased, solution)
         };
         let mut rolling = without(1.0, solution);
@@ -71,7 +73,7 @@ fn easing(
             continue;
         }
         let eased = |(problem, solution): &(Problem, Solution)| {
-            let mut resolved = read_off(table, balls, contacts, set, slack, (problem, solution))?;
+            let mut resolved = read_off(table, balls, contacts, set, slack, (problem, solution), effort)?;
             resolved.set.roll[ball] = Friction::Eases;
             // With more of the resistance what begins to slip without it may hold.
             resolved
@@ -122,7 +124,7 @@ mod tests {
     use glam::{DVec2, DVec3};
 
     use crate::{
-        physics::{ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, forces, resolve, slip},
+        physics::{ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, Resolved, forces, resolve, slip},
         table::Table,
     };
 
@@ -152,7 +154,7 @@ mod tests {
 
     fn resolved(table: &Table, (balls, contacts): &([BallState; 3], Contacts)) -> Resolved {
         let set = ActiveSet::of(table, balls, contacts, 1e-4);
-        resolve(table, balls, contacts, &set, 1e-11, None).expect("they press each other")
+        resolve(table, balls, contacts, &set, 1e-11, None, &Effort::default()).expect("they press each other")
     }
 
     /// The first ball keeps rolling, the cloth does all it can, and no law is broken. With the whole resistance one would be, and with

@@ -8,6 +8,7 @@
 use glam::DVec2;
 
 use super::{
+    Effort,
     linear::{PROXIMITY, factorize, substitute},
     problem::{Limit, MOST_UNKNOWNS, NO_SIZES, Place, Problem, Sizes, Unknown},
 };
@@ -60,37 +61,30 @@ pub struct Solution {
     pub sides: Sides,
     /// Whether every law holds to rounding.
     pub converged: bool,
-    /// How long the search took, in sweeps: a Newton step counts as [`STEP_IN_SWEEPS`].
-    pub sweeps: u32,
 }
-
-/// Sweeps that take as long as a Newton step.
-const STEP_IN_SWEEPS: u32 = 4;
 
 /// The forces of a search that break the laws least so far.
 struct Best {
     error: f64,
     sizes: Sizes,
-    /// How long the search has taken, in sweeps.
-    sweeps: u32,
 }
 
 /// What each unknown's law asks.
 pub type Sides = [Side; MOST_UNKNOWNS];
 
 /// Forces and frictions that obey all laws, sought from `guess` on.
-pub fn solve(problem: &Problem, guess: &Sizes) -> Solution {
-    solve_in(problem, guess, ATTEMPTS)
+pub fn solve(problem: &Problem, guess: &Sizes, effort: &Effort) -> Solution {
+    solve_in(problem, guess, ATTEMPTS, effort)
 }
 
 /// The same if they are near to the `guess`.
-pub fn solve_near(problem: &Problem, guess: &Sizes) -> Solution {
-    solve_in(problem, guess, 1)
+pub fn solve_near(problem: &Problem, guess: &Sizes, effort: &Effort) -> Solution {
+    solve_in(problem, guess, 1, effort)
 }
 
-fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32) -> Solution {
-    let system = System::new(problem);
-    let mut best = Best { error: f64::INFINITY, sizes: *guess, sweeps: 0 };
+fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32, effort: &Effort) -> Solution {
+    let system = System::new(problem, effort);
+    let mut best = Best { error: f64::INFINITY, sizes: *guess };
     for attempt in 0..attempts {
         let error_before = best.error;
         let begin = if attempt == 0 {
@@ -98,7 +92,6 @@ fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32) -> Solution {
         } else {
             let (mut sizes, sweeps) = (best.sizes, FIRST_SWEEPS << (attempt - 1));
             (0..sweeps).for_each(|_| system.sweep(&mut sizes));
-            best.sweeps += sweeps;
             sizes
         };
         if let Some(solution) = system.newton(&begin, &mut best, NEWTON_STEPS, MOST_HALVINGS, PROXIMITY) {
@@ -116,7 +109,7 @@ fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32) -> Solution {
     }
     let mut end = Point::NOWHERE;
     system.put(&mut end, |index| best.sizes[index]);
-    Solution { sizes: end.sizes, sides: end.sides, converged: false, sweeps: best.sweeps }
+    Solution { sizes: end.sizes, sides: end.sides, converged: false }
 }
 
 /// Where a step leads.
@@ -137,15 +130,16 @@ impl Point {
 /// The problem as numbers: rates are `matrix · sizes + bias`.
 struct System<'a> {
     problem: &'a Problem,
+    effort: &'a Effort,
     count: usize,
     matrix: Vec<f64>,
     bias: Sizes,
 }
 
 impl<'a> System<'a> {
-    fn new(problem: &'a Problem) -> Self {
+    fn new(problem: &'a Problem, effort: &'a Effort) -> Self {
         let count = problem.rates.len();
-        let mut system = Self { problem, count, matrix: Vec::with_capacity(count * count), bias: NO_SIZES };
+        let mut system = Self { problem, effort, count, matrix: Vec::with_capacity(count * count), bias: NO_SIZES };
         for (row, (rate, bias)) in problem.rates.iter().zip(&problem.bias).enumerate() {
             system.bias[row] = rate.dot(&problem.known) + bias;
             system.matrix.extend(problem.forces.iter().map(|force| rate.dot(force)));
@@ -169,13 +163,11 @@ impl<'a> System<'a> {
         let mut jacobian = Vec::with_capacity(self.count * self.count);
         self.put(here, |index| sizes[index]);
         for _ in 0..steps {
-            best.sweeps += STEP_IN_SWEEPS;
             if here.error < best.error {
                 (best.error, best.sizes) = (here.error, here.sizes);
             }
             if here.error <= ROUNDING * self.scale(&here.sizes) {
-                let Best { sweeps, .. } = *best;
-                return Some(Solution { sizes: here.sizes, sides: here.sides, converged: true, sweeps });
+                return Some(Solution { sizes: here.sizes, sides: here.sides, converged: true });
             }
             let change = self.newton_step(here, &mut jacobian, proximity)?;
             (next, spare) = self.step(here, &change, most_halvings, [next, spare]);
@@ -274,6 +266,7 @@ impl<'a> System<'a> {
 
     /// Forces less their projections, and the side of each law.
     fn residual(&self, sizes: &Sizes, residual: &mut Sizes, sides: &mut Sides) {
+        self.effort.add((self.count * self.count) as u64);
         for (unknown, side) in self.problem.unknowns.iter().zip(sides) {
             let force;
             (force, *side) = self.project(unknown, sizes);
@@ -287,6 +280,7 @@ impl<'a> System<'a> {
     fn newton_step(&self, point: &Point, jacobian: &mut Vec<f64>, proximity: f64) -> Option<Sizes> {
         let Point { sizes, residual, sides, .. } = point;
         let n = self.count;
+        self.effort.add((n * n * (n + 6) / 3) as u64);
         jacobian.clear();
         jacobian.resize(n * n, 0.0);
         let mut change = NO_SIZES;
@@ -350,6 +344,7 @@ impl<'a> System<'a> {
 
     /// Satisfies one law after another with the others held.
     fn sweep(&self, sizes: &mut Sizes) {
+        self.effort.add((self.count * self.count) as u64);
         for unknown in &self.problem.unknowns {
             let (force, _) = self.project(unknown, sizes);
             sizes[unknown.first..][..unknown.count].copy_from_slice(&force.to_array()[..unknown.count]);

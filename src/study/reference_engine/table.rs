@@ -104,13 +104,13 @@ impl<R: Real> Numbers<R> {
     /// The same without restitution: the end of endless bounces, at the height of the balls' centres.
     #[must_use]
     pub fn inelastic(&self) -> Self {
-        let dead = |cushion: Cushion<R>| Cushion {
-            restitution: R::zero(),
-            falling: None,
-            meeting: Meeting::Equator,
-            ..cushion
-        };
-        Self { ball_restitution: R::zero(), ball_falling: None, cushions: self.cushions.map(dead), ..*self }
+        self.with_restitution(R::zero())
+    }
+
+    /// The same table with this restitution in every impact, whatever its speed.
+    pub fn with_restitution(&self, restitution: R) -> Self {
+        let with = |cushion: Cushion<R>| Cushion { restitution, falling: None, meeting: Meeting::Equator, ..cushion };
+        Self { ball_restitution: restitution, ball_falling: None, cushions: self.cushions.map(with), ..*self }
     }
 
     /// Whether the table has laws that this engine lacks.

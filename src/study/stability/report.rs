@@ -188,7 +188,7 @@ lose nothing along their normal: those of shots that have taken so much work tha
 What counts as explained besides: rounding (32 ε of the energy, and frictions times the rounding of time), what parts balls that never \
 slip and that no forces hold together (8e-10 √(g R)), \
 speeds below 1e-7 m/s that are stopped (1e-14 m²/s² a ball, and what the impulses in closed contacts that stop them rub), and in resting \
-contacts errors of 1e-10 m/s, in impacts also times the slip, of 1e-10 m and \
+contacts, and where something touches that does not collide, errors of 1e-10 m/s, in impacts also times the slip, of 1e-10 m and \
 of a hundred-thousandth of the work. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
 multiples of what is explained and in m²/s² (energy over a ball's mass). Where balls fly, \
 heights count, too: each landing takes what the cloth's restitution and friction say, worked out hop by hop, and impacts take what the \

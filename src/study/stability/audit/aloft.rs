@@ -2,7 +2,7 @@
 
 use super::{
     doubt::{RESTING_SPEED, STOPPED_SPEED},
-    moment::Bounces,
+    moment::{Bounces, fastest_micro_collision},
 };
 use crate::{
     physics::{SpatialState, slip},
@@ -67,11 +67,13 @@ pub struct Supposed {
     pub joins: u32,
     /// Whether balls that have been thrown up so slowly that they do not hop lie on the cloth already.
     pub lies: bool,
+    /// Whether slow impacts on the cloth lose nothing, since the shot has taken too much work for anything to rest.
+    pub is_micro: bool,
 }
 
 impl Supposed {
     /// Nothing.
-    pub const NOTHING: Self = Self { grazes: false, none: 0.0, joins: u32::MAX, lies: false };
+    pub const NOTHING: Self = Self { grazes: false, none: 0.0, joins: u32::MAX, lies: false, is_micro: false };
 }
 
 /// Whether an impact of a ball is told before its landing.
@@ -96,6 +98,7 @@ pub fn impacts(
     supposed: Supposed,
 ) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
+    let lossless = numbers.with_restitution(1.0);
     let slowest = numbers.flight.filter(|_| supposed.lies).map_or(0.0, |flight| flight.slowest);
     let mut lost = 0.0;
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
@@ -169,8 +172,10 @@ pub fn impacts(
                 bounces =
                     bounces.into_iter().chain([left_out]).max_by(|one, other| one.energy.total_cmp(&other.energy));
             }
+            let is_slow = |contact: &Contact| -contact.opening(&balls) < fastest_micro_collision(table);
+            let law = if supposed.is_micro && round.iter().all(is_slow) { &lossless } else { &numbers };
             // Where no pushes are found, nothing is explained.
-            lost += collide_at_once(&numbers, &mut balls, &round, &staying, &mut Vec::new()).unwrap_or(0.0);
+            lost += collide_at_once(law, &mut balls, &round, &staying, &mut Vec::new()).unwrap_or(0.0);
         }
         for ball in balls.iter_mut().filter(|ball| ball.velocity.z > 0.0) {
             ball.motion = Motion::Flying;

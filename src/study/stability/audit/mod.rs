@@ -141,7 +141,9 @@ impl Audit<'_> {
             let mut doubt = Doubt {
                 energy: members().map(|member| self.courses[member].largest).sum(),
                 time: now,
-                rests: members().any(|member| rested[member] || rests[member]) || moment.ends_a_chatter(group),
+                rests: members().any(|member| rested[member] || rests[member])
+                    || moment.ends_a_chatter(group)
+                    || moment.touch(group),
                 is_struck: !moment.impacts.is_empty() || members().any(|member| rests[member] && !rested[member]),
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
                 moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.farthest) },
@@ -185,7 +187,7 @@ impl Audit<'_> {
 
     /// The told impacts of a group one after another, by the laws of the reference engine, in the way that comes nearest to what is
     /// `lost`: whether rounding has left a height is told by the engine's answer; so is the side of a landing on which an impact lies, what
-    /// else rounding may decide, and which contacts bounce no more.
+    /// else rounding may decide, which contacts bounce no more, and whether nothing rests any more.
     fn impacts(
         &self,
         (now, told): (f64, &[Event]),
@@ -213,9 +215,15 @@ impl Audit<'_> {
         // The first impact joins nothing.
         let ways = (0..1_u32 << several).step_by(2).flat_map(|apart| {
             let joins = !apart;
-            [(false, 0.0), (true, 0.0), (false, none)]
-                .into_iter()
-                .flat_map(move |(grazes, none)| [false, true].map(|lies| Supposed { grazes, none, joins, lies }))
+            [(false, 0.0), (true, 0.0), (false, none)].into_iter().flat_map(move |(grazes, none)| {
+                [(false, false), (true, false), (false, true)].map(|(lies, is_micro)| Supposed {
+                    grazes,
+                    none,
+                    joins,
+                    lies,
+                    is_micro,
+                })
+            })
         });
         for by in [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now] {
             let balls = std::array::from_fn(|ball| here(ball, &earlier[ball].beside(&self.trace.constants, by)));

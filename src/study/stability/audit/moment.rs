@@ -58,8 +58,10 @@ impl Bounces {
 /// Bounces slower than this may be the last of a chatter, m/s: they take and leave as little as a resting contact.
 const LAST_BOUNCE: f64 = 1e-7;
 
-/// Bounces slower than so many times √(g R) lose nothing in a shot that has taken too much work for anything to rest.
-const FASTEST_MICRO_COLLISION: f64 = 1e-3;
+/// Bounces slower than this lose nothing in a shot that has taken too much work for anything to rest, m/s.
+pub fn fastest_micro_collision(table: &Table) -> f64 {
+    1e-3 * (table.gravity * table.radius).sqrt()
+}
 
 impl Moment<'_> {
     /// Whether a group's impact is so slow that it may end a chatter.
@@ -68,6 +70,12 @@ impl Moment<'_> {
             .iter()
             .filter(|contact| group[contact.first])
             .any(|contact| self.closing_speed(contact).abs() < LAST_BOUNCE)
+    }
+
+    /// Whether something in a group touches without an impact: whether it comes to rest there is asked, and what it may close by is stopped.
+    pub fn touch(&self, group: [bool; BALLS]) -> bool {
+        let inside = |contact: &&Contact| group[contact.first] && contact.second.is_none_or(|second| group[second]);
+        self.closed.iter().filter(inside).any(|contact| !self.impacts.contains(contact))
     }
 
     /// The balls that are joined to `ball` by impacts or closed contacts, itself among them.
@@ -117,7 +125,7 @@ impl Moment<'_> {
                 // A slip on the cloth that ends with it presses, too.
                 let ends_a_slip = self.creeps(contact.first) && speed < STOPPED_SPEED;
                 // Such an impact may lose nothing along the normal.
-                let may_be_micro = speed < FASTEST_MICRO_COLLISION * (self.table.gravity * self.table.radius).sqrt();
+                let may_be_micro = speed < fastest_micro_collision(self.table);
                 nearer(alone, if ends_a_slip || may_be_micro { several() } else { alone })
             }
             _ => several(),

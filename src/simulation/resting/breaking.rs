@@ -1,0 +1,62 @@
+//! The moment within a step at which a law of its active set breaks.
+
+use super::{MAX_GUESSES, Resting, Trial};
+use crate::table::Table;
+
+impl Resting {
+    /// Shortens a step at whose end a law of its active set is broken to just after the moment when that happened.
+    pub(super) fn until_a_law_breaks(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
+        if whole.forces.slack < -self.constants.tolerance.slack {
+            let shorter = self.until_the_slack_ends(table, begin, whole);
+            if !self.shared || !self.holds(table, &shorter) {
+                return shorter;
+            }
+        }
+        self.while_it_holds(table, begin, whole)
+    }
+
+    /// Finds the zero of the slack, by false position (Illinois) and by halves; each guess begins at the last place before.
+    fn until_the_slack_ends(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
+        let allowed = self.constants.tolerance.slack;
+        let (mut before, mut after) = (*begin, *whole);
+        let (mut low_value, mut high_value) = ((self.first.slack + allowed).max(0.0), after.forces.slack + allowed);
+        let mut same_side = 0_i32;
+        for _ in 0..MAX_GUESSES {
+            if high_value >= -allowed || after.span - before.span <= self.constants.tolerance.shortest_step {
+                break;
+            }
+            let secant = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
+            let share = if same_side.abs() > 2 { 0.5 } else { secant };
+            let middle = self.reach(table, &before, before.span + share * (after.span - before.span));
+            let value = middle.forces.slack + allowed;
+            if value < 0.0 {
+                (after, high_value) = (middle, value);
+                same_side = same_side.max(0) + 1;
+                if same_side > 1 {
+                    low_value *= 0.5;
+                }
+            } else {
+                (before, low_value) = (middle, value);
+                same_side = same_side.min(0) - 1;
+                if same_side < -1 {
+                    high_value *= 0.5;
+                }
+            }
+        }
+        after
+    }
+
+    /// The same where what is held is held more than once, so that only trying tells how long it holds.
+    fn while_it_holds(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
+        let (mut before, mut after) = (*begin, *whole);
+        while after.span - before.span > self.constants.tolerance.shortest_step.max(1e-9 * after.span) {
+            let middle = self.reach(table, &before, 0.5 * (before.span + after.span));
+            if self.holds(table, &middle) {
+                before = middle;
+            } else {
+                after = middle;
+            }
+        }
+        after
+    }
+}
