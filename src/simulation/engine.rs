@@ -11,8 +11,7 @@ use super::{
     contact_mode::ContactMode,
     contacts::PAIRS_OF,
     guards::{
-        BOUNCE, IMPACT_IN_THE_AIR, MOST_BOUNCING, MOST_IN_THE_AIR, MOST_RESTING, MOST_TURNS,
-        MOST_TURNS_BOUNCING,
+        BOUNCE, IMPACT_IN_THE_AIR, MOST_BOUNCING, MOST_IN_THE_AIR, MOST_RESTING, MOST_TURNS, MOST_TURNS_BOUNCING,
     },
     resting::Resting,
     savings::{All, Savings},

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     physics::{BallState, Motion},
-    table::BALLS,
+    table::{BALLS, PAIRS},
 };
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
@@ -33,7 +33,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             self.look_ahead_of_pressed(now, members);
             return ControlFlow::Continue(());
         }
-        resting.come_to_rest();
+        // What another ball strikes again and again is as slow for a moment only.
+        if !self.is_touched(now, resting.members) {
+            resting.come_to_rest();
+        }
         for index in (0..BALLS).filter(|&index| resting.members[index]) {
             self.end_segment(index, now);
             self.launch(index, now, &resting.end[index]);
@@ -44,6 +47,19 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         // The guard: what takes part in another contact stands still, and begins anew.
         self.ended = (!self.is_exhausted()).then_some(resting);
         self.look_ahead(now, members)
+    }
+
+    /// Whether a moving ball that is not one of the `members` touches one of them.
+    fn is_touched(&self, now: f64, members: [bool; BALLS]) -> bool {
+        let on_cloth = self.on_cloth();
+        let moves = |ball: usize| on_cloth[ball] && self.balls[ball].segment.motion != Motion::Stationary;
+        PAIRS.iter().any(|&(first, second)| {
+            let (member, other) = if members[first] { (first, second) } else { (second, first) };
+            members[member] && !members[other] && moves(other) && {
+                let [one, another] = [member, other].map(|ball| self.state(ball, now).position);
+                one.distance(another) - self.constants.diameter <= self.constants.tolerance.coupled_gap
+            }
+        })
     }
 
     /// Ends the resting contacts at `now` if one of the `changed` balls takes part: their members go on freely until it

@@ -57,6 +57,9 @@ const MOST_SHORT_STEPS: u32 = 16;
 /// may lie at the edge of a law and break it at once, in every step.
 const MOST_RESTARTS: u32 = 8;
 
+/// This share of a step is tried next where no forces are found in one of its states.
+const WITHOUT_FORCES: f64 = 0.1;
+
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
 
@@ -319,23 +322,35 @@ impl Resting {
         let begin = &from.step.end;
         let mut last = from.forces;
         let contacts = &self.contacts;
-        let yields = self.set.yields() || self.seeks();
+        let (yields, mut is_lost) = (self.set.yields() || self.seeks(), false);
         let slope = |phase: &Phase| {
-            let (linear, angular) = if yields {
-                last = self.sought(table, &self.set, &phase.balls, &last);
-                (last.linear, last.angular)
+            let held = if yields || is_lost {
+                None
             } else {
                 self.effort.add(HELD * contacts.len() as u64);
                 accelerations(table, &phase.balls, contacts, &self.set, &self.first)
-                    .unwrap_or((self.first.linear, self.first.angular))
             };
+            let (linear, angular) = held.unwrap_or_else(|| {
+                // Where forces are lost, the step has failed.
+                if !is_lost {
+                    let seek = if yields { Self::sought } else { Self::sought_near };
+                    last = seek(self, table, &self.set, &phase.balls, &last);
+                    is_lost = !yields && !last.converged;
+                }
+                (last.linear, last.angular)
+            });
             self.slope(table.radius, &phase.balls, (&linear, &angular))
         };
         let first = self.slope(table.radius, &begin.balls, (&from.forces.linear, &from.forces.angular));
         let (length, tolerance) = (span - from.span, self.constants.tolerance.step);
         let stiff = self.stiff(table, from, length);
-        let step = extrapolate(begin, &first, slope, stiff.as_ref(), self.members, length, (table.radius, tolerance));
-        Trial { span, step, forces: self.forces(table, &self.set, &step.end.balls, &from.forces) }
+        let mut step =
+            extrapolate(begin, &first, slope, stiff.as_ref(), self.members, length, (table.radius, tolerance));
+        let forces = self.forces(table, &self.set, &step.end.balls, &from.forces);
+        if is_lost || !yields && !forces.converged {
+            (step.error, step.best_length) = (f64::INFINITY, WITHOUT_FORCES * length);
+        }
+        Trial { span, step, forces }
     }
 
     /// Whether the forces at a step's end are those that obey all laws.
@@ -413,13 +428,15 @@ impl Resting {
         balls
     }
 
-    /// The forces in an active set; they have to be sought from `near` ones on where a friction yields.
+    /// The forces in an active set; they have to be sought from `near` ones on where a friction yields, and where what is held does not
+    /// tell them.
     fn forces(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
         if set.yields() || self.seeks() {
             return self.sought(table, set, state, near);
         }
         self.effort.add(HELD * self.contacts.len() as u64);
-        forces(table, state, &self.contacts, set, Some(&self.first)).unwrap_or(self.first)
+        forces(table, state, &self.contacts, set, Some(&self.first))
+            .unwrap_or_else(|| self.sought_near(table, set, state, near))
     }
 
     /// The forces in an active set by the solver.
@@ -428,6 +445,13 @@ impl Resting {
             return *near;
         }
         yielding(table, state, &self.contacts, set, near, &self.effort)
+    }
+
+    /// The same where all that is held cannot be held together. Mostly there is no state for it either: a long search is not worth its time.
+    fn sought_near(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
+        let mut near = *near;
+        near.converged = false;
+        self.sought(table, set, state, &near)
     }
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {

@@ -100,14 +100,18 @@ fn every_row_of_the_table_is_a_test() {
     assert_eq!(cases().iter().map(|case| case.name).collect::<Vec<_>>(), NAMES);
 }
 
-/// What the tests play with fewer shots holds at the document's counts.
+/// Rows with a shot that fails at the document's counts.
+const KNOWN: [&str; 0] = [];
+
+/// What is excused is what the document says, row by row.
 #[test]
-fn every_row_is_in_the_document_and_holds_there() {
+fn every_row_is_in_the_document_and_holds_there_but_for_those_that_are_known() {
     let page = include_str!("../../docs/stability.md");
-    for name in NAMES {
+    let fails = |name: &&str| {
         let line = page.lines().find(|line| line.starts_with(&format!("| {name} |"))).expect(name);
-        assert!(line.contains("| holds |"), "{line}");
-    }
+        !line.contains("| holds |")
+    };
+    assert_eq!(NAMES.iter().copied().filter(fails).collect::<Vec<_>>(), KNOWN);
 }
 
 /// Shots of the table that failed once, each for the cause that it names.

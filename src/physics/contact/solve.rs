@@ -12,6 +12,7 @@ use super::{
     linear::{PROXIMITY, factorize, substitute},
     problem::{Limit, MOST_UNKNOWNS, NO_SIZES, Place, Problem, Sizes, Unknown},
 };
+use crate::table::BALLS;
 
 /// Forces per mass by which laws may be broken, as a share of the largest force or acceleration: some hundred roundings.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
@@ -40,6 +41,12 @@ const FIRST_SWEEPS: u32 = 8;
 /// Errors below this share of the largest force that a round has not halved are left as they are: such forces are at the edge of what
 /// may hold them, and no round finds better ones.
 const NEARLY: f64 = 1e-7;
+
+/// Multiplications that a search is worth beside those of its steps: its problem is put together and copied.
+const SEARCH: u64 = 2000;
+
+/// Multiplications for what a force changes in the rate that another one resists: the velocities and spins of all balls.
+const RATE: usize = 5 * BALLS;
 
 /// What a law asks at present.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,6 +146,7 @@ struct System<'a> {
 impl<'a> System<'a> {
     fn new(problem: &'a Problem, effort: &'a Effort) -> Self {
         let count = problem.rates.len();
+        effort.add(SEARCH + (RATE * count * count) as u64);
         let mut system = Self { problem, effort, count, matrix: Vec::with_capacity(count * count), bias: NO_SIZES };
         for (row, (rate, bias)) in problem.rates.iter().zip(&problem.bias).enumerate() {
             system.bias[row] = rate.dot(&problem.known) + bias;

@@ -41,7 +41,7 @@ impl Resting {
         if breaks(&whole.forces) || !breaks(middle) {
             return None;
         }
-        Some(self.attempt(table, begin, 0.5 * (begin.span + whole.span))).filter(|half| breaks(&half.forces))
+        Some(self.reach(table, begin, 0.5 * (begin.span + whole.span))).filter(|half| breaks(&half.forces))
     }
 
     /// Which step to try instead of one that is wrong by too much, or does either of these; the longest is told whose course is right.

@@ -189,7 +189,8 @@ What counts as explained besides: rounding (32 ε of the energy, and frictions t
 slip and that no forces hold together (8e-10 √(g R)), \
 speeds below 1e-7 m/s that are stopped (1e-14 m²/s² a ball, and what the impulses in closed contacts that stop them rub), and in resting \
 contacts, and where something touches that does not collide, errors of 1e-10 m/s, in impacts also times the slip, of 1e-10 m and \
-of a hundred-thousandth of the work. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
+of a hundred-thousandth of the work; where chatters of several contacts end at once, the friction of an impulse of 2e-8 √(g R), below which \
+they are not followed. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
 multiples of what is explained and in m²/s² (energy over a ball's mass). Where balls fly, \
 heights count, too: each landing takes what the cloth's restitution and friction say, worked out hop by hop, and impacts take what the \
 formulas of the second engine say, in the air one after another, on the cloth together where they happen at once. A ball that leaves the table takes its energy along.";

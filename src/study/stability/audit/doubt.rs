@@ -13,6 +13,9 @@ const SHARE: f64 = 32.0 * f64::EPSILON;
 /// only known to slip by less than that.
 pub const RESTING_SPEED: f64 = 1e-10;
 
+/// Speed at which the chatters of several coupled contacts end, in √(g R): more of an impulse may be missing, and its friction with it.
+const COUPLED_SPEED: f64 = 2e-8;
+
 /// Place to which the courses of resting contacts are right, m: the work of a force is as uncertain as its way.
 const RESTING_PLACE: f64 = 1e-10;
 
@@ -42,6 +45,8 @@ pub struct Doubt {
     pub rests: bool,
     /// Whether an impact takes part, or a contact that begins.
     pub is_struck: bool,
+    /// Whether several impacts take part.
+    pub is_coupled: bool,
     /// Whether several impacts leave a ball still: what stopped it is then told from their impulses only to
     /// [`STOPPED_SPEED`].
     pub stops: bool,
@@ -77,15 +82,20 @@ impl Doubt {
         let turned = TURNED * self.moved / (2.0 * table.radius) * self.energy;
         self.of_a_gain(table)
             + self.of_a_place(table)
-            + self.of_an_impulse()
+            + self.of_an_impulse(table)
             + BALLS as f64 * STOPPED_ENERGY
             + stopped
             + turned
     }
 
     /// What an impulse may take wrongly because the speeds are uncertain: it works against a slip of at most 4 √E.
-    fn of_an_impulse(&self) -> f64 {
-        if self.rests && self.is_struck { 4.0 * RESTING_SPEED * self.energy.sqrt() } else { 0.0 }
+    fn of_an_impulse(&self, table: &Table) -> f64 {
+        if !(self.rests && self.is_struck) {
+            return 0.0;
+        }
+        let coefficient = table.rail_friction + table.ball_friction.unwrap_or(0.0);
+        let coupled = coefficient * COUPLED_SPEED * (table.gravity * table.radius).sqrt();
+        4.0 * self.energy.sqrt() * (RESTING_SPEED + if self.is_coupled { coupled } else { 0.0 })
     }
 
     /// What all frictions together take on the way that a place in a resting contact is uncertain by.

@@ -145,6 +145,7 @@ impl Audit<'_> {
                     || moment.ends_a_chatter(group)
                     || moment.touch(group),
                 is_struck: !moment.impacts.is_empty() || members().any(|member| rests[member] && !rested[member]),
+                is_coupled: moment.impacts.len() > 1,
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
                 moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.farthest) },
             };

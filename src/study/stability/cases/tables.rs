@@ -110,10 +110,13 @@ const SETTLES: f64 = 1e-4;
 fn keeps_energy(table: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
     let least = 0.5 * trace.constants.tolerance.slowest_lossless_bounce.powi(2);
     for event in trace.events.iter().filter(|event| event.kind.balls().1.is_some() || event.kind.rail().is_some()) {
+        let (first, second) = event.kind.balls();
         let (mut change, mut scale, mut settles) = (0.0, 0.0, false);
-        for pieces in trace.pieces.iter().take(BALLS) {
+        for (ball, pieces) in trace.pieces.iter().enumerate().take(BALLS) {
             let Some(next) = pieces.iter().position(|piece| piece.segment.start == event.time).filter(|next| *next > 0)
             else {
+                // What a ball does that is struck lasts longer than the trace is kept.
+                settles |= [Some(first), second].contains(&Some(ball)) && trace.kept_until != f64::INFINITY;
                 continue;
             };
             let (last, next) = (&pieces[next - 1], &pieces[next]);
