@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use super::player::{NEXT, OTHERS, Player, SHOT, advice, check, proposal};
+use super::player::{NEXT, OTHERS, Player, SHOT, SIZES, TRUE_COLOUR, advice, check, proposal};
 use carom::{
     coach::Skill,
     game::Rule,
@@ -160,6 +160,19 @@ fn the_plan_and_where_it_goes_on() {
     let before = player.picture(120, 40);
     let player = player.press("v v v").studied();
     check("plan", &player);
+#[test]
+fn margins_maps_and_speeds_are_in_the_units_of_the_settings() {
+    let player =
+        Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("Enter").answer().press("v v").studied();
+    player.shows(&["Tip ±0.7 in"]);
+    assert!(player.text(80, 24).contains("± yours in ° ft/s"));
+    for (width, height) in SIZES {
+        let text = player.text(width, height);
+        assert!(!text.contains(" mm") && !text.contains("m/s"), "{text}");
+    }
+    player.press("v v Space Right").shows(&[" ft/s "]);
+}
+
     let large = player.text(200, 60);
     assert!(large.contains("Plan · next point on average 97 %") && large.contains("next 100 % very hard"), "{large}");
     assert_eq!(player.app.coach.view, View::Plan);

@@ -152,8 +152,9 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     }
     let study = coach.shown().and_then(|advised| advised.choice().study.as_ref());
     if let (View::Margins, Some(study), Some(shot)) = (chosen, study, shot) {
-        draw_aim_map(&study.aim, study.hand, panes.shot, ui);
-        draw_tip_map(&study.tip, &shot.cue, table, panes.tip.union(panes.sight), ui);
+        let unit = coach.units.length;
+        draw_aim_map(&study.aim, study.hand, unit, panes.shot, ui);
+        draw_tip_map(&study.tip, &shot.cue, table, unit, panes.tip.union(panes.sight), ui);
         return draw_legend(panes.events, ui);
     }
     match coach.proposal() {
@@ -234,7 +235,7 @@ fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut
         View::Chances => draw_chances(advised, empty, says_why, area, ui),
         View::Margins => {
             let study = choice.and_then(|choice| choice.study.as_deref());
-            draw_margins(study, empty, area, ui);
+            draw_margins(study, coach.units.length, empty, area, ui);
         }
         View::Plan => draw_plan(choice, coach.units.length, empty, area, ui),
     }
