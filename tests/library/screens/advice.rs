@@ -93,8 +93,14 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
     assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
     let player = player.press("R R S S S S");
     assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first question again");
-    let asked = player.press("R R Enter").asked.unwrap();
-    assert_eq!(asked.query.rule, Rule::ThreeCushion);
+    let again = player.press("Enter").asked.unwrap();
+    assert_eq!(
+        again.former,
+        [SHOT, OTHERS[0], OTHERS[1]].map(|cue| CueInputs::parse(cue).unwrap()),
+        "they take part again"
+    );
+    let asked = Player::new().press("Enter").answer().press("R R Enter").asked.unwrap();
+    assert!(asked.query.rule == Rule::ThreeCushion && asked.former.is_empty());
 }
 
 #[test]
@@ -155,12 +161,6 @@ fn margins_and_maps() {
 }
 
 #[test]
-fn the_plan_and_where_it_goes_on() {
-    let player = Player::new().press("Enter").answer();
-    let before = player.picture(120, 40);
-    let player = player.press("v v v").studied();
-    check("plan", &player);
-#[test]
 fn margins_maps_and_speeds_are_in_the_units_of_the_settings() {
     let player =
         Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("Enter").answer().press("v v").studied();
@@ -173,6 +173,12 @@ fn margins_maps_and_speeds_are_in_the_units_of_the_settings() {
     player.press("v v Space Right").shows(&[" ft/s "]);
 }
 
+#[test]
+fn the_plan_and_where_it_goes_on() {
+    let player = Player::new().press("Enter").answer();
+    let before = player.picture(120, 40);
+    let player = player.press("v v v").studied();
+    check("plan", &player);
     let large = player.text(200, 60);
     assert!(large.contains("Plan · next point on average 97 %") && large.contains("next 100 % very hard"), "{large}");
     assert_eq!(player.app.coach.view, View::Plan);
