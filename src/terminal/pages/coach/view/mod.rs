@@ -1,5 +1,6 @@
 //! The coach's screen: the table, what the coach recommends, and the shot as it plays.
 
+mod asked;
 mod balls;
 mod card;
 mod chances;
@@ -26,6 +27,7 @@ use crate::{
             coach::{
                 CoachPage, Followed,
                 view::{
+                    asked::draw_asked,
                     balls::draw_balls,
                     card::draw_card,
                     chances::{choice_at, draw_chances, draw_why},
@@ -173,6 +175,9 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     }
     if told.is_some() && is_beside || is_explained {
         return;
+    }
+    if shot.is_none() && coach.followed().is_none() {
+        return draw_asked(coach, panes.events, ui);
     }
     draw_listed(coach, shot, time, panes.events, ui);
 }
