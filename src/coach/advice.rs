@@ -19,6 +19,9 @@ pub enum Source {
     Variation,
     /// The wider search.
     Search,
+    /// A former answer to the same question, or near a shot of it. In JSON a search too.
+    #[serde(rename = "search")]
+    Former,
 }
 
 impl fmt::Display for Source {
@@ -26,7 +29,7 @@ impl fmt::Display for Source {
         formatter.pad(match self {
             Self::Policy => "policy",
             Self::Variation => "variation",
-            Self::Search => "search",
+            Self::Search | Self::Former => "search",
         })
     }
 }

@@ -143,7 +143,7 @@ impl Coach {
         let policy = self.policy(request.rule, &request.skill);
         let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout, &request.skill));
         let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
-        let found = Attempt::new(task).run(&strokes, request.seed);
+        let found = Attempt::new(task).run(&strokes, &request.former, request.seed);
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {
             first_point(&found)
         } else {

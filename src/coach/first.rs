@@ -59,12 +59,15 @@ impl<'a> Attempt<'a> {
         Self { task, best: None, solutions: Vec::new() }
     }
 
-    /// Tries the proposals, whatever the time, then looks until a shot has been found or time is up.
-    pub fn run(mut self, proposals: &[CueInputs], seed: u64) -> Found {
+    /// Tries the proposals and the shots of a former answer, whatever the time, then looks until a shot has been found or time is up.
+    pub fn run(mut self, proposals: &[CueInputs], former: &[CueInputs], seed: u64) -> Found {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let (table, layout) = (self.task.table, self.task.layout);
         for &cue in proposals {
             self.play(cue, Source::Policy);
+        }
+        for &cue in former {
+            self.play(cue, Source::Former);
         }
         'variations: for cue in proposals.iter().take(FAVOURITES) {
             for _ in 0..VARIATIONS {
@@ -111,7 +114,7 @@ impl<'a> Attempt<'a> {
         self.task.clock.count(1);
         let Some(cue) = self.task.playable(&cue) else { return };
         let patience = match source {
-            Source::Policy => ENDLESS,
+            Source::Policy | Source::Former => ENDLESS,
             _ if self.task.clock.simulations().is_multiple_of(FOLLOWED) => CONTACT_STEPS,
             _ => HASTE,
         };

@@ -33,15 +33,20 @@ pub struct Margin {
 
 impl Margin {
     /// What it is told in where distances are told in `unit`: how many of that are one of its own unit, and the symbol.
-    pub fn told_in(&self, unit: LengthUnit) -> (f64, &'static str) {
-        match self.input {
-            Input::Side | Input::Height => {
-                let (in_a_metre, symbol, _) = unit.fine();
-                (1e-3 * in_a_metre, symbol)
-            }
-            Input::Speed => unit.speed(),
-            Input::Elevation | Input::Direction => (1.0, self.unit),
+    pub const fn told_in(&self, unit: LengthUnit) -> (f64, &'static str) {
+        told_in(self.input, unit)
+    }
+}
+
+/// What an input is told in where distances are told in `unit`: how many of that are one of its own unit, and the symbol.
+pub const fn told_in(input: Input, unit: LengthUnit) -> (f64, &'static str) {
+    match input {
+        Input::Side | Input::Height => {
+            let (in_a_metre, symbol, _) = unit.fine();
+            (1e-3 * in_a_metre, symbol)
         }
+        Input::Speed => unit.speed(),
+        Input::Elevation | Input::Direction => (1.0, input.unit()),
     }
 }
 

@@ -37,7 +37,7 @@ pub use coach::{Coach, judge, make_probability};
 pub use doubt::{Doubt, UnknownDoubt};
 pub use ease::{Ease, Sample};
 pub use kind::{Kind, Pace, Way};
-pub use margins::{Map, Margin, Outcome, Sensitivity};
+pub use margins::{Map, Margin, Outcome, Sensitivity, told_in};
 pub use request::{Request, Shooter};
 pub use risk::{Cause, Risk};
 pub use scatter::{Scatter, scatter};

@@ -180,7 +180,8 @@ fn sort(candidates: &mut [Candidate]) {
 /// for they may still get better; these cost as much, and hardly ever lead.
 const NEAR: f64 = 0.8;
 
-/// Sorts the best first, and keeps the first `best` and the first `of_each` of every kind. Equals stay in their order.
+/// Sorts the best first, and keeps the first `best`, the first `of_each` of every kind, and those of a former answer, which a few
+/// unlucky attempts must not drop. Equals stay in their order.
 pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
     sort(candidates);
     let mut seen: Vec<(Kind, usize)> = Vec::new();
@@ -195,7 +196,8 @@ pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
             1
         };
         place += 1;
-        place <= best || rank <= of_each && (!candidate.kind.raised || candidate.score() >= bar)
+        let is_former = candidate.shot.source == Source::Former;
+        place <= best || is_former || rank <= of_each && (!candidate.kind.raised || candidate.score() >= bar)
     });
 }
 

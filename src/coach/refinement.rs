@@ -2,7 +2,7 @@
 //! attempts at them make the point.
 
 use super::{
-    Source,
+    Source, Suggestion,
     evidence::{Distribution, Evidence, Trial},
     next::NextValue,
     pool::{BLOCK, Candidate, Race, suppose_the_worst},
@@ -52,6 +52,10 @@ impl Climber {
         [self.best.own, self.best.larger] = self.evidence.rates(&self.distribution);
     }
 
+    fn is_former(&self) -> bool {
+        self.best.shot.source == Source::Former
+    }
+
     fn is_certain(&self) -> bool {
         let Candidate { own, larger, .. } = self.best;
         own.attempts >= ENOUGH_WITHOUT_A_MISS && own.share.min(larger.share) >= 1.0 - NEXT_TO_NO_MISS
@@ -61,6 +65,18 @@ impl Climber {
 /// The best first; equals stay in their order.
 fn sort(climbers: &mut [Climber]) {
     climbers.sort_by(|a, b| b.best.score().total_cmp(&a.best.score()));
+}
+
+/// The best of a former answer goes on to the end, or else a few unlucky attempts at it would make the advice worse than that
+/// was. Gives how many go on where `live` are the best.
+fn keep_former(climbers: &mut [Climber], live: usize) -> usize {
+    match climbers.iter().position(Climber::is_former) {
+        Some(place) if place >= live => {
+            climbers[live..=place].rotate_right(1);
+            live + 1
+        }
+        _ => live,
+    }
 }
 
 /// A refinement on its way.
@@ -104,6 +120,7 @@ impl Refinement<'_> {
             // Where there are more simulations than one stroke needs, others may still get better.
             let fewest = (blocks / MOST_BLOCKS as f64).ceil().max(1.0);
             live = live.min(libm::pow(all, 1.0 - HALVING * progress).max(fewest).ceil() as usize);
+            live = keep_former(&mut climbers, live);
             let each = ((blocks / live as f64) as usize).clamp(FEWEST_BLOCKS, MOST_BLOCKS);
             self.climb(&mut climbers[..live]);
             if !self.attempt(&mut climbers[..live], each) {
@@ -126,14 +143,27 @@ impl Refinement<'_> {
             let made = |(n, (errors, size)): (usize, _)| (errors, size, candidate.points >> n & 1 == 1);
             let blocks = candidate.tried / BLOCK;
             let trials: Vec<Trial> = self.race.errors(0..blocks).enumerate().map(made).collect();
-            if let Some(near) = climbers.iter_mut().find(|climber| climber.distribution.distance(&distribution) < ALIKE)
-            {
+            let climber = |source| {
+                let shot = Suggestion { source, ..candidate.shot };
+                let best = Candidate { shot, ..*candidate };
+                let mut climber = Climber { best, distribution, evidence: Evidence::default(), blocks };
+                climber.evidence.add(&distribution, &trials);
+                climber
+            };
+            // A shot of a former answer stays as it is, for it has climbed before, and another begins there.
+            let mut source = candidate.shot.source;
+            if source == Source::Former {
+                climbers.push(climber(source));
+                source = Source::Search;
+            }
+            let near = climbers
+                .iter_mut()
+                .find(|climber| !climber.is_former() && climber.distribution.distance(&distribution) < ALIKE);
+            if let Some(near) = near {
                 near.evidence.add(&distribution, &trials);
                 near.judge();
             } else {
-                let mut climber = Climber { best: *candidate, distribution, evidence: Evidence::default(), blocks };
-                climber.evidence.add(&distribution, &trials);
-                climbers.push(climber);
+                climbers.push(climber(source));
             }
         }
         sort(&mut climbers);
@@ -149,11 +179,12 @@ impl Refinement<'_> {
         let Self { task, race, .. } = self;
         let evidence: usize = climbers.iter().map(|climber| climber.blocks).sum();
         let threads = if self.plan || evidence >= SHARED_FROM { self.threads } else { 1 };
-        let moved = parallel::map(threads, climbers, |Climber { best, distribution, evidence, .. }| {
+        let moved = parallel::map(threads, climbers, |climber| {
+            let Climber { best, distribution, evidence, .. } = climber;
             let source = if best.shot.source == Source::Search { Source::Search } else { Source::Variation };
             let ways = evidence.ways_up(task.table, task.skill, distribution);
-            let moved =
-                ways.into_iter().find_map(|cue| Candidate::new(task, cue, source, self.weight)).unwrap_or(*best);
+            let mut ways = ways.into_iter().filter(|_| !climber.is_former());
+            let moved = ways.find_map(|cue| Candidate::new(task, cue, source, self.weight)).unwrap_or(*best);
             // Until it is known, what comes next is what has come so far.
             let next = NextValue::Supposed(best.next.value());
             let moved = Candidate { next, ..moved };
@@ -233,7 +264,7 @@ mod tests {
         let mut race = Race::new(1);
         race.extend_to(&worlds, 8);
         // Of the directions about a shot that makes the point those that do it, too; the first is at the edge.
-        let found = Attempt::new(Task { clock: &unlimited, ..task }).run(&[], 1).solutions[0].0.cue;
+        let found = Attempt::new(Task { clock: &unlimited, ..task }).run(&[], &[], 1).solutions[0].0.cue;
         let turned = |n: i32| CueInputs { phi: found.phi + 0.1 * f64::from(n) * skill.at(&found).phi, ..found };
         let made = (-40..=0).filter_map(|n| Candidate::new(&task, turned(n), Source::Search, 0.0));
         let pool: Vec<_> = made.take(2).map(|candidate| race.go_on(&task, &candidate, 8).unwrap()).collect();

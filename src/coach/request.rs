@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{Doubt, Skill};
-use crate::{game::Rule, platform};
+use crate::{game::Rule, physics::CueInputs, platform};
 
 /// Who plays, and how much of the table and of the balls' places is in doubt.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +54,8 @@ pub struct Request {
     pub threads: usize,
     /// Seed of the search: while time does not run out, the same request finds the same shot, with any number of threads.
     pub seed: u64,
+    /// Shots of a former answer to the same question, which take part again: asking once more makes no advice worse.
+    pub former: Vec<CueInputs>,
     /// Set from another thread, it ends the search.
     pub cancel: Arc<AtomicBool>,
 }
@@ -77,6 +79,7 @@ impl Default for Request {
             simulations: u64::MAX,
             threads: platform::threads(),
             seed: 0,
+            former: Vec::new(),
             cancel: Arc::default(),
         }
     }

@@ -204,7 +204,7 @@ mod tests {
             until: clock.moment(1.0),
             patience: CONTACT_STEPS,
         };
-        let found = Attempt::new(task).run(&[], 1);
+        let found = Attempt::new(task).run(&[], &[], 1);
         // As if the first shot had been hard to find.
         thread::sleep(budget.mul_f64(0.5).saturating_sub(clock.elapsed()));
         let mut told = 0;

@@ -141,6 +141,36 @@ fn alternatives_are_of_different_kinds_and_every_improvement_is_told() {
 }
 
 #[test]
+fn asking_again_makes_no_advice_worse() {
+    let coach = coach();
+    let (rule, skill) = (Rule::ThreeCushion, Skill::CLUB);
+    let [mut before, mut again, mut anew] = [0.0; 3];
+    for layout in held_out_layouts(coach.table(), 4, 11) {
+        let asked = |simulations, seed, former: &[CueInputs]| {
+            let request = Request { skill, seed, former: former.to_vec(), ..request(rule, simulations) };
+            let cue = coach.recommend(&layout, &request).unwrap().cue;
+            (cue, make_probability(skill, rule, coach.table(), &layout, &cue, 4000, 1).rate)
+        };
+        let (good, chance) = asked(60_000, 1, &[]);
+        // Searches that are too short to find it by themselves.
+        for seed in [2, 3] {
+            let (_, after) = asked(12_000, seed, &[good]);
+            assert!(after > chance - 0.03, "{after} after {chance}");
+            before += chance;
+            again += after;
+            anew += asked(12_000, seed, &[]).1;
+        }
+    }
+    assert!(again > before - 0.04 && again > anew + 0.08, "{before} {again} {anew}");
+    // For one who makes no errors a shot that makes the point is the answer again.
+    let layout = Layout::opening(coach.table());
+    let [first, second] = ["0.2,0.3,6,-72,2.5", "0,0,0,10,3"].map(|cue| CueInputs::parse(cue).unwrap());
+    let bare = Coach::without_policy(coach.table().clone());
+    let request = Request { skill: Skill::PERFECT, former: vec![second, first], ..request(Rule::StraightRail, 5_000) };
+    assert_eq!(bare.recommend(&layout, &request).unwrap().cue, first);
+}
+
+#[test]
 fn without_time_there_is_still_an_attempt_and_it_is_not_called_a_solution() {
     let coach = Coach::without_policy(Table::preset("thesis").unwrap());
     for skill in [Skill::PERFECT, Skill::EXPERT] {

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::Failure;
 use crate::{
-    coach::Units,
+    coach::{Units, words::LengthUnit},
     physics::Impulse,
     printing::{self, OneLine},
     terminal::Settings,
@@ -57,16 +57,18 @@ pub fn units() -> Units {
     Settings::load(&Settings::path()).0.units
 }
 
-/// The equivalent ball impulse for people to read.
-pub fn impulse_words(impulse: &Impulse) -> String {
+/// The equivalent ball impulse for people to read, with speeds where distances are told in `unit`.
+pub fn impulse_words(impulse: &Impulse, unit: LengthUnit) -> String {
+    let (factor, symbol) = unit.speed();
     // Adding zero takes the sign from a rounded minus zero.
     let tidy = |x: f64| (1e3 * x).round() / 1e3 + 0.0;
-    let (v, w) = (impulse.velocity.to_array().map(tidy), impulse.spin.to_array().map(tidy));
-    let lift = match tidy(impulse.lift) {
+    let (v, w) = ((factor * impulse.velocity).to_array().map(tidy), impulse.spin.to_array().map(tidy));
+    let lift = match tidy(factor * impulse.lift) {
         0.0 => "0".to_owned(),
         lift => format!("{lift:.3}"),
     };
-    format!("impulse: V0 = ({:.3}, {:.3}, {lift}) m/s, w0 = ({:.3}, {:.3}, {:.3}) rad/s", v[0], v[1], w[0], w[1], w[2])
+    let [x, y] = v;
+    format!("impulse: V0 = ({x:.3}, {y:.3}, {lift}) {symbol}, w0 = ({:.3}, {:.3}, {:.3}) rad/s", w[0], w[1], w[2])
 }
 
 /// A line of JSON on the standard output.

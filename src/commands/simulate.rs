@@ -367,7 +367,7 @@ fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -
 /// The shot for people to read.
 fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, verdict: &Verdict) -> io::Result<()> {
     let length = units().length;
-    writeln!(out, "{}", impulse_words(recording.impulse()))?;
+    writeln!(out, "{}", impulse_words(recording.impulse(), length))?;
     writeln!(out, "{:>12}  {:<18}  {:<13}  {:<6}  white, the cue ball", "t, s", "event", "balls", "rail")?;
     let is_told = |event: &&Event| args.rolls || recording.is_told(event);
     for event in recording.events().iter().filter(is_told) {

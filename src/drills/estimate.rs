@@ -17,6 +17,10 @@ use crate::{
 /// Fewest attempts that an estimate is made from.
 pub const FEWEST: usize = 20;
 
+/// Fewest different shots among them. The interval knows luck alone: how often one shot is made depends on the input that it
+/// asks most of and on the table at hand as much as on the player, and only other shots can show that.
+pub const FEWEST_SHOTS: usize = 3;
+
 /// The smallest and the largest scale that are looked at, as powers of two.
 const POWERS: (f64, f64) = (-2.0, 4.0);
 
@@ -85,14 +89,16 @@ fn openings(low: f64, high: f64) -> [bool; 2] {
 /// Why there is no estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoEstimate {
-    /// Too few attempts.
+    /// Too few attempts, or shots.
     #[error(
-        "the skill cannot be estimated yet: {attempts} of {FEWEST} attempts at a real table, of model shots with \
-         balls not shifted or with the coach's hint; no games"
+        "the skill cannot be estimated yet: it takes {FEWEST} attempts at {FEWEST_SHOTS} different shots at a real table, and \
+         there are {attempts} at {shots}; what counts are model shots with balls not shifted, or with the coach's hint, and no games"
     )]
     TooFew {
         /// Attempts there are.
         attempts: usize,
+        /// Shots that they are at.
+        shots: usize,
     },
     /// Players of any skill would have had such results.
     #[error("{attempts} attempts tell nothing yet: their shots are too easy or too hard to tell players apart by")]
@@ -119,8 +125,8 @@ struct Shot {
 pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
     let (shots, left_out) = shots(sessions);
     let attempts = shots.iter().map(|shot| shot.tried).sum();
-    if attempts < FEWEST {
-        return Err(NoEstimate::TooFew { attempts });
+    if attempts < FEWEST || shots.len() < FEWEST_SHOTS {
+        return Err(NoEstimate::TooFew { attempts, shots: shots.len() });
     }
     let curves: Vec<_> = shots.iter().map(Shot::curve).collect();
     let counts: Vec<_> = shots.iter().map(|shot| (shot.made, shot.tried)).collect();
@@ -309,26 +315,39 @@ mod tests {
 
     #[test]
     fn too_little_is_said_to_be_too_little() {
-        let mut one = exercise("one");
         let away = CueInputs { a: 0.0, b: 0.0, theta: 0.5, phi: 2.0, speed: 0.1 };
-        let session = |one: &Exercise, attempts: usize| {
-            let mut session = Session::new(Goal::Free, Venue::Table, vec![one.clone()], Skill::EXPERT, 0);
-            session.attempts = vec![Attempt::new("one", false); attempts];
-            [session]
+        // Different shots, each attempted so often, that nobody makes.
+        let sessions = |shots: u32, attempts: usize| -> Vec<Session> {
+            let session = |number: u32| {
+                let name = format!("number-{number}");
+                let shot = Some(CueInputs { phi: away.phi + f64::from(number), ..away });
+                let one = Exercise { shot, ..exercise(&name) };
+                let mut session = Session::new(Goal::Free, Venue::Table, vec![one], Skill::EXPERT, 0);
+                session.attempts = vec![Attempt::new(&name, false); attempts];
+                session
+            };
+            (0..shots).map(session).collect()
         };
-        assert_eq!(estimate(&session(&one, 100)), Err(NoEstimate::TooFew { attempts: 0 }), "no shot is known");
-        one.shot = Some(away);
-        assert_eq!(estimate(&session(&one, 19)), Err(NoEstimate::TooFew { attempts: 19 }));
-        assert_eq!(estimate(&session(&one, 20)), Err(NoEstimate::Uninformative { attempts: 20 }));
-        let mut shots = session(&Exercise { shot: None, ..one.clone() }, 50);
-        shots[0].attempts.iter_mut().for_each(|attempt| attempt.advised = one.shot);
-        assert_eq!(estimate(&shots), Err(NoEstimate::TooFew { attempts: 0 }), "nobody saw the coach's shot");
-        shots[0].attempts.iter_mut().for_each(|attempt| attempt.helped = true);
-        assert_eq!(estimate(&shots), Err(NoEstimate::Uninformative { attempts: 50 }), "a hint showed it");
-        shots[0].goal = Goal::Game { innings: 0 };
-        assert_eq!(estimate(&shots), Err(NoEstimate::TooFew { attempts: 0 }), "the balls have moved");
-        let mut played = session(&one, 50);
-        played[0].venue = Venue::Program;
-        assert_eq!(estimate(&played), Err(NoEstimate::TooFew { attempts: 0 }), "the program's errors are known");
+        let too_few = |attempts, shots| Err(NoEstimate::TooFew { attempts, shots });
+        assert_eq!(estimate(&sessions(3, 6)), too_few(18, 3));
+        assert_eq!(estimate(&sessions(2, 50)), too_few(100, 2), "two shots tell how these are made");
+        assert_eq!(estimate(&sessions(3, 7)), Err(NoEstimate::Uninformative { attempts: 21 }));
+        let mut shots = sessions(3, 50);
+        let each = |shots: &mut [Session], change: fn(&mut Session)| shots.iter_mut().for_each(change);
+        each(&mut shots, |session| {
+            let shot = session.exercises[0].shot.take();
+            session.attempts.iter_mut().for_each(|attempt| attempt.advised = shot);
+        });
+        assert_eq!(estimate(&shots), too_few(0, 0), "nobody saw the coach's shot");
+        each(&mut shots, |session| session.attempts.iter_mut().for_each(|attempt| attempt.helped = true));
+        assert_eq!(estimate(&shots), Err(NoEstimate::Uninformative { attempts: 150 }), "a hint showed it");
+        each(&mut shots, |session| session.goal = Goal::Game { innings: 0 });
+        assert_eq!(estimate(&shots), too_few(0, 0), "the balls have moved");
+        let mut played = sessions(3, 50);
+        each(&mut played, |session| session.venue = Venue::Program);
+        assert_eq!(estimate(&played), too_few(0, 0), "the program's errors are known");
+        let mut unknown = sessions(3, 50);
+        each(&mut unknown, |session| session.exercises[0].shot = None);
+        assert_eq!(estimate(&unknown), too_few(0, 0), "no shot is known");
     }
 }

@@ -36,6 +36,8 @@ pub struct Places {
     pub tables: PathBuf,
     /// What the last session of the screen left.
     pub last: PathBuf,
+    /// The stroke of a calibration that was typed in part when the program ended.
+    pub draft: PathBuf,
     /// The folder of what others may see, while the player allows it.
     pub shown: PathBuf,
     /// What happened, line by line.
@@ -107,6 +109,7 @@ impl Places {
             daily_check: data.join("calibration-daily.toml"),
             tables: data.join("tables"),
             last: state.join("last.json"),
+            draft: state.join("draft.json"),
             shown: data.join("shown"),
             log: state.join("carom.log"),
             notices: state.join("notices"),

@@ -44,7 +44,8 @@ pub use app::{
 };
 pub use capabilities::{Capabilities, Depth, Glyphs};
 pub use config::{
-    Change, Complaint, Settings, SettingsFile, SettingsReport, SettingsTask, saved_session::SavedSession,
+    Change, Complaint, Settings, SettingsFile, SettingsReport, SettingsTask, draft::StrokeDraft,
+    saved_session::SavedSession,
 };
 pub use effect::{Effect, PageId};
 pub use host::has_terminal as is_there;
@@ -119,6 +120,7 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
         .with_seat(&seat)
         .with_settings(settings)
         .with_last(last)
+        .with_draft(StrokeDraft::take(&places.draft))
         .with_own_skill(own.map(|own| own.skill))
         .with_notice(storage::notice(places))
         .with_notice(seat.warning().as_deref())

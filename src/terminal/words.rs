@@ -125,6 +125,12 @@ pub fn fine(metres: f64, unit: LengthUnit) -> String {
     fixed(in_a_metre * metres, decimals)
 }
 
+/// A speed of so many metres a second in the player's unit, with so many decimals.
+pub fn speed_words(speed: f64, unit: LengthUnit, decimals: usize) -> String {
+    let (factor, symbol) = unit.speed();
+    format!("{} {symbol}", fixed(factor * speed, decimals))
+}
+
 /// A place in metres from the middle of `table` in diamonds from the lower left corner of the noses, as layouts are typed.
 pub fn in_diamonds(table: &Table, place: DVec2) -> DVec2 {
     (place + 0.5 * DVec2::new(table.length, table.width)) / table.diamond()
@@ -167,7 +173,8 @@ mod tests {
     }
 
     #[test]
-    fn places_and_steps_are_told_in_the_players_unit() {
+    fn places_steps_and_speeds_are_told_in_the_players_unit() {
+        assert_eq!(LengthUnit::NAMED.map(|(_, unit)| speed_words(2.5, unit, 2)), ["2.50 m/s", "8.20 ft/s"]);
         assert_eq!(fine(-0.71, LengthUnit::Feet), "-27.95");
         assert_eq!([1.0, 10.0, 50.0].map(|mm| step_words(mm, LengthUnit::Metres)), ["1 mm", "10 mm", "50 mm"]);
         assert_eq!([1.0, 10.0, 50.0].map(|mm| step_words(mm, LengthUnit::Feet)), ["0.04 in", "0.39 in", "1.97 in"]);

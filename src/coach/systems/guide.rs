@@ -250,6 +250,6 @@ mod tests {
         let Some(Guide::Shift(shift)) = guided("2.3d,1d 7d,3.5d 0.5d,0.5d", "0,0.2,0,75,4") else { panic!() };
         assert_eq!(shift.rails, [crate::simulation::Rail::Top; 2]);
         assert!((shift.third - shift.table_third).abs() < 0.1 && shift.by.abs() <= 0.5, "{shift:?}");
-        assert!(shift.to_string().starts_with("Parallel shift: top 3 to top "), "{shift}");
+        assert!(shift.to_string().starts_with("Parallel shift: aimed at diamond 3 of the top rail, "), "{shift}");
     }
 }

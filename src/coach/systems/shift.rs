@@ -52,6 +52,11 @@ impl Shift {
         }
     }
 
+    /// Where the shot itself is aimed on the first cushion, in its diamonds.
+    pub fn aimed(&self) -> f64 {
+        self.diamond + self.by
+    }
+
     /// The diamonds of the first cushion and of the third between which the parallel line runs, as places on the table's edge.
     pub fn ends(&self) -> [DVec2; 2] {
         let [first, third] = self.rails;
@@ -69,12 +74,13 @@ impl Shift {
         if (aimed - aimed.round()).abs() < LEAST {
             return None;
         }
-        let lower = aimed.floor();
+        let (lower, last) = (aimed.floor(), if is_long(first) { SIZE.x } else { SIZE.y });
         let mut beside = [lower, lower + 1.0];
         beside.sort_by(|one, other| (one - aimed).abs().total_cmp(&(other - aimed).abs()));
         let turned = if is_long(first) == is_long(second) { 1.0 } else { -1.0 };
         let table_third = along(leg.hits[2].1, third);
-        beside.into_iter().find_map(|diamond| {
+        // Behind the corner there is no diamond to aim at.
+        beside.into_iter().filter(|diamond| (0.0..=last).contains(diamond)).find_map(|diamond| {
             let by = aimed - diamond;
             let path = path_beside(table, leg, -by)?;
             let arrival = along(path[3], third);
@@ -150,7 +156,52 @@ const fn along(place: DVec2, rail: Rail) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
     use super::*;
+    use crate::{
+        coach::{
+            candidates::anything,
+            systems::{Guide, guide},
+        },
+        simulation::Recording,
+        table::Layout,
+    };
+
+    #[test]
+    fn a_ball_is_aimed_at_a_diamond_that_is_there_and_a_stranger_reads_where_it_comes() {
+        let (table, mut rng) = (Table::default(), Xoshiro256PlusPlus::seed_from_u64(3));
+        let shots = (0..4000).filter_map(|_| {
+            let layout = Layout::random(&table, &mut rng);
+            let cue = anything(&table, &layout, &mut rng);
+            match guide(&table, &Recording::new(&table, &layout, &cue).ok()?)? {
+                Guide::Shift(shift) => Some(shift),
+                Guide::System(_) => None,
+            }
+        });
+        let shifts: Vec<Shift> = shots.collect();
+        assert!(shifts.len() > 20, "{}", shifts.len());
+        for shift in &shifts {
+            let last = if is_long(shift.rails[0]) { 8.0 } else { 4.0 };
+            assert!((0.0..=last).contains(&shift.diamond), "{shift:?}");
+        }
+        let shift = Shift {
+            name: "parallel-shift",
+            rails: [Rail::Top, Rail::Bottom],
+            diamond: 3.0,
+            arrival: 5.1,
+            by: 0.4,
+            third: 4.7,
+            table_third: 4.6,
+            path: [DVec2::ZERO; 4],
+        };
+        assert_eq!(
+            shift.to_string(),
+            "Parallel shift: aimed at diamond 3 of the top rail, the ball comes to 5.1 of the bottom rail; aimed at 3.4, as here, to \
+             4.7; on your table to 4.6"
+        );
+    }
 
     #[test]
     fn a_line_begins_on_the_table() {

@@ -76,26 +76,36 @@ impl fmt::Display for Applied {
 }
 
 impl Shift {
-    /// The parallel line, and where the shot arrives by it: `top 3 to top 5.1; aimed 0.4 beyond it, to 4.7`.
+    /// Where the line to the diamond leads, and the shot beside it: `aimed at diamond 3 of the top rail, the ball comes to 5.1 of the
+    /// bottom rail; aimed at 3.4, as here, to 4.7`.
     pub fn counted(&self) -> String {
-        let Self { rails: [first, last], diamond, arrival, by, third, table_third, .. } = self;
+        let Self { rails: [first, last], diamond, arrival, .. } = self;
         let (first, last) = (first.name(), last.name());
-        let side = if *by < 0.0 { "before" } else { "beyond" };
-        // The sum holds as it stands there.
+        format!(
+            "aimed at diamond {diamond:.0} of the {first} rail, the ball comes to {arrival:.1} of the {last} rail; aimed at {:.1}, as \
+             here, to {:.1}",
+            self.aimed(),
+            self.told_third()
+        )
+    }
+
+    /// What the table says to it: `on your table to 4.6`; `None` where it is the same.
+    pub fn correction(&self) -> Option<String> {
+        let is_other = tenth(self.told_third()) != tenth(self.table_third);
+        is_other.then(|| format!("on your table to {:.1}", self.table_third))
+    }
+
+    /// Where the ball arrives by the shift, so far from the other arrival as it is told.
+    fn told_third(&self) -> f64 {
         let rounded = |number: f64| (10.0 * number).round() / 10.0;
-        let third = rounded(*arrival) + rounded(third - arrival);
-        let on_table = if tenth(third) == tenth(*table_third) {
-            String::new()
-        } else {
-            format!(", on your table {table_third:.1}")
-        };
-        format!("{first} {diamond:.0} to {last} {arrival:.1}; aimed {:.1} {side} it, to {third:.1}{on_table}", by.abs())
+        rounded(self.arrival) + rounded(self.third - self.arrival)
     }
 }
 
 impl fmt::Display for Shift {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "Parallel shift: {}", self.counted())
+        write!(formatter, "Parallel shift: {}", self.counted())?;
+        self.correction().map_or(Ok(()), |correction| write!(formatter, "; {correction}"))
     }
 }
 

@@ -17,7 +17,7 @@ use numbers::clock;
 pub use numbers::fullness_word;
 pub(super) use numbers::number_word;
 pub use pace::{pace_word, table_lengths};
-pub(super) use sentence::capital;
+pub(crate) use sentence::capital;
 pub use units::{LengthUnit, PlaceUnit, TipUnit, Units, short};
 
 use super::{Cushion, Hit, Mark, Technique, line_of_aim};

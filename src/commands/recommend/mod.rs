@@ -349,8 +349,11 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     writeln!(out, "b      {b:>8.3} R")?;
     writeln!(out, "theta  {:>8.3} degrees", theta.to_degrees())?;
     writeln!(out, "phi    {:>8} degrees", answer.cue.phi_text(3))?;
-    writeln!(out, "V      {speed:>8.3} m/s")?;
-    writeln!(out, "{}", impulse_words(&strike(table, &answer.cue)))?;
+    let (factor, symbol) = units().length.speed();
+    // A shot is typed in metres a second, whatever it is told in.
+    let typed = if symbol == "m/s" { String::new() } else { format!(" ({speed:.3} m/s where a shot is typed)") };
+    writeln!(out, "V      {:>8.3} {symbol}{typed}", factor * speed)?;
+    writeln!(out, "{}", impulse_words(&strike(table, &answer.cue), units().length))?;
     match answer.solved {
         Some(true) => writeln!(out, "a point by simulation: {}", words(&answer.sort, &answer.chance, args))?,
         Some(false) => writeln!(out, "no point by simulation: the best attempt")?,

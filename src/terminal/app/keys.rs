@@ -40,7 +40,6 @@ impl App {
             };
         }
         if self.input(Typed::Key(key)) {
-            self.has_warned = false;
             self.toasts.go_on();
             return None;
         }

@@ -33,7 +33,7 @@ use crate::{
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
         Action, Capabilities, CoachAction, CommandPalette, Complaint, Effect, Glyphs, Keys, LONGEST_FOR_GUESTS, PageId,
-        Palette, SavedSession, Seat, Settings, SettingsPage, Subscriptions, Toasts,
+        Palette, SavedSession, Seat, Settings, SettingsPage, StrokeDraft, Subscriptions, Toasts,
         pages::{
             Page,
             calibration::CalibrationPage,
@@ -96,8 +96,6 @@ pub struct App {
     /// The same where yellow is the cue ball.
     yellow_theme: Theme,
     palette: Palette,
-    /// Whether the player was just told what quitting would lose.
-    has_warned: bool,
     /// Whether the player is a guest of this machine.
     is_guest: bool,
     /// Finds out what the terminal can show under some settings; without it that stays as at the start.
@@ -131,7 +129,6 @@ impl App {
             theme: Theme::new(caps.depth),
             yellow_theme: Theme::new(caps.depth).with_cue_ball(CueBall::Yellow),
             palette: Palette::default(),
-            has_warned: false,
             is_guest: false,
             detect: None,
         })
@@ -217,6 +214,16 @@ impl App {
         self
     }
 
+    /// The same program with the stroke of a calibration that was typed in part when the last session ended.
+    #[must_use]
+    pub fn with_draft(mut self, draft: Option<StrokeDraft>) -> Self {
+        if let Some(test) = draft.and_then(|draft| self.calibration.go_on_with(draft)) {
+            let sentence = format!("a stroke of {test} that was typed in part is kept: F7 goes on with it");
+            self.toasts.push_first(&[sentence]);
+        }
+        self
+    }
+
     /// The same program for a player whose own skill is known.
     #[must_use]
     pub const fn with_own_skill(mut self, own: Option<Skill>) -> Self {
@@ -245,9 +252,8 @@ impl App {
 
     /// Does what an enabled binding asks for.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
-        let has_warned = std::mem::take(&mut self.has_warned);
         match action {
-            Action::Quit => return self.quit(has_warned),
+            Action::Quit => return Some(Effect::Quit),
             Action::Suspend => return Some(Effect::Suspend),
             Action::OpenHelp => self.lay_over(Overlay::Help),
             Action::OpenMessages => self.lay_over(Overlay::Messages),
@@ -322,17 +328,6 @@ impl App {
                 return self.set(effect);
             }
         }
-        None
-    }
-
-    /// Ends the program. Where a stroke of a calibration is typed in part, which would be lost, only the second time in a row.
-    fn quit(&mut self, has_warned: bool) -> Option<Effect> {
-        let Some(test) = self.calibration.half_entered().filter(|_| !has_warned) else { return Some(Effect::Quit) };
-        (self.screen, self.has_warned, self.help) = (PageId::Calibration, true, None);
-        self.toasts.push(
-            format!("a stroke of {test} is typed in part: Enter goes on to keep it, Ctrl-C once more quits without it"),
-            true,
-        );
         None
     }
 

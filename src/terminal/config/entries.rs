@@ -199,7 +199,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Units",
         key: "length_unit",
-        about: "In what distances on the table are told, where balls lie while they are placed, and speeds and margins in lines.",
+        about: "In what distances on the table are told, where balls lie while they are placed, speeds and margins.",
         accepted: "\"metres\", \"feet\"",
         choices: || LengthUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&LengthUnit::NAMED, &settings.units.length)),

@@ -1,6 +1,7 @@
 //! What the user has chosen once and for all: a file in TOML, every key of it optional.
 
 mod change;
+pub mod draft;
 mod entries;
 mod file;
 mod read;

@@ -1,7 +1,7 @@
 //! The loop: waits for news, hands them to the app, and draws once when something has changed.
 
 use std::{
-    io,
+    io::{self, Write},
     sync::mpsc::{Receiver, RecvTimeoutError},
     time::{Duration, Instant},
 };
@@ -11,7 +11,7 @@ use tracing::{info, warn};
 
 use crate::{
     platform::{self, Signal},
-    printing::{FULL_VERSION, OneLine},
+    printing::{self, FULL_VERSION, OneLine},
     storage::Places,
     terminal::{
         Answer, App, CoachNews, Effect, Report, SavedSession,
@@ -53,10 +53,15 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     let end = runner.until_the_end(&news);
     runner.showing.end();
     runner.remember(true);
+    let unkept = runner.keep_draft();
     info!(?end, "the screen closes");
     let left = runner.session.leave();
     // The player sees the shell again; what was noted last is written all the same.
     runner.tasks.finish();
+    if let Err(error) = unkept {
+        // A terminal that is gone reads nothing.
+        let _ = writeln!(printing::stderr(), "the stroke that was typed in part is lost: {error}");
+    }
     match end? {
         // The parent is to see that a signal ended the program, even where the terminal is gone already.
         Some(signal) => platform::die(signal),
@@ -169,6 +174,13 @@ impl Runner {
             }
         }
         self.remembered = (last, Instant::now());
+    }
+
+    /// Keeps what is typed in part for the next session, whatever ends this one.
+    fn keep_draft(&self) -> io::Result<()> {
+        let path = &self.places.draft;
+        let told = |error| io::Error::other(format!("{}: {error}", path.display()));
+        self.app.calibration.draft().map_or(Ok(()), |draft| draft.save(path).map_err(told))
     }
 
     /// Writes refusals and failures down that were shown.

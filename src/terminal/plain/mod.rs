@@ -248,7 +248,8 @@ impl Conversation {
     }
 
     fn ask(&mut self) -> String {
-        let advice = match self.coach.recommend(self.layout(), &self.request) {
+        let request = Request { former: self.shots.iter().map(|shot| shot.cue).collect(), ..self.request.clone() };
+        let advice = match self.coach.recommend(self.layout(), &request) {
             Ok(advice) => advice,
             Err(error) => return error.to_string(),
         };

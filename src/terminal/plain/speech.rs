@@ -97,20 +97,7 @@ pub fn system(guide: Option<&Guide>) -> String {
                 system.rule()
             )
         }
-        Some(Guide::Shift(shift)) => {
-            let [first, last] = shift.rails.map(rail_name);
-            let said = |diamonds: f64| fixed(diamonds, 1);
-            format!(
-                "Parallel shift: aimed at diamond {} of the {first}, the ball comes to {} of the {last}. Aimed {} {}, as here, it comes \
-                 to {} by the shift, and to {} on this table.",
-                fixed(shift.diamond, 0),
-                said(shift.arrival),
-                said(shift.by.abs()),
-                if shift.by < 0.0 { "before it" } else { "beyond it" },
-                said(shift.third),
-                said(shift.table_third)
-            )
-        }
+        Some(Guide::Shift(shift)) => format!("{shift}. {}", shift.rule()),
     }
 }
 

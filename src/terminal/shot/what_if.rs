@@ -103,9 +103,9 @@ impl WhatIf {
         self.question = None;
     }
 
-    /// What comes of it if it is played as meant.
+    /// What comes of it if it is played as meant; how often it is made, which may stand beside it, is told of strokes with errors.
     pub fn outcome(&self, cue_ball: CueBall, units: Units) -> String {
-        self.verdict.words(cue_ball, units.length)
+        self.verdict.words(cue_ball, units.length).replacen(": ", ", if played exactly: ", 1)
     }
 
     /// How it differs from the coach's, whom `teacher` names; and whether there is room for the cue.
@@ -150,7 +150,7 @@ mod tests {
             let softer = CueInputs { speed: 0.5, ..coach.cue };
             what_if.strike(&softer, scene).unwrap();
             assert!(!what_if.is_made() && what_if.coach.cue == coach.cue && what_if.shot.cue.speed == 0.5);
-            assert!(what_if.outcome(CueBall::White, units).starts_with("No point: "));
+            assert!(what_if.outcome(CueBall::White, units).starts_with("No point, if played exactly: "));
             let told = what_if.difference("coach", CueBall::White, units);
             assert!(told.starts_with("You: ") && told.contains("softer by "), "{told}");
         });

@@ -206,9 +206,9 @@ const UNKNOWN: &str = "it is not known where to write";
 /// The player's skill, and how sure that is.
 fn estimated(sessions: &[Session]) -> Result<(Option<Skill>, String), String> {
     let found = estimate(sessions).map_err(|error| error.to_string())?;
-    let Estimate { skill, attempts, .. } = found;
+    let Estimate { skill, attempts, shots, .. } = found;
     let sentence = format!(
-        "you play like an average of {} at three-cushion, from {attempts} attempts at a real table",
+        "you play like an average of {} at three-cushion (95 % interval), from {attempts} attempts at {shots} shots",
         found.words()
     );
     Ok((skill, sentence))

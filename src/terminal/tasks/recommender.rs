@@ -53,6 +53,8 @@ pub struct Job {
     pub layout: Layout,
     /// Whose advice is asked.
     pub query: CoachQuery,
+    /// Shots of the coach's former answer to the same question.
+    pub former: Vec<CueInputs>,
     /// Which shot is to be studied; without one the coach is to find one.
     pub shot: Option<CueInputs>,
     /// What was found, where it is to be said why that shot leads.
@@ -144,6 +146,7 @@ impl CoachWorker {
             budget: if self.simulations.is_some() { NO_HURRY } else { job.budget },
             simulations: self.simulations.unwrap_or(u64::MAX),
             seed: job.seed,
+            former: job.former.clone(),
             cancel: Arc::clone(&job.cancel),
             ..Request::default()
         };

@@ -141,6 +141,11 @@ fn enough_results_tell_a_skill_that_every_command_takes() {
     let none = own(&["recommend"]);
     assert!(none.code == Some(2) && none.err.contains("carom drill skill --keep"), "{}", none.err);
     drill(folder.path(), &["log", "half-ball", "--made", "60", "--of", "60"]);
+    let one = drill(folder.path(), &["skill", "--keep"]);
+    assert!(one.code == Some(1) && one.err.contains("3 different shots") && one.err.contains("60 at 1"), "{}", one.err);
+    for other in ["big-ball", "follow-left"] {
+        drill(folder.path(), &["log", other, "--made", "9", "--of", "9"]);
+    }
     let bound = drill(folder.path(), &["skill", "--keep"]);
     assert!(bound.code == Some(1) && bound.err.contains("at least"), "{}", bound.err);
     assert!(drill(folder.path(), &["skill"]).out.contains("at least"));

@@ -4,7 +4,7 @@ use std::fs;
 
 use crate::{
     program::asked,
-    terminal::{OPENING, Session, carom},
+    terminal::{OPENING, PATIENCE, REST, Session, carom},
 };
 
 #[test]
@@ -40,4 +40,44 @@ fn a_stroke_that_was_entered_is_there_after_the_program_was_killed() {
     assert!(String::from_utf8_lossy(&said.stdout).contains("slow-back (1)"), "{said:?}");
     let kept = fs::read_to_string(home.path().join("data/carom/calibration.toml")).unwrap();
     assert_eq!(kept.matches("[[trial]]").count(), 2, "{kept}");
+}
+
+#[test]
+fn what_is_typed_in_part_is_there_at_the_next_start_whatever_ended_the_program() {
+    let home = tempfile::tempdir().unwrap();
+    let start = || {
+        let mut session = Session::start_at(home.path(), carom(), 80, 24);
+        session.wait_for(OPENING);
+        session
+    };
+    let mut session = start();
+    session.send("\x1b[18~");
+    session.wait_for("Strokes of slow-roll");
+    session.press("\r");
+    for (ending, text) in [("HUP", "9"), ("TERM", ".6"), ("cut", "1"), ("quit", "2"), ("", "3")] {
+        session.send(text);
+        session.settle(REST);
+        match ending {
+            "cut" => session.cut(),
+            "quit" => session.send("\x03"),
+            "" => break,
+            signal => session.signal(signal),
+        }
+        session.ends_within(PATIENCE);
+        session = start();
+        session.wait_for("a stroke of slow-roll that was typed in part");
+        session.send("\x1b[18~");
+        session.wait_for("Strokes of slow-roll");
+    }
+    session.wait_for("9.6123");
+    // It comes back once only.
+    session.send("\x1b");
+    session.settle(REST);
+    session.send("\x03");
+    session.ends_within(PATIENCE);
+    let mut last = start();
+    last.settle(REST);
+    assert!(!last.screen().contents().contains("typed in part"), "{}", last.screen().contents());
+    last.send("q");
+    assert!(last.assert_left_without_trace().success());
 }

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use super::player::{NEXT, OTHERS, Player, SHOT, advice, check, proposal};
+use super::player::{NEXT, OTHERS, Player, SHOT, SIZES, TRUE_COLOUR, advice, check, proposal};
 use carom::{
     coach::Skill,
     game::Rule,
@@ -93,8 +93,14 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
     assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
     let player = player.press("R R S S S S");
     assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first question again");
-    let asked = player.press("R R Enter").asked.unwrap();
-    assert_eq!(asked.query.rule, Rule::ThreeCushion);
+    let again = player.press("Enter").asked.unwrap();
+    assert_eq!(
+        again.former,
+        [SHOT, OTHERS[0], OTHERS[1]].map(|cue| CueInputs::parse(cue).unwrap()),
+        "they take part again"
+    );
+    let asked = Player::new().press("Enter").answer().press("R R Enter").asked.unwrap();
+    assert!(asked.query.rule == Rule::ThreeCushion && asked.former.is_empty());
 }
 
 #[test]
@@ -152,6 +158,19 @@ fn margins_and_maps() {
     // The tip is left of the middle of its own map, at column 84, as the shooter sees it.
     let tips: Vec<u16> = (77..91).filter(|&x| (30..38).any(|y| picture[(x, y)].fg == tip)).collect();
     assert!(!tips.is_empty() && tips.iter().all(|&x| x <= 83), "{tips:?}");
+}
+
+#[test]
+fn margins_maps_and_speeds_are_in_the_units_of_the_settings() {
+    let player =
+        Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("Enter").answer().press("v v").studied();
+    player.shows(&["Tip ±0.7 in"]);
+    assert!(player.text(80, 24).contains("± yours in ° ft/s"));
+    for (width, height) in SIZES {
+        let text = player.text(width, height);
+        assert!(!text.contains(" mm") && !text.contains("m/s"), "{text}");
+    }
+    player.press("v v Space Right").shows(&[" ft/s "]);
 }
 
 #[test]

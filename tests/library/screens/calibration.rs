@@ -4,7 +4,7 @@ use std::fs;
 
 use carom::{
     calibration::{Edit, Entries, Entry, PROTOCOL, edit_entries},
-    terminal::{CalibrationContext, Effect, KeyContext, PageId},
+    terminal::{CalibrationContext, KeyContext, PageId},
 };
 
 use super::keys::key;
@@ -278,17 +278,24 @@ fn a_file_that_cannot_be_read_is_kept_aside_on_demand() {
 }
 
 #[test]
-fn marks_that_are_typed_in_part_are_not_lost_without_a_word() {
-    let mut player = new().press("Enter").type_in("9.6").press("F2");
-    player.event(&key("C-c"));
-    player.warns("a stroke of slow-roll is typed in part");
-    assert!(player.effects.is_empty() && player.app.screen == PageId::Calibration);
-    player.event(&key("C-c"));
-    assert!(matches!(player.effects.last(), Some(Effect::Quit)));
-    // Nothing is lost of what is kept, or was not typed.
+fn what_is_typed_in_part_is_there_at_the_next_start() {
+    let player = new().press("Enter").type_in("9.6").press("Enter").type_in("5").press("F2");
+    let draft = player.app.calibration.draft();
+    let mut next = new();
+    next.app = next.app.with_draft(draft.clone());
+    next.warns("a stroke of slow-roll that was typed in part is kept: F7 goes on with it");
+    let next = next.press("F7");
+    assert_eq!(next.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
+    assert_eq!(next.app.calibration.draft(), draft);
+    let next = next.type_in(".4").press("Enter").type_in("725 mm").press("Enter Enter");
+    assert_eq!(kept(&next), kept(&enter(new(), &ROLL)), "as if it had been typed at once");
+    assert_eq!(next.app.calibration.draft(), None);
+    // A change of a stroke is a change still.
+    let changed = enter(new(), &ROLL).press("Up e 9");
+    let draft = changed.app.calibration.draft().unwrap();
+    assert!(draft.amends.is_some() && draft.typed[0].ends_with('9'), "{draft:?}");
+    // What is kept, was not typed, or was dropped is not typed in part.
     for keys in ["Enter", "Enter 9 Esc"] {
-        let mut player = new().press(keys);
-        player.event(&key("C-c"));
-        assert!(matches!(player.effects.last(), Some(Effect::Quit)), "{keys}");
+        assert_eq!(new().press(keys).app.calibration.draft(), None, "{keys}");
     }
 }

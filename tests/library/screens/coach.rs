@@ -19,6 +19,18 @@ use proptest::prelude::*;
 use ratatui::{layout::Size, style::Color};
 
 #[test]
+fn for_whom_and_by_which_rule_the_coach_answers_is_said_until_there_is_a_shot() {
+    let player = Player::new();
+    for part in ["Its shots are for skill expert", "rule straight.", "S: how well you play; R: the rule."] {
+        assert!(player.text(80, 24).contains(part), "{part}");
+    }
+    let player = player.press("R R S");
+    assert!(player.text(80, 24).contains("S: how well you play; R: the rule."), "the longest names leave it room");
+    player.shows(&["skill world-class", "three-cushion."]);
+    player.press("Enter").answer().is_silent_on("Its shots are for");
+}
+
+#[test]
 fn the_start() {
     check("start", &Player::new());
 }

@@ -2,13 +2,14 @@
 
 use super::{
     keys::key,
-    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at, places},
+    player::{ASCII, NO_COLOUR, OTHERS, Player, TRUE_COLOUR, check_at, places},
     practice::{exercise, session},
 };
 use carom::{
     coach::Skill,
     drills::{Exercise, Goal, Venue, decode, store::Store},
     game::Rule,
+    physics::CueInputs,
     table::Layout,
     terminal::{Condition, DrillCondition, DrillContext, DrillReport, DrillTask, Effect, KeyContext},
 };
@@ -259,16 +260,26 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
 #[test]
 fn the_records() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("r");
-    none.shows(&["all exercises", "attempts  0", "the skill cannot be estimated yet: 0", "nothing is played yet"]);
-    let one = played().press("Left Enter r");
+    none.shows(&["all exercises", "attempts  0", "0 at 0;", "nothing is played yet"]);
+    // 37 attempts at one shot tell how that shot is made, and too little of the player.
+    let few = played().press("r");
+    few.shows(&["37 at 1;"]);
+    few.press("w").says("no estimate of your skill yet");
+    let others = OTHERS.iter().zip([7, 8]).map(|(shot, number)| {
+        let mut other = session(number, "other", Goal::Free, "x-x");
+        other.exercises[0].shot = Some(CueInputs::parse(shot).unwrap());
+        other
+    });
+    let sessions: Vec<_> = history().into_iter().chain(others).collect();
+    let one =
+        Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &sessions).press("Left Enter r");
     check("record", &one);
     one.says("37").says("high run").says("7");
     let figures = ["attempts  37", "made      27, 73 % (57-85)", "average   2.25 an inning", "high run  7"];
-    played().press("r").shows(&figures).shows(&["all exercises", "session by session", "you play like an average of"]);
+    played().press("r").shows(&figures).shows(&["all exercises", "session by session"]);
     Player::at_library(ASCII, &[exercise("opening", "x")], &history()).press("r").is_plain().shows(&figures);
     let large = played().press("r").text(200, 60);
     assert!(figures.iter().all(|part| large.contains(part)), "{large}");
-    // 37 attempts at one shot tell something of the player.
     one.says("you play like an average of");
     let kept = one.press("w");
     kept.says("my skill");

@@ -60,7 +60,7 @@ fn the_balls_that_a_player_goes_on_with_lie_on_the_table_whatever_left_it() {
     let end: Layout = shot.recording.final_layout();
     assert!(end.validate(&Table::default()).is_ok(), "{end:?}");
     assert_eq!(shot.recording.off_table(), [true, false, false], "{:?}", shot.recording.events());
-    hard.press("End").shows(&["Foul: white left the table over the "]);
+    hard.press("End").shows(&["Foul, if played exactly: white"]);
 }
 
 /// At an exercise whose shot jumps over red, with that shot taken over, and as it was played.

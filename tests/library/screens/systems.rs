@@ -68,9 +68,10 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
 #[test]
 fn a_parallel_shift_is_drawn_before_the_systems_and_is_of_its_shot_alone() {
     let player = advised(Player::with(ASCII), "-0.6035,-0.355 0.165,0.42 0,0.3", "0,0.2,2,75,4").press("Esc y");
-    player.shows(&["- Parallel shift for this shot -", "top 3 to top 4.1; aimed 0.2"]);
-    let large = player.text(120, 40);
-    assert!(large.contains("The dots are the line to the") && large.contains("further along the third"), "{large}");
+    player.shows(&["- Parallel shift for this shot -", "Aimed at diamond 3 of the top rail"]);
+    player.shows(&["as here, to 4.3"]);
+    assert!(player.text(120, 40).contains("The dots are the line to the"));
+    assert!(player.text(200, 60).contains("further along the third"));
     let next = player.press("y");
     next.shows(&["System - Corner-5 example"]);
     let mut shift = next.press("y y y y");

@@ -25,9 +25,9 @@ fn the_coachs_shot_is_taken_over_changed_played_and_left() {
     player.shows(&["You … % · coach 94 %", "You: as the coach", "Esc coach"]);
     assert_eq!(player.judged.as_ref().unwrap().stroke.map(|(cue, _)| cue), Some(CueInputs::parse(SHOT).unwrap()));
     let player = judged(player, 880);
-    player.shows(&["You 88 % · coach 94 %", "Point: "]);
+    player.shows(&["You 88 % · coach 94 %", "Point, if played exactly: "]);
     let player = player.press("S-Up l l S-Right");
-    player.shows(&["You … % · coach 94 %", "No point: ", "You: "]);
+    player.shows(&["You … % · coach 94 %", "No point, if played exactly: ", "You: "]);
     let large = player.text(120, 40);
     for part in ["left", "harder by ", "lengths", "you", "coach"] {
         assert!(large.contains(part), "{part}\n{large}");

@@ -3,7 +3,7 @@
 use crate::{
     calibration::{Entry, RAILS, TAPED, Test, Unit, Written},
     table::Table,
-    terminal::ui::TextField,
+    terminal::{StrokeDraft, ui::TextField},
 };
 
 /// Longest mark, bytes.
@@ -40,6 +40,29 @@ impl Form {
             *field = TextField::new(LONGEST).with(&entry.typed(name));
         }
         Self { amends: Some((place, entry.clone())), far_end: entry.far_end, ..form }
+    }
+
+    /// What the next session is to go on with.
+    pub fn draft(&self, is_daily: bool) -> StrokeDraft {
+        StrokeDraft {
+            test: self.test.name.to_owned(),
+            typed: self.fields.iter().map(|(_, field)| field.text().to_owned()).collect(),
+            field: self.field,
+            far_end: self.far_end,
+            amends: self.amends.clone(),
+            is_daily,
+        }
+    }
+
+    /// The form as it was; `None` where its test is not known here.
+    pub fn from_draft(draft: StrokeDraft) -> Option<Self> {
+        let StrokeDraft { test, typed, field, far_end, amends, .. } = draft;
+        let mut form = Self { amends, far_end, ..Self::new(Test::named(&test)?) };
+        for ((_, field), typed) in form.fields.iter_mut().zip(&typed) {
+            *field = TextField::new(LONGEST).with(typed);
+        }
+        form.field = field.min(form.fields.len().saturating_sub(1));
+        Some(form)
     }
 
     /// Goes to another field, around the ends.

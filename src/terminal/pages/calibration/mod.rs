@@ -20,7 +20,7 @@ use crate::{
     storage::Places,
     table::Table,
     terminal::{
-        CalibrationContext, CalibrationReport, CalibrationTask, Effect, KeptEntries,
+        CalibrationContext, CalibrationReport, CalibrationTask, Effect, KeptEntries, StrokeDraft,
         pages::{Page, PageArea, Target},
         ui::{Message, TextField, Ui},
     },
@@ -135,12 +135,22 @@ impl CalibrationPage {
         }
     }
 
-    /// The test of a stroke whose marks are typed in part: quitting would lose them.
-    pub fn half_entered(&self) -> Option<&'static str> {
+    /// The stroke whose marks are typed in part, which the next session is to go on with.
+    pub fn draft(&self) -> Option<StrokeDraft> {
         match &self.input {
-            Some(Input::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.test.name),
+            Some(Input::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.draft(self.is_daily)),
             _ => None,
         }
+    }
+
+    /// Goes on with a stroke that was typed in part when the last session ended; gives its test, where that is known.
+    pub fn go_on_with(&mut self, draft: StrokeDraft) -> Option<&'static str> {
+        self.is_daily = draft.is_daily;
+        let form = Form::from_draft(draft)?;
+        let test = form.test.name;
+        self.sheet_mut().mark_test(test);
+        self.input = Some(Input::Marks(form));
+        Some(test)
     }
 
     /// Asks what the entries say.

@@ -76,7 +76,8 @@ impl Sheet {
         self.stroke = None;
     }
 
-    fn mark_test(&mut self, name: &str) {
+    /// Marks the test of this name, if it is one of them.
+    pub(super) fn mark_test(&mut self, name: &str) {
         if let Some(mark) = self.tests().position(|test| test.name == name) {
             (self.mark, self.stroke) = (mark, None);
         }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::{
     coach::{Recommendation, Why},
+    physics::CueInputs,
     terminal::{Advice, CoachQuery, Proposal, ShotAnalysis},
 };
 
@@ -48,6 +49,11 @@ impl AdviceState {
     /// What the first shot's lead follows from, while that one is shown and it is not known why it leads.
     pub fn unexplained(&self) -> Option<&Arc<Recommendation>> {
         self.found.as_ref().filter(|_| self.chosen == 0 && self.why.is_none())
+    }
+
+    /// Its strokes, the recommended one first.
+    pub fn strokes(&self) -> Vec<CueInputs> {
+        self.choices.iter().map(|choice| choice.proposal.shot.cue).collect()
     }
 
     /// The one that is shown.

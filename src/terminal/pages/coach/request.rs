@@ -41,7 +41,8 @@ pub struct Studying {
 impl CoachPage {
     pub(super) fn ask(&mut self) -> Effect {
         self.playback.pause();
-        let job = self.job(None);
+        let former = self.advised().map_or_else(Vec::new, AdviceState::strokes);
+        let job = Job { former, ..self.job(None) };
         let (cancel, query) = (Arc::clone(&job.cancel), job.query.clone());
         self.pending = Some(Pending { id: job.id, cancel, query, waited: 0.0, so_far: None });
         Effect::Ask(Box::new(job))
@@ -54,6 +55,7 @@ impl CoachPage {
             table: self.table().clone(),
             layout: *self.layout(),
             query: self.query.clone(),
+            former: Vec::new(),
             shot,
             found: None,
             stroke: None,

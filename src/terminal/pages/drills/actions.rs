@@ -76,9 +76,11 @@ impl DrillsPage {
     }
 
     fn back(&mut self) {
-        let exam = self.turn.as_ref().filter(|turn| turn.is_exam() && self.page() == Screen::Exercise);
-        if let Some(session) = exam.map(|turn| &turn.session).filter(|session| !session.is_over()) {
-            self.question = Some(Question::Leave(session.attempts.len(), session.exercises.len()));
+        let is_exercise = self.page() == Screen::Exercise;
+        let exam = self.turn.as_mut().filter(|turn| is_exercise && turn.is_exam() && !turn.session.is_over());
+        if let Some(exam) = exam {
+            exam.finish_watching();
+            self.question = Some(Question::Leave(exam.session.attempts.len(), exam.session.exercises.len()));
             return;
         }
         self.pages.pop();

@@ -228,6 +228,13 @@ impl Turn {
         if let Stage::Watching(watched) = &self.stage { Some(watched) } else { None }
     }
 
+    /// Goes to the end of the stroke that is watched, if one is.
+    pub(super) fn finish_watching(&mut self) {
+        if let Some(watched) = self.watched_mut().filter(|watched| !watched.is_settled) {
+            watched.finish();
+        }
+    }
+
     pub(super) const fn watched_mut(&mut self) -> Option<&mut Watched> {
         if let Stage::Watching(watched) = &mut self.stage { Some(watched) } else { None }
     }

@@ -88,8 +88,10 @@ impl DrillsPage {
     /// What the keys do to the exercise that is practised. Before one that ends an open run by beginning another session, it is
     /// asked whether that is meant.
     pub(super) fn update_turn(&mut self, action: Action) -> Option<Effect> {
-        let turn = self.turn.as_ref()?;
+        let turn = self.turn.as_mut()?;
         if turn.is_under_way() && turn.is_ended_by(action) {
+            // The question counts a stroke that is still being watched, and so must the score beside it.
+            turn.finish_watching();
             let Session { goal, attempts, .. } = turn.newest();
             let what = match goal {
                 Goal::Run(_) => "run",
@@ -198,8 +200,7 @@ impl DrillsPage {
         let Stage::Watching(watched) = &mut turn.stage else { return None };
         if !watched.is_settled {
             // The first press goes to the end, where the result is shown.
-            watched.playback.jump(watched.duration());
-            watched.settle();
+            watched.finish();
             return None;
         }
         let next = watched.outcome.next.clone();

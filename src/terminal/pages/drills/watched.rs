@@ -30,4 +30,10 @@ impl Watched {
     pub(super) fn settle(&mut self) {
         self.is_settled |= self.playback.time >= self.duration();
     }
+
+    /// Goes to its end, where its result is shown.
+    pub(super) fn finish(&mut self) {
+        self.playback.jump(self.duration());
+        self.settle();
+    }
 }

@@ -120,6 +120,10 @@ fn an_open_run_is_given_up_only_on_demand_and_gone_on_with_where_it_was_left() {
         let stays = asked.press("n Space");
         assert_eq!((stays.kept(), sessions(&stays)), (2, 1), "{key}");
     }
+    // The score tells what the question counts.
+    let watched = Player::practising(TRUE_COLOUR).press("o Space").wait(0.1);
+    watched.says("no attempt yet");
+    watched.press("x").says("give up the run after 1 attempt?").says(" of 1 made").is_silent_on("no attempt yet");
     let left = run.press("Esc");
     assert_eq!(left.app.place(), LIBRARY);
     left.says("what you have begun is kept; Enter on the exercise goes on with it");

@@ -30,8 +30,9 @@ const Y_DIAMONDS_END: u16 = 37;
 /// Draws the panel; below the balls, if there is room, more about the layout or the shot.
 pub fn draw_balls(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title("Balls", area, ui);
+    let speed = format!(" {} ", coach.units.length.speed().1);
     let other: &[_] = if coach.watched().is_some() {
-        &[(SPEED_END, " m/s ")]
+        &[(SPEED_END, &*speed)]
     } else {
         &[(X_DIAMONDS_END, " x d "), (Y_DIAMONDS_END, " y d ")]
     };
@@ -79,7 +80,7 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
     write_right(ui.buffer, area.x, area.x + X_END, area.y, &fine(place.x, unit), style);
     write_right(ui.buffer, area.x, area.x + Y_END, area.y, &fine(place.y, unit), style);
     if let Some(speed) = speed {
-        write_right(ui.buffer, area.x, area.x + SPEED_END, area.y, &fixed(speed, 2), style);
+        write_right(ui.buffer, area.x, area.x + SPEED_END, area.y, &fixed(unit.speed().0 * speed, 2), style);
     } else {
         let diamonds = in_diamonds(coach.table(), place);
         write_right(ui.buffer, area.x, area.x + X_DIAMONDS_END, area.y, &fixed(diamonds.x, 2), style);

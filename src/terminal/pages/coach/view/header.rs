@@ -7,8 +7,7 @@ use ratatui::{
 
 use crate::terminal::{
     CoachAction, Mode,
-    keymap::{chord_of, keys_text},
-    pages::coach::{CoachPage, keys::COACH},
+    pages::coach::{CoachPage, view::asked::key_of},
     ui::{Ui, end_of},
     words::{fixed, rule_word, skill_word},
 };
@@ -75,9 +74,7 @@ fn question(coach: &CoachPage, has_plan: bool, ui: &Ui) -> Line<'static> {
     ];
     let mut line = Line::default();
     for (action, words) in parts.into_iter().take(if has_plan { 3 } else { 2 }) {
-        let chord = chord_of(COACH, &action);
-        let key = keys_text(chord.into_iter().flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps);
-        line.push_span(Span::styled(format!(" {key}"), ui.theme.accent()));
+        line.push_span(Span::styled(format!(" {}", key_of(&action, ui)), ui.theme.accent()));
         line.push_span(Span::styled(format!(" {words}"), ui.theme.text()));
     }
     line

@@ -8,7 +8,10 @@ use ratatui::{
 };
 
 use crate::{
-    coach::systems::{Applied, BEHIND, Guide, metres, number},
+    coach::{
+        systems::{Applied, BEHIND, Guide, metres, number},
+        words::capital,
+    },
     table::Table,
     terminal::{
         Glyphs, Mapping,
@@ -130,10 +133,10 @@ fn sentences(guide: &Guide) -> Vec<(String, bool)> {
     let applied = match guide {
         Guide::System(applied) => applied,
         Guide::Shift(shift) => {
-            let why = "The dots are the line to the diamond.";
             return vec![
-                (shift.counted(), true),
-                (why.to_owned(), false),
+                (capital(&shift.counted()), true),
+                (capital(&shift.correction().unwrap_or_default()), true),
+                ("The dots are the line to the diamond.".to_owned(), false),
                 (shift.rule().to_owned(), false),
                 ("On the rail: the diamond. On the cloth: where the dots come to the third cushion.".to_owned(), false),
             ];

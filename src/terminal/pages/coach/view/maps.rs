@@ -7,7 +7,7 @@ use ratatui::{
 };
 
 use crate::{
-    coach::{Map, Outcome, Skill},
+    coach::{Map, Outcome, Skill, told_in, words::LengthUnit},
     physics::CueInputs,
     table::Table,
     terminal::{
@@ -57,10 +57,12 @@ enum Sign {
 }
 
 /// Draws the outcomes over the part of the ball's face where the tip does not slip off, with its rim, as the shooter sees it,
-/// and where the tip meets it.
-pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, area: Rect, ui: &mut Ui) {
+/// and where the tip meets it; how far the map reaches is told in `unit`.
+pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, unit: LengthUnit, area: Rect, ui: &mut Ui) {
     let reach = map.columns.last().copied().unwrap_or_default();
-    let title = format!("Tip {}{} mm", ui.caps.pick("±", "+-"), fixed(reach, 0));
+    let (factor, symbol) = told_in(map.across, unit);
+    let decimals = usize::from(unit == LengthUnit::Feet);
+    let title = format!("Tip {}{} {symbol}", ui.caps.pick("±", "+-"), fixed(factor * reach, decimals));
     let inner = draw_title(title, area, ui);
     // How far the tip is from the middle of the map, as a share of its half; positive `a` is on the left.
     let share = 1e3 * table.radius / reach;
@@ -74,14 +76,15 @@ pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, area: Rect, ui: &
 }
 
 /// Draws the outcomes over direction, to the left as the shooter sees it, and speed, upwards, with the outline of the
-/// player's errors around the stroke in the middle.
-pub fn draw_aim_map(map: &Map, skill: Skill, area: Rect, ui: &mut Ui) {
+/// player's errors around the stroke in the middle; speeds are told in `unit`.
+pub fn draw_aim_map(map: &Map, skill: Skill, unit: LengthUnit, area: Rect, ui: &mut Ui) {
+    let (factor, symbol) = told_in(map.up, unit);
     let (phi, degree) = (ui.caps.pick("φ", "ph"), ui.caps.pick("°", ""));
     let wide = area.width >= WIDE;
     let span = |values: &[f64]| values.last().copied().unwrap_or_default();
     let mut title = vec![Span::styled(format!("{}{phi}, V", if wide { "Aim: " } else { "" }), ui.theme.text())];
     if !wide {
-        let reach = format!(" {}{}", ui.caps.pick("±", "+-"), fixed(span(&map.rows), 1));
+        let reach = format!(" {}{}", ui.caps.pick("±", "+-"), fixed(factor * span(&map.rows), 1));
         title.push(Span::styled(reach, ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
@@ -94,9 +97,9 @@ pub fn draw_aim_map(map: &Map, skill: Skill, area: Rect, ui: &mut Ui) {
     if wide {
         let middle = plot.y + plot.height / 2;
         for (row, text) in [
-            (plot.y, format!("+{}", fixed(up, 2))),
-            (middle, "V m/s".to_owned()),
-            (plot.bottom() - 1, format!("-{}", fixed(up, 2))),
+            (plot.y, format!("+{}", fixed(factor * up, 2))),
+            (middle, symbol.to_owned()),
+            (plot.bottom() - 1, format!("-{}", fixed(factor * up, 2))),
         ] {
             write_right(ui.buffer, inner.x, plot.x - 1, row, &text, ui.theme.faint());
         }

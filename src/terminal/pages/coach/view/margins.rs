@@ -7,7 +7,10 @@ use ratatui::{
 };
 
 use crate::{
-    coach::{Input, Margin, Skill},
+    coach::{
+        Input, Margin, Skill, told_in,
+        words::{LengthUnit, short},
+    },
     terminal::{
         Capabilities, ShotAnalysis,
         ui::{Theme, Ui, draw_nothing, draw_title, write_right},
@@ -27,13 +30,15 @@ const UNIT: u16 = 29;
 /// Columns of an input where two share a row: at least, and where there is room.
 const HALF: (u16, u16) = (20, 24);
 
-/// Draws the panel; the tightest input, the one that the player's errors leave first, is marked. Without
+/// Draws the panel, with distances in `unit`; the tightest input, the one that the player's errors leave first, is marked. Without
 /// a study it says `empty`.
-pub fn draw_margins(study: Option<&ShotAnalysis>, empty: &str, area: Rect, ui: &mut Ui) {
+pub fn draw_margins(study: Option<&ShotAnalysis>, unit: LengthUnit, empty: &str, area: Rect, ui: &mut Ui) {
     let tall = area.height > TALL;
     let mut title = vec![Span::styled("Margins", ui.theme.text())];
     if study.is_some() && !tall {
-        let units = ui.caps.pick(" less, more, ± yours mm ° m/s", " less, more, yours mm deg m/s");
+        let [small, speed] = [Input::Side, Input::Speed].map(|input| told_in(input, unit).1);
+        let (yours, degree) = (ui.caps.pick("± yours", "yours"), ui.caps.pick("°", "deg"));
+        let units = format!(" less, more, {yours} {small} {degree} {speed}");
         title.push(Span::styled(units, ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
@@ -50,10 +55,10 @@ pub fn draw_margins(study: Option<&ShotAnalysis>, empty: &str, area: Rect, ui: &
         .enumerate()
         .map(|(n, margin)| {
             let is_tightest = Some(n) == tightest;
+            let (factor, unit) = margin.told_in(unit);
             // No more digits than it has: 0.5, 0.125.
-            let yours = fixed(skill.error(margin.input), 3);
-            let yours = yours.trim_end_matches('0').trim_end_matches('.').to_owned();
-            Row { margin, yours, is_tightest, theme: ui.theme, caps: ui.caps }
+            let yours = short(factor * skill.error(margin.input), 3);
+            Row { margin, factor, unit, yours, is_tightest, theme: ui.theme, caps: ui.caps }
         })
         .collect();
     if tall {
@@ -95,7 +100,10 @@ fn tightest(margins: &[Margin; 5], skill: Skill) -> Option<usize> {
 
 struct Row<'a> {
     margin: &'a Margin,
-    /// The player's standard error, in the input's unit.
+    /// How many of the unit in which it is told are one of its own, and that unit.
+    factor: f64,
+    unit: &'static str,
+    /// The player's standard error, in that unit.
     yours: String,
     is_tightest: bool,
     theme: &'a Theme,
@@ -115,13 +123,22 @@ impl Row<'_> {
         }
     }
 
+    /// How much less and more the input may be, with so many decimals.
+    fn sizes(&self, decimals: usize) -> [String; 2] {
+        [(self.margin.less, "-"), (self.margin.more, "+")]
+            .map(|(margin, sign)| size(margin.map(|margin| self.factor * margin), sign, decimals))
+    }
+
     fn draw_whole(&self, area: Rect, ui: &mut Ui) {
         let (x, y) = (area.x, area.y);
         ui.buffer.set_string(x + 1, y, self.name(), self.theme.faint());
-        write_right(ui.buffer, x + 3, x + LESS_END, y, &size(self.margin.less, "-"), self.style());
-        write_right(ui.buffer, x + 3, x + MORE_END, y, &size(self.margin.more, "+"), self.style());
+        // An inch has hundredths that are a quarter of a millimetre.
+        let decimals = if self.unit == LengthUnit::Feet.fine().1 { 3 } else { 2 };
+        let [less, more] = self.sizes(decimals);
+        write_right(ui.buffer, x + 3, x + LESS_END, y, &less, self.style());
+        write_right(ui.buffer, x + 3, x + MORE_END, y, &more, self.style());
         write_right(ui.buffer, x + 3, x + YOURS_END, y, &self.yours, self.theme.text());
-        let unit = match self.margin.unit {
+        let unit = match self.unit {
             "degrees" => self.caps.pick("°", "deg"),
             unit => unit,
         };
@@ -134,16 +151,18 @@ impl Row<'_> {
         let mark = if self.is_tightest { self.caps.pick("▸", ">") } else { " " };
         ui.buffer.set_string(x, y, mark, self.theme.accent());
         ui.buffer.set_string(x + 1, y, self.name(), self.theme.faint());
-        write_right(ui.buffer, x + 3, x + 8, y, &size(self.margin.less, "-"), self.style());
-        write_right(ui.buffer, x + 8, x + 14, y, &size(self.margin.more, "+"), self.style());
+        let [less, more] = self.sizes(2);
+        write_right(ui.buffer, x + 3, x + 8, y, &less, self.style());
+        write_right(ui.buffer, x + 8, x + 14, y, &more, self.style());
         // They are less than 1 as a rule, so that their points stand one below the other.
         ui.buffer.set_stringn(x + 15, y, &self.yours, 5, self.theme.faint());
     }
 }
 
-/// A margin in five columns at most.
-fn size(margin: Option<f64>, sign: &str) -> String {
-    margin.map_or("any".to_owned(), |margin| format!("{sign}{}", fixed(margin, if margin < 9.995 { 2 } else { 1 })))
+/// A margin with so many decimals, one where it is large: with two in five columns at most.
+fn size(margin: Option<f64>, sign: &str, decimals: usize) -> String {
+    let decimals = if margin.is_some_and(|margin| margin >= 9.995) { 1 } else { decimals };
+    margin.map_or("any".to_owned(), |margin| format!("{sign}{}", fixed(margin, decimals)))
 }
 
 #[cfg(test)]
@@ -163,6 +182,7 @@ mod tests {
         // 0.6 mm are 1.2 errors of 0.5 mm, 0.14° are 1.12 of 0.125°.
         assert_eq!(tightest(&margins, Skill::EXPERT), Some(3));
         assert_eq!(tightest(&margins, Skill::PERFECT), None, "who never errs finds nothing tight");
-        assert_eq!([size(Some(9.994), "-"), size(Some(9.996), "+"), size(None, "-")], ["-9.99", "+10.0", "any"]);
+        let sizes = [(Some(9.994), "-"), (Some(9.996), "+"), (None, "-")].map(|(margin, sign)| size(margin, sign, 2));
+        assert_eq!(sizes, ["-9.99", "+10.0", "any"]);
     }
 }

@@ -1,5 +1,6 @@
 //! The coach's screen: the table, what the coach recommends, and the shot as it plays.
 
+mod asked;
 mod balls;
 mod card;
 mod chances;
@@ -26,6 +27,7 @@ use crate::{
             coach::{
                 CoachPage, Followed,
                 view::{
+                    asked::draw_asked,
                     balls::draw_balls,
                     card::draw_card,
                     chances::{choice_at, draw_chances, draw_why},
@@ -152,8 +154,9 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     }
     let study = coach.shown().and_then(|advised| advised.choice().study.as_ref());
     if let (View::Margins, Some(study), Some(shot)) = (chosen, study, shot) {
-        draw_aim_map(&study.aim, study.hand, panes.shot, ui);
-        draw_tip_map(&study.tip, &shot.cue, table, panes.tip.union(panes.sight), ui);
+        let unit = coach.units.length;
+        draw_aim_map(&study.aim, study.hand, unit, panes.shot, ui);
+        draw_tip_map(&study.tip, &shot.cue, table, unit, panes.tip.union(panes.sight), ui);
         return draw_legend(panes.events, ui);
     }
     match coach.proposal() {
@@ -172,6 +175,9 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     }
     if told.is_some() && is_beside || is_explained {
         return;
+    }
+    if shot.is_none() && coach.followed().is_none() {
+        return draw_asked(coach, panes.events, ui);
     }
     draw_listed(coach, shot, time, panes.events, ui);
 }
@@ -234,7 +240,7 @@ fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut
         View::Chances => draw_chances(advised, empty, says_why, area, ui),
         View::Margins => {
             let study = choice.and_then(|choice| choice.study.as_deref());
-            draw_margins(study, empty, area, ui);
+            draw_margins(study, coach.units.length, empty, area, ui);
         }
         View::Plan => draw_plan(choice, coach.units.length, empty, area, ui),
     }

@@ -3,7 +3,10 @@
 use ratatui::layout::Rect;
 
 use crate::{
-    coach::words::{LengthUnit, TipUnit},
+    coach::{
+        Units,
+        words::{LengthUnit, TipUnit},
+    },
     study::filmed::FITTED,
     table::{BALL_NAMES, BALLS},
     terminal::{
@@ -20,7 +23,7 @@ use crate::{
             ListedEvents, Message, TableView, Ui, draw_events, draw_lines, draw_sight, draw_spin, draw_table, draw_tip,
             draw_title, pair, tip_rows, write_paragraphs,
         },
-        words::fixed,
+        words::{fixed, speed_words},
     },
 };
 
@@ -28,7 +31,7 @@ use crate::{
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let (film, unit) = (&drills.film, drills.units.length);
     let Some(listed) = film.marked() else { return Message::plain("the film has no shots") };
-    let more = about(listed, ui.caps.pick(" · ", " - "));
+    let more = about(listed, unit, ui.caps.pick(" · ", " - "));
     draw_film_header(&format!("filmed shot {}", listed.filmed.number), &more, header, ui);
     let panes = Panes::new(table(), area);
     let scene = film.scene();
@@ -40,7 +43,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     };
     draw_table(&view, panes.table, ui);
     let time = film.playback.readout;
-    draw_stroke(scene, drills.units.tip, panes.stroke, ui);
+    draw_stroke(scene, drills.units, panes.stroke, ui);
     let stroke = scene.and_then(|scene| scene.stroke.as_ref());
     draw_tip(stroke, drills.units.tip == TipUnit::Tips, table(), panes.tip, ui);
     match scene.and_then(|scene| scene.shot.spin(time, table().radius)) {
@@ -60,10 +63,10 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
 }
 
 /// What the film shows of a shot, in a few words.
-fn about(listed: &Listed, dot: &str) -> String {
+fn about(listed: &Listed, unit: LengthUnit, dot: &str) -> String {
     let filmed = &listed.filmed;
-    [outcome(listed).to_owned(), format!("{} m/s", fixed(filmed.speed(), 1)), format!("{} s", fixed(filmed.lasts(), 1))]
-        .join(dot)
+    let speed = speed_words(filmed.speed(), unit, 1);
+    [outcome(listed).to_owned(), speed, format!("{} s", fixed(filmed.lasts(), 1))].join(dot)
 }
 
 /// A distance in the smaller unit.
@@ -85,15 +88,15 @@ fn status_line(scene: &FilmScene, listed: &Listed, time: f64, unit: LengthUnit) 
 }
 
 /// Draws what the stroke gave the cue ball, by the fit.
-fn draw_stroke(scene: Option<&FilmScene>, unit: TipUnit, area: Rect, ui: &mut Ui) {
+fn draw_stroke(scene: Option<&FilmScene>, units: Units, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The fitted stroke", area, ui);
     let Some(scene) = scene else { return };
     let [side, height] = match &scene.stroke {
-        Some(cue) => tip_rows(cue, unit, table().radius),
+        Some(cue) => tip_rows(cue, units.tip, table().radius),
         None => [("cue", "not level".to_owned()), ("", String::new())],
     };
     let rows = [
-        ("ball", format!("{} m/s", fixed(scene.shot.impulse.velocity.length(), 2))),
+        ("ball", speed_words(scene.shot.impulse.velocity.length(), units.length, 2)),
         side,
         height,
         ("fitted", format!("2 s, {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),

@@ -68,8 +68,9 @@ pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
 fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     let mark = drills.film.mark;
     let inner = draw_title(format!("All {}", listed().len()), area, ui);
-    for (end, label) in [(SPEED_END, " m/s "), (LENGTH_END, " seconds ")] {
-        write_right(ui.buffer, area.x, area.x + end + 1, area.y, label, ui.theme.faint());
+    let (factor, symbol) = drills.units.length.speed();
+    for (end, label) in [(SPEED_END, symbol), (LENGTH_END, "seconds")] {
+        write_right(ui.buffer, area.x, area.x + end + 1, area.y, &format!(" {label} "), ui.theme.faint());
     }
     for (n, y) in list::shown(mark, listed().len(), inner) {
         let listed = &listed()[n];
@@ -83,7 +84,7 @@ fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
             let style = if n == mark { style } else { ui.theme.good() };
             ui.buffer.set_string(inner.x + NUMBER_END + 2, y, "point", style);
         }
-        write_right(ui.buffer, inner.x, inner.x + SPEED_END, y, &fixed(filmed.speed(), 1), style);
+        write_right(ui.buffer, inner.x, inner.x + SPEED_END, y, &fixed(factor * filmed.speed(), 1), style);
         write_right(ui.buffer, inner.x, inner.x + LENGTH_END, y, &fixed(filmed.lasts(), 1), style);
     }
 }

@@ -1,0 +1,33 @@
+//! The panel that says for whom and by which rule the coach answers, while there is no shot to tell of.
+
+use ratatui::layout::Rect;
+
+use crate::{
+    coach::Skill,
+    terminal::{
+        CoachAction,
+        keymap::{chord_of, keys_text},
+        pages::coach::{CoachPage, keys::COACH},
+        ui::{Ui, draw_title, write_paragraphs},
+    },
+};
+
+/// Draws the panel.
+pub fn draw_asked(coach: &CoachPage, area: Rect, ui: &mut Ui) {
+    let inner = draw_title("The coach", area, ui);
+    let named = Skill::NAMED.iter().find(|(_, skill)| *skill == coach.query.skill);
+    let skill = named.map_or_else(|| "your own skill".to_owned(), |(name, _)| format!("skill {name}"));
+    let [skill_key, rule_key] = [CoachAction::NextSkill, CoachAction::NextRule].map(|action| key_of(&action, ui));
+    let paragraphs = [
+        (format!("Its shots are for {skill} and rule {}.", coach.query.rule), ui.theme.text()),
+        (format!("{skill_key}: how well you play; {rule_key}: the rule."), ui.theme.faint()),
+    ];
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
+    write_paragraphs(&paragraphs, text, ui);
+}
+
+/// The key that does this on the coach's table.
+pub fn key_of(action: &CoachAction, ui: &Ui) -> String {
+    let chord = chord_of(COACH, action);
+    keys_text(chord.into_iter().flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps)
+}
