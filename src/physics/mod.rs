@@ -11,7 +11,7 @@ mod slope;
 
 pub use contact::{
     ActiveSet, Contact, Contacts, Effort, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Resolved, accelerations,
-    factorize, forces, resolve, stop_by_impulses, substitute, yielding,
+    factorize, forces, resolve, sought, stop_by_impulses, substitute,
 };
 pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
 #[cfg(test)]

@@ -84,11 +84,11 @@ pub fn lawful(
         return None;
     }
     let tolerance = &constants.tolerance;
-    let begun = contacts.iter().any(|contact| begins_without_slip(table, constants, balls, contact, previous));
+    let grips = contacts.iter().any(|contact| has_to_grip(table, constants, balls, contact, previous));
     let stopped = |none: f64, balls: &State, contacts: &Contacts| {
         let mut begin = *balls;
         let touching: &[Contact] = contacts;
-        if begun {
+        if grips {
             stop_slips(table, &mut begin, touching);
         }
         let mut set = ActiveSet::of(table, &begin, touching, none);
@@ -176,17 +176,17 @@ fn part(balls: &mut State, contact: &Contact, speed: f64) {
     balls[second].velocity -= missing;
 }
 
-/// Whether this is the beginning of a contact of balls that never slip, or another impact has just made them slip.
-fn begins_without_slip(
+/// Whether balls that never slip have to stop slipping: their contact begins, or an impact of another has just made them slip.
+fn has_to_grip(
     table: &Table,
     constants: &Constants,
     balls: &State,
     contact: &Contact,
     previous: Option<Ended<'_>>,
 ) -> bool {
-    let goes_on = || previous.is_some_and(|previous| previous.contacts.contains(contact));
-    let slips = || contact.slip(table.radius, balls).length() > constants.tolerance.ending_slip;
-    contact.never_slips(table) && (!goes_on() || slips())
+    contact.never_slips(table)
+        && (previous.is_none_or(|previous| !previous.contacts.contains(contact))
+            || contact.slip(table.radius, balls).length() > constants.tolerance.ending_slip)
 }
 
 /// Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17), where the

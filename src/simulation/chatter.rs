@@ -127,7 +127,7 @@ impl Chatters {
     }
 
     /// When each chatter of a ball is over, s, if it bounces no more: those with the other balls, by their index, and at its own
-    /// index those with cushions. Any bounce, told or not, may be followed by others after a `pause`, s.
+    /// index those with cushions. Any bounce, told or not, may be followed by others within a `pause`, s.
     pub fn ends(&self, ball: usize, pause: f64) -> [f64; BALLS] {
         let mut ends = [f64::NEG_INFINITY; BALLS];
         let cushions = (0..4).map(|rail| (ball, PAIRS.len() + 4 * ball + rail));
@@ -170,8 +170,8 @@ pub struct ChatterEnd {
 }
 
 /// The contacts that come to rest together with one that has just bounced, and opens in the state `balls`: forces press them
-/// once their bounces have ended, and what is left of those can no longer be told. None if it goes on. Of its bounces the restitution is told,
-/// and by how much the last flight was shorter than the one before.
+/// once their bounces have ended, and what is left of those can no longer be told. None if it goes on. Its bounces have a `restitution`, and
+/// `shrinking` is the last flight over the one before.
 pub fn chatter_end(
     table: &Table,
     constants: &Constants,

@@ -131,7 +131,7 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     /// Time of the last impact, s, and how many there have been at that moment.
     pub(super) last_impact: f64,
     pub(super) rounds: u32,
-    /// What bounces of chatters and resting contacts have taken so far.
+    /// What bounces of chatters and resting contacts have taken so far; once nothing rests any more, what bounces have taken since.
     pub(super) effort: Effort,
     /// What impacts in the air have, which micro-collisions would not spare.
     pub(super) effort_in_air: Effort,
@@ -303,8 +303,8 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     /// Whether the shot has taken more work than any should.
     pub(super) fn is_exhausted(&self) -> bool {
-        self.micro_collisions.is_some() && self.effort.spent() > MOST_BOUNCING
-            || self.effort_in_air.spent() > MOST_IN_THE_AIR
+        let in_air = self.effort_in_air.spent();
+        self.micro_collisions.is_some() && self.effort.spent() + in_air > MOST_BOUNCING || in_air > MOST_IN_THE_AIR
     }
 
     /// As if the shot had taken more work than any should.

@@ -137,7 +137,7 @@ pub trait Observer {
     /// A bounce of a chatter, which is told as an event only at its beginning: for whoever keeps accounts of every impact.
     fn bounce(&mut self, _bounce: Event) {}
 
-    /// A resting contact is about to be followed for another step. `Break` gives the shot up.
+    /// A resting contact is about to be followed for another step, or a chatter has bounced. `Break` gives the shot up.
     fn contact_step(&mut self) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }

@@ -16,10 +16,11 @@ pub const MOST_STEP: u64 = 6_000_000;
 /// Multiplications after which nothing rests any more: see [`super::micro_collisions`].
 pub const MOST_RESTING: u64 = 36_000_000;
 
-/// Multiplications after which a shot is brought to its end, those after nothing has rested any more, and those of impacts in the air, which
-/// micro-collisions would not spare. What takes part in another contact stands still from then on. It is not physics, and the audit of the
-/// stability table misses the energy.
+/// Multiplications after nothing has rested any more, those of impacts in the air among them, after which a shot is brought to its end: what
+/// takes part in another contact stands still from then on. It is not physics, and the audit of the stability table misses the energy.
 pub const MOST_BOUNCING: u64 = 64_000_000;
+
+/// The same for impacts in the air alone, which micro-collisions would not spare.
 pub const MOST_IN_THE_AIR: u64 = 85_000_000;
 
 /// Multiplications in the bounce of a chatter. Where bounces lose nothing, a ball that is pressed bounces until its spin has died down;

@@ -33,8 +33,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             self.look_ahead_of_pressed(now, members);
             return ControlFlow::Continue(());
         }
-        // What another ball strikes again and again is as slow for a moment only.
-        if !self.is_touched(now, resting.members) {
+        // A ball that another one strikes again and again is this slow only between two blows.
+        if resting.is_still() && !self.is_touched(now, resting.members) {
             resting.come_to_rest();
         }
         for index in (0..BALLS).filter(|&index| resting.members[index]) {
@@ -221,7 +221,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Whether a ball may bounce again before one of its chatters is over: where its own next event, or any of the ball with which
-    /// it chatters, comes in time for that; micro-collisions begin again by whatever happens.
+    /// it chatters, comes in time for that; in micro-collisions any event may set it bouncing again.
     fn may_bounce(&self, index: usize) -> bool {
         let Some(chatters) = &self.chatters else { return false };
         let (ends, own) = (chatters.ends(index, self.longest_pause()), self.times[index]);

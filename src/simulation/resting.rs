@@ -25,7 +25,7 @@ use super::{
 use crate::{
     physics::{
         ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, Resolved, accelerations, forces, resolve,
-        slip, yielding,
+        slip, sought,
     },
     table::{BALLS, Table},
 };
@@ -101,7 +101,7 @@ pub struct Resting {
     restarts: u32,
     /// Whether all that holds at the end is what held at the beginning.
     goes_on: bool,
-    /// What the searches for forces have taken.
+    /// What its steps have taken since the engine last took account of it.
     pub(super) effort: Effort,
     /// Whether something else has ended the step.
     pub(super) interrupted: bool,
@@ -116,6 +116,13 @@ struct Trial {
     span: f64,
     step: Step,
     forces: Forces,
+}
+
+impl Trial {
+    /// Whether one of its states has no forces.
+    fn is_lost(&self) -> bool {
+        self.step.error == f64::INFINITY
+    }
 }
 
 /// What `Resting::begin` finds.
@@ -205,6 +212,14 @@ impl Resting {
         let mut span = self.longest_step(table.radius).min(self.next_step).max(shortest);
         let (trial, broken) = loop {
             let mut trial = self.attempt(table, &begin, span);
+            if trial.is_lost() {
+                if span <= shortest {
+                    // The active set has ended.
+                    break (trial, true);
+                }
+                span = trial.step.best_length.max(shortest);
+                continue;
+            }
             let middle = self.forces(table, &self.set, &self.half_way(&trial), &trial.forces);
             let course = self.longest_course(&trial, &middle);
             trial.step.best_length = trial.step.best_length.min(course);
@@ -217,7 +232,7 @@ impl Resting {
             span = shorter.max(shortest);
         };
         if !self.seeks() {
-            let at_once = broken && trial.span < AT_ONCE * span;
+            let at_once = broken && (trial.is_lost() || trial.span < AT_ONCE * span);
             self.short_steps = if at_once { self.short_steps + 1 } else { 0 };
             if self.seeks() {
                 self.advance(table);
@@ -331,10 +346,9 @@ impl Resting {
                 accelerations(table, &phase.balls, contacts, &self.set, &self.first)
             };
             let (linear, angular) = held.unwrap_or_else(|| {
-                // Where forces are lost, the step has failed.
+                // Where there are no forces, the step has failed.
                 if !is_lost {
-                    let seek = if yields { Self::sought } else { Self::sought_near };
-                    last = seek(self, table, &self.set, &phase.balls, &last);
+                    last = self.sought(table, &self.set, &phase.balls, &last, !yields);
                     is_lost = !yields && !last.converged;
                 }
                 (last.linear, last.angular)
@@ -347,6 +361,7 @@ impl Resting {
         let mut step =
             extrapolate(begin, &first, slope, stiff.as_ref(), self.members, length, (table.radius, tolerance));
         let forces = self.forces(table, &self.set, &step.end.balls, &from.forces);
+        // At the edge of the laws forces are often found to less than rounding, which the error of the step tells.
         if is_lost || !yields && !forces.converged {
             (step.error, step.best_length) = (f64::INFINITY, WITHOUT_FORCES * length);
         }
@@ -432,26 +447,19 @@ impl Resting {
     /// tell them.
     fn forces(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
         if set.yields() || self.seeks() {
-            return self.sought(table, set, state, near);
+            return self.sought(table, set, state, near, false);
         }
         self.effort.add(HELD * self.contacts.len() as u64);
         forces(table, state, &self.contacts, set, Some(&self.first))
-            .unwrap_or_else(|| self.sought_near(table, set, state, near))
+            .unwrap_or_else(|| self.sought(table, set, state, near, true))
     }
 
-    /// The forces in an active set by the solver.
-    fn sought(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
+    /// The forces in an active set by the solver, by a short search if none are to be expected.
+    fn sought(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces, is_short: bool) -> Forces {
         if self.is_given_up() {
             return *near;
         }
-        yielding(table, state, &self.contacts, set, near, &self.effort)
-    }
-
-    /// The same where all that is held cannot be held together. Mostly there is no state for it either: a long search is not worth its time.
-    fn sought_near(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
-        let mut near = *near;
-        near.converged = false;
-        self.sought(table, set, state, &near)
+        sought(table, state, &self.contacts, set, (near, is_short), &self.effort)
     }
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {

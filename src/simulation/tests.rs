@@ -310,7 +310,7 @@ fn a_shot_whose_forces_are_not_found_goes_on_in_micro_collisions() {
     };
     let mut steps = Steps::default();
     let end = simulate(&table, &Layout::new(balls), &strike(&table, &cue), &mut steps);
-    // The guard would have ended it after 1.22 s.
+    // Balls that the guard stops would stand after 1.22 s.
     assert!(steps.0 < 30_000 && end.time > 1.5, "{} {}", steps.0, end.time);
 }
 

@@ -17,7 +17,7 @@ pub struct Tolerance {
     /// the test could be missed. Larger: roots are sought in vain.
     pub surely_apart: f64,
     /// Bounces that are given up together with others are lower than this, m: so far a ball may be moved at the end of a
-    /// chatter. Larger: the course jumps. Smaller: coupled contacts end their chatters one at a time.
+    /// chatter. A moving ball nearer than this touches what rests. Larger: the course jumps. Smaller: coupled contacts end their chatters one at a time.
     pub coupled_gap: f64,
     /// Speeds along a contact's normal below this are none, m/s: in ten seconds they move a ball by some 1e-10 m. Smaller:
     /// what rounding leaves of an impact counts as a bounce.
@@ -34,8 +34,8 @@ pub struct Tolerance {
     /// Slips up to this may have begun slowly, m/s: their friction acts against their rate. Larger: the direction is wrong for
     /// longer. Smaller: the steps get as short as the direction is stiff.
     pub yielding: f64,
-    /// Balls in resting contact that are all slower than this are at rest, m/s: they would roll on for less than 1e-11 m,
-    /// in ever smaller steps as their slips fade with their speeds.
+    /// Balls in resting contact that are all slower than this are at rest, m/s, unless another one that moves touches them: they would
+    /// roll on for less than 1e-11 m, in ever smaller steps as their slips fade with their speeds.
     pub still: f64,
     /// Shortest step of a resting contact, s: frictions change a speed by less than a two-hundredth of what counts as a slip
     /// meanwhile, and it is never more than 1e-13 s.

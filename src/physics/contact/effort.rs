@@ -1,4 +1,4 @@
-//! How much work searches for forces take: what a guard counts.
+//! Work of a shot's contacts and impacts: what its guards count.
 
 use std::cell::Cell;
 

@@ -171,17 +171,18 @@ fn sticking_at(set: &ActiveSet, place: Place, does: Friction) -> Option<ActiveSe
     Some(set)
 }
 
-/// The forces where a friction yields: what holds is sought anew in every state.
-pub fn yielding(
+/// The forces by the solver, from `similar` ones on: where a friction yields, or what is held does not tell them, what holds is sought anew
+/// in every state. A long search is not worth its time where there are mostly no forces: in steps that fail, as where the state before
+/// has none.
+pub fn sought(
     table: &Table,
     balls: &[BallState; BALLS],
     contacts: &[Contact],
     set: &ActiveSet,
-    similar: &Forces,
+    (similar, is_short): (&Forces, bool),
     effort: &Effort,
 ) -> Forces {
-    // Where the state before has no forces the step mostly fails: a long search in each of its states is not worth its time.
-    let seek = if similar.converged { solve } else { solve_near };
+    let seek = if similar.converged && !is_short { solve } else { solve_near };
     let (problem, solution) = solved(table, balls, contacts, set, Some(similar), (seek, effort));
     let accelerations = problem.accelerations(&solution.sizes);
     let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);

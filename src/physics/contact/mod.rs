@@ -21,7 +21,7 @@ use super::BallState;
 use crate::table::{BALLS, Table};
 pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
 pub use effort::Effort;
-pub use forces::{Forces, Resolved, yielding};
+pub use forces::{Forces, Resolved, sought};
 pub use held::{accelerations, forces, stop_by_impulses};
 pub use linear::{factorize, substitute};
 pub use resolve::resolve;

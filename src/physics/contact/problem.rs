@@ -22,7 +22,7 @@ pub type Sizes = [f64; MOST_UNKNOWNS];
 pub const NO_SIZES: Sizes = [0.0; MOST_UNKNOWNS];
 
 /// Numbers that tell a ball's velocity and spin.
-const PER_BALL: usize = 5;
+pub const PER_BALL: usize = 5;
 
 /// `√(2/5)`: radius of gyration over the ball's radius.
 pub const GYRATION: f64 = 0.632_455_532_033_675_9;

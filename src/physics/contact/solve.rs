@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::{
     Effort,
     linear::{PROXIMITY, factorize, substitute},
-    problem::{Limit, MOST_UNKNOWNS, NO_SIZES, Place, Problem, Sizes, Unknown},
+    problem::{Limit, MOST_UNKNOWNS, NO_SIZES, PER_BALL, Place, Problem, Sizes, Unknown},
 };
 use crate::table::BALLS;
 
@@ -42,11 +42,11 @@ const FIRST_SWEEPS: u32 = 8;
 /// may hold them, and no round finds better ones.
 const NEARLY: f64 = 1e-7;
 
-/// Multiplications that a search is worth beside those of its steps: its problem is put together and copied.
+/// What a search takes beside its steps, in multiplications: its problem is put together and copied.
 const SEARCH: u64 = 2000;
 
-/// Multiplications for what a force changes in the rate that another one resists: the velocities and spins of all balls.
-const RATE: usize = 5 * BALLS;
+/// Multiplications for one entry of its matrix: the product of two rows of all velocities and spins.
+const ENTRY: usize = PER_BALL * BALLS;
 
 /// What a law asks at present.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,7 +146,7 @@ struct System<'a> {
 impl<'a> System<'a> {
     fn new(problem: &'a Problem, effort: &'a Effort) -> Self {
         let count = problem.rates.len();
-        effort.add(SEARCH + (RATE * count * count) as u64);
+        effort.add(SEARCH + (ENTRY * count * count) as u64);
         let mut system = Self { problem, effort, count, matrix: Vec::with_capacity(count * count), bias: NO_SIZES };
         for (row, (rate, bias)) in problem.rates.iter().zip(&problem.bias).enumerate() {
             system.bias[row] = rate.dot(&problem.known) + bias;

@@ -26,8 +26,8 @@ impl Resting {
     }
 
     fn reach_in_halves(&self, table: &Table, from: &Trial, span: f64, halvings: u32) -> Trial {
-        let whole = self.attempt(table, from, span);
-        if whole.step.error <= self.constants.tolerance.step || halvings == 0 {
+        let (whole, tolerance) = (self.attempt(table, from, span), &self.constants.tolerance);
+        if whole.step.error <= tolerance.step || halvings == 0 || span - from.span <= tolerance.shortest_step {
             return whole;
         }
         let middle = self.reach_in_halves(table, from, 0.5 * (from.span + span), halvings - 1);
@@ -38,13 +38,14 @@ impl Resting {
     /// comes back.
     pub(super) fn breaking_half(&self, table: &Table, begin: &Trial, whole: &Trial, middle: &Forces) -> Option<Trial> {
         let breaks = |forces: &Forces| forces.slack < -self.constants.tolerance.slack;
-        if breaks(&whole.forces) || !breaks(middle) {
+        if breaks(&whole.forces) || !(middle.converged && breaks(middle)) {
             return None;
         }
         Some(self.reach(table, begin, 0.5 * (begin.span + whole.span))).filter(|half| breaks(&half.forces))
     }
 
-    /// Which step to try instead of one that is wrong by too much, or does either of these; the longest is told whose course is right.
+    /// Which step to try instead of one whose error is too large, whose course no polynomial follows, or in which a slip that has begun
+    /// slowly gets too fast. `course` is the longest step whose course is right.
     pub(super) fn shorter(&self, table: &Table, trial: &Trial, course: f64) -> Option<f64> {
         let tolerance = &self.constants.tolerance;
         if trial.step.error.is_nan() || trial.step.error > tolerance.step {

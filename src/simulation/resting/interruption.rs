@@ -1,7 +1,7 @@
 //! The end of a step before its time: another event comes first.
 
 use super::{MAX_GUESSES, Resting, State, Trial};
-use crate::table::Table;
+use crate::{simulation::guards::MOST_RESTING, table::Table};
 
 /// After an interruption a step is tried that is so many times as long as the one that was interrupted.
 const GROWTH_AFTER_INTERRUPTION: f64 = 4.0;
@@ -11,7 +11,7 @@ const GROWTH_AFTER_INTERRUPTION: f64 = 4.0;
 const SPENT: f64 = 1e-9;
 
 impl Resting {
-    /// State `time` seconds after the start of the step, by one shorter step of the same method.
+    /// State `time` seconds after the start of the step, by shorter steps of the same method.
     pub fn after(&self, table: &Table, time: f64) -> State {
         if time >= self.step { self.end } else { self.without_rounding(table, self.until(table, time).step.end.balls) }
     }
@@ -22,6 +22,9 @@ impl Resting {
             return;
         }
         let trial = self.until(table, time);
+        if self.is_given_up() {
+            self.effort.add(MOST_RESTING);
+        }
         self.interrupted = true;
         (self.step, self.last) = (time, trial.forces);
         (self.end, self.goes_on) = (self.without_rounding(table, trial.step.end.balls), false);

@@ -82,8 +82,12 @@ impl Resting {
             }
         }
         let slope = |forces: &Forces| self.slope(table.radius, balls, (&forces.linear, &forces.angular));
-        let (before, after) = (slope(&from.forces), slope(&self.forces(table, &set, balls, &from.forces)));
+        let turned = self.forces(table, &set, balls, &from.forces);
         let mut column = Phase::ZERO;
+        if !turned.converged {
+            return Mode { row, column };
+        }
+        let (before, after) = (slope(&from.forces), slope(&turned));
         for ((column, before), after) in column.balls.iter_mut().zip(before.balls).zip(after.balls) {
             column.velocity = (after.velocity - before.velocity) / (TURN * slip.length());
             column.spin = (after.spin - before.spin) / (TURN * slip.length());

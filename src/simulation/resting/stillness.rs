@@ -12,7 +12,7 @@ use crate::{
 impl Resting {
     /// Whether no member moves or rolls any more at the end of this step. One that only spins about its vertical counts as still: if it
     /// presses, its contact begins anew.
-    pub(super) fn is_still(&self) -> bool {
+    pub fn is_still(&self) -> bool {
         let Constants { radius, tolerance: Tolerance { still, .. }, .. } = self.constants;
         let is_slow = |ball: &BallState| {
             ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < still * still
@@ -20,13 +20,11 @@ impl Resting {
         (0..BALLS).all(|ball| !self.members[ball] || is_slow(&self.end[ball]))
     }
 
-    /// Brings the members to rest at the end of this step if all of them are still.
+    /// Brings the members to rest at the end of this step.
     pub fn come_to_rest(&mut self) {
-        if self.is_still() {
-            for (ball, _) in self.end.iter_mut().zip(self.members).filter(|(_, member)| *member) {
-                ball.velocity = DVec2::ZERO;
-                ball.spin = DVec3::new(0.0, 0.0, ball.spin.z);
-            }
+        for (ball, _) in self.end.iter_mut().zip(self.members).filter(|(_, member)| *member) {
+            ball.velocity = DVec2::ZERO;
+            ball.spin = DVec3::new(0.0, 0.0, ball.spin.z);
         }
     }
 }

@@ -107,7 +107,8 @@ impl<R: Real> Numbers<R> {
         self.with_restitution(R::zero())
     }
 
-    /// The same table with this restitution in every impact, whatever its speed.
+    /// The same with this restitution in every impact, however fast, and cushions that meet balls at the height of their centres.
+    #[must_use]
     pub fn with_restitution(&self, restitution: R) -> Self {
         let with = |cushion: Cushion<R>| Cushion { restitution, falling: None, meeting: Meeting::Equator, ..cushion };
         Self { ball_restitution: restitution, ball_falling: None, cushions: self.cushions.map(with), ..*self }

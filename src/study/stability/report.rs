@@ -183,14 +183,14 @@ ball pressed against one cushion by integrating its equations; other resting con
 course, as far as contacts push: to a thousandth or, where the course obeys the laws at the ends of a piece but less well between them, to \
 the share of the accelerations that no forces explain, a hundredth at most. A ball at the edge of sliding, whose slip is below 2e-5 √(g R), \
 may resist rolling in part if that explains its course and the cloth holds it as well as it can. A chatter that becomes a resting contact takes the energy of its bounces only if the contact lasts as \
-long as they would. Balls that never slip lose their slip where they begin to rest against each other, as in an impact. Impacts slower than 1e-3 √(g R) may \
+long as they would. Balls that never slip lose their slip where they begin to rest against each other, and where an impact makes them slip while they do, as in an impact. Impacts slower than 1e-3 √(g R) may \
 lose nothing along their normal: those of shots that have taken so much work that nothing is let rest any more. \
 What counts as explained besides: rounding (32 ε of the energy, and frictions times the rounding of time), what parts balls that never \
 slip and that no forces hold together (8e-10 √(g R)), \
 speeds below 1e-7 m/s that are stopped (1e-14 m²/s² a ball, and what the impulses in closed contacts that stop them rub), and in resting \
 contacts, and where something touches that does not collide, errors of 1e-10 m/s, in impacts also times the slip, of 1e-10 m and \
-of a hundred-thousandth of the work; where chatters of several contacts end at once, the friction of an impulse of 2e-8 √(g R), below which \
-they are not followed. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
+of a hundred-thousandth of the work; where several impacts at once meet balls that rest or touch, the friction of an impulse of 2e-8 √(g R), the speed \
+at which chatters of several contacts end. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
 multiples of what is explained and in m²/s² (energy over a ball's mass). Where balls fly, \
 heights count, too: each landing takes what the cloth's restitution and friction say, worked out hop by hop, and impacts take what the \
 formulas of the second engine say, in the air one after another, on the cloth together where they happen at once. A ball that leaves the table takes its energy along.";

@@ -13,7 +13,7 @@ const SHARE: f64 = 32.0 * f64::EPSILON;
 /// only known to slip by less than that.
 pub const RESTING_SPEED: f64 = 1e-10;
 
-/// Speed at which the chatters of several coupled contacts end, in √(g R): more of an impulse may be missing, and its friction with it.
+/// Speed at which the chatters of several coupled contacts end, in √(g R): so much of an impulse may be missing, and its friction with it.
 const COUPLED_SPEED: f64 = 2e-8;
 
 /// Place to which the courses of resting contacts are right, m: the work of a force is as uncertain as its way.

@@ -143,9 +143,9 @@ impl Audit<'_> {
                 time: now,
                 rests: members().any(|member| rested[member] || rests[member])
                     || moment.ends_a_chatter(group)
-                    || moment.touch(group),
+                    || moment.touches_without_impact(group),
                 is_struck: !moment.impacts.is_empty() || members().any(|member| rests[member] && !rested[member]),
-                is_coupled: moment.impacts.len() > 1,
+                is_coupled: moment.impacts.iter().filter(|contact| group[contact.first]).count() > 1,
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
                 moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.farthest) },
             };

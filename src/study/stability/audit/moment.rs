@@ -72,8 +72,8 @@ impl Moment<'_> {
             .any(|contact| self.closing_speed(contact).abs() < LAST_BOUNCE)
     }
 
-    /// Whether something in a group touches without an impact: whether it comes to rest there is asked, and what it may close by is stopped.
-    pub fn touch(&self, group: [bool; BALLS]) -> bool {
+    /// Whether a contact in a group is closed without an impact: the engine asks whether it rests, and stops what it closes by.
+    pub fn touches_without_impact(&self, group: [bool; BALLS]) -> bool {
         let inside = |contact: &&Contact| group[contact.first] && contact.second.is_none_or(|second| group[second]);
         self.closed.iter().filter(inside).any(|contact| !self.impacts.contains(contact))
     }

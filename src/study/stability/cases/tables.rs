@@ -115,7 +115,7 @@ fn keeps_energy(table: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
         for (ball, pieces) in trace.pieces.iter().enumerate().take(BALLS) {
             let Some(next) = pieces.iter().position(|piece| piece.segment.start == event.time).filter(|next| *next > 0)
             else {
-                // What a ball does that is struck lasts longer than the trace is kept.
+                // The next piece of a ball that is struck may not be kept: pieces are when they end.
                 settles |= [Some(first), second].contains(&Some(ball)) && trace.kept_until != f64::INFINITY;
                 continue;
             };
