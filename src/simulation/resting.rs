@@ -289,7 +289,20 @@ impl Resting {
                 error = error.max(self.constants.sliding * soonest * soonest * rate.length() / slip.length());
             }
         });
-        (error <= tolerance.negligible && soonest * self.constants.sliding <= tolerance.yielding).then_some(soonest)
+        let turned = |ball: usize| {
+            let spin = balls[ball].spin.z + soonest * forces.angular[ball].z;
+            self.members[ball] && self.turns_over(table.radius, ball, spin)
+        };
+        let is_near = error <= tolerance.negligible && soonest * self.constants.sliding <= tolerance.yielding;
+        (is_near && !(0..BALLS).any(turned)).then_some(soonest)
+    }
+
+    /// Whether a `spin` about the vertical, rad/s, has come to be one against that of this active set.
+    fn turns_over(&self, radius: f64, ball: usize, spin: f64) -> bool {
+        match self.set.spin[ball] {
+            Friction::Slips(sign) => radius * spin * sign.x < -self.constants.tolerance.slip,
+            Friction::Sticks | Friction::Yields | Friction::Eases => false,
+        }
     }
 
     /// Hands over every slip of this active set and its rate.
@@ -371,14 +384,8 @@ impl Resting {
     /// Whether the forces at a step's end are those that obey all laws.
     fn holds(&self, table: &Table, trial: &Trial) -> bool {
         let end = &trial.step.end.balls;
-        let turned = |ball: usize| match self.set.spin[ball] {
-            Friction::Slips(sign) => table.radius * end[ball].spin.z * sign.x < -self.constants.tolerance.slip,
-            Friction::Sticks | Friction::Yields | Friction::Eases => false,
-        };
-        if (0..BALLS).any(|ball| self.members[ball] && turned(ball)) {
-            return false;
-        }
-        if self.is_given_up() {
+        let turned = |ball: usize| self.members[ball] && self.turns_over(table.radius, ball, end[ball].spin.z);
+        if self.is_given_up() || (0..BALLS).any(turned) {
             return false;
         }
         let slack = self.constants.tolerance.slack;
