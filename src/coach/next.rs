@@ -14,8 +14,9 @@ use crate::{
     table::Layout,
 };
 
-/// Attempts of each shot that are followed to their end.
-const ATTEMPTS: usize = 12;
+/// Attempts of each shot that are followed to their end: until so many have made the point, which a shot for a beginner does rarely.
+const ENOUGH: u32 = 8;
+const MOST_ATTEMPTS: usize = 96;
 
 /// The probability of the next point after a shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,22 +44,25 @@ impl NextValue {
     }
 }
 
-/// The mean probability of the next point over the layouts that `cue` leaves in the first of these attempts, those that
-/// make a point; nought where none does. `None` where time ran out.
+/// The mean probability of the next point over the layouts that `cue` leaves in the first of these attempts that make a point. `None` where
+/// none does, or time ran out.
 pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0u32);
-    for draw in draws.range(0, ATTEMPTS) {
+    for draw in draws.range(0, MOST_ATTEMPTS) {
+        if made == ENOUGH {
+            break;
+        }
         if task.clock.is_past(task.until) {
             return None;
         }
+        task.clock.count(1);
         if let Some(end) = end_of(task, cue, draw) {
             sum += Ease::under(task.rule).probability(task.table, &end, task.skill);
             made += 1;
         }
     }
-    task.clock.count(ATTEMPTS.min(draws.len()) as u64);
     // The last attempt may have been broken off.
-    (!task.clock.is_past(task.until)).then_some(if made == 0 { 0.0 } else { sum / f64::from(made) })
+    (made > 0 && !task.clock.is_past(task.until)).then(|| sum / f64::from(made))
 }
 
 /// Where an attempt at `cue` leaves the balls if it makes the point.

@@ -265,15 +265,21 @@ impl Why {
         parts.extend(plan.filter(|_| !self.is_by_plan()));
         parts.extend(second.map(|second| second.words(names)));
         if parts.is_empty() {
-            return "Nothing else makes the point.".to_owned();
+            return "Nothing else was found that makes the point.".to_owned();
         }
         words::capital(&format!("{}.", parts.join("; ")))
     }
 
-    /// Whether the second-best shot is made more often, and this one leads because the next point counts too.
+    /// Whether the second-best shot is made more often, and this one leads because the next point counts too: as far as that is known, both
+    /// together are more likely after it.
     fn is_by_plan(&self) -> bool {
-        let other = self.second.as_ref().and_then(|second| second.make_probability);
-        self.is_planned && self.make_probability.zip(other).is_some_and(|(own, other)| own < other)
+        let second = self.second.as_ref();
+        let made = self.make_probability.zip(second.and_then(|second| second.make_probability));
+        let next = self.next_probability.zip(second.and_then(|second| second.next_probability));
+        self.is_planned
+            && made.is_some_and(|(own, other)| {
+                own < other && next.is_none_or(|(after, after_other)| own * after > other * after_other)
+            })
     }
 
     /// How the next point is left, beside how the second-best shot, which is called `other`, leaves it.
@@ -293,7 +299,7 @@ impl Why {
     pub fn brief(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let names = cue_ball.names();
         let second = self.second.as_ref().map_or_else(
-            || "nothing else makes the point".to_owned(),
+            || "no other was found".to_owned(),
             |second| {
                 let made = second.make_probability.map_or_else(String::new, |rate| format!(": {}", percent(rate)));
                 format!("shot 2 ({}){made}", second.parts(names))

@@ -120,7 +120,7 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
         .with_seat(&seat)
         .with_settings(settings)
         .with_last(last)
-        .with_draft(StrokeDraft::take(&places.draft))
+        .with_draft(StrokeDraft::read(&places.draft))
         .with_own_skill(own.map(|own| own.skill))
         .with_notice(storage::notice(places))
         .with_notice(seat.warning().as_deref())

@@ -96,6 +96,8 @@ pub struct App {
     /// The same where yellow is the cue ball.
     yellow_theme: Theme,
     palette: Palette,
+    /// Whether the last session has left a stroke that was typed in part.
+    pub(super) had_draft: bool,
     /// Whether the player is a guest of this machine.
     is_guest: bool,
     /// Finds out what the terminal can show under some settings; without it that stays as at the start.
@@ -129,6 +131,7 @@ impl App {
             theme: Theme::new(caps.depth),
             yellow_theme: Theme::new(caps.depth).with_cue_ball(CueBall::Yellow),
             palette: Palette::default(),
+            had_draft: false,
             is_guest: false,
             detect: None,
         })
@@ -218,6 +221,7 @@ impl App {
     #[must_use]
     pub fn with_draft(mut self, draft: Option<StrokeDraft>) -> Self {
         if let Some(test) = draft.and_then(|draft| self.calibration.go_on_with(draft)) {
+            self.had_draft = true;
             let sentence = format!("a stroke of {test} that was typed in part is kept: F7 goes on with it");
             self.toasts.push_first(&[sentence]);
         }

@@ -27,12 +27,9 @@ pub struct StrokeDraft {
 }
 
 impl StrokeDraft {
-    /// Takes what the last session left, which is then the screen's to keep; what cannot be read is nothing.
-    pub fn take(path: &Path) -> Option<Self> {
-        let draft = serde_json::from_slice(&storage::read(path, storage::SMALL).ok()?).ok()?;
-        // Where it cannot be removed it comes once more, and is seen then.
-        let _ = fs::remove_file(path);
-        Some(draft)
+    /// What the last session left, which stays there until this one ends; what cannot be read is nothing.
+    pub fn read(path: &Path) -> Option<Self> {
+        serde_json::from_slice(&storage::read(path, storage::SMALL).ok()?).ok()
     }
 
     /// Writes it down.

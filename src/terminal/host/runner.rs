@@ -1,6 +1,7 @@
 //! The loop: waits for news, hands them to the app, and draws once when something has changed.
 
 use std::{
+    fs,
     io::{self, Write},
     sync::mpsc::{Receiver, RecvTimeoutError},
     time::{Duration, Instant},
@@ -176,11 +177,16 @@ impl Runner {
         self.remembered = (last, Instant::now());
     }
 
-    /// Keeps what is typed in part for the next session, whatever ends this one.
+    /// Keeps what is typed in part for the next session, whatever ends this one, in place of what the last one left.
     fn keep_draft(&self) -> io::Result<()> {
         let path = &self.places.draft;
         let told = |error| io::Error::other(format!("{}: {error}", path.display()));
-        self.app.calibration.draft().map_or(Ok(()), |draft| draft.save(path).map_err(told))
+        match self.app.calibration.draft() {
+            Some(draft) => draft.save(path).map_err(told),
+            // Another program may have done so.
+            None if self.app.had_draft && path.exists() => fs::remove_file(path).map_err(told),
+            None => Ok(()),
+        }
     }
 
     /// Writes refusals and failures down that were shown.

@@ -163,7 +163,7 @@ pub fn margins(margins: &[Margin], unit: LengthUnit) -> String {
         let (factor, _) = margin.told_in(unit);
         let end = |end: Option<f64>, way: &str| match end {
             Some(end) => format!("up to {} {word} {way}", fixed(factor * end, 2)),
-            None => format!("as much {way} as you like"),
+            None => format!("far {way}"),
         };
         format!("{name}: {}, {}.", end(margin.less, less), end(margin.more, more))
     };

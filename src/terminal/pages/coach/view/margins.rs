@@ -162,7 +162,7 @@ impl Row<'_> {
 /// A margin with so many decimals, one where it is large: with two in five columns at most.
 fn size(margin: Option<f64>, sign: &str, decimals: usize) -> String {
     let decimals = if margin.is_some_and(|margin| margin >= 9.995) { 1 } else { decimals };
-    margin.map_or("any".to_owned(), |margin| format!("{sign}{}", fixed(margin, decimals)))
+    margin.map_or("wide".to_owned(), |margin| format!("{sign}{}", fixed(margin, decimals)))
 }
 
 #[cfg(test)]
@@ -183,6 +183,6 @@ mod tests {
         assert_eq!(tightest(&margins, Skill::EXPERT), Some(3));
         assert_eq!(tightest(&margins, Skill::PERFECT), None, "who never errs finds nothing tight");
         let sizes = [(Some(9.994), "-"), (Some(9.996), "+"), (None, "-")].map(|(margin, sign)| size(margin, sign, 2));
-        assert_eq!(sizes, ["-9.99", "+10.0", "any"]);
+        assert_eq!(sizes, ["-9.99", "+10.0", "wide"]);
     }
 }
