@@ -278,7 +278,7 @@ fn without_colours_letters_tell_everything() {
         let player = player.press("2");
         player.is_plain().shows(&["Y yellow  -710.0    0.0", "121.0 mm from white; step 10 mm", "Enter ask"]);
         let player = player.press("v v").studied();
-        let signs = ["Margins", "-4.33   +2.31", "V    -1.51     any", "# point", "= too few", "X the stro"];
+        let signs = ["Margins", "-4.33   +2.31", "V    -1.51    wide", "# point", "= too few", "X the stro"];
         let text = player.is_plain().text(120, 40);
         assert!(signs.iter().all(|sign| text.contains(sign)), "{text}");
         let text = player.text(80, 24);
