@@ -138,6 +138,9 @@ pub(super) fn read_off(
     Some(resolved)
 }
 
+/// How a solution is sought, from a guess on.
+type Seek = fn(&Problem, &Sizes, &Effort) -> Solution;
+
 /// The problem and its solution. Balls that never slip grip without limit, unless no forces obey all laws then.
 pub(super) fn solved(
     table: &Table,
@@ -145,7 +148,7 @@ pub(super) fn solved(
     contacts: &[Contact],
     set: &ActiveSet,
     similar: Option<&Forces>,
-    (seek, effort): (fn(&Problem, &Sizes, &Effort) -> Solution, &Effort),
+    (seek, effort): (Seek, &Effort),
 ) -> (Problem, Solution) {
     let mut problem = Problem::new(table, balls, contacts, set);
     let mut solution = seek(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)), effort);

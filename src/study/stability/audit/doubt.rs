@@ -45,8 +45,8 @@ pub struct Doubt {
     pub rests: bool,
     /// Whether an impact takes part, or a contact that begins.
     pub is_struck: bool,
-    /// Whether several impacts take part.
-    pub is_coupled: bool,
+    /// How many impacts take part.
+    pub impacts: usize,
     /// Whether several impacts leave a ball still: what stopped it is then told from their impulses only to
     /// [`STOPPED_SPEED`].
     pub stops: bool,
@@ -95,7 +95,7 @@ impl Doubt {
         }
         let coefficient = table.rail_friction + table.ball_friction.unwrap_or(0.0);
         let coupled = coefficient * COUPLED_SPEED * (table.gravity * table.radius).sqrt();
-        4.0 * self.energy.sqrt() * (RESTING_SPEED + if self.is_coupled { coupled } else { 0.0 })
+        4.0 * self.energy.sqrt() * (RESTING_SPEED + if self.impacts > 1 { coupled } else { 0.0 })
     }
 
     /// What all frictions together take on the way that a place in a resting contact is uncertain by.

@@ -145,7 +145,7 @@ impl Audit<'_> {
                     || moment.ends_a_chatter(group)
                     || moment.touches_without_impact(group),
                 is_struck: !moment.impacts.is_empty() || members().any(|member| rests[member] && !rested[member]),
-                is_coupled: moment.impacts.iter().filter(|contact| group[contact.first]).count() > 1,
+                impacts: moment.impacts.iter().filter(|contact| group[contact.first]).count(),
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
                 moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.farthest) },
             };
