@@ -68,7 +68,7 @@ impl Race {
         attempts.filter_map(|attempt| self.draw(attempt).map(|(draw, size)| (*draw.errors, size)))
     }
 
-    /// Finds out how easy the next point is after a candidate; `None` where time ran out.
+    /// Finds out how easy the next point is after a candidate; `None` where none of its attempts makes the point, or time ran out.
     pub fn look_ahead(&self, task: &Task, candidate: &Candidate) -> Option<Candidate> {
         let next = NextValue::Known(next_value(task, &candidate.shot.cue, self.own.drawn())?);
         Some(Candidate { next, ..*candidate })
