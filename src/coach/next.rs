@@ -14,8 +14,10 @@ use crate::{
     table::Layout,
 };
 
-/// Attempts of each shot that are followed to their end: until so many have made the point, which a shot for a beginner does rarely.
-const ENOUGH: u32 = 8;
+/// Attempts of each shot are followed to their end until so many have made the point.
+const ENOUGH_POINTS: u32 = 8;
+
+/// Most attempts of each shot that are followed: what a beginner plays is made rarely.
 const MOST_ATTEMPTS: usize = 96;
 
 /// The probability of the next point after a shot.
@@ -49,7 +51,7 @@ impl NextValue {
 pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0u32);
     for draw in draws.range(0, MOST_ATTEMPTS) {
-        if made == ENOUGH {
+        if made == ENOUGH_POINTS {
             break;
         }
         if task.clock.is_past(task.until) {

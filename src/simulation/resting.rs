@@ -239,10 +239,7 @@ impl Resting {
                 return;
             }
         }
-        if self.is_given_up() {
-            // The shot goes on in micro-collisions.
-            self.effort.add(MOST_RESTING);
-        }
+        self.end_if_given_up();
         if self.is_given_up() || trial.step.end.time.is_nan() || trial.step.end.time <= 0.0 {
             // Nothing can be followed: time goes on.
             (self.step, self.end, self.goes_on) = (shortest, self.begin, false);
@@ -339,6 +336,13 @@ impl Resting {
         self.effort.spent() > MOST_STEP
     }
 
+    /// After a step that is given up nothing rests any more: the shot goes on in micro-collisions.
+    fn end_if_given_up(&self) {
+        if self.is_given_up() {
+            self.effort.add(MOST_RESTING);
+        }
+    }
+
     /// Where the step begins.
     const fn beginning(&self) -> Trial {
         let step = Step { end: Phase { balls: self.begin, time: 0.0 }, error: 0.0, best_length: 0.0 };
@@ -374,7 +378,7 @@ impl Resting {
         let mut step =
             extrapolate(begin, &first, slope, stiff.as_ref(), self.members, length, (table.radius, tolerance));
         let forces = self.forces(table, &self.set, &step.end.balls, &from.forces);
-        // At the edge of the laws forces are often found to less than rounding, which the error of the step tells.
+        // Where a friction yields, forces are at the edge of the laws and rarely found to rounding; there the error of the step counts alone.
         if is_lost || !yields && !forces.converged {
             (step.error, step.best_length) = (f64::INFINITY, WITHOUT_FORCES * length);
         }

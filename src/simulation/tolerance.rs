@@ -17,7 +17,8 @@ pub struct Tolerance {
     /// the test could be missed. Larger: roots are sought in vain.
     pub surely_apart: f64,
     /// Bounces that are given up together with others are lower than this, m: so far a ball may be moved at the end of a
-    /// chatter. A moving ball nearer than this touches what rests. Larger: the course jumps. Smaller: coupled contacts end their chatters one at a time.
+    /// chatter. A moving ball nearer than this touches what rests. Larger: the course jumps. Smaller: coupled contacts end their
+    /// chatters one at a time.
     pub coupled_gap: f64,
     /// Speeds along a contact's normal below this are none, m/s: in ten seconds they move a ball by some 1e-10 m. Smaller:
     /// what rounding leaves of an impact counts as a bounce.

@@ -333,7 +333,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     }
     writeln!(
         out,
-        "For a player of skill \"{}\" under the rule {}; --skill and --rule choose others, and the settings of the screen do not count.",
+        "For a player of skill \"{}\" under the rule {}; --skill and --rule choose others. Those of the settings of the screen do not count.",
         args.skill, args.rule
     )?;
     if answer.told.is_some() {

@@ -1,7 +1,7 @@
 //! The end of a step before its time: another event comes first.
 
 use super::{MAX_GUESSES, Resting, State, Trial};
-use crate::{simulation::guards::MOST_RESTING, table::Table};
+use crate::table::Table;
 
 /// After an interruption a step is tried that is so many times as long as the one that was interrupted.
 const GROWTH_AFTER_INTERRUPTION: f64 = 4.0;
@@ -22,9 +22,7 @@ impl Resting {
             return;
         }
         let trial = self.until(table, time);
-        if self.is_given_up() {
-            self.effort.add(MOST_RESTING);
-        }
+        self.end_if_given_up();
         self.interrupted = true;
         (self.step, self.last) = (time, trial.forces);
         (self.end, self.goes_on) = (self.without_rounding(table, trial.step.end.balls), false);

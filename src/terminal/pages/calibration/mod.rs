@@ -145,9 +145,10 @@ impl CalibrationPage {
 
     /// Goes on with a stroke that was typed in part when the last session ended; gives its test, where that is known.
     pub fn go_on_with(&mut self, draft: StrokeDraft) -> Option<&'static str> {
-        self.is_daily = draft.is_daily;
+        let is_daily = draft.is_daily;
         let form = Form::from_draft(draft)?;
         let test = form.test.name;
+        self.is_daily = is_daily;
         self.sheet_mut().mark_test(test);
         self.input = Some(Input::Marks(form));
         Some(test)
