@@ -223,7 +223,8 @@ impl App {
         if let Some(test) = draft.and_then(|draft| self.calibration.go_on_with(draft)) {
             self.had_draft = true;
             let sentence = format!("a stroke of {test} that was typed in part is kept: F7 goes on with it");
-            self.toasts.push_first(&[sentence]);
+            // It goes with the next key, as an answer does: it would lie on the form that it offers.
+            self.toasts.push(sentence, true);
         }
         self
     }

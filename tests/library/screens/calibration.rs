@@ -285,6 +285,7 @@ fn what_is_typed_in_part_is_there_at_the_next_start() {
     next.app = next.app.with_draft(draft.clone());
     next.warns("a stroke of slow-roll that was typed in part is kept: F7 goes on with it");
     let next = next.press("F7");
+    assert!(!next.text(80, 24).contains("typed in part"), "the sentence would lie on the form");
     assert_eq!(next.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
     assert_eq!(next.app.calibration.draft(), draft);
     let next = next.type_in(".4").press("Enter").type_in("725 mm").press("Enter Enter");
