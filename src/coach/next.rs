@@ -14,11 +14,12 @@ use crate::{
     table::Layout,
 };
 
-/// Attempts of each shot are followed to their end until so many have made the point.
-const ENOUGH_POINTS: u32 = 8;
+/// Fewest made attempts that tell how easy the next point is, and as many as tell it to three in a hundred.
+pub const FEWEST_POINTS: usize = 8;
+pub const MOST_POINTS: usize = 64;
 
-/// Most attempts of each shot that are followed: what a beginner plays is made rarely.
-const MOST_ATTEMPTS: usize = 96;
+/// Most attempts that are followed, for each that is to make the point: what a beginner plays is made rarely.
+const ATTEMPTS_EACH: usize = 12;
 
 /// The probability of the next point after a shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,12 +47,12 @@ impl NextValue {
     }
 }
 
-/// The mean probability of the next point over the layouts that `cue` leaves in the first of these attempts that make a point. `None` where
-/// none does, or time ran out.
-pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws) -> Option<f64> {
-    let (mut sum, mut made) = (0.0, 0u32);
-    for draw in draws.range(0, MOST_ATTEMPTS) {
-        if made == ENOUGH_POINTS {
+/// The mean probability of the next point over the layouts that `cue` leaves in the first so many of these attempts that make a point.
+/// `None` where none does, or time ran out.
+pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) -> Option<f64> {
+    let (mut sum, mut made) = (0.0, 0);
+    for draw in draws.range(0, ATTEMPTS_EACH * points) {
+        if made == points {
             break;
         }
         if task.clock.is_past(task.until) {
@@ -64,7 +65,7 @@ pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws) -> Option<f64> {
         }
     }
     // The last attempt may have been broken off.
-    (made > 0 && !task.clock.is_past(task.until)).then(|| sum / f64::from(made))
+    (made > 0 && !task.clock.is_past(task.until)).then(|| sum / made as f64)
 }
 
 /// Where an attempt at `cue` leaves the balls if it makes the point.

@@ -68,9 +68,10 @@ impl Race {
         attempts.filter_map(|attempt| self.draw(attempt).map(|(draw, size)| (*draw.errors, size)))
     }
 
-    /// Finds out how easy the next point is after a candidate; `None` where none of its attempts makes the point, or time ran out.
-    pub fn look_ahead(&self, task: &Task, candidate: &Candidate) -> Option<Candidate> {
-        let next = NextValue::Known(next_value(task, &candidate.shot.cue, self.own.drawn())?);
+    /// Finds out how easy the next point is after a candidate, by so many `points` if it makes them; `None` where none of its attempts
+    /// makes the point, or time ran out.
+    pub fn look_ahead(&self, task: &Task, candidate: &Candidate, points: usize) -> Option<Candidate> {
+        let next = NextValue::Known(next_value(task, &candidate.shot.cue, self.own.drawn(), points)?);
         Some(Candidate { next, ..*candidate })
     }
 
@@ -180,7 +181,7 @@ fn sort(candidates: &mut [Candidate]) {
 /// for they may still get better; these cost as much, and hardly ever lead.
 const NEAR: f64 = 0.8;
 
-/// Sorts the best first, and keeps the first `best`, the first `of_each` of every kind, and those of a former answer, which a few
+/// Sorts the best first, and keeps the first `best`, the first `of_each` of every kind, and what was advised before, which a few
 /// unlucky attempts must not drop. Equals stay in their order.
 pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
     sort(candidates);

@@ -4,7 +4,7 @@
 use super::{
     Source, Suggestion,
     evidence::{Distribution, Evidence, Trial},
-    next::NextValue,
+    next::{FEWEST_POINTS, MOST_POINTS, NextValue},
     pool::{BLOCK, Candidate, Race, suppose_the_worst},
     trial::Task,
 };
@@ -26,6 +26,13 @@ const MOST_BLOCKS: usize = 256;
 
 /// Blocks of a stroke in all: then its share is known to half a percent.
 const ENOUGH_BLOCKS: usize = 4096;
+
+/// In a plan there is a look at the next point after so many attempts of a round: a point takes several, and each is followed to its end.
+const ATTEMPTS_A_POINT: usize = 16;
+
+/// What another shot must be better by than the one that was advised, as a share: whoever asks again wants no other shot for next to
+/// nothing, which may be chance.
+const WORTH_A_CHANGE: f64 = 0.02;
 
 /// Blocks of one piece of work.
 const PIECE: usize = 4;
@@ -67,8 +74,16 @@ fn sort(climbers: &mut [Climber]) {
     climbers.sort_by(|a, b| b.best.score().total_cmp(&a.best.score()));
 }
 
-/// The best of a former answer goes on to the end, or else a few unlucky attempts at it would make the advice worse than that
-/// was. Gives how many go on where `live` are the best.
+/// What was advised stays first where no other is better by enough.
+fn prefer_former(climbers: &mut [Climber]) {
+    let bar = climbers.first().map_or(0.0, |best| (1.0 - WORTH_A_CHANGE) * best.best.score());
+    if let Some(place) = climbers.iter().position(|climber| climber.is_former() && climber.best.score() >= bar) {
+        climbers[..=place].rotate_right(1);
+    }
+}
+
+/// What was advised goes on to the end, or else a few unlucky attempts at it would make the advice worse than that was. Gives how many go
+/// on where `live` are the best.
 fn keep_former(climbers: &mut [Climber], live: usize) -> usize {
     match climbers.iter().position(Climber::is_former) {
         Some(place) if place >= live => {
@@ -122,11 +137,12 @@ impl Refinement<'_> {
             live = live.min(libm::pow(all, 1.0 - HALVING * progress).max(fewest).ceil() as usize);
             live = keep_former(&mut climbers, live);
             let each = ((blocks / live as f64) as usize).clamp(FEWEST_BLOCKS, MOST_BLOCKS);
-            self.climb(&mut climbers[..live]);
+            self.climb(&mut climbers[..live], each);
             if !self.attempt(&mut climbers[..live], each) {
                 break;
             }
             sort(&mut climbers[..live]);
+            prefer_former(&mut climbers[..live]);
             tell(&climbers[0].best);
             if climbers[0].is_certain() && !self.plan {
                 break;
@@ -150,7 +166,7 @@ impl Refinement<'_> {
                 climber.evidence.add(&distribution, &trials);
                 climber
             };
-            // A shot of a former answer stays as it is, for it has climbed before, and another begins there.
+            // What was advised stays as it is, for it has climbed before, and another begins there.
             let mut source = candidate.shot.source;
             if source == Source::Former {
                 climbers.push(climber(source));
@@ -174,9 +190,11 @@ impl Refinement<'_> {
         Distribution::new(&self.task.skill, self.task.table.radius, cue)
     }
 
-    /// Moves each stroke to where the attempts so far make the point more often.
-    fn climb(&self, climbers: &mut [Climber]) {
+    /// Moves each stroke to where the attempts so far make the point more often, and looks at what comes next as closely as so many blocks
+    /// of attempts `each` are worth.
+    fn climb(&self, climbers: &mut [Climber], each: usize) {
         let Self { task, race, .. } = self;
+        let points = (BLOCK * each / ATTEMPTS_A_POINT).clamp(FEWEST_POINTS, MOST_POINTS);
         let evidence: usize = climbers.iter().map(|climber| climber.blocks).sum();
         let threads = if self.plan || evidence >= SHARED_FROM { self.threads } else { 1 };
         let moved = parallel::map(threads, climbers, |climber| {
@@ -188,7 +206,7 @@ impl Refinement<'_> {
             // Until it is known, what comes next is what has come so far.
             let next = NextValue::Supposed(best.next.value());
             let moved = Candidate { next, ..moved };
-            if self.plan { race.look_ahead(task, &moved).unwrap_or(moved) } else { moved }
+            if self.plan { race.look_ahead(task, &moved, points).unwrap_or(moved) } else { moved }
         });
         for (climber, best) in climbers.iter_mut().zip(moved) {
             (climber.distribution, climber.best) = (self.distribution(&best.shot.cue), best);
@@ -237,10 +255,38 @@ mod tests {
 
     use super::*;
     use crate::{
-        coach::{Doubt, Skill, clock::Clock, draws::Worlds, first::Attempt, make_probability, trial::CONTACT_STEPS},
+        coach::{
+            Doubt, Skill,
+            clock::Clock,
+            draws::Worlds,
+            evidence::Rate,
+            first::Attempt,
+            make_probability,
+            trial::{CONTACT_STEPS, Course},
+        },
         game::Rule,
         table::{Layout, Table},
     };
+
+    #[test]
+    fn what_was_advised_stays_unless_another_is_clearly_better() {
+        let climber = |(share, source)| {
+            let cue = CueInputs { a: 0.0, b: 0.2, theta: 0.0, phi: 0.0, speed: 2.0 };
+            let best = Candidate::of(Suggestion { cue, source }, &Course::default(), 0.0);
+            let best = Candidate { own: Rate { share, attempts: 100.0 }, ..best };
+            let distribution = Distribution::new(&Skill::CLUB, Table::default().radius, &cue);
+            Climber { best, distribution, evidence: Evidence::default(), blocks: 0 }
+        };
+        for (others, is_first) in [([0.8, 0.6], false), ([0.705, 0.701], true), ([0.6, 0.5], true)] {
+            let [one, two] = others.map(|share| (share, Source::Search));
+            let mut climbers: Vec<Climber> = [one, (0.7, Source::Former), two].map(climber).into();
+            sort(&mut climbers);
+            prefer_former(&mut climbers);
+            let shares: Vec<f64> = climbers.iter().map(|climber| climber.best.own.share).collect();
+            assert_eq!(climbers[0].is_former(), is_first, "{shares:?}");
+            assert!(shares[usize::from(is_first)..].is_sorted_by(|one, other| one > other), "{shares:?}");
+        }
+    }
 
     #[test]
     fn a_stroke_at_the_edge_climbs_and_those_that_are_alike_are_one() {

@@ -54,7 +54,8 @@ pub struct Request {
     pub threads: usize,
     /// Seed of the search: while time does not run out, the same request finds the same shot, with any number of threads.
     pub seed: u64,
-    /// Shots of a former answer to the same question, which take part again: asking once more makes no advice worse.
+    /// Shots of a former answer to the same question, the advice first. They take part again, and the advice stays unless another shot is
+    /// clearly better: asking once more makes it no worse, and does not swap it for one that is as good.
     pub former: Vec<CueInputs>,
     /// Set from another thread, it ends the search.
     pub cancel: Arc<AtomicBool>,

@@ -1,5 +1,7 @@
 //! The search for the shot that a player is most likely to make: sampling widely, a race on common random numbers, refinement.
 
+use std::mem::replace;
+
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -90,7 +92,14 @@ impl<'a> Search<'a> {
     ) -> Vec<Candidate> {
         self.task.until = self.task.clock.moment(self.sampling_ends);
         let weight = self.weight();
-        let found: Vec<_> = found.iter().map(|(shot, course)| Candidate::of(*shot, course, weight)).collect();
+        // The first shot of a former answer was the advice, which is held on to; the others are shots like any.
+        let mut former = false;
+        let candidate = |(shot, course): &(Suggestion, Course)| {
+            let is_other = shot.source == Source::Former && replace(&mut former, true);
+            let source = if is_other { Source::Search } else { shot.source };
+            Candidate::of(Suggestion { source, ..*shot }, course, weight)
+        };
+        let found: Vec<_> = found.iter().map(candidate).collect();
         self.race.extend_to(self.task.worlds, SECOND_LOOK);
         let raced = |candidate: &Candidate| self.race.go_on(&self.task, candidate, SECOND_LOOK).unwrap_or(*candidate);
         self.pool = parallel::map(self.threads, &found, raced);
