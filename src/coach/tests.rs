@@ -21,7 +21,7 @@ use super::{
     *,
 };
 use crate::{
-    game::{Rule, scores},
+    game::{Rule, scores, touching_ball_in_the_way},
     learning::evaluation::held_out_layouts,
     physics::{CueInputs, collides, has_room},
     table::{Layout, LayoutError, Opening, Room, Side, Table},
@@ -329,6 +329,22 @@ fn no_stroke_on_ten_thousand_layouts_goes_through_a_rail_or_a_ball() {
     let (bad, all) = strokes_without_room(10_000);
     println!("{bad} of {all} strokes on 10,000 layouts have no room");
     assert_eq!(bad, 0, "of {all}");
+}
+
+#[test]
+fn a_ball_that_touches_the_cue_ball_is_not_played_at() {
+    let coach = coach();
+    let table = coach.table();
+    let touching = DVec2::new(2.0 * table.radius, 0.0);
+    for second in [DVec2::new(0.5, 0.1), DVec2::new(-0.6, 0.2)] {
+        let layout = Layout::new([DVec2::ZERO, touching, second]);
+        for skill in [Skill::PERFECT, Skill::CLUB] {
+            let request = Request { skill, ..request(Rule::StraightRail, 20_000) };
+            let advice = coach.recommend(&layout, &request).unwrap();
+            let all = advice.alternatives.iter().map(|shot| shot.cue).chain([advice.cue]);
+            assert!(advice.solved && all.clone().all(|cue| touching_ball_in_the_way(table, &layout, &cue).is_none()));
+        }
+    }
 }
 
 #[test]

@@ -3,7 +3,9 @@
 mod point;
 mod reward;
 mod rules;
+mod touching;
 
 pub use point::Point;
 pub use reward::{Reward, UnknownReward};
 pub use rules::{Referee, Rule, Tally, UnknownRule, scores};
+pub use touching::touching_ball_in_the_way;
