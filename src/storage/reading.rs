@@ -45,6 +45,16 @@ pub fn read_text(path: &Path, largest: u64) -> io::Result<String> {
     String::from_utf8(read(path, largest)?).map_err(no_text)
 }
 
+/// Moves a file that cannot be read out of the way of one that is to be written in its place; gives what came of that, as the end of a
+/// sentence about the file.
+pub fn put_aside(path: &Path) -> String {
+    let aside = path.with_extension("unread.json");
+    match fs::rename(path, &aside) {
+        Ok(()) => format!("it is kept as {}", aside.display()),
+        Err(error) => format!("it cannot be kept aside: {error}"),
+    }
+}
+
 /// The regular file at `path`, to be read.
 ///
 /// # Errors

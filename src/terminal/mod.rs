@@ -115,16 +115,21 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
         Ok(last) => (last, None),
         Err(sentence) => (None, Some(sentence)),
     };
+    let (draft, torn) = match StrokeDraft::read_or_put_aside(&places.draft) {
+        Ok(draft) => (draft, None),
+        Err(sentence) => (None, Some(sentence)),
+    };
     let app = App::new(table, layout, detect(settings), seed())?
         .with_detection(detect)
         .with_seat(&seat)
         .with_settings(settings)
         .with_last(last)
-        .with_draft(StrokeDraft::read(&places.draft))
+        .with_draft(draft)
         .with_own_skill(own.map(|own| own.skill))
         .with_notice(storage::notice(places))
         .with_notice(seat.warning().as_deref())
         .with_notice(unread.as_deref())
+        .with_notice(torn.as_deref())
         .with_complaints(&places.settings, complaints);
     Ok(host::runner::run(app, seat.places)?)
 }

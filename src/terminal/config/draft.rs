@@ -27,9 +27,23 @@ pub struct StrokeDraft {
 }
 
 impl StrokeDraft {
-    /// What the last session left, which stays there until this one ends; what cannot be read is nothing.
-    pub fn read(path: &Path) -> Option<Self> {
-        serde_json::from_slice(&storage::read(path, storage::SMALL).ok()?).ok()
+    /// What the last session left, if anything; it stays there until this one ends.
+    ///
+    /// # Errors
+    /// A sentence about a file that cannot be read, which is put aside.
+    pub fn read_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
+        let read = match storage::read(path, storage::SMALL) {
+            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+                return Ok(None);
+            }
+            read => read.map_err(|error| error.to_string()),
+        };
+        let draft =
+            read.and_then(|bytes| serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {error}")));
+        draft.map(Some).map_err(|error| {
+            let kept = storage::put_aside(path);
+            format!("{}: {error}; the stroke that was typed in part cannot be gone on with, and {kept}", path.display())
+        })
     }
 
     /// Writes it down.
@@ -41,5 +55,22 @@ impl StrokeDraft {
             fs::create_dir_all(folder)?;
         }
         replace(path, &serde_json::to_vec(self).map_err(io::Error::from)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_damaged_draft_is_put_aside_and_told_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("draft.json");
+        assert_eq!(StrokeDraft::read_or_put_aside(&path), Ok(None));
+        fs::write(&path, "{").unwrap();
+        let said = StrokeDraft::read_or_put_aside(&path).unwrap_err();
+        assert!(said.contains("draft.json: it is damaged") && said.contains("draft.unread.json"), "{said}");
+        assert_eq!(fs::read(path.with_extension("unread.json")).unwrap(), b"{");
+        assert_eq!(StrokeDraft::read_or_put_aside(&path), Ok(None));
     }
 }

@@ -144,7 +144,8 @@ impl Settings {
             return Table::preset(&self.table).map_err(|error| error.to_string());
         }
         let text = storage::read_text(self.table.as_ref(), storage::SMALL).map_err(|error| error.to_string());
-        let table = text.and_then(|text| Table::from_toml(&text).map_err(|error| error.to_string()));
+        let table =
+            text.and_then(|text| Table::from_file(self.table.as_ref(), &text).map_err(|error| error.to_string()));
         table.map_err(|sentence| format!("{}: {sentence}", self.table))
     }
 

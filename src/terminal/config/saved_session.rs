@@ -115,12 +115,11 @@ impl<'a> SavedSession<'a> {
     /// A sentence about that.
     pub fn load_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
         Self::load(path).map_err(|error| {
-            let aside = path.with_extension("unread.json");
-            let kept = match std::fs::rename(path, &aside) {
-                Ok(()) => format!("it is kept as {}", aside.display()),
-                Err(error) => format!("it cannot be kept aside: {error}"),
-            };
-            format!("{}: {error}; the last session cannot be gone on with, and {kept}", path.display())
+            format!(
+                "{}: {error}; the last session cannot be gone on with, and {}",
+                path.display(),
+                storage::put_aside(path)
+            )
         })
     }
 

@@ -70,7 +70,9 @@ fn what_is_typed_in_part_is_there_at_the_next_start_whatever_ended_the_program()
         session.wait_for("Strokes of slow-roll");
     }
     session.wait_for("9.6123");
-    // It comes back once only.
+    // What was emptied does not come back.
+    session.send("\x15");
+    session.settle(REST);
     session.send("\x1b");
     session.settle(REST);
     session.send("\x03");

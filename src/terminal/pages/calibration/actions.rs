@@ -64,14 +64,12 @@ impl CalibrationPage {
             }
             Action::Stroke(by) => self.sheet_mut().move_stroke(by),
             Action::Enter => {
-                self.side = Side::Test;
-                self.input = Some(Input::Marks(Form::new(self.sheet().test())));
+                self.open_form(Form::new(self.sheet().test()));
             }
             Action::Amend => {
                 let sheet = self.sheet();
                 let (place, entry) = sheet.marked_stroke()?;
-                self.input = Some(Input::Marks(Form::of(sheet.test(), place, entry)));
-                self.side = Side::Test;
+                self.open_form(Form::of(sheet.test(), place, entry));
             }
             Action::TakeOut => {
                 let (place, entry) = self.sheet().marked_stroke()?;
@@ -121,7 +119,10 @@ impl CalibrationPage {
             }
             Action::Anew => self.input = Some(Input::Anew),
             Action::Field(_) | Action::Tape | Action::FarEnd => self.change_form(action),
-            Action::No => self.input = None,
+            Action::No => {
+                self.aside = self.draft();
+                self.input = None;
+            }
             Action::Yes => return self.yes(),
         }
         None

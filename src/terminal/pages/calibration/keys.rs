@@ -136,7 +136,7 @@ pub const FORM: &[Binding<A, W>] = &[
         Some(("mark", 2)), "type another mark"),
     bind(Marks, W::Here, &[ctrl('t', A::Tape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),
     bind(Marks, W::Here, &[ctrl('e', A::FarEnd)], Some(("far end", 1)), "this stroke was played from the far end, where the balls meet the other rails; again for your own"),
-    bind(Marks, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave the form; nothing of it is kept"),
+    bind(Marks, W::Here, &[key(Esc, A::No)], Some(("back", 1)), "leave the form; it is there again when the same stroke is entered"),
 ];
 
 /// The table's name.

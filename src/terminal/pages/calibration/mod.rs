@@ -59,6 +59,8 @@ pub struct CalibrationPage {
     pub tip_unit: TipUnit,
     /// What is typed or asked.
     pub input: Option<Input>,
+    /// A stroke whose form was left when it was typed in part.
+    aside: Option<StrokeDraft>,
     /// What is shown beside the list of tests.
     pub side: Side,
     /// The page of the table's values, from 0 on, where they have several; further ones are the first again.
@@ -85,6 +87,7 @@ impl CalibrationPage {
             table: Table::default(),
             tip_unit: TipUnit::default(),
             input: None,
+            aside: None,
             side: Side::Test,
             values_page: 0,
             message: None,
@@ -139,8 +142,21 @@ impl CalibrationPage {
     pub fn draft(&self) -> Option<StrokeDraft> {
         match &self.input {
             Some(Input::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.draft(self.is_daily)),
-            _ => None,
+            _ => self.aside.clone(),
         }
+    }
+
+    /// Opens `form`, as it was left where that was when it was typed in part.
+    fn open_form(&mut self, form: Form) {
+        let is_same = |draft: &mut StrokeDraft| {
+            draft.is_daily == self.is_daily && draft.test == form.test.name && draft.amends == form.amends
+        };
+        let left = self.aside.take_if(is_same).and_then(Form::from_draft);
+        if left.is_some() {
+            self.message = Some(Message::plain("as you left it; Ctrl-U empties a mark"));
+        }
+        self.side = Side::Test;
+        self.input = Some(Input::Marks(left.unwrap_or(form)));
     }
 
     /// Goes on with a stroke that was typed in part when the last session ended; gives its test, where that is known.

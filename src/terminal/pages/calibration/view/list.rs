@@ -130,10 +130,10 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let mut constants: Vec<&Change> = found.constants.iter().collect();
     constants.sort_by(|one, other| left(one).total_cmp(&left(other)));
     for (one, y) in constants.into_iter().zip(inner.y..inner.bottom()) {
-        let room = NAME.max(usize::from(inner.width).saturating_sub(20));
+        let sign = ui.caps.pick("±", "+-");
+        let room = NAME.max(usize::from(inner.width).saturating_sub(19 + sign.chars().count()));
         let style = if found.known(one) == "as before" { ui.theme.faint() } else { ui.theme.text() };
         draw_called(one, room, style, Position::new(inner.x + 2, y), ui);
-        let sign = ui.caps.pick("±", "+-");
         let value = format!("{:.4} {sign} {:.4}", one.after, one.after_deviation);
         write_right(ui.buffer, inner.x, inner.right() - 1, y, &value, style);
     }
