@@ -50,7 +50,7 @@ pub fn bundled_table(name: &str) -> Result<Table, Failure> {
 pub fn table_in(file: &Path) -> Result<Table, Failure> {
     let text = storage::read_text(file, storage::SMALL)
         .map_err(|error| Failure::failed(format_args!("{} cannot be read: {error}", file.display())))?;
-    Table::from_toml(&text).map_err(|error| Failure::wrong_input(format_args!("{}: {error}", file.display())))
+    Table::from_file(file, &text).map_err(|error| Failure::wrong_input(format_args!("{}: {error}", file.display())))
 }
 
 /// Says what speaks against a policy on a table and, where it shall make points, under a rule.

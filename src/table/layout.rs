@@ -59,9 +59,11 @@ pub enum LayoutError {
     },
     /// Two balls overlap.
     #[error(
-        "{} and {} are {distance:.4} m apart; at least {least:.4} m is needed",
+        "{} and {} are {} m apart; at least {} m is needed",
         BALL_NAMES[*first],
-        BALL_NAMES[*second]
+        BALL_NAMES[*second],
+        told_apart(*distance, *least)[0],
+        told_apart(*distance, *least)[1]
     )]
     Overlap {
         /// Index of one ball.
@@ -79,6 +81,12 @@ pub enum LayoutError {
          from the lower left corner like \"2d,2d 6d,2d 2d,2.5d\""
     )]
     Text(String),
+}
+
+/// Two lengths, in m, to a tenth of a millimetre, or with as many decimals as tell them apart.
+fn told_apart(one: f64, other: f64) -> [String; 2] {
+    let told = |decimals: usize| [one, other].map(|length| format!("{length:.decimals$}"));
+    (4..15).map(told).find(|[one, other]| one != other).unwrap_or_else(|| told(15))
 }
 
 impl Layout {

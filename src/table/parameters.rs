@@ -1,5 +1,7 @@
 //! The table as data: geometry, balls, cloth, cushions and cue, read from TOML.
 
+use std::path::Path;
+
 use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
@@ -10,6 +12,9 @@ use super::{
 
 /// Names of the bundled tables, the default first.
 pub const PRESETS: [&str; 3] = ["match", "textbook", "thesis"];
+
+/// Longest side of a table, m: no billiard table is half as long.
+const LONGEST: f64 = 10.0;
 
 /// The bundled tables whose equations are those of the thesis alone: numerics are judged on them.
 pub const JUDGED: [&str; 2] = ["textbook", "thesis"];
@@ -159,6 +164,21 @@ impl Table {
         }
     }
 
+    /// The table that the file at `path` describes. One that bears a bundled table's name and is another is called after its file: the
+    /// name alone tells players, and what is kept, which table it is.
+    ///
+    /// # Errors
+    /// As [`Table::from_toml`].
+    pub fn from_file(path: &Path, text: &str) -> Result<Self, TableError> {
+        let table = Self::from_toml(text)?;
+        if !Self::preset(&table.name).is_ok_and(|bundled| bundled != table) {
+            return Ok(table);
+        }
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let is_bundled = PRESETS.contains(&&*stem);
+        Ok(Self { name: if is_bundled { format!("own {stem}") } else { stem.into_owned() }, ..table })
+    }
+
     /// Reads a table from TOML text and checks every value.
     ///
     /// # Errors
@@ -184,8 +204,8 @@ impl Table {
             ("m", self.ball_mass, positive, "a positive number of kilograms"),
             ("M", self.cue_mass, positive, "a positive number of kilograms"),
             ("g", self.gravity, positive, "a positive number of m/s²"),
-            ("L", self.length, positive, "a positive number of metres"),
-            ("l", self.width, positive, "a positive number of metres"),
+            ("L", self.length, |x| x > 0.0 && x <= LONGEST, "above 0 and at most 10 m"),
+            ("l", self.width, |x| x > 0.0 && x <= LONGEST, "above 0 and at most 10 m"),
             ("mu_s", self.sliding_friction, cloth, "0.0001 to 1000"),
             ("mu_r", self.rolling_friction, cloth, "0.0001 to 1000"),
             ("mu_sp", self.spinning_friction, friction, "0 to 1000"),
@@ -209,6 +229,9 @@ impl Table {
             if side < 6.0 * self.radius {
                 return refuse(key, side, "at least six ball radii");
             }
+        }
+        if self.width > self.length {
+            return refuse("l", self.width, "at most L, the longer side");
         }
         if !(self.opening_offset >= 2.0 * self.radius && self.opening_offset <= self.half_width()) {
             return refuse("d", self.opening_offset, "from two ball radii to l/2 - R");
