@@ -1,6 +1,6 @@
 //! The sentences: how to strike, which way the cue ball goes, and where to aim.
 
-use super::{English, PlaceUnit, ShotWords, TIP, TipUnit, Units, fullness_word, numbers, pace_word, short};
+use super::{English, ShotWords, TIP, TipUnit, Units, fullness_word, numbers, pace_word, short};
 use crate::{
     coach::{Cushion, Hit, Mark},
     simulation::Rail,
@@ -128,10 +128,7 @@ impl ShotWords {
 
     /// A place along a cushion.
     fn place(&self, diamonds: f64, units: Units, decimals: usize) -> String {
-        match units.place {
-            PlaceUnit::Diamonds => short(diamonds, decimals),
-            PlaceUnit::Mm => format!("{} mm", short(1e3 * self.diamond * diamonds, 0)),
-        }
+        units.place.words(diamonds, self.diamond, decimals)
     }
 }
 

@@ -51,6 +51,24 @@ pub struct Units {
     pub length: LengthUnit,
 }
 
+impl PlaceUnit {
+    /// A place so many diamonds along a cushion on which a diamond is `diamond` m long; diamonds without their name.
+    pub fn words(self, diamonds: f64, diamond: f64, decimals: usize) -> String {
+        match self {
+            Self::Diamonds => short(diamonds, decimals),
+            Self::Mm => format!("{} mm", short(1e3 * diamond * diamonds, 0)),
+        }
+    }
+
+    /// The same to a hundredth of a diamond or a millimetre, with the unit's name.
+    pub fn exact(self, diamonds: f64, diamond: f64) -> String {
+        match self {
+            Self::Diamonds => format!("{diamonds:.2} diamonds"),
+            Self::Mm => format!("{:.0} mm", 1e3 * diamond * diamonds),
+        }
+    }
+}
+
 impl TipUnit {
     /// Both, by name.
     pub const NAMED: [(&'static str, Self); 2] = [("tips", Self::Tips), ("mm", Self::Mm)];

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use crate::{
-    coach::{Aim, Doubt, Input, Map, Margin, Sensitivity, aim, words::LengthUnit},
+    coach::{Aim, Doubt, Input, Map, Margin, Mark, Sensitivity, aim, words::Units},
     game::Rule,
     physics::CueInputs,
     simulation::ShotError,
@@ -50,16 +50,10 @@ impl Margins {
     }
 
     /// The same for people to read.
-    pub fn describe(&self, out: &mut impl Write, unit: LengthUnit) -> io::Result<()> {
+    pub fn describe(&self, out: &mut impl Write, table: &Table, units: Units) -> io::Result<()> {
         let Aim { ahead, behind, hit } = &self.aim;
-        write!(
-            out,
-            "aim from {} {:.2} to {} {:.2} diamonds",
-            behind.rail.name(),
-            behind.diamond,
-            ahead.rail.name(),
-            ahead.diamond
-        )?;
+        let place = |mark: &Mark| format!("{} {}", mark.rail.name(), units.place.exact(mark.diamond, table.diamond()));
+        write!(out, "aim from {} to {}", place(behind), place(ahead))?;
         match hit {
             Some(hit) => {
                 let side = if hit.left { "left" } else { "right" };
@@ -68,7 +62,7 @@ impl Margins {
             None => writeln!(out)?,
         }
         for margin in self.inputs.iter().flatten() {
-            let (factor, symbol) = margin.told_in(unit);
+            let (factor, symbol) = margin.told_in(units.length);
             let end = |end: Option<f64>| end.map_or_else(|| "wide".to_owned(), |end| format!("{:.3}", factor * end));
             let (name, less, more) = (margin.input.name(), end(margin.less), end(margin.more));
             writeln!(out, "{name:<6} {less:>8} less to {more:>8} more, {symbol}")?;

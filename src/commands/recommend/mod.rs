@@ -373,7 +373,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         writeln!(out, "after it the next point is made about {:.0} % of the time", 100.0 * next)?;
     }
     if let Some(margins) = &answer.margins {
-        margins.describe(out, units().length)?;
+        margins.describe(out, table, units())?;
     }
     for Alternative { cue, chance, sort, told, .. } in &answer.alternatives {
         let CueInputs { a, b, theta, speed, .. } = *cue;

@@ -192,7 +192,7 @@ impl Conversation {
             }),
             Command::Numbers => self.about_the_shot(|talk, shot| {
                 let aim = aim(talk.table(), talk.layout(), &shot.cue).ok();
-                speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball(), talk.units.length)
+                speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball(), talk.units)
             }),
             Command::System => self.about_the_shot(|talk, shot| {
                 talk.recorded(shot, |recording| speech::system(guide(talk.table(), recording).as_ref()))

@@ -4,7 +4,7 @@ use crate::{
     coach::{
         Aim, Input, Kind, Margin, Skill, Way, jump_words,
         systems::Guide,
-        words::{LengthUnit, TIP},
+        words::{LengthUnit, TIP, TipUnit, Units},
     },
     physics::CueInputs,
     simulation::{Event, EventKind, Recording},
@@ -51,8 +51,10 @@ pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUni
 }
 
 /// How to strike.
-pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBall, unit: LengthUnit) -> String {
-    let (in_a_metre, small, decimals) = small(unit, 1);
+pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBall, units: Units) -> String {
+    let unit = units.length;
+    let of_the_tip = if units.tip == TipUnit::Mm { LengthUnit::Metres } else { unit };
+    let (in_a_metre, small, decimals) = small(of_the_tip, 1);
     let offset = |value: f64, plus: &str, minus: &str| match fixed(in_a_metre * table.radius * value.abs(), decimals) {
         zero if zero.chars().all(|letter| matches!(letter, '0' | '.')) => None,
         distance => Some(format!("{distance} {small} {}", if value > 0.0 { plus } else { minus })),
@@ -69,11 +71,11 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBa
     let mut lines = vec![tip, speed];
     if let Some(Aim { ahead, behind, hit }) = aim {
         lines.push(format!(
-            "The line of aim comes from the {} at {} and goes to the {} at {} diamonds.",
+            "The line of aim comes from the {} at {} and goes to the {} at {}.",
             rail_name(behind.rail),
-            fixed(behind.diamond, 2),
+            units.place.exact(behind.diamond, table.diamond()),
             rail_name(ahead.rail),
-            fixed(ahead.diamond, 2)
+            units.place.exact(ahead.diamond, table.diamond())
         ));
         lines.extend(hit.map(|hit| {
             let side = if hit.left { "left" } else { "right" };
