@@ -3,6 +3,7 @@
 use std::{
     fmt::Display,
     io::{self, IsTerminal, Write},
+    path::Path,
 };
 
 use ratatui::text::Span;
@@ -45,6 +46,20 @@ pub fn of_refused_lines(refused: usize) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::wrong_input(format_args!("{} refused; each was told why", plural(refused, "line"))))
+}
+
+/// A path with a mistake in it must not make folders that nobody looks into.
+///
+/// # Errors
+/// Where the folder of `file` is not there.
+pub fn need_folder(file: &Path) -> Result<(), Failure> {
+    match file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() && !folder.exists() => {
+            let (file, folder) = (file.display(), folder.display());
+            Err(Failure::failed(format_args!("{file}: there is no folder {folder}; make it first")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A number of things.

@@ -42,6 +42,8 @@ const STROKES: usize = 1000;
 /// chi-squared distribution with one degree of freedom.
 const DEPTH: f64 = 1.920_729;
 
+const AT_LEAST: &str = "at least";
+
 /// What the results say of a player.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -73,10 +75,18 @@ impl Estimate {
     /// known.
     pub fn words(&self) -> String {
         let [least, average, most] = self.averages();
+        match self.bound() {
+            Some(bound) => format!("{bound} {:.2}", if bound == AT_LEAST { least } else { most }),
+            None => format!("{average:.2} ({least:.2} to {most:.2})"),
+        }
+    }
+
+    /// "at least" or "at most", where only that end of the interval is known.
+    pub fn bound(&self) -> Option<&'static str> {
         match openings(self.low, self.high) {
-            [true, _] => format!("at least {least:.2}"),
-            [_, true] => format!("at most {most:.2}"),
-            _ => format!("{average:.2} ({least:.2} to {most:.2})"),
+            [true, _] => Some(AT_LEAST),
+            [_, true] => Some("at most"),
+            _ => None,
         }
     }
 }

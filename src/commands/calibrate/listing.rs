@@ -24,6 +24,9 @@ struct TestLine {
     layout: Vec<[f64; 2]>,
     cue: CueInputs,
     marks: Vec<MarkLine>,
+    /// The mark that counts rails, where a test has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rails: Option<RailsLine>,
 }
 
 #[derive(Serialize)]
@@ -32,6 +35,15 @@ struct MarkLine {
     words: &'static str,
     unit: Unit,
     sure: f64,
+}
+
+/// How many short rails the ball has met: a whole number.
+#[derive(Serialize)]
+struct RailsLine {
+    words: &'static str,
+    /// What it is if it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    usual: Option<usize>,
 }
 
 /// Prints the protocol.
@@ -70,10 +82,17 @@ pub fn words(number: usize, test: &Test) -> Vec<String> {
         format!("   strike  {}", test.strike),
     ];
     lines.extend(test.marks.iter().map(|Mark { name, words, .. }| format!("   mark    {name}: {words}")));
-    if test.rails.is_none_or(|rails| rails > 0) {
-        lines.push(format!("   mark    rails: how many short rails it has met{}", usual(test)));
+    if counts_rails(test) {
+        lines.push(format!("   mark    rails: {MET}{}", usual(test)));
     }
     lines
+}
+
+/// The words for the mark that counts rails.
+const MET: &str = "how many short rails it has met";
+
+fn counts_rails(test: &Test) -> bool {
+    test.rails.is_none_or(|rails| rails > 0)
 }
 
 fn usual(test: &Test) -> String {
@@ -125,6 +144,7 @@ impl TestLine {
                 .iter()
                 .map(|mark| MarkLine { mark: mark.name, words: mark.words, unit: mark.unit(), sure: mark.sure })
                 .collect(),
+            rails: counts_rails(test).then_some(RailsLine { words: MET, usual: test.rails }),
         }
     }
 }

@@ -10,11 +10,12 @@ use std::path::{Path, PathBuf};
 use super::{
     Failure,
     input::{seed, table_named, whole},
-    output::{line, tell},
+    output::{line, need_folder, tell},
 };
 use crate::{
-    calibration::{Calibration, Entries, KeptError, Play, calibrate, entries_of, overnight, prior, save_table},
-    table::{Table, TableDoubt},
+    calibration::{Entries, KeptError, Play, calibrate, entries_of, overnight, prior, save_table},
+    storage::target_of,
+    table::{PRESETS, Table, TableDoubt},
 };
 use report::Report;
 
@@ -116,9 +117,20 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
     }
     let own = table.doubt.is_some().then_some(&table.name);
     let name = args.name.as_ref().or(entries.name.as_ref()).or(own).map_or(NAME, String::as_str);
+    if PRESETS.contains(&name) {
+        return Err(Failure::wrong_input(format_args!(
+            "\"{name}\" is the name of a bundled table; give another with --name"
+        )));
+    }
     let found = calibrate(name, table, doubt, &trials).map_err(Failure::wrong_input)?;
     let play = args.daily.then(|| [Play::of(table), Play::of(&found.table)]);
     let report = Report::new(&found, entries, &odd, play);
+    // Before anything is told: who stops reading still wants the table.
+    let out = args.out.as_ref().filter(|_| odd.is_empty() && !found.is_contradictory());
+    if let Some(path) = out {
+        need_folder(&target_of(path))?;
+        save_table(path, &found.table).map_err(Failure::failed)?;
+    }
     if args.json {
         report.json()?;
     } else {
@@ -129,25 +141,18 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
         let many = if odd.len() == 1 { "one entry is odd" } else { "some entries are odd" };
         return Err(Failure::wrong_input(format_args!("{many}{written}: mend what is named above, or take it out")));
     }
-    let Some(out) = &args.out else { return Ok(()) };
-    if found.is_contradictory() {
+    if args.out.is_some() && found.is_contradictory() {
         return Err(Failure::wrong_input(
             "the strokes contradict each other, and no table is written: mend what is named above",
         ));
     }
-    write(out, &found, args.json)
-}
-
-/// Writes the table, and says so.
-fn write(path: &Path, found: &Calibration, is_json: bool) -> Result<(), Failure> {
-    save_table(path, &found.table).map_err(Failure::failed)?;
+    let Some(path) = out else { return Ok(()) };
     let said = format!("the table \"{}\" is written to {}", found.table.name, path.display());
-    if is_json {
+    if args.json {
         tell(said);
-    } else {
-        line(said)?;
+        return Ok(());
     }
-    Ok(())
+    line(said)
 }
 
 /// Prints a text of several lines.

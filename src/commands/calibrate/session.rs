@@ -72,9 +72,11 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
 fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     let mut entry = Entry { test: test.name.to_owned(), ..Entry::default() };
     let mut marks = test.asked();
-    let mut words = text.split_whitespace();
+    let is_a_name = |word: &str| [RAILS, FAR_END].contains(&word) || test.marks.iter().any(|mark| mark.name == word);
+    let values = values(text, is_a_name);
+    let mut words = values.iter().map(String::as_str);
     while let Some(word) = words.next() {
-        let is_name = [RAILS, FAR_END].contains(&word) || test.marks.iter().any(|mark| mark.name == word);
+        let is_name = is_a_name(word);
         let name =
             if is_name { word } else { marks.next().ok_or_else(|| format!("\"{word}\" is too much; {HELP}"))? };
         let value = if is_name { words.next().ok_or_else(|| format!("{word} has no value"))? } else { word };
@@ -82,6 +84,25 @@ fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     }
     let (_, odd) = entry.readings(table);
     if odd.is_empty() { Ok(entry) } else { Err(odd.join("; ")) }
+}
+
+/// The words that were typed, a number together with its unit and with how sure it is: `725 mm ~ 5 mm` is one.
+fn values(text: &str, is_a_name: impl Fn(&str) -> bool) -> Vec<String> {
+    let mut values: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match values.last_mut() {
+            Some(last)
+                if last.starts_with(|first: char| first.is_ascii_digit())
+                    && (word.starts_with(['~', '±'])
+                        || last.ends_with(['~', '±'])
+                        || word.chars().all(char::is_alphabetic) && !is_a_name(word)) =>
+            {
+                last.extend([" ", word]);
+            }
+            _ => values.push(word.to_owned()),
+        }
+    }
+    values
 }
 
 /// The entries and the file that keeps them.
@@ -167,5 +188,18 @@ impl Session {
     fn edit(&mut self, edit: &Edit) -> Result<(), Failure> {
         (self.entries, _) = edit_entries(&self.path, edit).map_err(failure)?;
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_and_its_unit_are_one_value() {
+        let is_a_name = |word: &str| ["drift", "rails"].contains(&word);
+        let typed = "9.1 725 mm ~ 5 mm drift 3 cm rails 1";
+        assert_eq!(values(typed, is_a_name), ["9.1", "725 mm ~ 5 mm", "drift", "3 cm", "rails", "1"]);
+        assert_eq!(values("- 5.3 drift 1.2~0.1", is_a_name), ["-", "5.3", "drift", "1.2~0.1"]);
     }
 }

@@ -82,6 +82,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let workspace = Workspace::open()?;
     let sessions = workspace.sessions();
     match (&args.name, args.games) {
+        (Some(name), _)
+            if let Some(game) = Rule::ALL.map(Subject::Game).into_iter().find(|game| game.name() == *name) =>
+        {
+            one(&game, &sessions, args.json)
+        }
         (Some(name), _) => {
             let mut subject = Subject::Exercise(name.clone());
             // An unknown name is an error; an exercise that was never tried is none.

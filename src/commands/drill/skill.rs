@@ -38,6 +38,9 @@ struct SkillAnswer {
     /// Points an inning at three-cushion.
     average: f64,
     average_interval: [f64; 2],
+    /// Which end of the interval alone is known: the player averages at least the lower one, or at most the upper one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bound: Option<&'static str>,
     /// Errors in multiples of those of the level 1, which are an expert's at the reference stroke.
     scale: f64,
     interval: [f64; 2],
@@ -45,6 +48,7 @@ struct SkillAnswer {
     made: usize,
     shots: usize,
     left_out: usize,
+    /// Whether this is the player of `--skill own`.
     kept: bool,
 }
 
@@ -56,14 +60,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let skill = skill.ok_or_else(|| Failure::failed(format_args!("average {}; {NO_SKILL}", estimate.words())))?;
         workspace.store.keep_skill(skill).map_err(Failure::failed)?;
     }
+    // By its words: the file has degrees, which come back as nearly the same radians. A file that cannot be read keeps nobody.
+    let own = workspace.store.own_skill().ok().flatten();
+    let kept = own.is_some_and(|own| skill.is_some_and(|skill| own.skill.to_string() == skill.to_string()));
     if args.json {
         let (interval, [least, average, most]) = ([low, high], estimate.averages());
         let average_interval = [least, most];
-        let kept = args.keep;
         return Ok(json_line(&SkillAnswer {
             skill,
             average,
             average_interval,
+            bound: estimate.bound(),
             scale,
             interval,
             attempts,
@@ -85,7 +92,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             plural(left_out, "attempt")
         ));
     }
-    if args.keep {
+    if kept {
         line("kept: --skill own is this player")?;
     }
     Ok(())

@@ -9,7 +9,7 @@ use super::{Workspace, workspace::note};
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, plural, tell},
+        output::{json_line, line, need_folder, plural, tell},
     },
     drills::{
         Store,
@@ -47,11 +47,7 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
         Some(file) => {
             let refuse = |error: io::Error| Failure::failed(format_args!("{}: {error}", file.display()));
             let target = target_of(file);
-            // A path with a mistake in it must not make folders that nobody looks into.
-            if let Some(folder) = target.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.exists()) {
-                let (file, folder) = (file.display(), folder.display());
-                return Err(Failure::failed(format_args!("{file}: there is no folder {folder}; make it first")));
-            }
+            need_folder(&target)?;
             let is_export = |text: String| text.is_empty() || Practice::parse(&text).is_ok();
             if target.exists() && !storage::read_text(&target, storage::PRACTICE).is_ok_and(is_export) {
                 let file = file.display();

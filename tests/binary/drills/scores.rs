@@ -153,6 +153,7 @@ fn enough_results_tell_a_skill_that_every_command_takes() {
     drill(folder.path(), &["log", "half-ball", "undo"]);
     drill(folder.path(), &["log", "mine", "--made", "12", "--of", "60"]);
     let answer = &drill(folder.path(), &["skill", "--keep", "--json"]).json()[0];
+    assert_eq!([&answer["kept"], &drill(folder.path(), &["skill", "--json"]).json()[0]["kept"]], [true, true]);
     let number = |value: &Value| value.as_f64().unwrap();
     let [low, high] = [&answer["interval"][0], &answer["interval"][1]].map(number);
     assert!(low < number(&answer["scale"]) && number(&answer["scale"]) < high && high < 16.0, "{answer}");
