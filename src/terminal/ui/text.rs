@@ -58,7 +58,7 @@ pub fn cut(mut lines: Vec<String>, rows: usize, width: usize, caps: Capabilities
 
 /// The words of `text` in one line of at most `room` columns, which says by its end if there are more.
 pub fn shorten(text: &str, room: usize, caps: Capabilities) -> String {
-    cut(wrap(text, room), 1, room, caps).swap_remove(0)
+    cut(wrap(&spell(text, caps), room), 1, room, caps).swap_remove(0)
 }
 
 /// The words of `text` in lines of at most `width` columns; a longer word begins a line and is broken. A character that is

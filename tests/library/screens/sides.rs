@@ -44,7 +44,7 @@ fn taking_the_other_ball_moves_and_repaints_none() {
 fn in_a_match_of_two_the_turn_passes_with_a_miss_and_the_score_is_each_sides_own() {
     let player = Player::practising(NO_COLOUR).press("o o o");
     player.says("match, 10 innings");
-    player.says("The stroke of white");
+    player.says("Stroke of white");
     // Away from everything, softly: a miss.
     let mut player = player;
     for _ in 0..23 {
@@ -53,6 +53,6 @@ fn in_a_match_of_two_the_turn_passes_with_a_miss_and_the_score_is_each_sides_own
     let missed = player.press("S-Left Space Enter");
     missed.says("white: 0 in 1 inning, best");
     let next = missed.press("Enter");
-    next.says("The stroke of yellow");
+    next.says("Stroke of yellow");
     assert_eq!(next.app.page().cue_ball().name(), "yellow");
 }

@@ -26,8 +26,7 @@ const FULL: f64 = 0.995;
 pub fn draw_stroke(turn: &Turn, unit: TipUnit, area: Rect, ui: &mut Ui) {
     let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
     // In a match one plays both sides.
-    let title =
-        if turn.session.is_match() { format!("The stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
+    let title = if turn.session.is_match() { format!("Stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
     let inner = draw_title(title, area, ui);
     let numbers = numbers(&cue, unit, turn.table.radius, ui.caps);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
