@@ -356,6 +356,27 @@ mod tests {
     }
 
     #[test]
+    fn a_table_that_keeps_a_bundled_name_and_is_another_is_called_after_its_file() {
+        let name = |path: &str, text: &str| Table::from_file(Path::new(path), text).unwrap().name;
+        assert_eq!(name("mine.toml", TEXTBOOK), "textbook");
+        let changed = TEXTBOOK.replace("mu_r = 0.010", "mu_r = 0.011");
+        assert_eq!(name("a/mine.toml", &changed), "mine");
+        assert_eq!(name("a/match.toml", &changed), "own match");
+        assert_eq!(name("a/b.toml", &changed.replace("\"textbook\"", "\"club\"")), "club");
+    }
+
+    #[test]
+    fn a_table_has_its_longer_side_first_and_is_no_field() {
+        let table = Table::preset("textbook").unwrap();
+        let refused = |length: f64, width: f64| {
+            let text = toml::to_string(&Table { length, width, ..table.clone() }).unwrap();
+            Table::from_toml(&text).unwrap_err().to_string()
+        };
+        assert!(refused(1.42, 2.84).contains("l = 2.84; accepted is at most L"), "{}", refused(1.42, 2.84));
+        assert!(refused(284.0, 142.0).contains("L = 284; accepted is above 0 and at most 10 m"));
+    }
+
+    #[test]
     fn the_toml_form_survives_a_round_trip() {
         let table = Table::preset("thesis").unwrap();
         let text = toml::to_string(&table).unwrap();

@@ -1,11 +1,11 @@
 //! The calibration through the real binary: files of entries, a session that is kept, and tables that are written.
 
-use std::{fs, path::Path};
+use std::{fs, io::Write, path::Path, process::Stdio};
 
 use assert_cmd::Command;
 use serde_json::Value;
 
-use crate::program::asked as carom;
+use crate::program::{asked as carom, command, tried};
 
 /// The program with a home of its own.
 fn at_home(home: &Path, args: &[&str]) -> Command {
@@ -87,6 +87,27 @@ fn odd_entries_are_named_and_nothing_is_overwritten() {
     assert!(refused(&["calibrate", "nowhere.toml"], 1).contains("nowhere.toml cannot be read"));
     assert!(refused(&["calibrate", "--daily", "entries.toml"], 2).contains("calibrated before"));
     assert!(refused(&["calibrate", "entries.toml", "--name", "a", "--simulate", "0"], 2).contains("simulate"));
+    assert!(refused(&["calibrate", "entries.toml", "--name", "match"], 2).contains("bundled"));
+    let mistyped = ["calibrate", "entries.toml", "--out", "tabels/new.toml"];
+    assert!(refused(&mistyped, 1).contains("there is no folder tabels"));
+    assert!(!home.path().join("tabels").exists());
+}
+
+#[test]
+fn a_reader_that_goes_away_takes_no_table_and_no_note_with_it() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("entries.toml"), ENTRIES).unwrap();
+    let unread = |args: &[&str]| {
+        let mut child = command(home.path(), args).stdin(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        // Who reads a file does not read this.
+        let _ = child.stdin.take().unwrap().write_all(b"make\nmiss\nmake\n");
+        assert!(child.wait().unwrap().success(), "{args:?}");
+    };
+    unread(&["calibrate", "entries.toml", "--out", "new.toml"]);
+    assert!(home.path().join("new.toml").exists());
+    unread(&["drill", "log", "half-ball"]);
+    assert_eq!(tried(home.path()), 3);
 }
 
 #[test]
@@ -126,6 +147,8 @@ fn the_tests_are_listed_for_people_and_programs_and_the_template_is_a_file_of_en
         output(&["calibrate", "--tests", "--json"]).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(tests.iter().map(|test| test["times"].as_u64().unwrap()).sum::<u64>(), 20);
     assert_eq!(tests[0]["marks"][0]["unit"], "seconds");
+    assert!(tests.iter().any(|test| test["rails"]["words"].is_string() && test["rails"]["usual"].is_null()));
+    assert!(tests.iter().any(|test| test["rails"].is_null()), "{tests:?}");
     fs::write(home.path().join("entries.toml"), output(&["calibrate", "--template"])).unwrap();
     let said = at_home(home.path(), &["calibrate", "entries.toml"]).output().unwrap();
     assert!(String::from_utf8_lossy(&said.stderr).contains("no mark that can be used"));
