@@ -12,8 +12,17 @@ use crate::{
 /// Time between two looks at the balls for how near they come, s: a fast ball runs 2 cm in it.
 const LOOK: f64 = 0.005;
 
-/// A cue ball slower than this has stopped, m/s.
-const STOPPED: f64 = 0.05;
+/// A cue ball that comes to rest within this of where it was nearest to a ball stopped short of it, m: distances are told to a
+/// centimetre.
+const STOPPED: f64 = 0.02;
+
+/// Speed of a ball that moves, m/s.
+const MOVING: f64 = 0.05;
+
+/// Cosine of the least angle to the line between two balls under which one goes past the other, and time to either side of the moment
+/// at which that holds, s.
+const PAST: f64 = 0.5;
+const AROUND: f64 = 0.002;
 
 /// How the cue ball missed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +35,8 @@ pub enum Passed {
     Over,
     /// It stopped before the ball.
     Short,
+    /// It did not come past the ball: it met something and turned away, or the ball ran off.
+    Off,
 }
 
 /// The nearest that the cue ball came to the ball that it missed.
@@ -127,6 +138,7 @@ impl Verdict {
                 Passed::Right => format!("passed {ball} by {gap} on the right"),
                 Passed::Over => format!("flew over {ball}"),
                 Passed::Short => format!("stopped {gap} short of {ball}"),
+                Passed::Off => format!("came within {gap} of {ball}"),
             }
         };
         let (first, second) = self.order();
@@ -173,42 +185,56 @@ fn cushion_words(count: u32) -> String {
     format!("{} {unit}", number_word(count))
 }
 
-/// The nearest that the cue ball comes to one of these balls once it has met so many cushions.
+/// The nearest that the cue ball comes to one of these balls once it has met so many cushions; balls that it only leaves behind are not
+/// missed.
 fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) -> Option<Miss> {
     let rails = recording.events().iter().filter(|event| matches!(event.kind, EventKind::BallRail(0, _)));
     let start = match cushions.checked_sub(1) {
         None => 0.0,
         Some(before) => rails.map(|event| event.time).nth(before as usize)?,
     };
-    let gap = |ball: usize, time: f64| {
+    let all = balls.iter().filter_map(|ball| miss_of(table, recording, start, *ball));
+    all.min_by(|one, other| one.gap.total_cmp(&other.gap))
+}
+
+/// The nearest that the cue ball comes to `ball` from `start` on, s; `None` where it only moves away.
+fn miss_of(table: &Table, recording: &Recording, start: f64, ball: usize) -> Option<Miss> {
+    let gap = |time: f64| {
         let places = recording.positions(time);
         let higher = recording.height(0, time) - recording.height(ball, time);
         places[0].distance(places[ball]).hypot(higher) - 2.0 * table.radius
     };
     let looks = ((recording.duration() - start) / LOOK).ceil() as usize;
     let times = (0..=looks).map(|look| (start + LOOK * look as f64).min(recording.duration()));
-    let all = times.flat_map(|time| balls.iter().map(move |ball| (*ball, time)));
-    let (ball, near) = all.min_by(|one, other| gap(one.0, one.1).total_cmp(&gap(other.0, other.1)))?;
+    let near = times.min_by(|one, other| gap(*one).total_cmp(&gap(*other)))?;
     // Between two looks the gap has one least value.
     let (mut from, mut to) = ((near - LOOK).max(start), (near + LOOK).min(recording.duration()));
     for _ in 0..30 {
         let third = (to - from) / 3.0;
-        if gap(ball, from + third) < gap(ball, to - third) { to -= third } else { from += third }
+        if gap(from + third) < gap(to - third) { to -= third } else { from += third }
     }
     let time = 0.5 * (from + to);
-    // A ball that the cue ball only leaves behind was not missed.
-    if time < LOOK && cushions == 0 {
-        return None;
-    }
+    (time - start >= LOOK).then(|| Miss { ball, gap: gap(time).max(0.0), passed: passed(table, recording, ball, time) })
+}
+
+/// How the cue ball missed the ball to which it is nearest at `time`, s.
+fn passed(table: &Table, recording: &Recording, ball: usize, time: f64) -> Passed {
     let [cue_ball, other] = [0, ball].map(|ball| recording.state(ball, time));
     let towards: DVec2 = other.position - cue_ball.position;
-    let passed = match cue_ball.velocity.perp_dot(towards) {
-        _ if towards.length() < 2.0 * table.radius && gap(ball, time) > 0.0 => Passed::Over,
-        _ if cue_ball.velocity.length() < STOPPED => Passed::Short,
+    let rest = recording.state(0, recording.duration()).position;
+    // Where one of the two is thrown off its way at that moment, they are nearest without going past each other.
+    let goes_past = [time - AROUND, time + AROUND].into_iter().all(|time| {
+        let [cue_ball, other] = [0, ball].map(|ball| recording.state(ball, time.clamp(0.0, recording.duration())));
+        let (towards, motion) = (other.position - cue_ball.position, cue_ball.velocity - other.velocity);
+        cue_ball.velocity.length() > MOVING && motion.dot(towards).abs() < PAST * motion.length() * towards.length()
+    });
+    match cue_ball.velocity.perp_dot(towards) {
+        _ if towards.length() < 2.0 * table.radius => Passed::Over,
+        _ if cue_ball.position.distance(rest) < STOPPED && other.velocity.length() < MOVING => Passed::Short,
+        _ if !goes_past => Passed::Off,
         side if side > 0.0 => Passed::Right,
         _ => Passed::Left,
-    };
-    Some(Miss { ball, gap: gap(ball, time).max(0.0), passed })
+    }
 }
 
 #[cfg(test)]
@@ -303,6 +329,37 @@ mod tests {
     fn a_ball_that_comes_to_rest_before_the_other_stopped_short() {
         let Verdict { miss, .. } = verdict("-1,0 1.2,0 1.2,0.5", "0,0,0,0,0.4", Rule::StraightRail);
         assert_eq!(miss.map(|miss| miss.passed), Some(Passed::Short));
+    }
+
+    #[test]
+    fn what_did_not_go_past_a_ball_did_not_pass_it() {
+        let said = |layout: &str, cue: &str| {
+            verdict(layout, cue, Rule::StraightRail).words(CueBall::White, LengthUnit::Metres)
+        };
+        // Yellow is met full and takes all speed along; red lies behind it.
+        let full = said("-0.1,0 0,0 0.2,0.12", "0,-0.1,0,0,0.3");
+        assert_eq!(full, "No point: stopped 17 cm short of red");
+        // Draw brings the cue ball back from where it is nearest to red.
+        let drawn = said("-0.15,0 0,0.02 0.2,0.12", "0,-0.4,0,0,1");
+        assert_eq!(drawn, "No point: came within 22 cm of red");
+        // The end of a short way is beside yellow, or beyond it.
+        let short = |place: &str| said(&format!("-1,0 {place},0.15 -1.3,-0.6"), "0,0,0,0,0.17");
+        assert_eq!(short("-0.595"), "No point: no ball was met, stopped 8.8 cm short of yellow");
+        assert_eq!(short("-0.8"), "No point: no ball was met, passed yellow by 8.9 cm on the right");
+        // A ball that is left behind was never missed, though the other is farther off.
+        let behind = said("-1,0 -1.1,0 1.3,0.6", "0,0,0,0,0.15");
+        assert!(
+            behind.starts_with("No point: no ball was met, stopped ") && behind.ends_with(" short of red"),
+            "{behind}"
+        );
+        assert_eq!(said("-1,0 -1.1,0 -1.1,0.1", "0,0,0,0,0.15"), "No point: no ball was met");
+    }
+
+    #[test]
+    fn a_ball_that_is_left_behind_at_the_last_cushion_is_not_passed() {
+        // Thin off red to the right cushion, beside which yellow lies farther up.
+        let Verdict { miss, .. } = verdict("0.6,0 1.389,0.15 0.9,0.052", "0,0,0,0,0.5", Rule::OneCushion);
+        assert_eq!(miss, None);
     }
 
     #[test]

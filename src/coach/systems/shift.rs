@@ -201,6 +201,10 @@ mod tests {
             "Parallel shift: aimed at diamond 3 of the top rail, the ball comes to 5.1 of the bottom rail; aimed at 3.4, as here, to \
              4.7; on your table to 4.6"
         );
+        let brief =
+            "diamond 3 of the top rail leads to 5.1 of the bottom rail; 3.4, as here, to 4.7; on your table to 4.6";
+        assert_eq!(shift.brief(), brief);
+        assert!(Shift { table_third: 4.7, ..shift }.brief().ends_with("as here, to 4.7"));
     }
 
     #[test]

@@ -89,6 +89,19 @@ impl Shift {
         )
     }
 
+    /// The same with what the table says to it, in fewer words: `diamond 3 of the top rail leads to 5.1 of the bottom rail; 3.4, as
+    /// here, to 4.7; on your table to 4.6`.
+    pub fn brief(&self) -> String {
+        let Self { rails: [first, last], diamond, arrival, .. } = self;
+        let (first, last) = (first.name(), last.name());
+        let more = self.correction().map_or_else(String::new, |correction| format!("; {correction}"));
+        format!(
+            "diamond {diamond:.0} of the {first} rail leads to {arrival:.1} of the {last} rail; {:.1}, as here, to {:.1}{more}",
+            self.aimed(),
+            self.told_third()
+        )
+    }
+
     /// What the table says to it: `on your table to 4.6`; `None` where it is the same.
     pub fn correction(&self) -> Option<String> {
         let is_other = tenth(self.told_third()) != tenth(self.table_third);

@@ -187,6 +187,19 @@ fn a_miss_says_what_was_missing_and_the_first_press_goes_to_the_end() {
 }
 
 #[test]
+fn the_result_of_a_free_stroke_is_seen_before_a_key_begins_another_session() {
+    for key in ["x", "o", "p", "m", "n"] {
+        let watched = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space").wait(0.1);
+        let refused = watched.press(key);
+        refused.says("the shot is on its way; Enter goes to its end").says("no attempt yet");
+        let ended = refused.press("Enter");
+        ended.says("No point: ").says("0 of 1 made");
+        assert_eq!((ended.kept(), ended.store().sessions().items.len()), (1, 1), "{key}");
+        ended.press(key).is_silent_on("No point: ");
+    }
+}
+
+#[test]
 fn makes_and_misses_at_a_real_table_are_noted_and_taken_back() {
     let player = Player::practising(TRUE_COLOUR).press("m m n m");
     player.says("Real table: free repetition").says("3 of 4 made").says("noted: made, 3 of 4 now");

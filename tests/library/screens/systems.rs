@@ -68,8 +68,7 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
 #[test]
 fn a_parallel_shift_is_drawn_before_the_systems_and_is_of_its_shot_alone() {
     let player = advised(Player::with(ASCII), "-0.6035,-0.355 0.165,0.42 0,0.3", "0,0.2,2,75,4").press("Esc y");
-    player.shows(&["- Parallel shift for this shot -", "Aimed at diamond 3 of the top rail"]);
-    player.shows(&["as here, to 4.3"]);
+    player.shows(&["- Parallel shift for this shot -", "Aimed at diamond 3 of the top rail", "as here, to 4.3"]);
     assert!(player.text(120, 40).contains("The dots are the line to the"));
     assert!(player.text(200, 60).contains("further along the third"));
     let next = player.press("y");
@@ -78,4 +77,17 @@ fn a_parallel_shift_is_drawn_before_the_systems_and_is_of_its_shot_alone() {
     shift.shows(&["Parallel shift for this shot"]);
     shift.app.paste("2d,0.5d 6d,2d 4d,3.5d");
     shift.is_silent_on("- Parallel shift");
+}
+
+#[test]
+fn a_parallel_shift_has_room_with_what_the_table_says_and_a_sentence_that_is_cut_says_so() {
+    let (balls, cue) = ("1.117,0.53 -0.405,-0.174 0.064,0.331", "-0.079,0.425,0.3,-156.5,2.82");
+    let player = advised(Player::with(ASCII), balls, cue).press("Esc y");
+    let [small, large] = [(80, 24), (120, 40)].map(|(width, height)| player.text(width, height));
+    for part in ["Diamond 2 of the left rail leads to", "2.4, as here,", "on your table to 3.7"] {
+        assert!(small.contains(part), "{part}\n{small}");
+    }
+    for part in ["Aimed at diamond 2 of the left rail,", "On your table to", "Aimed further along the first..."] {
+        assert!(large.contains(part), "{part}\n{large}");
+    }
 }

@@ -110,8 +110,10 @@ pub enum DrillCondition {
     Filtered,
     /// While the stroke is set.
     Aiming,
-    /// While no shot is played or watched that counts, and no exam is under way.
+    /// While no stroke is being played, and no exam is under way.
     Free,
+    /// The same, where another session may begin: in free repetition once the shot that is watched has come to its end.
+    Restart,
     /// The same, where the goal has a length.
     Counted,
     /// While a shot is watched.
@@ -249,12 +251,12 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Here, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
     bind(Stroke, W::Here, &[key(PageDown, A::TurnText(1)), key(PageUp, A::TurnText(-1))], None,
         "turn the pages of a text that is longer than its room"),
-    bind(Score, W::Free, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/miss", 2)),
+    bind(Score, W::Restart, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/miss", 2)),
         "note a point, a miss at a real table; nothing is played here"),
     bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
-    bind(Score, W::Free, &[letter('o', A::Goal)], Some(("goal", 1)),
+    bind(Score, W::Restart, &[letter('o', A::Goal)], Some(("goal", 1)),
         "free repetition, a run of points, a game that plays on from where the balls stop, or a match of two sides"),
-    bind(Position, W::Free, &[letter('x', A::Shift)], Some(("shift", 1)),
+    bind(Position, W::Restart, &[letter('x', A::Shift)], Some(("shift", 1)),
         "shift the balls by half a ball at each repetition, or not"),
     bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
         "a shorter or longer goal"),
@@ -265,7 +267,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::StrokeUndone, &[letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)], None,
         "make a change of the stroke again that was taken back"),
     bind(Position, W::Free, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
-    bind(Position, W::Free, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
+    bind(Position, W::Restart, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
     bind(Score, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
     bind(Program, W::Compared, &[key(Esc, A::LeaveWhatIf)], Some(("model shot off", 1)),
         "take the model shot off the table; your stroke stays as it is set"),

@@ -293,7 +293,7 @@ impl Turn {
     }
 
     /// Whether the last attempt of the session is still being watched: its result is not shown yet.
-    fn is_open(&self) -> bool {
+    pub(super) fn is_open(&self) -> bool {
         self.watched().is_some_and(|watched| !watched.is_settled)
     }
 

@@ -15,6 +15,8 @@ use crate::{
 /// Points of the first run that is asked for, and innings of the first game.
 const FIRST_RUN: u32 = 5;
 const FIRST_GAME: u32 = 10;
+/// Why a key does nothing before the result of a stroke was seen.
+const ON_ITS_WAY: &str = "the shot is on its way; Enter goes to its end";
 /// Longest run and game that can be asked for.
 const LONGEST: u32 = 100;
 
@@ -30,6 +32,7 @@ impl Turn {
                 | Condition::Running
                 | Condition::Ended
                 | Condition::Free
+                | Condition::Restart
                 | Condition::Counted
                 | Condition::Adopted,
             ) => Some("the stroke is being played"),
@@ -38,9 +41,13 @@ impl Turn {
             (_, Condition::Running | Condition::Ended) => match self.watched() {
                 None => Some("no shot is being watched"),
                 Some(watched) if watched.is_settled => refuse(when == Condition::Running, "the shot is at its end"),
-                Some(_) => refuse(when == Condition::Ended, "the shot is on its way; Enter goes to its end"),
+                Some(_) => refuse(when == Condition::Ended, ON_ITS_WAY),
             },
-            (_, Condition::Free | Condition::Counted) if self.is_exam() => Some("an exam is under way; Esc leaves it"),
+            (_, Condition::Free | Condition::Restart | Condition::Counted) if self.is_exam() => {
+                Some("an exam is under way; Esc leaves it")
+            }
+            // Another session would take the stroke off the table with its result; a run asks first and shows it then.
+            (_, Condition::Restart | Condition::Counted) if self.is_open() && !self.is_under_way() => Some(ON_ITS_WAY),
             (_, Condition::Counted) => {
                 refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
             }

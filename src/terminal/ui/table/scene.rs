@@ -82,6 +82,14 @@ impl Scene<'_> {
         self.sprite.reach(&self.mapping, self.view.caps.glyphs)
     }
 
+    /// Whether the picture of one of these balls, or a ring in place of one, reaches into the cell of a place.
+    pub fn has_picture(&self, place: DVec2, balls: &[DVec2]) -> bool {
+        let (column, row) = self.mapping.to_cell(place);
+        let Some(middle) = self.mapping.to_metres(column, row) else { return false };
+        let half = 0.5 / self.mapping.scale();
+        balls.iter().any(|ball| ball.clamp(middle - half, middle + half).distance(*ball) < self.reach())
+    }
+
     /// Where the picture of a ball in the air stands: above its shadow by its height, and by enough to be seen apart.
     pub fn lifted(&self, ball: usize) -> DVec2 {
         let rows = match self.view.caps.glyphs {

@@ -1,7 +1,7 @@
 //! Words on the cloth: whose way is whose, where a stroke of the player's own is drawn beside the coach's, and what there is to see at
 //! a place.
 
-use std::collections::HashSet;
+use std::{collections::HashSet, f64::consts::FRAC_PI_4};
 
 use glam::DVec2;
 use ratatui::style::{Color, Style};
@@ -13,6 +13,9 @@ use crate::terminal::{
 
 /// Distance of the two ways from which on the words stand there, m: two balls.
 const APART: f64 = 0.12;
+/// How far from the middle of a ball the mark of a place that it hides may stand, and the distance of two tries, m.
+const FARTHEST: f64 = 0.3;
+const STEP: f64 = 0.005;
 
 /// Writes the words, each where nothing else is.
 pub fn draw_words(scene: &Scene, ui: &mut Ui) {
@@ -46,9 +49,10 @@ fn name_ways(scene: &Scene, ui: &mut Ui) {
 /// Marks the place of the view's note, and writes that beside it.
 fn draw_note(scene: &Scene, ui: &mut Ui) {
     let Some((place, text)) = scene.view.note.filter(|(place, _)| scene.mapping.is_on_bed(*place)) else { return };
-    let (cell, color) = (scene.mapping.to_cell(place), ui.theme.mark);
+    let mark = beside_balls(scene, place);
+    let (cell, color) = (scene.mapping.to_cell(mark.unwrap_or(place)), ui.theme.mark);
     let pictures: Cells = pictures(scene).collect();
-    if scene.is_clear(place) {
+    if mark.is_some() {
         // The letters of ways are others.
         write(if ui.caps.glyphs == Glyphs::Letters { "*" } else { "\u{d7}" }, &[cell], color, ui);
     }
@@ -63,6 +67,22 @@ fn draw_note(scene: &Scene, ui: &mut Ui) {
     if let Some(cells) = found {
         write(text, &cells, color, ui);
     }
+}
+
+/// Where a place can be marked: there, or where a ball hides it, beside that ball on the same side of it, rather not on a ring. A ball
+/// that lies still where another comes to it hides their contact. `None` where other balls or the cushion leave no room.
+fn beside_balls(scene: &Scene, place: DVec2) -> Option<DVec2> {
+    if scene.is_clear(place) {
+        return Some(place);
+    }
+    let nearest = scene.balls.into_iter().min_by(|one, other| one.distance(place).total_cmp(&other.distance(place)))?;
+    let away = (place - nearest).normalize_or(DVec2::X);
+    let rays = [0.0, 1.0, -1.0, 2.0, -2.0].map(|turn| DVec2::from_angle(turn * FRAC_PI_4).rotate(away));
+    let along = |way: DVec2| (0..=(FARTHEST / STEP) as u32).map(move |step| nearest + f64::from(step) * STEP * way);
+    let places = rays.into_iter().flat_map(|way| along(way).take_while(|at| scene.mapping.is_on_bed(*at)));
+    let free: Vec<DVec2> = places.filter(|at| scene.is_clear(*at) && !scene.has_picture(*at, &scene.balls)).collect();
+    let rings: Vec<DVec2> = scene.ghosts().into_iter().map(|ghost| ghost.place).collect();
+    free.iter().find(|at| !scene.has_picture(**at, &rings)).or(free.first()).copied()
 }
 
 type Cells = HashSet<(u16, u16)>;
@@ -104,4 +124,69 @@ fn free(
 fn write(text: &str, cells: &[(u16, u16)], color: Color, ui: &mut Ui) {
     let style = Style::new().fg(color).bg(ui.theme.cloth).add_modifier(ui.theme.strong);
     ui.buffer.set_string(cells[0].0, cells[0].1, text, style);
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::{buffer::Buffer, layout::Rect};
+
+    use super::*;
+    use crate::{
+        table::{Layout, Table},
+        terminal::{
+            Capabilities, Depth, Mapping,
+            ui::{TableView, Theme, draw_table, drawn},
+        },
+    };
+
+    const BLOCKS: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+    const LETTERS: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+
+    /// The table with a note at a place, and without.
+    fn noted(layout: &Layout, place: DVec2, area: Rect, caps: Capabilities) -> [Buffer; 2] {
+        let table = Table::default();
+        [Some((place, "kiss 7 %")), None].map(|note| {
+            drawn(area, caps, |ui| draw_table(&TableView { note, ..TableView::new(&table, layout, ui) }, area, ui))
+        })
+    }
+
+    #[test]
+    fn the_place_where_a_ball_comes_to_one_that_lies_still_is_marked_beside_that_ball() {
+        let table = Table::default();
+        let layout = Layout::parse("-1,0.3 -0.9,-0.4 0.4,0.1", &table).unwrap();
+        let (red, color) = (layout.balls[2], Theme::new(Depth::True).balls[2]);
+        for (columns, rows) in [(64, 17), (112, 30), (176, 46)] {
+            let area = Rect::new(0, 0, columns, rows);
+            let mapping = Mapping::fit(&table, area);
+            for turn in 0..12 {
+                let way = DVec2::from_angle(f64::from(turn) * std::f64::consts::FRAC_PI_6);
+                let place = red + table.radius * way;
+                for (caps, sign) in [(BLOCKS, "\u{d7}"), (LETTERS, "*")] {
+                    let [with, without] = noted(&layout, place, area, caps);
+                    let marks: Vec<_> = area.positions().filter(|at| with[*at].symbol() == sign).collect();
+                    let [mark] = marks[..] else { panic!("{columns} {turn}: {marks:?}\n{with:?}") };
+                    let at = mapping.to_metres(mark.x, mark.y).unwrap();
+                    assert!((at - red).dot(way) > 0.0, "{columns} {turn}: on the side that the other comes from");
+                    assert!(at.distance(red) < 0.25, "{columns} {turn}: {at}");
+                    // The picture of the ball is whole.
+                    let is_of_ball = |buffer: &Buffer, at| {
+                        let cell = &buffer[at];
+                        if caps == LETTERS { cell.symbol() == "R" } else { [cell.fg, cell.bg].contains(&color) }
+                    };
+                    for at in area.positions().filter(|at| is_of_ball(&without, *at)) {
+                        assert_eq!(with[at], without[at], "{columns} {turn}: {at}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_place_that_no_ball_hides_is_marked_itself() {
+        let (table, area) = (Table::default(), Rect::new(0, 0, 112, 30));
+        let layout = Layout::parse("-1,0.3 -0.9,-0.4 0.4,0.1", &table).unwrap();
+        let place = DVec2::new(0.0, -0.2);
+        let [with, _] = noted(&layout, place, area, BLOCKS);
+        assert_eq!(with[Mapping::fit(&table, area).to_cell(place)].symbol(), "\u{d7}");
+    }
 }

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 use ratatui::{
-    layout::Rect,
+    layout::{Margin, Rect},
     style::Modifier,
-    text::{Line, Span},
+    text::Span,
 };
 
 use crate::{
@@ -16,7 +16,7 @@ use crate::{
     terminal::{
         Glyphs, Mapping,
         pages::coach::lesson::Lesson,
-        ui::{Spot, Theme, Ui, columns, draw_lines, draw_title, wrap},
+        ui::{Spot, Theme, Ui, columns, draw_title, wrap, write_paragraphs},
         words::fixed,
     },
 };
@@ -107,7 +107,8 @@ fn write_at(
     ui.buffer.set_string(x, y, text, style);
 }
 
-/// Draws the panel: the arithmetic, then what it is, as far as there is room.
+/// Draws the panel: the arithmetic, in fewer words where there is no room for all of them, then what it is. A sentence that has no room
+/// says so by its end.
 pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
     let mut title = match &lesson.guide {
         Guide::System(applied) => vec![
@@ -119,17 +120,32 @@ pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
     };
     title.push(Span::styled(if lesson.is_of_shot { " for this shot" } else { " example" }, ui.theme.faint()));
     let inner = draw_title(title, area, ui);
-    let width = usize::from(inner.width.saturating_sub(2));
-    let lines =
-        sentences(&lesson.guide).into_iter().filter(|(words, _)| !words.is_empty()).flat_map(|(words, is_main)| {
-            let style = if is_main { ui.theme.text() } else { ui.theme.faint() };
-            wrap(&words, width).into_iter().map(move |words| Line::styled(format!(" {words}"), style))
-        });
-    draw_lines(lines.collect::<Vec<_>>(), inner, ui);
+    let inner = inner.inner(Margin::new(1, 0));
+    let rows = |sentences: &[(String, bool)]| -> usize {
+        let main = sentences.iter().filter(|(_, is_main)| *is_main);
+        main.map(|(words, _)| wrap(words, usize::from(inner.width)).len()).sum()
+    };
+    let mut sentences = sentences(&lesson.guide);
+    if let Guide::Shift(shift) = &lesson.guide
+        && rows(&sentences) > usize::from(inner.height)
+    {
+        sentences.retain(|(_, is_main)| !is_main);
+        sentences.insert(0, (capital(&shift.brief()), true));
+    }
+    let style = |is_main| if is_main { ui.theme.text() } else { ui.theme.faint() };
+    let paragraphs: Vec<_> = sentences.into_iter().map(|(words, is_main)| (words, style(is_main))).collect();
+    write_paragraphs(&paragraphs, inner, ui);
 }
 
 /// The sentences of the panel, and whether each is part of the arithmetic.
 fn sentences(guide: &Guide) -> Vec<(String, bool)> {
+    let mut all = all_sentences(guide);
+    all.retain(|(words, _)| !words.is_empty());
+    all
+}
+
+/// The same with empty ones where there is nothing to say.
+fn all_sentences(guide: &Guide) -> Vec<(String, bool)> {
     let applied = match guide {
         Guide::System(applied) => applied,
         Guide::Shift(shift) => {

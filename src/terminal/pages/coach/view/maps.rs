@@ -8,6 +8,7 @@ use ratatui::{
 
 use crate::{
     coach::{Map, Outcome, Skill, told_in, words::LengthUnit},
+    game::Rule,
     physics::CueInputs,
     table::Table,
     terminal::{
@@ -127,8 +128,8 @@ pub fn draw_aim_map(map: &Map, skill: Skill, unit: LengthUnit, area: Rect, ui: &
     });
 }
 
-/// Draws what the colours or letters mean.
-pub fn draw_legend(area: Rect, ui: &mut Ui) {
+/// Draws what the colours or letters of these maps mean by `rule`.
+pub fn draw_legend(maps: [&Map; 2], rule: Rule, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The maps", area, ui);
     let letters = ui.caps.glyphs == Glyphs::Letters;
     let mut lines = vec![Line::default()];
@@ -141,11 +142,12 @@ pub fn draw_legend(area: Rect, ui: &mut Ui) {
             line.spans.extend(spans);
         }
     };
-    for (n, (_, letter, words)) in OUTCOMES.into_iter().enumerate().rev() {
+    for (n, (outcome, letter, words)) in OUTCOMES.into_iter().enumerate().rev() {
         // Nothing is drawn with a blank.
         if letters && letter == ' ' {
             continue;
         }
+        let Some(words) = words_by(rule, outcome, words, maps) else { continue };
         let (sign, color) = match ui.theme.outcomes[n] {
             color if letters => (letter, color),
             ground if ground == ui.theme.background => ('□', ui.theme.rule),
@@ -162,6 +164,16 @@ pub fn draw_legend(area: Rect, ui: &mut Ui) {
         add([Span::styled(" ○", ui.theme.text()), Span::styled(" twice your errors", ui.theme.faint())]);
     }
     draw_lines(lines, inner, ui);
+}
+
+/// The words of an outcome in the legend of these maps; `None` where `rule` knows no such outcome. Where no cushion is needed, a
+/// shot that meets both balls makes the point unless a ball leaves the table, which few maps show.
+fn words_by(rule: Rule, outcome: Outcome, words: &'static str, maps: [&Map; 2]) -> Option<&'static str> {
+    if outcome != Outcome::TooFewCushions || rule.cushions() > 0 {
+        return Some(words);
+    }
+    let is_seen = maps.iter().any(|map| map.outcomes.iter().flatten().any(|one| *one == outcome));
+    is_seen.then_some("foul")
 }
 
 /// The outcome at a place of the map: `x` and `y` from -1 to 1, to its ends.
@@ -196,21 +208,35 @@ mod tests {
     use super::*;
     use crate::coach::Input;
 
-    #[test]
-    fn the_corners_of_a_map_are_its_ends() {
-        use Outcome::{NoBall, NoStroke, OneBall, Point, TooFewCushions};
+    /// A map of points with these outcomes in its corners, the lower ones first.
+    fn cornered([[one, two], [three, four]]: [[Outcome; 2]; 2]) -> Map {
         let row = |one, other| vec![one, Outcome::Point, other];
-        let map = Map {
+        Map {
             across: Input::Side,
             up: Input::Height,
             columns: vec![-1.0, 0.0, 1.0],
             rows: vec![-1.0, 0.0, 1.0],
-            outcomes: vec![
-                row(Outcome::NoStroke, Outcome::NoBall),
-                row(Outcome::Point, Outcome::Point),
-                row(Outcome::OneBall, Outcome::TooFewCushions),
-            ],
-        };
+            outcomes: vec![row(one, two), row(Outcome::Point, Outcome::Point), row(three, four)],
+        }
+    }
+
+    #[test]
+    fn the_legend_has_no_outcome_that_the_rule_does_not_know() {
+        use Outcome::{NoBall, OneBall, TooFewCushions};
+        let [plain, foul] = [OneBall, TooFewCushions].map(|last| cornered([[NoBall, OneBall], [NoBall, last]]));
+        let said = |rule, maps| words_by(rule, TooFewCushions, "too few cushions", maps);
+        assert_eq!(said(Rule::StraightRail, [&plain, &plain]), None);
+        assert_eq!(said(Rule::StraightRail, [&plain, &foul]), Some("foul"));
+        for rule in [Rule::OneCushion, Rule::ThreeCushion] {
+            assert_eq!(said(rule, [&plain, &plain]), Some("too few cushions"));
+        }
+        assert_eq!(words_by(Rule::StraightRail, OneBall, "one ball", [&plain, &plain]), Some("one ball"));
+    }
+
+    #[test]
+    fn the_corners_of_a_map_are_its_ends() {
+        use Outcome::{NoBall, NoStroke, OneBall, Point, TooFewCushions};
+        let map = cornered([[NoStroke, NoBall], [OneBall, TooFewCushions]]);
         let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (0.1, -0.2)].map(|(x, y)| at(&map, x, y));
         assert_eq!(corners, [NoStroke, NoBall, OneBall, TooFewCushions, Point]);
     }

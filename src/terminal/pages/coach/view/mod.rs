@@ -152,12 +152,13 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
             None => draw_info(coach, view, !has_told_why && !is_explained, area, ui),
         }
     }
-    let study = coach.shown().and_then(|advised| advised.choice().study.as_ref());
-    if let (View::Margins, Some(study), Some(shot)) = (chosen, study, shot) {
+    if let (View::Margins, Some(advised), Some(shot)) = (chosen, coach.shown(), shot)
+        && let Some(study) = &advised.choice().study
+    {
         let unit = coach.units.length;
         draw_aim_map(&study.aim, study.hand, unit, panes.shot, ui);
         draw_tip_map(&study.tip, &shot.cue, table, unit, panes.tip.union(panes.sight), ui);
-        return draw_legend(panes.events, ui);
+        return draw_legend([&study.aim, &study.tip], advised.query.rule, panes.events, ui);
     }
     match coach.proposal() {
         Some(_) if told.is_some() && is_wide => {}
