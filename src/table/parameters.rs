@@ -168,9 +168,17 @@ impl Table {
     /// name alone tells players, and what is kept, which table it is.
     ///
     /// # Errors
-    /// As [`Table::from_toml`].
+    /// As [`Table::from_toml`], and [`TableError::Value`] for sides that are exchanged or were measured in centimetres.
     pub fn from_file(path: &Path, text: &str) -> Result<Self, TableError> {
         let table = Self::from_toml(text)?;
+        let flaw = if table.length > LONGEST {
+            Some(("L", table.length, "at most 10 m"))
+        } else {
+            (table.width > table.length).then_some(("l", table.width, "at most L, the longer side"))
+        };
+        if let Some((key, value, accepted)) = flaw {
+            return Err(TableError::Value { table: table.name, key, value, accepted });
+        }
         if !Self::preset(&table.name).is_ok_and(|bundled| bundled != table) {
             return Ok(table);
         }
@@ -204,8 +212,8 @@ impl Table {
             ("m", self.ball_mass, positive, "a positive number of kilograms"),
             ("M", self.cue_mass, positive, "a positive number of kilograms"),
             ("g", self.gravity, positive, "a positive number of m/s²"),
-            ("L", self.length, |x| x > 0.0 && x <= LONGEST, "above 0 and at most 10 m"),
-            ("l", self.width, |x| x > 0.0 && x <= LONGEST, "above 0 and at most 10 m"),
+            ("L", self.length, positive, "a positive number of metres"),
+            ("l", self.width, positive, "a positive number of metres"),
             ("mu_s", self.sliding_friction, cloth, "0.0001 to 1000"),
             ("mu_r", self.rolling_friction, cloth, "0.0001 to 1000"),
             ("mu_sp", self.spinning_friction, friction, "0 to 1000"),
@@ -229,9 +237,6 @@ impl Table {
             if side < 6.0 * self.radius {
                 return refuse(key, side, "at least six ball radii");
             }
-        }
-        if self.width > self.length {
-            return refuse("l", self.width, "at most L, the longer side");
         }
         if !(self.opening_offset >= 2.0 * self.radius && self.opening_offset <= self.half_width()) {
             return refuse("d", self.opening_offset, "from two ball radii to l/2 - R");
@@ -370,10 +375,10 @@ mod tests {
         let table = Table::preset("textbook").unwrap();
         let refused = |length: f64, width: f64| {
             let text = toml::to_string(&Table { length, width, ..table.clone() }).unwrap();
-            Table::from_toml(&text).unwrap_err().to_string()
+            Table::from_file(Path::new("own.toml"), &text).unwrap_err().to_string()
         };
         assert!(refused(1.42, 2.84).contains("l = 2.84; accepted is at most L"), "{}", refused(1.42, 2.84));
-        assert!(refused(284.0, 142.0).contains("L = 284; accepted is above 0 and at most 10 m"));
+        assert!(refused(284.0, 142.0).contains("L = 284; accepted is at most 10 m"));
     }
 
     #[test]

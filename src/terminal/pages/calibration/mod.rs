@@ -152,9 +152,6 @@ impl CalibrationPage {
             draft.is_daily == self.is_daily && draft.test == form.test.name && draft.amends == form.amends
         };
         let left = self.aside.take_if(is_same).and_then(Form::from_draft);
-        if left.is_some() {
-            self.message = Some(Message::plain("as you left it; Ctrl-U empties a mark"));
-        }
         self.side = Side::Test;
         self.input = Some(Input::Marks(left.unwrap_or(form)));
     }
