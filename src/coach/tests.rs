@@ -21,7 +21,7 @@ use super::{
     *,
 };
 use crate::{
-    game::{Rule, scores, touching_ball_in_the_way},
+    game::{Rule, pushes_touching_ball, scores},
     learning::evaluation::held_out_layouts,
     physics::{CueInputs, collides, has_room},
     table::{Layout, LayoutError, Opening, Room, Side, Table},
@@ -341,8 +341,8 @@ fn a_ball_that_touches_the_cue_ball_is_not_played_at() {
         for skill in [Skill::PERFECT, Skill::CLUB] {
             let request = Request { skill, ..request(Rule::StraightRail, 20_000) };
             let advice = coach.recommend(&layout, &request).unwrap();
-            let all = advice.alternatives.iter().map(|shot| shot.cue).chain([advice.cue]);
-            assert!(advice.solved && all.clone().all(|cue| touching_ball_in_the_way(table, &layout, &cue).is_none()));
+            let mut all = advice.alternatives.iter().map(|shot| shot.cue).chain([advice.cue]);
+            assert!(advice.solved && all.all(|cue| !pushes_touching_ball(table, &layout, &cue)));
         }
     }
 }

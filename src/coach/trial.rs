@@ -14,7 +14,7 @@ use super::{
     elevated::{is_jump_or_masse, makes_jump_or_masse},
 };
 use crate::{
-    game::{Point, Referee, Rule, Tally, touching_ball_in_the_way},
+    game::{Point, Referee, Rule, Tally, pushes_touching_ball},
     physics::{CueInputs, strike},
     player::aimed,
     simulation::{All, Event, EventKind, Observer, watch_with},
@@ -80,8 +80,10 @@ impl Task<'_> {
     /// The stroke as a player can play it here: see [`playable`]. `None` too where the rules forbid it, for it pushes a ball that touches
     /// the cue ball.
     pub fn playable(&self, cue: &CueInputs) -> Option<CueInputs> {
-        let is_foul = touching_ball_in_the_way(self.table, self.layout, cue).is_some();
-        playable(self.table, self.layout, cue).filter(|_| !is_foul)
+        if pushes_touching_ball(self.table, self.layout, cue) {
+            return None;
+        }
+        playable(self.table, self.layout, cue)
     }
 
     /// Whether strokes are looked for with the cue raised for a jump or a massé: on a table that keeps its balls on the cloth

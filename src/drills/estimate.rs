@@ -42,8 +42,6 @@ const STROKES: usize = 1000;
 /// chi-squared distribution with one degree of freedom.
 const DEPTH: f64 = 1.920_729;
 
-const AT_LEAST: &str = "at least";
-
 /// What the results say of a player.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -76,16 +74,17 @@ impl Estimate {
     pub fn words(&self) -> String {
         let [least, average, most] = self.averages();
         match self.bound() {
-            Some(bound) => format!("{bound} {:.2}", if bound == AT_LEAST { least } else { most }),
+            Some((bound, end)) => format!("{bound} {end:.2}"),
             None => format!("{average:.2} ({least:.2} to {most:.2})"),
         }
     }
 
-    /// "at least" or "at most", where only that end of the interval is known.
-    pub fn bound(&self) -> Option<&'static str> {
+    /// "at least" or "at most" with that end of the average's interval, where it alone is known.
+    pub fn bound(&self) -> Option<(&'static str, f64)> {
+        let [least, _, most] = self.averages();
         match openings(self.low, self.high) {
-            [true, _] => Some(AT_LEAST),
-            [_, true] => Some("at most"),
+            [true, _] => Some(("at least", least)),
+            [_, true] => Some(("at most", most)),
             _ => None,
         }
     }

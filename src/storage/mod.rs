@@ -19,5 +19,5 @@ pub use name::{LONGEST_NAME, is_letter, is_name};
 pub use notices::notice;
 pub use places::{Places, is_called};
 pub use player::{Player, PlayerNameError};
-pub use reading::{LARGE, PRACTICE, SMALL, open, put_aside, read, read_text};
+pub use reading::{LARGE, PRACTICE, SMALL, open, put_aside, read, read_if_there, read_text};
 pub use room::{Room, room_in};

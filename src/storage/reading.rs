@@ -45,6 +45,17 @@ pub fn read_text(path: &Path, largest: u64) -> io::Result<String> {
     String::from_utf8(read(path, largest)?).map_err(no_text)
 }
 
+/// As [`read`]; `None` where there is no such file.
+///
+/// # Errors
+/// As [`read`], but for that.
+pub fn read_if_there(path: &Path, largest: u64) -> io::Result<Option<Vec<u8>>> {
+    match read(path, largest) {
+        Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => Ok(None),
+        bytes => bytes.map(Some),
+    }
+}
+
 /// Moves a file that cannot be read out of the way of one that is to be written in its place; gives what came of that, as the end of a
 /// sentence about the file.
 pub fn put_aside(path: &Path) -> String {

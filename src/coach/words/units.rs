@@ -63,8 +63,9 @@ impl PlaceUnit {
     /// The same to a hundredth of a diamond or a millimetre, with the unit's name.
     pub fn exact(self, diamonds: f64, diamond: f64) -> String {
         match self {
-            Self::Diamonds => format!("{diamonds:.2} diamonds"),
-            Self::Mm => format!("{:.0} mm", 1e3 * diamond * diamonds),
+            // Rounding leaves no minus before a nought.
+            Self::Diamonds => format!("{:.2} diamonds", (1e2 * diamonds).round() / 1e2 + 0.0),
+            Self::Mm => format!("{:.0} mm", (1e3 * diamond * diamonds).round() + 0.0),
         }
     }
 }

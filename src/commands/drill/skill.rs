@@ -70,7 +70,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             skill,
             average,
             average_interval,
-            bound: estimate.bound(),
+            bound: estimate.bound().map(|(bound, _)| bound),
             scale,
             interval,
             attempts,

@@ -32,15 +32,12 @@ impl StrokeDraft {
     /// # Errors
     /// A sentence about a file that cannot be read, which is put aside.
     pub fn read_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
-        let read = match storage::read(path, storage::SMALL) {
-            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
-                return Ok(None);
-            }
-            read => read.map_err(|error| error.to_string()),
-        };
-        let draft =
-            read.and_then(|bytes| serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {error}")));
-        draft.map(Some).map_err(|error| {
+        let read = storage::read_if_there(path, storage::SMALL).map_err(|error| error.to_string());
+        let draft = read.and_then(|bytes| {
+            let draft = bytes.map(|bytes| serde_json::from_slice(&bytes)).transpose();
+            draft.map_err(|error| format!("it is damaged: {error}"))
+        });
+        draft.map_err(|error| {
             let kept = storage::put_aside(path);
             format!("{}: {error}; the stroke that was typed in part cannot be gone on with, and {kept}", path.display())
         })

@@ -86,13 +86,8 @@ impl<'a> SavedSession<'a> {
     /// # Errors
     /// Why it cannot be gone on from: it cannot be read, is damaged, or is from a newer version.
     pub fn load(path: &Path) -> Result<Option<Self>, String> {
-        let bytes = match storage::read(path, storage::PRACTICE) {
-            Ok(bytes) => bytes,
-            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
-                return Ok(None);
-            }
-            Err(error) => return Err(error.to_string()),
-        };
+        let bytes = storage::read_if_there(path, storage::PRACTICE).map_err(|error| error.to_string())?;
+        let Some(bytes) = bytes else { return Ok(None) };
         let header: Header = serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {error}"))?;
         if header.version != VERSION {
             return Err(format!("it is of version {}, and {VERSION} is understood", header.version));

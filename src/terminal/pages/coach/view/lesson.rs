@@ -126,6 +126,7 @@ pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
         main.map(|(words, _)| wrap(words, usize::from(inner.width)).len()).sum()
     };
     let mut sentences = sentences(&lesson.guide);
+    sentences.retain(|(words, _)| !words.is_empty());
     if let Guide::Shift(shift) = &lesson.guide
         && rows(&sentences) > usize::from(inner.height)
     {
@@ -137,15 +138,8 @@ pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
     write_paragraphs(&paragraphs, inner, ui);
 }
 
-/// The sentences of the panel, and whether each is part of the arithmetic.
+/// The sentences of the panel, and whether each is part of the arithmetic; empty ones where there is nothing to say.
 fn sentences(guide: &Guide) -> Vec<(String, bool)> {
-    let mut all = all_sentences(guide);
-    all.retain(|(words, _)| !words.is_empty());
-    all
-}
-
-/// The same with empty ones where there is nothing to say.
-fn all_sentences(guide: &Guide) -> Vec<(String, bool)> {
     let applied = match guide {
         Guide::System(applied) => applied,
         Guide::Shift(shift) => {
