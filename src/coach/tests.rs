@@ -191,11 +191,11 @@ fn a_shot_that_is_found_at_the_last_moment_is_judged_and_nothing_is_told_that_no
         let request = Request { skill: Skill::EXPERT, plan: true, budget: Duration::ZERO, seed, ..Request::default() };
         coach.recommend(&layout, &request).unwrap()
     };
-    let advice: Vec<_> = (0..5).map(advice).collect();
-    assert!(advice.iter().all(|advice| advice.solved && advice.next_probability.is_none()));
+    let first: Vec<_> = (0..5).map(advice).collect();
+    assert!(first.iter().all(|advice| advice.solved && advice.next_probability.is_none()));
     // A machine that does other things too may hold the threads up for these few milliseconds, but not every time.
-    let judged = advice.iter().filter_map(|advice| advice.make_probability).count();
-    assert!(judged > 0, "{advice:?}");
+    let is_judged = |advice: &Recommendation| advice.make_probability.is_some();
+    assert!(first.iter().any(is_judged) || (5..200).any(|seed| is_judged(&advice(seed))), "{first:?}");
 }
 
 #[test]
