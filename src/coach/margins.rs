@@ -9,7 +9,7 @@ use super::{
     words::LengthUnit,
 };
 use crate::{
-    game::{Point, Referee, Rule, Tally},
+    game::{Point, Referee, Rule, Tally, Touching},
     physics::{CueInputs, has_room, strike},
     platform::{self, parallel},
     player::aimed,
@@ -54,7 +54,8 @@ pub const fn told_in(input: Input, unit: LengthUnit) -> (f64, &'static str) {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
-    /// No stroke: the tip slips off, the cue has no room, is below the cloth or stands still.
+    /// No stroke: the tip slips off, the cue has no room, is below the cloth or stands still, or it pushes a ball that touches the cue
+    /// ball.
     NoStroke,
     /// No object ball is met.
     NoBall,
@@ -154,10 +155,11 @@ impl<'a> Sensitivity<'a> {
     fn outcomes(&self, cue: &CueInputs) -> impl Iterator<Item = Outcome> {
         let Self { point, table, layout, worlds } = self;
         let is_stroke = is_stroke(table, layout, cue);
+        let touching = Touching::of(table, layout);
         let known = worlds.is_empty().then_some((*cue, *table, *layout));
         let drawn = worlds.iter().map(|world| (aimed(table, layout, &world.layout, cue), &world.table, &world.layout));
         let come_of = move |(cue, table, layout): (CueInputs, &Table, &Layout)| {
-            if is_stroke { outcome(*point, table, layout, &cue) } else { Outcome::NoStroke }
+            if is_stroke { outcome(*point, touching, table, layout, &cue) } else { Outcome::NoStroke }
         };
         known.into_iter().chain(drawn).map(come_of)
     }
@@ -245,9 +247,13 @@ fn nearest_miss(input: Input, makes: impl Fn(f64) -> bool, is_possible: impl Fn(
 }
 
 /// What comes of a stroke that is one. A shot whose resting contacts take more than 200 steps counts as decided by then.
-fn outcome(point: Point, table: &Table, layout: &Layout, cue: &CueInputs) -> Outcome {
+fn outcome(point: Point, touching: Touching, table: &Table, layout: &Layout, cue: &CueInputs) -> Outcome {
+    let impulse = strike(table, cue);
+    if touching.pushed(layout, &impulse).is_some() {
+        return Outcome::NoStroke;
+    }
     let mut referee = Referee::new(Some(2), CONTACT_STEPS);
-    watch_with::<All, _>(table, layout, &strike(table, cue), &mut referee);
+    watch_with::<All, _>(table, layout, &impulse, &mut referee);
     let Tally { met: [one, other], .. } = referee.tally;
     match (one, other) {
         (false, false) => Outcome::NoBall,
@@ -303,6 +309,20 @@ mod tests {
             }
             assert!(margins[3].less.is_some() && margins[3].more.is_some() && ends >= 4, "{doubt}: {margins:?}");
             assert!(Sensitivity::new(Rule::ThreeCushion, &table, &layout, doubt).margins(&cue).is_none());
+        }
+    }
+
+    #[test]
+    fn a_stroke_at_a_touching_ball_has_no_margins_and_one_that_turns_to_it_has_come_to_their_end() {
+        let (table, ..) = shot();
+        let layout = Layout::parse(&format!("0,0 {},0 -0.4,0.02", 2.0 * table.radius), &table).unwrap();
+        let stroke = |degrees: f64| CueInputs { a: 0.0, b: 0.0, theta: 0.1, phi: degrees.to_radians(), speed: 3.0 };
+        for doubt in [Doubt::NONE, Doubt::FULL] {
+            let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, doubt);
+            assert_eq!(sensitivity.margins(&stroke(0.0)), None, "{doubt}");
+            let outcomes = |degrees| sensitivity.outcomes(&stroke(degrees)).collect::<Vec<_>>();
+            assert!(outcomes(80.0).iter().all(|outcome| *outcome == Outcome::NoStroke), "{doubt}");
+            assert!(outcomes(100.0).iter().all(|outcome| *outcome != Outcome::NoStroke), "{doubt}");
         }
     }
 

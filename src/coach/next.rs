@@ -74,8 +74,10 @@ pub fn end_of(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> {
     if stroke.is_miscue(table) {
         return None;
     }
-    let mut whole = Whole { tally: Tally::default(), patience: StepBudget(task.patience), task, given_up: false };
-    let end = simulate(table, layout, &strike(table, &stroke), &mut whole);
+    let impulse = strike(table, &stroke);
+    let tally = task.tally(layout, &impulse);
+    let mut whole = Whole { tally, patience: StepBudget(task.patience), task, given_up: false };
+    let end = simulate(table, layout, &impulse, &mut whole);
     (task.point().is_made(&whole.tally) && !whole.given_up).then(|| end.layout(table))
 }
 

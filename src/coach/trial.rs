@@ -14,8 +14,8 @@ use super::{
     elevated::{is_jump_or_masse, makes_jump_or_masse},
 };
 use crate::{
-    game::{Point, Referee, Rule, Tally, pushes_touching_ball},
-    physics::{CueInputs, strike},
+    game::{Point, Referee, Rule, Tally, Touching, pushes_touching_ball},
+    physics::{CueInputs, Impulse, strike},
     player::aimed,
     simulation::{All, Event, EventKind, Observer, watch_with},
     table::{Layout, Table},
@@ -113,11 +113,19 @@ impl Task<'_> {
     }
 
     fn play_on(&self, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Course> {
-        let mut hurried =
-            Hurried { referee: Referee::new(Some(2), self.patience), first: None, late: false, task: self };
-        watch_with::<All, _>(table, layout, &strike(table, cue), &mut hurried);
+        let impulse = strike(table, cue);
+        let referee = Referee::new(Some(2), self.patience).beginning(self.tally(layout, &impulse));
+        let mut hurried = Hurried { referee, first: None, late: false, task: self };
+        watch_with::<All, _>(table, layout, &impulse, &mut hurried);
         let Hurried { referee, first, late, .. } = hurried;
         (!late).then_some(Course { tally: referee.tally, first })
+    }
+
+    /// What a stroke begins with where the balls really lie as in `layout`: those that touch by the task's own layout do so for whoever
+    /// looks at them.
+    #[inline]
+    pub fn tally(&self, layout: &Layout, impulse: &Impulse) -> Tally {
+        Tally { pushed: Touching::of(self.table, self.layout).pushed(layout, impulse), ..Tally::default() }
     }
 
     /// The stroke that comes of an attempt at `cue`, with the table and the layout on which it is played.

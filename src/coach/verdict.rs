@@ -66,7 +66,7 @@ pub struct Verdict {
 impl Verdict {
     /// Of a recorded shot.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, recording: &Recording) -> Self {
-        let mut tally = Tally::default();
+        let mut tally = Tally::from_stroke(table, layout, recording.impulse());
         recording.events().iter().for_each(|event| tally.note(event));
         let miss = match tally.met {
             [true, true] => None,
@@ -84,8 +84,8 @@ impl Verdict {
 
     /// In words, for who plays with `cue_ball`: "Point: red, three cushions, yellow", or what was missing.
     pub fn words(&self, cue_ball: CueBall, unit: LengthUnit) -> String {
-        if self.tally.left_table {
-            return format!("Foul: {}", self.foul(cue_ball));
+        if let Some(foul) = self.foul(cue_ball) {
+            return format!("Foul: {foul}");
         }
         match self.missing(cue_ball, unit) {
             Some(missing) => format!("No point: {missing}"),
@@ -98,14 +98,22 @@ impl Verdict {
         self.off.into_iter().enumerate().filter_map(|(ball, off)| Some((ball, off?)))
     }
 
-    /// Which balls left the table, over which rail, and where they come on it again.
-    fn foul(&self, cue_ball: CueBall) -> String {
+    /// What the foul was, for who plays with `cue_ball`: the touching ball that was pushed; which balls left the table, over which rail,
+    /// and where they come on it again. `None` where there was none.
+    pub fn foul(&self, cue_ball: CueBall) -> Option<String> {
+        let pushed = self.tally.pushed.map(|ball| {
+            let name = cue_ball.names()[ball];
+            format!("the stroke pushes {name}, which touches the cue ball")
+        });
         let one = |(ball, off): (usize, OffTable)| {
             let (name, rail, spot) = (cue_ball.names()[ball], off.over.name(), spot_words(off.spot));
             format!("{name} left the table over the {rail} rail and comes on the {spot}")
         };
-        let all: Vec<String> = self.off_table().map(one).collect();
-        if all.is_empty() { "a ball left the table".to_owned() } else { all.join("; ") }
+        let mut all: Vec<String> = pushed.into_iter().chain(self.off_table().map(one)).collect();
+        if all.is_empty() && self.tally.left_table {
+            all.push("a ball left the table".to_owned());
+        }
+        (!all.is_empty()).then(|| all.join("; "))
     }
 
     /// Balls and cushions up to the second ball.
@@ -318,6 +326,22 @@ mod tests {
         // The middle is taken: the ball comes on the spot of the ball that is in the way.
         let taken = flown("0.9,0 0,0 0.1,-0.3", "0,0,30,0,9", CueBall::White);
         assert_eq!(taken, "Foul: white left the table over the right rail and comes on the near spot");
+    }
+
+    #[test]
+    fn a_touching_ball_that_is_pushed_is_a_foul_whatever_else_the_shot_does() {
+        // Yellow touches the cue ball on one side, red lies on the other, where draw brings the cue ball.
+        let touching = format!("0,0 {},0 -0.3,0.02", 2.0 * Table::default().radius);
+        let said = |cue: &str, cue_ball| {
+            let verdict = verdict(&touching, cue, Rule::StraightRail);
+            (verdict.is_made(), verdict.words(cue_ball, LengthUnit::Metres))
+        };
+        let foul = |ball| format!("Foul: the stroke pushes {ball}, which touches the cue ball");
+        assert_eq!(said("0,-0.4,5,0,3", CueBall::White), (false, foul("yellow")));
+        assert_eq!(said("0,0,5,60,3", CueBall::Yellow), (false, foul("white")));
+        // Away from it, and back to it.
+        let (is_made, away) = said("0,0,5,180,3", CueBall::White);
+        assert!(is_made && away.starts_with("Point: "), "{away}");
     }
 
     #[test]

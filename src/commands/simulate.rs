@@ -212,6 +212,9 @@ struct SimulateAnswer {
     rule: Rule,
     /// Whether the shot makes the point.
     point: bool,
+    /// Which foul there was, in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    foul: Option<String>,
     /// Cushions that the cue ball met before the second object ball; absent where it does not meet both.
     #[serde(skip_serializing_if = "Option::is_none")]
     cushions_before_second: Option<u32>,
@@ -283,6 +286,7 @@ impl SimulateAnswer {
         Self {
             rule: verdict.point.rule,
             point: verdict.is_made(),
+            foul: verdict.foul(CueBall::White),
             cushions_before_second: verdict.tally.met_both().then_some(verdict.tally.cushions_before_second),
             cue_room,
             impulse: GivenImpulse::of(recording.impulse()),

@@ -3,7 +3,7 @@
 use super::{Attempt, ExerciseError, Session, session::now, shifted};
 use crate::{
     coach::Verdict,
-    game::{Point, Referee, Rule},
+    game::{Point, Referee, Rule, Tally},
     physics::{CueError, CueInputs, NoRoom, strike, with_room},
     player::errors,
     simulation::{Recording, simulate},
@@ -49,9 +49,10 @@ pub struct Played {
 impl Played {
     /// Plays a stroke as it is.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
-        let mut referee = Referee::to_the_end();
+        let impulse = strike(table, &stroke);
+        let mut referee = Referee::to_the_end().beginning(Tally::from_stroke(table, layout, &impulse));
         let miscue = stroke.is_miscue(table);
-        let ended = (!miscue).then(|| simulate(table, layout, &strike(table, &stroke), &mut referee));
+        let ended = (!miscue).then(|| simulate(table, layout, &impulse, &mut referee));
         let end = ended.map_or(*layout, |end| end.layout(table));
         let off = ended.map_or([None; BALLS], |end| end.left_table(table));
         let verdict = Verdict { point: Point::of(rule, table, layout), tally: referee.tally, miss: None, off };
@@ -171,8 +172,8 @@ impl Attempt {
 mod tests {
     use super::*;
     use crate::{
-        coach::{Skill, words::LengthUnit},
-        drills::{Exercise, Goal, Venue},
+        coach::{Doubt, Shooter, Skill, words::LengthUnit},
+        drills::{Exercise, Goal, Venue, chance},
         table::{CueBall, Room},
     };
     use glam::DVec2;
@@ -187,6 +188,36 @@ mod tests {
         let told = |unit| played.words(CueBall::White, unit);
         assert_eq!(told(LengthUnit::Metres), "No point: no ball was met, passed yellow by 3.9 cm on the right");
         assert!(told(LengthUnit::Feet).ends_with("passed yellow by 1.5 in on the right"));
+    }
+
+    #[test]
+    fn a_stroke_at_a_touching_ball_is_a_foul_in_a_drill_and_counts_as_missed() {
+        let table = Table::default();
+        let layout = Layout::parse(&format!("0,0 {},0 -0.3,0.02", 2.0 * table.radius), &table).unwrap();
+        let exercise = Exercise::own("frozen", Rule::StraightRail, "match", layout);
+        let mut session = Session::new(Goal::Free, Venue::Program, vec![exercise], Skill::PERFECT, 1);
+        let stroke = |degrees: f64| CueInputs {
+            a: 0.0,
+            b: -0.4,
+            theta: 5.0_f64.to_radians(),
+            phi: degrees.to_radians(),
+            speed: 3.0,
+        };
+        let played = session.play(stroke(0.0), false).unwrap();
+        let said = played.words(CueBall::White, LengthUnit::Metres);
+        assert!(!played.made && said.starts_with("Foul: the stroke pushes yellow"), "{said}");
+        assert!(played.verdict.tally.met_both() && !session.attempts[0].made);
+        // The same where the shot is not recorded, and by how often it is made.
+        let one = Played::of(Rule::StraightRail, &table, &layout, stroke(0.0));
+        assert!(!one.made && one.verdict.tally.pushed == Some(1));
+        for doubt in [Doubt::NONE, Doubt::FULL] {
+            let shooter = Shooter { skill: Skill::CLUB, doubt };
+            let chance = |cue: &CueInputs| chance(shooter, Rule::StraightRail, &table, &layout, cue).rate;
+            assert_eq!(chance(&stroke(0.0)), 0.0, "{doubt}");
+            // By the left rail to red and on to yellow.
+            let away = chance(&CueInputs::parse("-0.0948,0.3252,1,-128.0745,1.738").unwrap());
+            assert!(away > 0.1, "{doubt}: {away}");
+        }
     }
 
     #[test]

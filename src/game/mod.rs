@@ -8,4 +8,4 @@ mod touching;
 pub use point::Point;
 pub use reward::{Reward, UnknownReward};
 pub use rules::{Referee, Rule, Tally, UnknownRule, scores};
-pub use touching::pushes_touching_ball;
+pub use touching::{Touching, pushes_touching_ball};

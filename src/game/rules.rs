@@ -4,9 +4,9 @@ use std::{fmt, ops::ControlFlow, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use super::Point;
+use super::{Point, Touching};
 use crate::{
-    physics::{CueInputs, strike},
+    physics::{CueInputs, Impulse, strike},
     simulation::{All, Event, EventKind, Observer, StepBudget, watch_with},
     table::{Layout, Table},
 };
@@ -85,11 +85,20 @@ pub struct Tally {
     pub met_again: bool,
     /// Whether a ball has left the table, which is a foul by every rule: no point.
     pub left_table: bool,
+    /// The ball that touched the cue ball and was pushed by the stroke, which is a foul too. No event tells it: whoever begins a tally
+    /// says so.
+    pub pushed: Option<usize>,
     /// How many balls are in the air.
     pub aloft: u8,
 }
 
 impl Tally {
+    /// Of a shot that begins so.
+    #[inline]
+    pub fn from_stroke(table: &Table, layout: &Layout, impulse: &Impulse) -> Self {
+        Self { pushed: Touching::of(table, layout).pushed(layout, impulse), ..Self::default() }
+    }
+
     /// Takes note of one event.
     pub fn note(&mut self, event: &Event) {
         match event.kind {
@@ -116,11 +125,11 @@ impl Tally {
         }
     }
 
-    /// Whether nothing that counts can happen any more: the cue ball has met so many balls and none is in the air, or one has
-    /// left the table.
+    /// Whether nothing that counts can happen any more: the cue ball has met so many balls and none is in the air, or there was a
+    /// foul.
     pub fn is_decided(&self, enough: u8) -> bool {
         let met = u8::from(self.met[0]) + u8::from(self.met[1]);
-        self.left_table || (met >= enough && self.aloft == 0)
+        self.is_foul() || (met >= enough && self.aloft == 0)
     }
 
     /// Whether the cue ball has met an object ball.
@@ -133,10 +142,15 @@ impl Tally {
         self.met[0] & self.met[1]
     }
 
+    /// Whether there was a foul, after which nothing makes the point.
+    pub const fn is_foul(&self) -> bool {
+        self.left_table || self.pushed.is_some()
+    }
+
     /// Whether this is a point by the rule, whichever ball came first; it can still become one until both object balls are met.
     /// [`super::Point`] knows what else an opening asks for.
     pub fn is_point(&self, rule: Rule) -> bool {
-        self.met_both() && self.cushions_before_second >= rule.cushions() && !self.left_table
+        self.met_both() && self.cushions_before_second >= rule.cushions() && !self.is_foul()
     }
 }
 
@@ -167,6 +181,12 @@ impl Referee {
     pub fn new(enough: Option<u8>, steps: u32) -> Self {
         Self { tally: Tally::default(), enough, patience: StepBudget(steps) }
     }
+
+    /// The same for a shot that begins with `tally`.
+    #[must_use]
+    pub const fn beginning(self, tally: Tally) -> Self {
+        Self { tally, ..self }
+    }
 }
 
 impl Observer for Referee {
@@ -190,8 +210,9 @@ impl Observer for Referee {
 
 /// Whether a shot makes a point. The layout and the stroke are taken as they are.
 pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
-    let mut referee = Referee::default();
-    watch_with::<All, _>(table, layout, &strike(table, cue), &mut referee);
+    let impulse = strike(table, cue);
+    let mut referee = Referee::default().beginning(Tally::from_stroke(table, layout, &impulse));
+    watch_with::<All, _>(table, layout, &impulse, &mut referee);
     Point::of(rule, table, layout).is_made(&referee.tally)
 }
 
@@ -229,6 +250,19 @@ mod tests {
         };
         assert!(met_again(&[1, 1, 2]) && met_again(&[2, 2]));
         assert!(!met_again(&[1, 2]) && !met_again(&[1, 2, 1]));
+    }
+
+    #[test]
+    fn a_foul_decides_a_shot_and_makes_no_point() {
+        let both = Tally { met: [true; 2], ..Tally::default() };
+        assert!(both.is_point(Rule::StraightRail));
+        for foul in [Tally { left_table: true, ..both }, Tally { pushed: Some(1), ..both }] {
+            assert!(!foul.is_point(Rule::StraightRail) && foul.is_decided(2));
+        }
+        let table = Table::default();
+        let gap = |gap: f64| Layout::parse(&format!("0,0 {},0 -0.3,0.02", 2.0 * table.radius + gap), &table).unwrap();
+        let cue = CueInputs::parse("0,-0.4,5,0,3").unwrap();
+        assert_eq!([0.0, 1e-3].map(|apart| scores(Rule::StraightRail, &table, &gap(apart), &cue)), [false, true]);
     }
 
     #[test]

@@ -1,21 +1,39 @@
 //! A ball that touches the cue ball from the start must not be played at.
 
 use crate::{
-    physics::{CueInputs, squirt},
+    physics::{CueInputs, Impulse, strike},
     table::{Layout, Table},
 };
 
 /// Balls that are nearer than this touch, m: no referee sees a gap of a hundredth of a millimetre.
 const NO_GAP: f64 = 1e-5;
 
-/// Whether this stroke pushes a ball that touches the cue ball. By the UMB's rules of carom such a ball must not be moved: the cue ball is
-/// played away from it, or the balls are put on their spots.
+/// Which object balls touch the cue ball. By the UMB's rules of carom they must not be moved by the stroke: the cue ball is played away
+/// from them, or the balls are put on their spots.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Touching([bool; 2]);
+
+impl Touching {
+    /// Where the balls lie so.
+    #[inline]
+    pub fn of(table: &Table, layout: &Layout) -> Self {
+        let [cue_ball, balls @ ..] = layout.balls;
+        let reach = 2.0 * table.radius + NO_GAP;
+        Self(balls.map(|ball| cue_ball.distance_squared(ball) <= reach * reach))
+    }
+
+    /// The ball, 1 or 2, that the cue ball pushes as it starts with `impulse`, where the balls really lie as in `layout`.
+    #[inline]
+    pub fn pushed(self, layout: &Layout, impulse: &Impulse) -> Option<usize> {
+        let is_ahead = |ball: usize| (layout.balls[ball] - layout.balls[0]).dot(impulse.velocity) > 0.0;
+        [1, 2].into_iter().find(|&ball| self.0[ball - 1] && is_ahead(ball))
+    }
+}
+
+/// Whether this stroke pushes a ball that touches the cue ball, which is a foul.
 pub fn pushes_touching_ball(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
-    let way = || glam::DVec2::from_angle(cue.phi + squirt(table, cue.a));
-    layout.balls[1..].iter().any(|ball| {
-        let apart = ball - layout.balls[0];
-        apart.length() <= 2.0 * table.radius + NO_GAP && apart.dot(way()) > 0.0
-    })
+    let touching = Touching::of(table, layout);
+    touching != Touching([false; 2]) && touching.pushed(layout, &strike(table, cue)).is_some()
 }
 
 #[cfg(test)]

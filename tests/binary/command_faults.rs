@@ -53,6 +53,33 @@ fn the_judgement_stands_in_json_beside_what_stood_there_before() {
     assert_eq!((&missed["point"], missed.get("cushions_before_second")), (&json!(false), None));
 }
 
+/// The rules let nobody play at a ball that touches the cue ball.
+#[test]
+fn a_stroke_at_a_touching_ball_is_played_and_called_a_foul_wherever_it_is_tried() {
+    let home = tempfile::tempdir().unwrap();
+    // Two radii of "match" are 0.0615 m.
+    let frozen = ["--layout", "0,0 0.0615,0 -0.3,0.02"];
+    let foul = "the stroke pushes yellow, which touches the cue ball";
+    let shot = |shot: &'static str, more: &[&'static str]| [&["simulate", "--shot", shot], &frozen[..], more].concat();
+    assert!(said(&shot("0,-0.4,5,0,3", &[])).contains(&format!("Foul: {foul} (straight)")));
+    let at_it = answer(&shot("0,-0.4,5,0,3", &["--json"]));
+    assert_eq!((&at_it["point"], &at_it["foul"]), (&json!(false), &json!(foul)));
+    assert_eq!((&at_it["cushions_before_second"], at_it["events"].is_array()), (&json!(0), true));
+    let away = answer(&shot("0,0,5,180,3", &["--json"]));
+    assert_eq!((&away["point"], away.get("foul")), (&json!(true), None));
+    let batch = json!({"preset": "match", "layout": [[0, 0], [0.0615, 0], [-0.3, 0.02]], "impulse": at_it["impulse"]});
+    let output = carom(&["simulate", "--batch", "-"]).write_stdin(batch.to_string()).assert().success();
+    let given: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    assert_eq!((&given["point"], &given["foul"]), (&json!(false), &json!(foul)));
+    let drill = |args: &[&str]| {
+        let output = carom(&[&["drill"], args].concat()).env("XDG_DATA_HOME", home.path()).output().unwrap();
+        String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap()
+    };
+    drill(&[&["save", "frozen"], &frozen[..]].concat());
+    let tried = drill(&["try", "frozen", "--shot", "0,-0.4,5,0,3", "--skill", "perfect"]);
+    assert!(tried.contains(&format!("Foul: {foul}")), "{tried}");
+}
+
 /// What the stroke gives the cue ball plays the same shot, and at any moment the balls' motion is told.
 #[test]
 fn the_impulse_and_the_balls_at_any_moment_are_told() {

@@ -87,7 +87,7 @@ impl Technique {
         let of_first = |ball: usize| first.is_some_and(|hit| hit.ball == ball);
         let events = recording.events().iter();
         let mut technique = Self {
-            tally: Tally::default(),
+            tally: Tally::from_stroke(table, &Layout::new(recording.positions(0.0)), recording.impulse()),
             first,
             second: first.and_then(|first| hit(table, recording, |ball| ball != first.ball)),
             before: Vec::new(),
