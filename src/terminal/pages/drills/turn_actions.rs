@@ -176,10 +176,16 @@ impl DrillsPage {
         None
     }
 
-    /// Begins the open exercise again where another player is to play it. Who has begun an exam or a run plays it to its end.
+    /// Begins the open exercise again where another player is to play it; while a stroke is on its way, once its result was seen.
     pub(super) fn change_player(&mut self) -> Vec<DrillTask> {
+        let is_on_its_way = self.turn.as_ref().is_some_and(|turn| turn.is_waiting() || turn.is_open());
+        if self.is_for_another() && !is_on_its_way { self.restart(None) } else { Vec::new() }
+    }
+
+    /// Whether another player is to play the open exercise. Who has begun an exam or a run plays it to its end.
+    fn is_for_another(&self) -> bool {
         let is_other = |turn: &Turn| !turn.is_exam() && !turn.is_under_way() && turn.skill() != self.player.skill;
-        if self.turn.as_ref().is_some_and(is_other) { self.restart(None) } else { Vec::new() }
+        self.turn.as_ref().is_some_and(is_other)
     }
 
     /// Begins the same practice again with the options as they are now.
@@ -211,6 +217,10 @@ impl DrillsPage {
             return None;
         }
         let next = watched.outcome.next.clone();
+        if self.is_for_another() {
+            return some(self.restart(None));
+        }
+        let turn = self.turn.as_mut()?;
         match next {
             Some((table, layout)) => turn.place(table, layout).then(|| Effect::Drill(turn.ask())),
             None if turn.is_exam() => {
