@@ -13,13 +13,9 @@ use carom::{commands::Cli, printing};
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
-    let failure = match Cli::read() {
-        Err(refused) => return refused,
-        Ok(cli) => match cli.run() {
-            Ok(()) => return ExitCode::SUCCESS,
-            Err(failure) => failure,
-        },
-    };
+    // What is left unwritten would be lost without a word as the process ends.
+    let ended = Cli::read().and_then(Cli::run).and_then(|()| Ok(printing::stdout().flush()?));
+    let Err(failure) = ended else { return ExitCode::SUCCESS };
     if !failure.is_silent() {
         // The terminal may be gone with the failure: then there is nobody to tell.
         let _ = writeln!(printing::stderr(), "carom: {failure}");

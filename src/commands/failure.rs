@@ -1,11 +1,11 @@
-//! How a command ends when it cannot do what was asked: one sentence and an exit code.
+//! How a command ends when it cannot do what was asked: one sentence and an exit code. docs/command-line.md has the rule.
 
 use std::{fmt::Display, io};
 
 use crate::platform::UNFINISHED;
 
 /// A sentence for the user and the process' exit code.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Failure {
     message: String,
@@ -13,12 +13,13 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// Something was not found, could not be read or went wrong: exit code 1.
+    /// What was asked for is acceptable, but cannot be done: what a name or a path stands for is not there or cannot be read, or something
+    /// went wrong: exit code 1.
     pub fn failed(message: impl Display) -> Self {
         Self { message: message.to_string(), code: 1 }
     }
 
-    /// The input is wrong: exit code 2.
+    /// The command line, a line of the input or what a file holds is not acceptable, whatever there is on this machine: exit code 2.
     pub fn wrong_input(message: impl Display) -> Self {
         Self { message: message.to_string(), code: 2 }
     }
@@ -28,12 +29,17 @@ impl Failure {
         Self { message: message.to_string(), code: UNFINISHED }
     }
 
+    /// All is said already.
+    pub const fn said(code: u8) -> Self {
+        Self { message: String::new(), code }
+    }
+
     /// The process' exit code.
     pub const fn code(&self) -> u8 {
         self.code
     }
 
-    /// Whether there is nothing to say: the reader of the output has closed it.
+    /// Whether there is nothing to say: it is said already, or the reader of the output has closed it.
     pub fn is_silent(&self) -> bool {
         self.message.is_empty()
     }
@@ -43,7 +49,7 @@ impl From<io::Error> for Failure {
     /// An error in writing the output. A closed pipe (`carom simulate | head`) is no failure of ours.
     fn from(error: io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
-            Self { message: String::new(), code: 0 }
+            Self::said(0)
         } else {
             Self::failed(format_args!("the output cannot be written: {error}"))
         }

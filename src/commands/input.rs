@@ -30,7 +30,7 @@ pub fn table_named(name: &str) -> Result<Table, Failure> {
         Err(error @ TableError::Unknown(_)) => {
             let path = Some(PathBuf::from(name)).filter(|path| path.exists() && !path.is_dir());
             let path = path.or_else(|| Places::of_this_user().own_table(name));
-            table_in(&path.ok_or_else(|| Failure::wrong_input(error))?)
+            table_in(&path.ok_or_else(|| Failure::failed(error))?)
         }
         table => table.map_err(Failure::wrong_input),
     }

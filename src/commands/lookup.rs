@@ -129,7 +129,7 @@ const OWN: &str = "own";
 pub fn skill_called(name: &str) -> Result<Skill, Failure> {
     if name == OWN {
         return own_skill()?.ok_or_else(|| {
-            Failure::wrong_input("no skill of your own is kept yet; carom drill skill --keep estimates and keeps it")
+            Failure::failed("no skill of your own is kept yet; carom drill skill --keep estimates and keeps it")
         });
     }
     name.parse().map_err(|error| match error {

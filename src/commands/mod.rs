@@ -22,12 +22,12 @@ mod table;
 mod train;
 mod watch;
 
-use std::{any::TypeId, error::Error, ffi::OsString, io::Write, process::ExitCode};
+use std::{any::TypeId, error::Error, ffi::OsString, io::Write};
 
 use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use failure::Failure;
-use output::tell;
+use output::{of_refused_lines, tell};
 
 use crate::{
     platform,
@@ -85,24 +85,26 @@ impl Cli {
     /// What the command line says.
     ///
     /// # Errors
-    /// Where it is wrong or asks for help: all is said then, and this is the exit code.
-    pub fn read() -> Result<Self, ExitCode> {
+    /// Where it is wrong or asks for help, which is said then.
+    pub fn read() -> Result<Self, Failure> {
         let asked = std::env::var(ASKED_OVER_SSH).unwrap_or_default();
         Self::parsed(std::env::args_os()).and_then(|cli| cli.asked(&asked)).map_err(|answer| {
             // A value that is right and whose file cannot be read is no wrong input.
             if let Some(failure) = answer.source().and_then(|source| source.downcast_ref::<Failure>())
                 && failure.code() != 2
             {
-                tell(format_args!("carom: {failure}"));
-                return ExitCode::from(failure.code());
+                return failure.clone();
             }
             let words = std::env::args_os().chain([asked.clone().into()]);
             let is_safe = words.into_iter().all(|word| !word.to_string_lossy().chars().any(is_hidden));
             // clap repeats what it was given as it is, between the codes of its own bold words.
             let said = if is_safe { answer.print() } else { write!(printing::stderr(), "{}", answer.render()) };
-            // Nobody may be left to tell.
-            let _ = said;
-            ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(2))
+            let code = u8::try_from(answer.exit_code()).unwrap_or(2);
+            match said.and_then(|()| printing::stdout().flush()) {
+                Err(error) if code == 0 => error.into(),
+                // Of what is wrong nobody may be left to tell.
+                _ => Failure::said(code),
+            }
         })
     }
 
@@ -150,7 +152,7 @@ impl Cli {
             for complaint in &complaints {
                 tell(format_args!("{}: {complaint}", path.display()));
             }
-            return crate::terminal::talk(table, &settings, &seat.places).map_err(failure);
+            return of_refused_lines(crate::terminal::talk(table, &settings, &seat.places).map_err(failure)?);
         }
         crate::terminal::run(table, &settings, &complaints, seat).map_err(failure)
     }

@@ -134,11 +134,12 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
     Ok(host::runner::run(app, seat.places)?)
 }
 
-/// The coach as a conversation in lines, on the standard input and output, for the player whose files are at `places`.
+/// The coach as a conversation in lines, on the standard input and output, for the player whose files are at `places`. Returns how many
+/// lines were refused.
 ///
 /// # Errors
 /// [`TerminalError`]: a layout that is not possible, or input or output that fails.
-pub fn talk(table: Table, settings: &Settings, places: &Places) -> Result<(), TerminalError> {
+pub fn talk(table: Table, settings: &Settings, places: &Places) -> Result<usize, TerminalError> {
     let layout = Layout::opening(&table);
     let prompt = if io::stdin().is_terminal() { "> " } else { "" };
     let coach = Coach::new(table);

@@ -121,7 +121,6 @@ fn the_same_seed_gives_the_same_errors() {
 #[test]
 fn wrong_input_ends_with_two_and_says_what_would_do() {
     for (arguments, words) in [
-        (vec!["accuracy", "--table", "snooker"], "snooker"),
         (vec!["accuracy", "--shots", "0"], "from 1 to 1000000000"),
         (vec!["simulate", "--shot", "0,0,0,0,3", "--dt", "0.1"], "--method steps"),
         (vec!["simulate", "--shot", "0,0,0,0,3", "--method", "steps", "--dt", "7"], "0.00000001 to 1"),

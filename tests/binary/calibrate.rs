@@ -50,7 +50,8 @@ fn strokes_that_contradict_each_other_are_named_and_no_table_is_written() {
     let home = tempfile::tempdir().unwrap();
     let strokes = ["5", "9", "16"].map(|time| format!("[[trial]]\ntest = \"slow-roll\"\ntime = {time}\nstop = 5\n"));
     fs::write(home.path().join("entries.toml"), strokes.concat()).unwrap();
-    let told = at_home(home.path(), &["calibrate", "entries.toml"]).assert().success();
+    let told = at_home(home.path(), &["calibrate", "entries.toml"]).assert().code(2);
+    assert!(!String::from_utf8_lossy(&told.get_output().stderr).contains("no table is written"));
     let told = String::from_utf8_lossy(&told.get_output().stdout).into_owned();
     assert!(told.contains("contradict the others") && told.contains("trial 1 (slow-roll)"), "{told}");
     assert!(told.contains("unsure") && !told.contains(" better") && !told.contains(" well"), "{told}");

@@ -12,6 +12,7 @@ mod doctor;
 mod documents;
 mod drills;
 mod evaluate;
+mod exit_codes;
 mod fuzz;
 mod hostile;
 mod program;

@@ -136,15 +136,15 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
     } else {
         report.text()?;
     }
+    let written = args.out.as_ref().map_or("", |_| ", and no table is written");
     if !odd.is_empty() {
-        let written = args.out.as_ref().map_or("", |_| ", and no table is written");
         let many = if odd.len() == 1 { "one entry is odd" } else { "some entries are odd" };
         return Err(Failure::wrong_input(format_args!("{many}{written}: mend what is named above, or take it out")));
     }
-    if args.out.is_some() && found.is_contradictory() {
-        return Err(Failure::wrong_input(
-            "the strokes contradict each other, and no table is written: mend what is named above",
-        ));
+    if found.is_contradictory() {
+        return Err(Failure::wrong_input(format_args!(
+            "the strokes contradict each other{written}: mend what is named above"
+        )));
     }
     let Some(path) = out else { return Ok(()) };
     let said = format!("the table \"{}\" is written to {}", found.table.name, path.display());

@@ -30,14 +30,13 @@ pub fn list() -> String {
 }
 
 /// One of them, played beside the film.
-pub fn tell(number: u32, unit: LengthUnit) -> String {
-    let Some(shot) = listed().iter().find(|listed| listed.filmed.number == number) else {
-        return format!("There is no filmed shot {number}; film says which there are.");
-    };
-    let scene = match FilmScene::new(&shot.filmed) {
-        Ok(scene) => scene,
-        Err(sentence) => return sentence,
-    };
+///
+/// # Errors
+/// Where there is none of this number.
+pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
+    let shot = listed().iter().find(|listed| listed.filmed.number == number);
+    let shot = shot.ok_or_else(|| format!("There is no filmed shot {number}; film says which there are."))?;
+    let scene = FilmScene::new(&shot.filmed)?;
     let outcome = |is_point| if is_point { "a point" } else { "no point" };
     let mut lines = vec![
         format!(
@@ -67,5 +66,5 @@ pub fn tell(number: u32, unit: LengthUnit) -> String {
     }
     lines.push(format!("{} seconds: all balls lie still: {}.", fixed(end, 2), distances(end)));
     lines.push(format!("The simulated shot is {}.", outcome(scene.is_point)));
-    lines.join("\n")
+    Ok(lines.join("\n"))
 }

@@ -65,7 +65,11 @@ pub struct Beginning {
     pub seed: u64,
 }
 
-/// Talks until the input ends or the player quits; with a `prompt` before every answer that is awaited.
+/// What is said to a line: what it asked for, or why it is refused.
+type Answer = Result<String, String>;
+
+/// Talks until the input ends or the player quits; with a `prompt` before every answer that is awaited. Returns how many lines were
+/// refused.
 ///
 /// # Errors
 /// What reading or writing reports.
@@ -76,7 +80,7 @@ pub fn converse(
     input: impl BufRead,
     mut output: impl Write,
     prompt: &str,
-) -> io::Result<()> {
+) -> io::Result<usize> {
     let request = Request {
         rule: settings.rule,
         skill: settings.skill,
@@ -100,17 +104,20 @@ pub fn converse(
     };
     write!(output, "carom. Say help for what may be said.\n{}\n{prompt}", talk.places())?;
     output.flush()?;
+    let mut refused = 0;
     // What is no UTF-8 is no command either, and is answered so.
     for line in input.split(b'\n') {
         let answer = match String::from_utf8_lossy(&line?).parse() {
             Ok(Command::Quit) => break,
             Ok(command) => talk.answer(command),
-            Err(sentence) => sentence,
+            Err(sentence) => Err(sentence),
         };
-        write!(output, "{answer}\n{prompt}")?;
+        refused += usize::from(answer.is_err());
+        let (Ok(said) | Err(said)) = answer;
+        write!(output, "{said}\n{prompt}")?;
         output.flush()?;
     }
-    Ok(())
+    Ok(refused)
 }
 
 impl Conversation {
@@ -130,16 +137,14 @@ impl Conversation {
         speech::places(self.table(), self.layout(), self.cue_ball(), self.units.length)
     }
 
-    fn answer(&mut self, command: Command) -> String {
-        match command {
+    fn answer(&mut self, command: Command) -> Answer {
+        Ok(match command {
             Command::Where => self.places(),
-            Command::Balls(text) => match Layout::parse(&text, self.table()) {
-                Ok(layout) => match layout.validate(self.table()) {
-                    Ok(()) => self.place(layout),
-                    Err(error) => error.to_string(),
-                },
-                Err(error) => error.to_string(),
-            },
+            Command::Balls(text) => {
+                let layout = Layout::parse(&text, self.table()).map_err(|error| error.to_string())?;
+                layout.validate(self.table()).map_err(|error| error.to_string())?;
+                self.place(layout)
+            }
             Command::CueBall(cue_ball) if cue_ball == self.cue_ball() => format!("The cue ball is {cue_ball} already."),
             Command::CueBall(cue_ball) => {
                 self.balls.push((self.layout().for_the_opponent(), cue_ball));
@@ -170,62 +175,62 @@ impl Conversation {
                     self.request.skill = skill;
                     self.forget(format!("The player is you: {skill}."))
                 }
-                None => "No skill of your own is kept yet; carom drill skill --keep estimates and keeps it.".to_owned(),
+                None => {
+                    return Err(
+                        "No skill of your own is kept yet; carom drill skill --keep estimates and keeps it.".to_owned()
+                    );
+                }
             },
             Command::Plan(plan) => {
                 self.request.plan = plan;
                 self.forget(format!("The next point {}.", if plan { "counts too" } else { "does not count" }))
             }
-            Command::Shot => self.ask(),
+            Command::Shot => self.ask()?,
             Command::Other if self.shots.len() > 1 => {
                 self.chosen = (self.chosen + 1) % self.shots.len();
-                self.describe()
+                self.describe()?
             }
-            Command::Other => "There is no other shot; say shot to ask for one.".to_owned(),
+            Command::Other => return Err("There is no other shot; say shot to ask for one.".to_owned()),
             Command::Margins => self.about_the_shot(|talk, shot| {
                 let Request { rule, .. } = talk.request;
                 let doubt = talk.request.shooter().doubts();
-                match Sensitivity::new(rule, talk.table(), talk.layout(), doubt).margins(&shot.cue) {
+                Ok(match Sensitivity::new(rule, talk.table(), talk.layout(), doubt).margins(&shot.cue) {
                     Some(found) => speech::margins(&found, talk.units.length),
                     None => "This shot makes no point.".to_owned(),
-                }
-            }),
+                })
+            })?,
             Command::Numbers => self.about_the_shot(|talk, shot| {
                 let aim = aim(talk.table(), talk.layout(), &shot.cue).ok();
-                speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball(), talk.units)
-            }),
-            Command::System => self.about_the_shot(|talk, shot| {
-                talk.recorded(shot, |recording| speech::system(guide(talk.table(), recording).as_ref()))
-            }),
+                Ok(speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball(), talk.units))
+            })?,
+            Command::System => self
+                .about_the_shot(|talk, shot| Ok(speech::system(guide(talk.table(), &talk.recorded(shot)?).as_ref())))?,
             Command::Words => speech::words(self.table(), self.units.length),
             Command::Tell(all) => self.about_the_shot(|talk, shot| {
-                talk.recorded(shot, |recording| {
-                    let verdict = Verdict::of(talk.request.rule, talk.table(), talk.layout(), recording);
-                    let outcome = verdict.words(talk.cue_ball(), talk.units.length);
-                    format!("{}\n{outcome}.", speech::events(recording, all, talk.cue_ball(), talk.units.length))
-                })
-            }),
-            Command::GoOn => match self.shots.get(self.chosen).copied() {
-                Some(shot) => match Recording::new(self.table(), self.layout(), &shot.cue) {
-                    Ok(recording) => self.place(recording.final_layout()),
-                    Err(error) => error.to_string(),
-                },
-                None => NO_SHOT.to_owned(),
-            },
+                let recording = talk.recorded(shot)?;
+                let verdict = Verdict::of(talk.request.rule, talk.table(), talk.layout(), &recording);
+                let outcome = verdict.words(talk.cue_ball(), talk.units.length);
+                Ok(format!("{}\n{outcome}.", speech::events(&recording, all, talk.cue_ball(), talk.units.length)))
+            })?,
+            Command::GoOn => {
+                let shot = self.shots.get(self.chosen).ok_or(NO_SHOT)?;
+                let end = self.recorded(shot)?.final_layout();
+                self.place(end)
+            }
             Command::Films => film::list(),
-            Command::Film(number) => film::tell(number, self.units.length),
+            Command::Film(number) => film::tell(number, self.units.length)?,
             Command::Undo => {
                 if self.balls.undo() {
                     self.forget(self.places())
                 } else {
-                    "There is nothing to take back.".to_owned()
+                    return Err("There is nothing to take back.".to_owned());
                 }
             }
             Command::Help => {
                 HELP.iter().map(|(line, about)| format!("{line}: {about}.")).collect::<Vec<_>>().join("\n")
             }
             Command::Quit => String::new(),
-        }
+        })
     }
 
     /// Puts the balls on their spots.
@@ -247,12 +252,9 @@ impl Conversation {
         sentence
     }
 
-    fn ask(&mut self) -> String {
+    fn ask(&mut self) -> Answer {
         let request = Request { former: self.shots.iter().map(|shot| shot.cue).collect(), ..self.request.clone() };
-        let advice = match self.coach.recommend(self.layout(), &request) {
-            Ok(advice) => advice,
-            Err(error) => return error.to_string(),
-        };
+        let advice = self.coach.recommend(self.layout(), &request).map_err(|error| error.to_string())?;
         let shooter = self.request.shooter();
         self.why =
             why(shooter, self.request.rule, self.table(), self.layout(), &advice, 0).ok().filter(|_| advice.solved);
@@ -272,11 +274,11 @@ impl Conversation {
             1 => "There is 1 other shot.".to_owned(),
             others => format!("There are {others} other shots."),
         };
-        format!("{}{next}\n{others}", self.describe())
+        Ok(format!("{}{next}\n{others}", self.describe()?))
     }
 
     /// The shot that is spoken of.
-    fn describe(&self) -> String {
+    fn describe(&self) -> Answer {
         self.about_the_shot(|talk, shot| {
             let mut lines = Vec::new();
             let (cue_ball, units) = (talk.cue_ball(), talk.units);
@@ -293,19 +295,16 @@ impl Conversation {
             lines.extend(why.map(|why| why.words(cue_ball, units)));
             let system = recording.filter(|_| shot.kind.is_some()).and_then(|shot| guide(talk.table(), &shot));
             lines.extend(system.map(|system| format!("{system}.")));
-            lines.join("\n")
+            Ok(lines.join("\n"))
         })
     }
 
-    fn about_the_shot(&self, say: impl Fn(&Self, &Found) -> String) -> String {
-        self.shots.get(self.chosen).map_or_else(|| NO_SHOT.to_owned(), |shot| say(self, shot))
+    fn about_the_shot(&self, say: impl Fn(&Self, &Found) -> Answer) -> Answer {
+        say(self, self.shots.get(self.chosen).ok_or(NO_SHOT)?)
     }
 
-    fn recorded(&self, shot: &Found, say: impl Fn(&Recording) -> String) -> String {
-        match Recording::new(self.table(), self.layout(), &shot.cue) {
-            Ok(recording) => say(&recording),
-            Err(error) => error.to_string(),
-        }
+    fn recorded(&self, shot: &Found) -> Result<Recording, String> {
+        Recording::new(self.table(), self.layout(), &shot.cue).map_err(|error| error.to_string())
     }
 }
 

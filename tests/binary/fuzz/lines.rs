@@ -106,7 +106,8 @@ fn conversation() {
     let output = child.wait_with_output().unwrap();
     // It may have understood "quit".
     let _ = feeder.join().unwrap();
-    assert!(output.status.success());
+    // Most lines are refused.
+    assert!(matches!(output.status.code(), Some(0 | 2)), "{}", output.status);
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(!text.chars().any(|character| is_hidden(character) && !matches!(character, '\n' | '\t')));
 }
