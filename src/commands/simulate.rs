@@ -11,7 +11,7 @@ use super::{
     output::{impulse_words, tell, units},
 };
 use crate::{
-    coach::{Verdict, jump_words},
+    coach::{Verdict, jump_words, words::LengthUnit},
     game::Rule,
     physics::{CueInputs, Impulse, LeastElevation, NoRoom, SpatialState, has_room, least_elevation},
     printing,
@@ -188,12 +188,13 @@ impl Moment {
         Self { t, balls: std::array::from_fn(|ball| recording.spatial_state(ball, t)) }
     }
 
-    fn describe(&self, out: &mut impl Write) -> io::Result<()> {
+    fn describe(&self, out: &mut impl Write, unit: LengthUnit) -> io::Result<()> {
+        let (in_a_metre, per_second) = unit.speed();
         writeln!(out, "after {} s:", self.t)?;
         for (name, SpatialState { position, velocity, spin }) in BALL_NAMES.iter().zip(&self.balls) {
             let [place, speed, turn] =
-                [position, velocity, spin].map(|v| format!("({:.6}, {:.6}, {:.6})", v.x, v.y, v.z));
-            writeln!(out, "  {name} at {place} m, velocity {speed} m/s, spin {turn} rad/s")?;
+                [*position, in_a_metre * *velocity, *spin].map(|v| format!("({:.6}, {:.6}, {:.6})", v.x, v.y, v.z));
+            writeln!(out, "  {name} at {place} m, velocity {speed} {per_second}, spin {turn} rad/s")?;
         }
         Ok(())
     }
@@ -371,6 +372,7 @@ fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -
 /// The shot for people to read.
 fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, verdict: &Verdict) -> io::Result<()> {
     let length = units().length;
+    let (in_a_metre, per_second) = length.speed();
     writeln!(out, "{}", impulse_words(recording.impulse(), length))?;
     writeln!(out, "{:>12}  {:<18}  {:<13}  {:<6}  white, the cue ball", "t, s", "event", "balls", "rail")?;
     let is_told = |event: &&Event| args.rolls || recording.is_told(event);
@@ -382,12 +384,12 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
         let cue_ball = recording.state(0, event.time);
         write!(
             out,
-            "{:>12.9}  {:<18}  {balls:<13}  {rail:<6}  ({:.4}, {:.4}) m at {:.3} m/s",
+            "{:>12.9}  {:<18}  {balls:<13}  {rail:<6}  ({:.4}, {:.4}) m at {:.3} {per_second}",
             event.time,
             event.kind.name(),
             cue_ball.position.x,
             cue_ball.position.y,
-            cue_ball.velocity.length(),
+            in_a_metre * cue_ball.velocity.length(),
         )?;
         match recording.jump_begun_by(event) {
             Some(jump) => writeln!(out, ", {}", jump_words(&jump, length))?,
@@ -403,7 +405,7 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
         writeln!(out, "  {ball} at ({:.6}, {:.6}) m", position.x, position.y)?;
     }
     for &t in &args.at {
-        Moment::of(recording, t).describe(out)?;
+        Moment::of(recording, t).describe(out, length)?;
     }
     if let Some(Stepped { steps, deepest_overlap, .. }) = stepped {
         writeln!(out, "{steps} steps, the deepest overlap {:.4} mm", 1e3 * deepest_overlap)?;

@@ -2,7 +2,7 @@
 
 use super::{Played, difference};
 use crate::{
-    coach::words::{LengthUnit, TipUnit},
+    coach::words::{LengthUnit, TipUnit, Units},
     physics::CueInputs,
     table::{CueBall, Table},
 };
@@ -22,9 +22,9 @@ impl Played {
     }
 }
 
-/// What a player has to change to get from the stroke `from` to `to`, the most telling first, the tip's place in `unit`; nothing
-/// where nobody could tell them apart.
-pub fn changes(table: &Table, from: &CueInputs, to: &CueInputs, unit: TipUnit) -> Vec<String> {
+/// What a player has to change to get from the stroke `from` to `to`, the most telling first; nothing where nobody could tell them
+/// apart.
+pub fn changes(table: &Table, from: &CueInputs, to: &CueInputs, units: Units) -> Vec<String> {
     let by = difference(to, from);
     let turn = by.phi.to_degrees();
     if turn.abs() > ANOTHER_SHOT {
@@ -38,8 +38,8 @@ pub fn changes(table: &Table, from: &CueInputs, to: &CueInputs, unit: TipUnit) -
     };
     let tip = |radii: f64, [more, less]: [&str; 2]| {
         let (way, millimetres) = (if radii > 0.0 { more } else { less }, 1000.0 * table.radius * radii);
-        is_seen(millimetres, SEEN.1).then(|| match unit {
-            TipUnit::Tips => format!("{} {way}", unit.words(radii, table.radius).unwrap_or_default()),
+        is_seen(millimetres, SEEN.1).then(|| match units.tip {
+            TipUnit::Tips => format!("{} {way}", units.tip.words(radii, table.radius).unwrap_or_default()),
             TipUnit::Mm => format!("tip {way} {:.1} mm", millimetres.abs()),
         })
     };
@@ -47,7 +47,11 @@ pub fn changes(table: &Table, from: &CueInputs, to: &CueInputs, unit: TipUnit) -
         told(turn, SEEN.0, 2, "°", ["aim left", "aim right"]),
         tip(by.b, ["up", "down"]),
         tip(by.a, ["left", "right"]),
-        told(by.speed, SEEN.3, 1, " m/s", ["harder", "softer"]),
+        is_seen(by.speed, SEEN.3).then(|| {
+            let (in_a_metre, per_second) = units.length.speed();
+            let way = if by.speed > 0.0 { "harder" } else { "softer" };
+            format!("{way} {:.1} {per_second}", in_a_metre * by.speed.abs())
+        }),
         told(by.theta.to_degrees(), SEEN.2, 0, "°", ["cue up", "cue down"]),
     ];
     differences.into_iter().flatten().collect()
@@ -69,11 +73,13 @@ mod tests {
         };
         let from = cue(0.0, 0.0, 0.0, 179.9, 2.0);
         let to = cue(-2.0, 6.5, 3.0, -179.7, 1.7);
-        let changes = |from: &CueInputs, to: &CueInputs| changes(&table, from, to, TipUnit::Mm);
+        let in_mm = Units { tip: TipUnit::Mm, ..Units::default() };
+        let changes = |from: &CueInputs, to: &CueInputs| changes(&table, from, to, in_mm);
         let told = changes(&from, &to);
         assert_eq!(told, ["aim left 0.40°", "tip up 6.5 mm", "tip right 2.0 mm", "softer 0.3 m/s", "cue up 3°"]);
-        let in_tips = super::changes(&table, &from, &to, TipUnit::Tips);
-        assert_eq!(in_tips[1..3], ["2.1 tips up", "0.7 tip right"]);
+        let in_feet = Units { length: LengthUnit::Feet, ..Units::default() };
+        let in_tips = super::changes(&table, &from, &to, in_feet);
+        assert_eq!(in_tips[1..4], ["2.1 tips up", "0.7 tip right", "softer 1.0 ft/s"]);
         assert_eq!(changes(&to, &from)[0], "aim right 0.40°");
         assert_eq!(changes(&from, &cue(0.2, 0.0, 0.5, 179.91, 2.05)), Vec::<String>::new());
         assert_eq!(changes(&from, &cue(0.0, 0.0, 0.0, 90.0, 2.0)), ["another shot: aimed elsewhere"]);

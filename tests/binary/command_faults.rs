@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::program::asked as carom;
+use crate::program::{asked as carom, carom as carom_of, folder};
 
 /// What is printed where all goes well.
 fn said(args: &[&str]) -> String {
@@ -94,6 +94,31 @@ fn the_impulse_and_the_balls_at_any_moment_are_told() {
     assert!(speed(0) > speed(1) && speed(2) == 0.0, "{stroke}");
     assert!(said(&simulate("0,0.4,0,0,2", &["--at", "0.5"])).contains("after 0.5 s:\n  white at ("));
     assert!(refusal(&simulate("0,0.4,0,0,2", &["--at", "-1"])).contains("0 or more"));
+}
+
+/// For people alone: JSON stays in metres and millimetres.
+#[test]
+fn a_simulated_shot_and_a_tried_one_are_told_in_the_units_of_the_settings() {
+    let home = folder();
+    let settings = home.path().join("config/carom");
+    std::fs::create_dir_all(&settings).unwrap();
+    let told = |args: &[&str]| {
+        let [default, json] =
+            [args.to_vec(), [args, &["--json"]].concat()].map(|args| carom_of(home.path(), &args).out);
+        std::fs::write(settings.join("config.toml"), "length_unit = \"feet\"\ntip_unit = \"mm\"\n").unwrap();
+        let other = [args.to_vec(), [args, &["--json"]].concat()].map(|args| carom_of(home.path(), &args).out);
+        std::fs::remove_file(settings.join("config.toml")).unwrap();
+        // A session has another name every time.
+        let nameless =
+            |text: &str| text.lines().filter(|line| !line.contains("\"session\"")).collect::<Vec<_>>().join("\n");
+        assert_eq!(nameless(&json), nameless(&other[1]));
+        (default, other[0].clone())
+    };
+    let (metres, feet) = told(&simulate(ONE_CUSHION, &["--at", "0.5"]));
+    assert!(metres.contains(" m/s") && !metres.contains("ft/s"), "{metres}");
+    assert!(feet.contains("ft/s, spin") && feet.contains(" ft/s\n") && !feet.contains("m/s"), "{feet}");
+    let (tips, mm) = told(&["drill", "try", "mine", "--shot", "0,-0.2,3,1,2", "--skill", "perfect", "--seed", "1"]);
+    assert!(tips.contains("tips up, harder 2.0 m/s") && mm.contains("tip up 15.4 mm, harder 6.6 ft/s"), "{tips}{mm}");
 }
 
 #[test]

@@ -60,11 +60,14 @@ impl PlaceUnit {
         }
     }
 
-    /// The same to a hundredth of a diamond or a millimetre, with the unit's name.
-    pub fn exact(self, diamonds: f64, diamond: f64) -> String {
+    /// The same with all of these decimals of a diamond, or to a millimetre, and the unit's name.
+    pub fn exact(self, diamonds: f64, diamond: f64, decimals: u8) -> String {
         match self {
             // Rounding leaves no minus before a nought.
-            Self::Diamonds => format!("{:.2} diamonds", (1e2 * diamonds).round() / 1e2 + 0.0),
+            Self::Diamonds => {
+                let parts = 10_f64.powi(i32::from(decimals));
+                format!("{:.*} diamonds", usize::from(decimals), (parts * diamonds).round() / parts + 0.0)
+            }
             Self::Mm => format!("{:.0} mm", (1e3 * diamond * diamonds).round() + 0.0),
         }
     }

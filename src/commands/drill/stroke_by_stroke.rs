@@ -11,7 +11,7 @@ use super::{
 use crate::{
     coach::{
         Coach, Request, Shooter,
-        words::{LengthUnit, TipUnit},
+        words::{TipUnit, Units},
     },
     commands::{
         Failure,
@@ -213,10 +213,9 @@ impl<'a> StrokeByStroke<'a> {
         let by = if own.is_some() { "exercise" } else { "coach" };
         let number = self.session.attempts.len();
         // JSON is the same whatever the settings say.
-        let (length, tip) =
-            if self.options.json { (LengthUnit::default(), TipUnit::Mm) } else { (units().length, units().tip) };
-        let (verdict, run) = (played.words(cue_ball, length), self.session.run());
-        let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue, tip));
+        let units = if self.options.json { Units { tip: TipUnit::Mm, ..Units::default() } } else { units() };
+        let (verdict, run) = (played.words(cue_ball, units.length), self.session.run());
+        let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue, units));
         if self.options.json {
             let turn = AttemptLine {
                 kind: "attempt",

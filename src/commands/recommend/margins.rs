@@ -52,7 +52,8 @@ impl Margins {
     /// The same for people to read.
     pub fn describe(&self, out: &mut impl Write, table: &Table, units: Units) -> io::Result<()> {
         let Aim { ahead, behind, hit } = &self.aim;
-        let place = |mark: &Mark| format!("{} {}", mark.rail.name(), units.place.exact(mark.diamond, table.diamond()));
+        let place =
+            |mark: &Mark| format!("{} {}", mark.rail.name(), units.place.exact(mark.diamond, table.diamond(), 2));
         write!(out, "aim from {} to {}", place(behind), place(ahead))?;
         match hit {
             Some(hit) => {

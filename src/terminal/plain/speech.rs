@@ -73,9 +73,9 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBa
         lines.push(format!(
             "The line of aim comes from the {} at {} and goes to the {} at {}.",
             rail_name(behind.rail),
-            units.place.exact(behind.diamond, table.diamond()),
+            units.place.exact(behind.diamond, table.diamond(), 2),
             rail_name(ahead.rail),
-            units.place.exact(ahead.diamond, table.diamond())
+            units.place.exact(ahead.diamond, table.diamond(), 2)
         ));
         lines.extend(hit.map(|hit| {
             let side = if hit.left { "left" } else { "right" };

@@ -72,7 +72,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
 
 /// Draws the stroke's numbers, where the tip meets the ball, and what is seen behind it or how it spins.
 fn draw_precision(drills: &DrillsPage, turn: &Turn, panes: &Panes, ui: &mut Ui) {
-    panels::draw_stroke(turn, drills.units.tip, panes.stroke, ui);
+    panels::draw_stroke(turn, drills.units, panes.stroke, ui);
     let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
     draw_tip(Some(meant), drills.units.tip == TipUnit::Tips, &turn.table, panes.tip, ui);
     let watched = turn.watched().filter(|_| !turn.shows_hint);

@@ -3,10 +3,7 @@
 use ratatui::{layout::Rect, style::Style};
 
 use crate::{
-    coach::{
-        Units,
-        words::{LengthUnit, TipUnit},
-    },
+    coach::Units,
     drills::changes,
     physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
     table::CueBall,
@@ -23,25 +20,26 @@ use crate::{
 const FULL: f64 = 0.995;
 
 /// Draws the numbers of the stroke that is set, or was meant.
-pub fn draw_stroke(turn: &Turn, unit: TipUnit, area: Rect, ui: &mut Ui) {
+pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
     let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
     // In a match one plays both sides.
     let title = if turn.session.is_match() { format!("Stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
     let inner = draw_title(title, area, ui);
-    let numbers = numbers(&cue, unit, turn.table.radius, ui.caps);
+    let numbers = numbers(&cue, units, turn.table.radius, ui.caps);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
     draw_lines(numbers.map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
 }
 
-/// The numbers of a stroke with a ball of this radius, m, and what they are called; the tip's place in `unit`.
-fn numbers(cue: &CueInputs, unit: TipUnit, radius: f64, caps: Capabilities) -> [(&'static str, String); 5] {
+/// The numbers of a stroke with a ball of this radius, m, and what they are called.
+fn numbers(cue: &CueInputs, units: Units, radius: f64, caps: Capabilities) -> [(&'static str, String); 5] {
     let degree = caps.pick("°", " deg");
-    let [side, height] = tip_rows(cue, unit, radius);
+    let [side, height] = tip_rows(cue, units.tip, radius);
+    let (in_a_metre, per_second) = units.length.speed();
     [
         ("aim", cue.phi_text(2) + degree),
         side,
         height,
-        ("speed", format!("{} m/s", fixed(cue.speed, 2))),
+        ("speed", format!("{} {per_second}", fixed(in_a_metre * cue.speed, 2))),
         (
             "cue",
             match fixed(cue.theta.to_degrees(), 1).as_str() {
@@ -58,11 +56,10 @@ pub fn draw_aim(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
     let title = settled.map_or("Aim".to_owned(), |watched| chances(turn, watched, ui.caps));
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
-        paragraphs
-            .extend(differences(turn, watched, units.tip, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
+        paragraphs.extend(differences(turn, watched, units, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
     } else {
         if let Some(sight) = turn.sight() {
-            paragraphs.push((sight_words(&sight, turn.cue_ball, units.length), ui.theme.accent()));
+            paragraphs.push((sight_words(&sight, turn.cue_ball, turn.table.diamond(), units), ui.theme.accent()));
             match turn.least_elevation() {
                 Ok(LeastElevation { theta, over: Some(over) }) => {
                     paragraphs.push((least_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
@@ -76,7 +73,7 @@ pub fn draw_aim(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
         // In a game the balls have gone elsewhere, and what was to be learnt with them.
         let is_elsewhere = turn.session.is_game() && turn.layout != turn.exercise.layout;
         match turn.hint() {
-            Some(taught) => paragraphs.push((hint(turn, taught, units.tip, ui.caps), ui.theme.text())),
+            Some(taught) => paragraphs.push((hint(turn, taught, units, ui.caps), ui.theme.text())),
             _ if is_elsewhere || turn.exercise.point.is_empty() => {}
             _ => paragraphs.push((turn.exercise.point.clone(), ui.theme.text())),
         }
@@ -102,8 +99,8 @@ fn write_pages(title: String, paragraphs: &[(String, Style)], page: isize, area:
 }
 
 /// What the line of aim meets.
-fn sight_words(sight: &Sight, cue_ball: CueBall, unit: LengthUnit) -> String {
-    let (in_a_metre, symbol) = unit.small();
+fn sight_words(sight: &Sight, cue_ball: CueBall, diamond: f64, units: Units) -> String {
+    let (in_a_metre, symbol) = units.length.small();
     let way = format!("{} {symbol}", fixed(in_a_metre * sight.way, 0));
     match sight.meets {
         Meets::Ball(hit) => {
@@ -113,7 +110,7 @@ fn sight_words(sight: &Sight, cue_ball: CueBall, unit: LengthUnit) -> String {
             format!("{} {:.0} % full{side}, {way}", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
         }
         Meets::Cushion(mark) => {
-            format!("{} at {} diamonds, {way}", rail_name(mark.rail), fixed(mark.diamond, 1))
+            format!("{} at {}, {way}", rail_name(mark.rail), units.place.exact(mark.diamond, diamond, 1))
         }
     }
 }
@@ -142,8 +139,8 @@ pub const fn teacher(taught: &Taught) -> &'static str {
 }
 
 /// What a player has to change to get from one stroke to another, or `none` where the difference cannot be seen.
-fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, unit: TipUnit, caps: Capabilities) -> String {
-    let words = changes(&turn.table, from, to, unit).join(", ");
+fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, units: Units, caps: Capabilities) -> String {
+    let words = changes(&turn.table, from, to, units).join(", ");
     match words.as_str() {
         "" => none.to_owned(),
         _ if caps.unicode => words,
@@ -152,10 +149,10 @@ fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, unit: TipUnit, cap
 }
 
 /// How often the advised stroke is made, and how to set it.
-fn hint(turn: &Turn, taught: &Taught, unit: TipUnit, caps: Capabilities) -> String {
+fn hint(turn: &Turn, taught: &Taught, units: Units, caps: Capabilities) -> String {
     let advice = &taught.advice;
-    let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", unit, caps);
-    let numbers = numbers(&advice.cue, unit, turn.table.radius, caps).map(|(name, value)| format!("{name} {value}"));
+    let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", units, caps);
+    let numbers = numbers(&advice.cue, units, turn.table.radius, caps).map(|(name, value)| format!("{name} {value}"));
     format!("{} makes {}: {}. Yours: {changes}", teacher(taught), percent(advice.chance.rate), numbers.join(", "))
 }
 
@@ -171,16 +168,16 @@ fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
 }
 
 /// What would make the stroke the advised one, and what the player's errors have added to it.
-fn differences(turn: &Turn, watched: &Watched, unit: TipUnit, caps: Capabilities) -> [String; 2] {
+fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities) -> [String; 2] {
     let lesson = match &turn.lesson {
         Lesson::Known(taught) => {
-            let changes = told(turn, [&watched.meant, &taught.advice.cue], "no change worth telling", unit, caps);
+            let changes = told(turn, [&watched.meant, &taught.advice.cue], "no change worth telling", units, caps);
             format!("{}: {changes}", teacher(taught))
         }
         Lesson::Pending => "the coach is still thinking".to_owned(),
         Lesson::Missing => "the coach has found no shot".to_owned(),
     };
-    let added = told(turn, [&watched.meant, &watched.outcome.played.stroke], "nothing worth telling", unit, caps);
+    let added = told(turn, [&watched.meant, &watched.outcome.played.stroke], "nothing worth telling", units, caps);
     [lesson, format!("your hand: {added}")]
 }
 
@@ -188,9 +185,30 @@ fn differences(turn: &Turn, watched: &Watched, unit: TipUnit, caps: Capabilities
 mod tests {
     use super::*;
     use crate::{
+        coach::{
+            Mark,
+            words::{LengthUnit, PlaceUnit, TipUnit},
+        },
         simulation::Rail,
+        table::Table,
         terminal::{Depth, Glyphs},
     };
+
+    #[test]
+    fn places_the_tip_and_the_speed_are_told_in_the_units_of_the_settings() {
+        let table = Table::default();
+        let mark = Mark { rail: Rail::Left, diamond: 2.04 };
+        let sight = Sight { end: glam::DVec2::ZERO, way: 0.5, meets: Meets::Cushion(mark) };
+        let other = Units { tip: TipUnit::Mm, place: PlaceUnit::Mm, length: LengthUnit::Feet };
+        let said = |units| sight_words(&sight, CueBall::White, table.diamond(), units);
+        assert_eq!(said(Units::default()), "left rail at 2.0 diamonds, 50 cm");
+        assert_eq!(said(other), "left rail at 724 mm, 20 in");
+        let cue = CueInputs { a: 0.2, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 };
+        let caps = Capabilities { depth: Depth::True, glyphs: Glyphs::Letters, unicode: true };
+        let told = |units| numbers(&cue, units, table.radius, caps).map(|(name, value)| format!("{name} {value}"));
+        assert_eq!([&told(Units::default())[1], &told(Units::default())[3]], ["left 2 tips", "speed 2.00 m/s"]);
+        assert_eq!([&told(other)[1], &told(other)[3]], ["left 6.2 mm", "speed 6.56 ft/s"]);
+    }
 
     #[test]
     fn the_least_elevation_is_told_with_what_the_cue_passes_over() {
