@@ -102,7 +102,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
     }
-    let mut out = printing::stdout();
+    let mut out = printing::stdout().exact(args.json);
     if args.json {
         for row in &references {
             printing::json_line(&mut out, row)?;
@@ -142,7 +142,7 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
             write_file(folder, "filmed.svg", &filmed::paths(table, &film)?)?;
         }
     }
-    let mut out = printing::stdout();
+    let mut out = printing::stdout().exact(args.json);
     if args.json {
         rows.iter().try_for_each(|row| printing::json_line(&mut out, row))?;
     } else {
@@ -160,7 +160,7 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
         |rest: usize| film.iter().enumerate().filter(move |(index, _)| index % 2 == rest).map(|(_, shot)| shot.clone());
     let (even, odd): (Vec<_>, Vec<_>) = (half(0).collect(), half(1).collect());
     let parts = [("the whole film", &film, &film), ("every other shot", &even, &odd), ("the other shots", &odd, &even)];
-    let mut out = printing::stdout();
+    let mut out = printing::stdout().exact(args.json);
     for (used, fit_on, judge_on) in parts {
         tell(format_args!("fitting {used} ..."));
         let fitted = filmed::fit_constants(&table, model, fit_on);
@@ -184,7 +184,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     if let Some(folder) = &args.out {
         write_file(folder, "stability.md", &stability::page(&plan, &rows))?;
     }
-    let mut out = printing::stdout();
+    let mut out = printing::stdout().exact(args.json);
     if args.json {
         for row in &rows {
             printing::json_line(&mut out, row)?;

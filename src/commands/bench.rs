@@ -45,7 +45,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         ))
     })?;
     let machine = Machine::this();
-    let mut out = printing::stdout();
+    let mut out = printing::stdout().exact(args.json);
     if !args.json {
         writeln!(out, "{}, {} threads, {}", machine.cpu, machine.threads, machine.os)?;
     }

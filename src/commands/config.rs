@@ -21,7 +21,7 @@ pub struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let path = Settings::path();
-    let mut out = printing::stdout();
+    let mut out = printing::stdout().exact(true);
     if args.path {
         return Ok(writeln!(out, "{}", path.display())?);
     }

@@ -27,7 +27,7 @@ pub(super) fn completions(args: &Completions) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "carom", &mut script);
     // Not into the pipe itself: a reader that has gone would be a panic there.
-    Ok(printing::stdout().write_all(&script)?)
+    Ok(printing::stdout().exact(true).write_all(&script)?)
 }
 
 pub(super) fn man(args: &Man) -> Result<(), Failure> {
@@ -44,5 +44,5 @@ pub(super) fn man(args: &Man) -> Result<(), Failure> {
     }
     let mut page = Vec::new();
     clap_mangen::Man::new(command.clone()).render(&mut page)?;
-    Ok(printing::stdout().write_all(&page)?)
+    Ok(printing::stdout().exact(true).write_all(&page)?)
 }

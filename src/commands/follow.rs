@@ -43,7 +43,14 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
         return terminal::follow(player.name(), &folder, &settings, seat).map_err(failure);
     }
     let stop = stop_when_told(false).map_err(Failure::failed)?;
-    follow_in_lines(player.name(), &folder, settings.units, args.json, &stop, &mut printing::stdout())?;
+    follow_in_lines(
+        player.name(),
+        &folder,
+        settings.units,
+        args.json,
+        &stop,
+        &mut printing::stdout().exact(args.json),
+    )?;
     tell(format_args!("{player} shows the table no more"));
     Ok(())
 }

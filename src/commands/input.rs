@@ -211,7 +211,7 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
         let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
         Box::new(BufReader::new(storage::open(Path::new(file)).map_err(unreadable)?))
     };
-    let mut out = io::BufWriter::new(printing::stdout());
+    let mut out = io::BufWriter::new(printing::stdout().exact(true));
     let (mut lines, mut refused) = (0_usize, 0_usize);
     let (mut line, mut index) = (Vec::new(), 0_usize);
     loop {

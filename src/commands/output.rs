@@ -88,7 +88,7 @@ pub fn impulse_words(impulse: &Impulse, unit: LengthUnit) -> String {
 
 /// A line of JSON on the standard output.
 pub fn json_line(value: &impl Serialize) -> io::Result<()> {
-    printing::json_line(&mut printing::stdout(), value)
+    printing::json_line(&mut printing::stdout().exact(true), value)
 }
 
 /// Rows of cells as lines, as wide as a terminal shows them, whatever the cells hold; the columns in `numbers` stand to the right.

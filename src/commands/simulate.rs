@@ -337,7 +337,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         tell(format_args!("note: {note}"));
     }
     let verdict = Verdict::of(args.rule, &table, &layout, &played.0);
-    let mut out = printing::stdout();
+    let mut out = printing::stdout().exact(args.json);
     if args.json {
         printing::json_line(&mut out, &SimulateAnswer::of(&played, &verdict, cue_room, &args.at))?;
     } else {

@@ -43,7 +43,7 @@ enum Order {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let mut out = printing::stdout();
+    let mut out = printing::stdout().exact(args.json || matches!(args.order, Some(Order::Show { .. })));
     match args.order.as_ref().unwrap_or(&Order::List) {
         Order::List => {
             let bundled = PRESETS.iter().map(|name| Table::preset(name).map_err(Failure::failed));

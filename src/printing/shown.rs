@@ -5,7 +5,10 @@ use std::{
     io::{self, IsTerminal, StderrLock, StdoutLock, Write},
 };
 
-use super::visible::{is_hidden, write_escaped};
+use super::{
+    spelling::{is_wanted, spelt},
+    visible::{is_hidden, write_escaped},
+};
 
 /// Takes an output's text in, and gives it on with everything shown that a terminal would obey. New lines and tabs
 /// pass; bytes that are no UTF-8 become U+FFFD.
@@ -14,18 +17,20 @@ pub struct Shown<W: Write> {
     inner: W,
     /// The beginning of a character whose end has not been written yet.
     begun: Vec<u8>,
+    /// Whether text is spelt in ASCII.
+    spells: bool,
 }
 
 /// The standard output.
 #[expect(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
 pub fn stdout() -> Shown<StdoutLock<'static>> {
-    Shown::new(io::stdout().lock())
+    Shown { inner: io::stdout().lock(), begun: Vec::new(), spells: is_wanted() }
 }
 
 /// The standard error.
 #[expect(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
 pub fn stderr() -> Shown<StderrLock<'static>> {
-    Shown::new(io::stderr().lock())
+    Shown { inner: io::stderr().lock(), begun: Vec::new(), spells: is_wanted() }
 }
 
 /// Whether somebody watches the standard error.
@@ -54,13 +59,21 @@ pub fn clear_line() -> io::Result<()> {
 impl<W: Write> Shown<W> {
     /// Gives the text on to `inner`.
     pub const fn new(inner: W) -> Self {
-        Self { inner, begun: Vec::new() }
+        Self { inner, begun: Vec::new(), spells: false }
+    }
+
+    /// The same, where `is_exact` for what must not be spelt: JSON, and what is meant for a file.
+    #[must_use]
+    pub fn exact(mut self, is_exact: bool) -> Self {
+        self.spells &= !is_exact;
+        self
     }
 
     fn show(&mut self, text: &str) -> io::Result<()> {
         let is_obeyed = |character: char| is_hidden(character) && !matches!(character, '\n' | '\t');
+        let spelling = if self.spells { spelt(text) } else { text.into() };
         let mut shown = String::new();
-        let mut rest = text;
+        let mut rest = &*spelling;
         while let Some(at) = rest.find(is_obeyed) {
             let mut characters = rest[at..].chars();
             shown.push_str(&rest[..at]);
@@ -134,6 +147,18 @@ mod tests {
         }
         drop(out);
         String::from_utf8(bytes).unwrap()
+    }
+
+    #[test]
+    fn what_must_not_be_spelt_is_not() {
+        let said = |is_exact| {
+            let mut bytes = Vec::new();
+            let mut out = Shown { inner: &mut bytes, begun: Vec::new(), spells: true }.exact(is_exact);
+            write!(out, "3\u{b0} \u{b1} 1").unwrap();
+            drop(out);
+            String::from_utf8(bytes).unwrap()
+        };
+        assert_eq!([said(false), said(true)], ["3 degrees +- 1", "3\u{b0} \u{b1} 1"]);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! What the terminal can show: how many colours and which characters, found out from the environment.
 
+use crate::printing;
+
 /// How many colours the terminal has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
@@ -45,10 +47,7 @@ impl Capabilities {
     pub fn detect(variable: impl Fn(&str) -> Option<String>, chosen: (Option<Depth>, Option<Glyphs>)) -> Self {
         let set = |name: &str| variable(name).filter(|value| !value.is_empty());
         let term = set("TERM").unwrap_or_default();
-        let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(&set).unwrap_or_default().to_lowercase();
-        // Windows Terminal names itself, and no locale.
-        let is_windows_terminal = set("WT_SESSION").is_some() && locale.is_empty();
-        let unicode = locale.contains("utf-8") || locale.contains("utf8") || is_windows_terminal;
+        let (unicode, is_windows_terminal) = (printing::is_unicode(set), printing::is_windows_terminal(set));
         let depth = match chosen.0 {
             Some(depth) => depth,
             None if set("NO_COLOR").is_some() || term.starts_with("vt") => Depth::Mono,

@@ -18,5 +18,6 @@ mod hostile;
 mod program;
 mod pty;
 mod reproduce;
+mod spelling;
 mod terminal;
 mod training;

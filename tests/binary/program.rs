@@ -22,7 +22,7 @@ pub fn home() -> impl Iterator<Item = (&'static str, String)> {
 /// The program, which finds nothing of any user's, with what there is to assert on its answer.
 pub fn asked(args: &[&str]) -> assert_cmd::Command {
     let mut command = assert_cmd::Command::new(cargo_bin!("carom"));
-    command.envs(home()).args(args);
+    command.envs(home()).env_remove("LC_ALL").env_remove("LC_CTYPE").env("LANG", "C.UTF-8").args(args);
     command
 }
 
@@ -59,6 +59,7 @@ pub fn command(folder: &Path, args: &[&str]) -> Command {
 pub fn program(folder: &Path, program: &Path) -> Command {
     let mut command = Command::new(program);
     command.current_dir(folder).env("XDG_DATA_HOME", folder).env("HOME", folder);
+    command.env_remove("LC_ALL").env_remove("LC_CTYPE").env("LANG", "C.UTF-8");
     command.env("XDG_CONFIG_HOME", folder.join("config")).env("XDG_STATE_HOME", folder.join("state"));
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     command

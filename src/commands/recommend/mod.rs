@@ -193,7 +193,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let (table, layout) = args.position.read()?;
     let coach = coach_for(table, &args.policy)?;
     let answer = answer(args, &coach, &layout, args.rule)?;
-    let mut out = printing::stdout();
+    let mut out = printing::stdout().exact(args.json);
     if args.json {
         printing::json_line(&mut out, &answer)?;
     } else {

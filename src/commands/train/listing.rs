@@ -25,7 +25,7 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
     for sentence in unreadable {
         tell(format_args!("note: {}", OneLine(sentence)));
     }
-    let mut out = printing::stdout();
+    let mut out = printing::stdout().exact(json);
     if json {
         for run in &runs {
             printing::json_line(&mut out, run)?;

@@ -9,7 +9,7 @@ use ratatui::{
 };
 use unicode_segmentation::UnicodeSegmentation;
 
-use crate::terminal::Capabilities;
+use crate::{printing, terminal::Capabilities};
 
 /// Columns that drawing `text` takes.
 pub fn columns(text: &str) -> usize {
@@ -97,7 +97,7 @@ pub fn spell(text: &str, caps: Capabilities) -> String {
     if caps.unicode {
         return text.to_owned();
     }
-    text.replace('\u{2013}', "-").replace('\u{b0}', " degrees").replace('\u{e9}', "e")
+    printing::spelt(text).replace('\u{e9}', "e")
 }
 
 /// The end of `text`, as much as fits into `room` columns: the ends of names differ where their beginnings do not.

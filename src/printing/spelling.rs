@@ -1,0 +1,81 @@
+//! Text for terminals whose locale has no UTF-8: what this program writes beyond ASCII, spelt.
+
+use std::{borrow::Cow, sync::OnceLock};
+
+/// What is spelt, and how. Other characters come from names that somebody gave; they stay as they are.
+const SPELT: [(&str, &str); 18] = [
+    ("\u{2013}", "-"),
+    ("\u{b0}", " degrees"),
+    ("mass\u{e9}", "masse"),
+    ("\u{b1}", "+-"),
+    ("\u{d7}", "x"),
+    ("\u{b2}", "^2"),
+    ("\u{2026}", "..."),
+    ("\u{b5}", "u"),
+    ("\u{221a}", "sqrt "),
+    ("\u{3b5}", "eps"),
+    // Bars of a history, from low to high.
+    ("\u{2581}", "."),
+    ("\u{2582}", ":"),
+    ("\u{2583}", "-"),
+    ("\u{2584}", "="),
+    ("\u{2585}", "+"),
+    ("\u{2586}", "*"),
+    ("\u{2587}", "%"),
+    ("\u{2588}", "#"),
+];
+
+/// `text` in ASCII as far as it is this program's own.
+pub fn spelt(text: &str) -> Cow<'_, str> {
+    if text.is_ascii() {
+        return Cow::Borrowed(text);
+    }
+    Cow::Owned(SPELT.iter().fold(text.to_owned(), |text, (character, word)| text.replace(character, word)))
+}
+
+/// Whether text may have characters beyond ASCII, by the environment's variables.
+pub fn is_unicode(variable: impl Fn(&str) -> Option<String>) -> bool {
+    let locale = locale(&variable);
+    locale.contains("utf-8") || locale.contains("utf8") || is_windows_terminal(&variable)
+}
+
+/// Whether this is Windows Terminal, which names itself, and no locale.
+pub fn is_windows_terminal(variable: impl Fn(&str) -> Option<String>) -> bool {
+    locale(&variable).is_empty() && variable("WT_SESSION").is_some_and(|value| !value.is_empty())
+}
+
+/// The first of `LC_ALL`, `LC_CTYPE` and `LANG` that is set, in small letters; empty where none is.
+fn locale(variable: impl Fn(&str) -> Option<String>) -> String {
+    let set = |name: &str| variable(name).filter(|value| !value.is_empty());
+    ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default().to_lowercase()
+}
+
+/// Whether the environment of this process asks for spelling.
+pub(super) fn is_wanted() -> bool {
+    static IS_WANTED: OnceLock<bool> = OnceLock::new();
+    *IS_WANTED.get_or_init(|| !is_unicode(|name| std::env::var(name).ok()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_program_writes_is_spelt_and_names_stay() {
+        assert_eq!(spelt("red \u{2013} 3\u{b0}, 1.0 \u{b1} 0.2, a\u{b2}"), "red - 3 degrees, 1.0 +- 0.2, a^2");
+        assert_eq!(spelt("a mass\u{e9} by Andr\u{e9}"), "a masse by Andr\u{e9}");
+        assert!(matches!(spelt("plain"), Cow::Borrowed("plain")));
+    }
+
+    #[test]
+    fn the_first_variable_that_is_set_is_the_locale() {
+        let unicode = |set: &[(&str, &str)]| {
+            is_unicode(|name| set.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned()))
+        };
+        assert!(
+            unicode(&[("LANG", "de_DE.UTF-8")]) && unicode(&[("LC_ALL", ""), ("LC_CTYPE", "C.utf8"), ("LANG", "C")])
+        );
+        assert!(!unicode(&[("LC_ALL", "C"), ("LANG", "de_DE.UTF-8")]) && !unicode(&[]));
+        assert!(unicode(&[("WT_SESSION", "1")]) && !unicode(&[("WT_SESSION", "1"), ("LANG", "C")]));
+    }
+}
