@@ -1,6 +1,6 @@
 //! The search for the shot that a player is most likely to make: sampling widely, a race on common random numbers, refinement.
 
-use std::mem::replace;
+use std::{mem::replace, ops::Range};
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -25,8 +25,15 @@ const SAMPLING_ENDS: f64 = 0.5;
 const REFINEMENT_ENDS: f64 = 0.88;
 
 /// Shots of the first round of sampling; each later one has twice as many, up to [`LARGEST_BATCH`].
-const FIRST_BATCH: usize = 256;
-const LARGEST_BATCH: usize = 4096;
+const FIRST_BATCH: u64 = 256;
+const LARGEST_BATCH: u64 = 4096;
+
+/// Shots of a last round of sampling that has few simulations left.
+const SMALLEST_BATCH: u64 = 64;
+
+/// How many of the proposals are varied, and how often each.
+const VARIED: usize = 4;
+const VARIATIONS_OF_EACH: u64 = 16;
 
 /// How much softer than the softest shot that has made the point sampled strokes may be, and the speed from which on all are
 /// tried in any case, m/s.
@@ -35,7 +42,7 @@ const SOFT: f64 = 1.0;
 
 /// One stroke in so many of the first rounds of sampling is a jump or a massé, and of the later ones where none of these is
 /// among the better half of what stays in; none is where the best shot so far is made this often.
-const ELEVATED_TRIED: [usize; 2] = [8, 64];
+const ELEVATED_TRIED: [u64; 2] = [8, 64];
 const ROUNDS_OF_ELEVATED: usize = 3;
 const GOOD_WITHOUT: f64 = 0.9;
 
@@ -108,43 +115,44 @@ impl<'a> Search<'a> {
     }
 
     fn sample(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
-        let table = self.task.table;
-        let mut shots = Vec::new();
-        for cue in proposals.iter().take(4) {
-            let varied =
-                (0..16).map(|_| Suggestion { cue: variation(table, cue, &mut self.rng), source: Source::Variation });
-            shots.extend(varied);
-        }
+        let Task { table, layout, rule, .. } = self.task;
+        let varied = &proposals[..proposals.len().min(VARIED)];
+        let variations = |numbers: Range<u64>, rng: &mut Xoshiro256PlusPlus| {
+            numbers.map(|n| variation(table, &varied[n as usize % varied.len()], rng)).collect()
+        };
+        self.try_strokes(0..VARIATIONS_OF_EACH * varied.len() as u64, Source::Variation, variations);
         let (mut drawn, mut batch, mut softest, mut rounds) = (0, FIRST_BATCH, MIN_SPEED, 0);
         while self.task.clock.used() < self.sampling_ends || drawn == 0 {
-            shots.extend((0..batch as u64).map(|n| Suggestion {
-                cue: stratified(table, self.task.layout, self.task.rule, drawn + n, softest, &mut self.rng),
-                source: Source::Search,
-            }));
             keep(&mut self.pool, SHORTLIST, OF_EACH_KIND_AT_FIRST);
-            let elevated = self.elevated(batch, rounds);
-            shots.extend(elevated.into_iter().map(|cue| Suggestion { cue, source: Source::Search }));
-            drawn += batch as u64;
+            let one_in = self.elevated_tried(rounds);
+            let strokes = |numbers: Range<u64>, rng: &mut Xoshiro256PlusPlus| {
+                let usual = numbers.clone().map(|n| stratified(table, layout, rule, n, softest, rng));
+                let mut strokes: Vec<_> = usual.collect();
+                let elevated = numbers.filter(|n| one_in.is_some_and(|one_in| n.is_multiple_of(one_in)));
+                strokes.extend(elevated.filter_map(|_| raised(table, layout, rng)));
+                strokes
+            };
+            let left = self.task.clock.simulations_until(self.sampling_ends) as u64;
+            let count = batch.min(left.max(SMALLEST_BATCH));
+            self.try_strokes(drawn..drawn + count, Source::Search, strokes);
+            drawn += count;
             batch = (2 * batch).min(LARGEST_BATCH);
             rounds += 1;
-            self.sample_batch(&shots);
             let speeds = self.pool.iter().map(|candidate| candidate.shot.cue.speed);
             softest = (SOFTER * speeds.fold(f64::INFINITY, f64::min)).clamp(MIN_SPEED, SOFT);
-            shots.clear();
             self.tell(tell);
         }
     }
 
-    /// Jumps and massés for a round of sampling with so many other strokes.
-    fn elevated(&mut self, batch: usize, rounds: usize) -> Vec<CueInputs> {
+    /// After how many usual strokes a jump or a massé is tried in a round of sampling, if any is.
+    fn elevated_tried(&self, round: usize) -> Option<u64> {
         let is_good =
             self.pool.first().is_some_and(|best| best.tried >= BLOCK * SECOND_LOOK && best.own.share >= GOOD_WITHOUT);
         if !self.task.seeks_jumps() || is_good {
-            return Vec::new();
+            return None;
         }
         let is_among = self.pool.iter().take(SHORTLIST / 2).any(|candidate| candidate.kind.raised);
-        let one_in = ELEVATED_TRIED[usize::from(rounds >= ROUNDS_OF_ELEVATED && !is_among)];
-        (0..batch / one_in).filter_map(|_| raised(self.task.table, self.task.layout, &mut self.rng)).collect()
+        Some(ELEVATED_TRIED[usize::from(round >= ROUNDS_OF_ELEVATED && !is_among)])
     }
 
     /// What the hardest stroke and the steepest cue cost.
@@ -152,19 +160,31 @@ impl<'a> Search<'a> {
         if self.plan { EFFORT_PENALTY_IN_A_PLAN } else { EFFORT_PENALTY }
     }
 
-    /// Judges a batch of sampled strokes.
-    fn sample_batch(&mut self, shots: &[Suggestion]) {
+    /// Judges the strokes with these numbers, which are drawn in pieces, each with random numbers of its own.
+    fn try_strokes(
+        &mut self,
+        numbers: Range<u64>,
+        source: Source,
+        draw: impl Fn(Range<u64>, &mut Xoshiro256PlusPlus) -> Vec<CueInputs> + Sync,
+    ) {
         // Who does not come near those who stay in is not looked at twice.
         let bar = self.pool.get(SHORTLIST / 2).map_or(0.0, |candidate| candidate.score() - 0.2);
-        let (task, race, weight) = (&self.task, &self.race, self.weight());
-        let pieces: Vec<&[Suggestion]> = shots.chunks(PIECE).collect();
-        let judge = |shot: &Suggestion| {
-            let candidate = Candidate::new(task, shot.cue, shot.source, weight)?;
+        let (task, race, weight, seed) = (&self.task, &self.race, self.weight(), self.rng.random::<u64>());
+        let pieces: Vec<_> =
+            numbers.clone().step_by(PIECE).map(|from| from..numbers.end.min(from + PIECE as u64)).collect();
+        let judge = |cue: CueInputs| {
+            let candidate = Candidate::new(task, cue, source, weight)?;
             let candidate = race.go_on(task, &candidate, FIRST_LOOK)?;
             if candidate.score() < bar { Some(candidate) } else { race.go_on(task, &candidate, SECOND_LOOK) }
         };
+        let is_time_left = || !task.clock.is_past(task.until);
         let found = parallel::map(self.threads, &pieces, |piece| {
-            piece.iter().take_while(|_| !task.clock.is_past(task.until)).filter_map(judge).collect::<Vec<_>>()
+            if !is_time_left() {
+                return Vec::new();
+            }
+            let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed.wrapping_add(piece.start));
+            let strokes = draw(piece.clone(), &mut rng).into_iter();
+            strokes.take_while(|_| is_time_left()).filter_map(judge).collect()
         });
         self.pool.extend(found.into_iter().flatten());
     }
