@@ -13,7 +13,7 @@ use super::{
     next::NextValue,
     pool::Candidate,
     search::Search,
-    trial::{CONTACT_STEPS, ENDLESS, Task, unhurried},
+    trial::{Attempts, CONTACT_STEPS, ENDLESS, Task, unhurried},
 };
 use crate::{
     game::Rule,
@@ -163,9 +163,9 @@ impl Coach {
 }
 
 /// The answer for a player who errs: the head of the pool, which is not empty, judged by errors that took no part in the
-/// choice, and the heads of the other kinds.
+/// choice, and the heads of the other kinds. Where these errors leave no doubt that one of those is made more often, that is the answer: a
+/// search with few attempts may be mistaken.
 fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
-    let best = pool[0];
     keep_one_of_each(&mut pool, task.skill, task.table.radius);
     pool.truncate(1 + ALTERNATIVES);
     // Drawn by whoever is the first to need them: where there is no time for them, neither is there for their drawing.
@@ -176,24 +176,36 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
             (0..count / PIECE).map(move |piece| (index, piece))
         })
         .collect();
-    let made = parallel::map(request.threads, &pieces, |(index, piece)| {
-        let own = || judging(task.worlds, request.seed, *piece);
-        task.attempts(&pool[*index].shot.cue, attempts[*piece].get_or_init(own).iter())
-    });
-    let probability = |candidate: usize| {
-        let own = pieces.iter().zip(&made).filter(|((index, _), _)| *index == candidate);
+    let judged = |pieces: &[(usize, usize)]| {
+        parallel::map(request.threads, pieces, |&(index, piece)| {
+            let own = || judging(task.worlds, request.seed, piece);
+            (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(own).iter()))
+        })
+    };
+    let rate = |judged: &[(usize, Attempts)], candidate: usize| {
+        let own = judged.iter().filter(|(index, _)| *index == candidate);
         let (made, tried) = own.fold((0, 0), |sum, (_, part)| (sum.0 + part.made, sum.1 + part.tried));
         (tried > 0).then(|| SuccessRate::new(made, tried))
     };
+    let mut made = judged(&pieces);
+    let mut rates: Vec<_> = (0..pool.len()).map(|candidate| rate(&made, candidate)).collect();
+    if let Some(better) = made_more_often(&pool, &rates).filter(|_| !request.plan) {
+        let rest = (ATTEMPTS_AT_ALTERNATIVE..ATTEMPTS).step_by(PIECE).map(|attempt| (better, attempt / PIECE));
+        made.extend(judged(&rest.collect::<Vec<_>>()));
+        rates[better] = rate(&made, better);
+        rates.swap(0, better);
+        pool.swap(0, better);
+    }
+    let best = pool[0];
     let told_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
-    let best_rate = probability(0).map_or(0.0, |rate| rate.rate);
+    let best_rate = rates[0].map_or(0.0, |rate| rate.rate);
     let is_worth = |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= WORTH_LISTING * best_rate);
     let mut alternatives: Vec<_> = (1..pool.len())
         .map(|index| Alternative {
             cue: pool[index].shot.cue,
             source: pool[index].shot.source,
             kind: pool[index].kind,
-            make_probability: probability(index),
+            make_probability: rates[index],
             next_probability: told_next(pool[index].next),
         })
         .filter(is_worth)
@@ -208,13 +220,23 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         solved: true,
         source: best.shot.source,
         kind: Some(best.kind),
-        make_probability: probability(0),
+        make_probability: rates[0],
         risk: risk(&best.shot.cue, task, request, judging_seed(request.seed)),
         next_probability: told_next(best.next),
         is_planned: request.plan,
         alternatives,
         ..first_point(found)
     }
+}
+
+/// The shot that is made more often than the first one beyond doubt, most often if there are several: its interval lies above that of the
+/// first, both less what effort costs.
+fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Option<usize> {
+    let worth = |index: usize, of: fn(SuccessRate) -> f64| Some(of(rates[index]?) - pool[index].effort_penalty);
+    let bar = worth(0, |rate| rate.high)?;
+    let better = (1..pool.len()).filter(|index| worth(*index, |rate| rate.low).is_some_and(|low| low > bar));
+    let rate = |index: usize| worth(index, |rate| rate.rate).unwrap_or_default();
+    better.max_by(|one, other| rate(*one).total_cmp(&rate(*other)))
 }
 
 /// What misses a shot by itself; `None` where nothing is in doubt, or time runs out.
@@ -354,23 +376,43 @@ mod tests {
     use super::*;
     use crate::coach::{Pace, Source, Suggestion, Way, evidence::Rate};
 
+    fn candidate(cue: CueInputs, way: Way, effort_penalty: f64) -> Candidate {
+        let kind = Kind { first_ball: 1, cushion_first: false, way, pace: Pace::Hard, raised: false };
+        Candidate {
+            shot: Suggestion { cue, source: Source::Search },
+            kind,
+            tried: 0,
+            points: 0,
+            own: Rate::default(),
+            larger: Rate::default(),
+            next: NextValue::Supposed(1.0),
+            effort_penalty,
+        }
+    }
+
+    #[test]
+    fn what_is_made_more_often_beyond_doubt_is_found() {
+        let cue = CueInputs { a: 0.0, b: 0.3, theta: 0.01, phi: 1.0, speed: 3.0 };
+        // The first is made 220 times of 1000; of the others each is made so often of 400, and costs so much.
+        let better = |others: &[(usize, f64)]| {
+            let mut pool = vec![candidate(cue, Way::Direct, 0.0)];
+            pool.extend(others.iter().map(|(_, penalty)| candidate(cue, Way::OffCushion, *penalty)));
+            let mut rates = vec![Some(SuccessRate::new(220, 1000))];
+            rates.extend(others.iter().map(|(made, _)| (*made > 0).then(|| SuccessRate::new(*made, 400))));
+            made_more_often(&pool, &rates)
+        };
+        assert_eq!(better(&[]), None);
+        assert_eq!(better(&[(0, 0.0), (100, 0.0)]), None);
+        assert_eq!(better(&[(133, 0.1)]), None);
+        assert_eq!(better(&[(128, 0.0), (0, 0.0), (133, 0.0)]), Some(3));
+    }
+
     #[test]
     fn a_stroke_that_makes_the_point_in_two_ways_is_no_alternative_to_itself() {
         let meant = CueInputs { a: 0.0, b: 0.3, theta: 0.01, phi: 1.0, speed: 3.0 };
         let candidate = |way, phi: f64| {
             let cue = CueInputs { phi: meant.phi + phi * Skill::EXPERT.at(&meant).phi, ..meant };
-            let kind = Kind { first_ball: 1, cushion_first: false, way, pace: Pace::Hard, raised: false };
-            let shot = Suggestion { cue, source: Source::Search };
-            Candidate {
-                shot,
-                kind,
-                tried: 0,
-                points: 0,
-                own: Rate::default(),
-                larger: Rate::default(),
-                next: NextValue::Supposed(1.0),
-                effort_penalty: 0.0,
-            }
+            candidate(cue, way, 0.0)
         };
         let kept = |ways: &[(Way, f64)]| {
             let mut pool: Vec<_> = ways.iter().map(|&(way, phi)| candidate(way, phi)).collect();

@@ -77,6 +77,14 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
     Ok(all.into_iter().map(|(_, result)| result).collect())
 }
 
+/// `work` on one thread, with all that libraries share out between threads elsewhere.
+pub fn alone<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    match start(1) {
+        Some(pool) => pool.install(work),
+        None => work(),
+    }
+}
+
 fn start(count: usize) -> Option<ThreadPool> {
     ThreadPoolBuilder::new().num_threads(count).thread_name(|index| format!("worker {index}")).build().ok()
 }

@@ -174,18 +174,24 @@ const THESIS_UPDATES: [ThesisUpdate; 3] = [
     ("actor and critic 256-256, batch 256", [&[256; 2], &[256; 2]], 256, true),
 ];
 
-/// Runs `update` again and again; how often a second of the thread's own time (on Linux; elsewhere the wall's).
-fn updates_a_second<T>(time: Duration, mut update: impl FnMut() -> candle_core::Result<T>) -> candle_core::Result<f64> {
-    let start = Instant::now();
-    let mut done = 0_u64;
-    let (worked, seconds) = timed(|| {
-        while done == 0 || start.elapsed() < time {
-            update()?;
-            done += 1;
-        }
-        Ok(())
-    });
-    worked.map(|()| done as f64 / seconds)
+/// Runs `update` again and again; how often a second of one thread's own time (on Linux; elsewhere the wall's). It has all the work: candle's
+/// layers would leave a part to other threads.
+fn updates_a_second<T>(
+    time: Duration,
+    mut update: impl FnMut() -> candle_core::Result<T> + Send,
+) -> candle_core::Result<f64> {
+    parallel::alone(|| {
+        let start = Instant::now();
+        let mut done = 0_u64;
+        let (worked, seconds) = timed(|| {
+            while done == 0 || start.elapsed() < time {
+                update()?;
+                done += 1;
+            }
+            Ok(())
+        });
+        worked.map(|()| done as f64 / seconds)
+    })
 }
 
 /// Updates of the thesis' critic, actor and their averaged copies, from a batch that is at hand.
