@@ -28,7 +28,7 @@ const REFINEMENT_ENDS: f64 = 0.88;
 const FIRST_BATCH: u64 = 256;
 const LARGEST_BATCH: u64 = 4096;
 
-/// Shots of a last round of sampling that has few simulations left.
+/// Shots of a round of sampling that has few simulations left.
 const SMALLEST_BATCH: u64 = 64;
 
 /// How many of the proposals are varied, and how often each.
@@ -121,6 +121,7 @@ impl<'a> Search<'a> {
             numbers.map(|n| variation(table, &varied[n as usize % varied.len()], rng)).collect()
         };
         self.try_strokes(0..VARIATIONS_OF_EACH * varied.len() as u64, Source::Variation, variations);
+        let begun = self.task.clock.simulations();
         let (mut drawn, mut batch, mut softest, mut rounds) = (0, FIRST_BATCH, MIN_SPEED, 0);
         while self.task.clock.used() < self.sampling_ends || drawn == 0 {
             keep(&mut self.pool, SHORTLIST, OF_EACH_KIND_AT_FIRST);
@@ -132,8 +133,10 @@ impl<'a> Search<'a> {
                 strokes.extend(elevated.filter_map(|_| raised(table, layout, rng)));
                 strokes
             };
-            let left = self.task.clock.simulations_until(self.sampling_ends) as u64;
-            let count = batch.min(left.max(SMALLEST_BATCH));
+            // More than there is room for would take from the refinement, where simulations end the search.
+            let of_a_stroke = (self.task.clock.simulations() - begun) as f64 / (drawn as f64).max(1.0);
+            let room = self.task.clock.simulations_until(self.sampling_ends) / of_a_stroke.max(1.0);
+            let count = batch.min((room as u64).max(SMALLEST_BATCH));
             self.try_strokes(drawn..drawn + count, Source::Search, strokes);
             drawn += count;
             batch = (2 * batch).min(LARGEST_BATCH);
@@ -216,6 +219,32 @@ mod tests {
         table::{Layout, Table},
     };
     use std::{sync::atomic::AtomicBool, thread, time::Duration};
+
+    #[test]
+    fn sampling_leaves_the_refinement_its_share_of_the_simulations() {
+        let (table, cancel) = (Table::default(), AtomicBool::new(false));
+        let layout = Layout::opening(&table);
+        for (rule, simulations) in Rule::ALL.into_iter().flat_map(|rule| [4_000, 10_000, 25_000].map(|n| (rule, n))) {
+            let clock = Clock::start(Duration::from_secs(600), simulations, &cancel);
+            let task = Task {
+                table: &table,
+                layout: &layout,
+                rule,
+                skill: Skill::EXPERT,
+                jumps: true,
+                worlds: &Worlds::new(&table, &layout, Doubt::NONE),
+                clock: &clock,
+                until: clock.moment(1.0),
+                patience: CONTACT_STEPS,
+            };
+            let mut search = Search::new(task, false, 2, 1);
+            search.task.until = clock.moment(search.sampling_ends);
+            search.race.extend_to(task.worlds, SECOND_LOOK);
+            search.sample(&[], &mut |_| ());
+            let used = clock.used();
+            assert!((SAMPLING_ENDS..1.25 * SAMPLING_ENDS).contains(&used), "{rule:?}, {simulations}: {used}");
+        }
+    }
 
     #[test]
     fn a_search_that_begins_late_shares_out_what_is_left_of_the_time() {
