@@ -220,23 +220,27 @@ mod tests {
     };
     use std::{sync::atomic::AtomicBool, thread, time::Duration};
 
+    /// The task of an expert who knows the table.
+    fn expert<'a>(
+        table: &'a Table,
+        layout: &'a Layout,
+        rule: Rule,
+        worlds: &'a Worlds,
+        clock: &'a Clock<'a>,
+    ) -> Task<'a> {
+        let until = clock.moment(1.0);
+        let (skill, jumps, patience) = (Skill::EXPERT, true, CONTACT_STEPS);
+        Task { table, layout, rule, skill, jumps, worlds, clock, until, patience }
+    }
+
     #[test]
     fn sampling_leaves_the_refinement_its_share_of_the_simulations() {
         let (table, cancel) = (Table::default(), AtomicBool::new(false));
         let layout = Layout::opening(&table);
+        let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         for (rule, simulations) in Rule::ALL.into_iter().flat_map(|rule| [4_000, 10_000, 25_000].map(|n| (rule, n))) {
             let clock = Clock::start(Duration::from_secs(600), simulations, &cancel);
-            let task = Task {
-                table: &table,
-                layout: &layout,
-                rule,
-                skill: Skill::EXPERT,
-                jumps: true,
-                worlds: &Worlds::new(&table, &layout, Doubt::NONE),
-                clock: &clock,
-                until: clock.moment(1.0),
-                patience: CONTACT_STEPS,
-            };
+            let task = expert(&table, &layout, rule, &worlds, &clock);
             let mut search = Search::new(task, false, 2, 1);
             search.task.until = clock.moment(search.sampling_ends);
             search.race.extend_to(task.worlds, SECOND_LOOK);
@@ -250,18 +254,9 @@ mod tests {
     fn a_search_that_begins_late_shares_out_what_is_left_of_the_time() {
         let (table, cancel, budget) = (Table::default(), AtomicBool::new(false), Duration::from_secs(2));
         let layout = Layout::opening(&table);
+        let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         let clock = Clock::start(budget, u64::MAX, &cancel);
-        let task = Task {
-            table: &table,
-            layout: &layout,
-            rule: Rule::StraightRail,
-            skill: Skill::EXPERT,
-            jumps: true,
-            worlds: &Worlds::new(&table, &layout, Doubt::NONE),
-            clock: &clock,
-            until: clock.moment(1.0),
-            patience: CONTACT_STEPS,
-        };
+        let task = expert(&table, &layout, Rule::StraightRail, &worlds, &clock);
         let found = Attempt::new(task).run(&[], &[], 1);
         // As if the first shot had been hard to find.
         thread::sleep(budget.mul_f64(0.5).saturating_sub(clock.elapsed()));
