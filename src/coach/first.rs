@@ -19,7 +19,7 @@ use crate::{
 const VARIATIONS: u32 = 64;
 
 /// How many of the policy's favourites are varied.
-const FAVOURITES: usize = 4;
+pub const FAVOURITES: usize = 4;
 
 /// Steps of resting contacts after which a shot is given up that is not the policy's: there are always more. Of 7,000 random
 /// shots on seven layouts of `thesis` nine made three cushions, with 5 steps as with 20 and 100; with 5 they took a thirtieth

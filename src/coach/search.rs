@@ -9,6 +9,7 @@ use super::{
     Source, Suggestion,
     candidates::{MIN_SPEED, stratified, variation},
     elevated::raised,
+    first::FAVOURITES,
     pool::{BLOCK, Candidate, Race, keep},
     refinement::Refinement,
     trial::{Course, Task},
@@ -31,8 +32,7 @@ const LARGEST_BATCH: u64 = 4096;
 /// Shots of a round of sampling that has few simulations left.
 const SMALLEST_BATCH: u64 = 64;
 
-/// How many of the proposals are varied, and how often each.
-const VARIED: usize = 4;
+/// How often each of the policy's favourites is varied.
 const VARIATIONS_OF_EACH: u64 = 16;
 
 /// How much softer than the softest shot that has made the point sampled strokes may be, and the speed from which on all are
@@ -116,7 +116,7 @@ impl<'a> Search<'a> {
 
     fn sample(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
         let Task { table, layout, rule, .. } = self.task;
-        let varied = &proposals[..proposals.len().min(VARIED)];
+        let varied = &proposals[..proposals.len().min(FAVOURITES)];
         let variations = |numbers: Range<u64>, rng: &mut Xoshiro256PlusPlus| {
             numbers.map(|n| variation(table, &varied[n as usize % varied.len()], rng)).collect()
         };

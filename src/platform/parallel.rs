@@ -15,6 +15,26 @@ use super::threads;
 /// Threads beside the one that has work which may use all that this process has. They sleep where there is none.
 static OTHERS: OnceLock<Option<ThreadPool>> = OnceLock::new();
 
+/// How many of them have work.
+static BUSY: AtomicUsize = AtomicUsize::new(0);
+
+/// One of the others, which is free again when this is dropped.
+struct Helper;
+
+impl Helper {
+    /// All of `count` others that are free. Who waits for one that is not may wait for hours: other work may be a whole training.
+    fn all_free(count: usize) -> Vec<Self> {
+        let busy = BUSY.fetch_max(count, Ordering::Relaxed);
+        (busy..count).map(|_| Self).collect()
+    }
+}
+
+impl Drop for Helper {
+    fn drop(&mut self) {
+        BUSY.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
 /// `work` on every item, on up to `count` threads, of which this is one; on this one alone where others cannot be started.
 pub fn map<T: Sync, R: Send>(count: usize, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let Ok(results) = try_map(count, items, |item| Ok::<_, Infallible>(work(item)));
@@ -34,7 +54,7 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
     work: impl Fn(&T) -> Result<R, E> + Sync,
 ) -> Result<Vec<R>, E> {
     let (next, all) = (AtomicUsize::new(0), Mutex::new(Ok(Vec::with_capacity(items.len()))));
-    let take_over = || {
+    let take_over = &|| {
         let mut own = Vec::new();
         let result = loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
@@ -54,30 +74,34 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
             (_, Err(_)) => {}
         }
     };
-    let own;
-    let others = match count.min(items.len()) {
-        0 | 1 => &None,
-        count if count == threads() => OTHERS.get_or_init(|| start(count - 1)),
-        fewer => {
-            own = start(fewer - 1);
-            &own
-        }
-    };
-    match others {
-        None => take_over(),
-        Some(others) => others.in_place_scope(|scope| {
-            for _ in 0..others.current_num_threads() {
-                scope.spawn(|_| take_over());
+    let share_out = |others: &ThreadPool, helpers: Vec<Option<Helper>>| {
+        others.in_place_scope(|scope| {
+            for helper in helpers {
+                scope.spawn(move |_| {
+                    take_over();
+                    drop(helper);
+                });
             }
             take_over();
-        }),
+        });
+    };
+    match count.min(items.len()) {
+        0 | 1 => take_over(),
+        count if count == threads() => match OTHERS.get_or_init(|| start(count - 1)) {
+            Some(others) => share_out(others, Helper::all_free(count - 1).into_iter().map(Some).collect()),
+            None => take_over(),
+        },
+        count => match start(count - 1) {
+            Some(own) => share_out(&own, (1..count).map(|_| None).collect()),
+            None => take_over(),
+        },
     }
     let mut all = all.into_inner().unwrap_or_else(PoisonError::into_inner)?;
     all.sort_unstable_by_key(|(index, _)| *index);
     Ok(all.into_iter().map(|(_, result)| result).collect())
 }
 
-/// `work` on one thread, with all that libraries share out between threads elsewhere.
+/// `work` on one thread, and with it what libraries would share out between several.
 pub fn alone<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     match start(1) {
         Some(pool) => pool.install(work),
@@ -94,8 +118,9 @@ mod tests {
     use super::*;
     use std::{
         collections::HashSet,
-        sync::{Barrier, atomic::AtomicU64},
+        sync::{Barrier, atomic::AtomicU64, mpsc},
         thread,
+        time::Duration,
     };
 
     #[test]
@@ -110,16 +135,29 @@ mod tests {
 
     #[test]
     fn all_threads_work_at_once_and_one_of_them_is_the_one_that_has_the_work() {
-        for count in [threads().max(2), threads() + 1] {
-            let together = Barrier::new(count);
-            let items: Vec<usize> = (0..count).collect();
-            let who = map(count, &items, |_| {
-                together.wait();
-                thread::current().id()
-            });
-            assert_eq!(who.iter().collect::<HashSet<_>>().len(), count);
-            assert!(who.contains(&thread::current().id()));
-        }
+        // More than the shared ones, which other tests may use.
+        let count = threads() + 1;
+        let together = Barrier::new(count);
+        let who = map(count, &vec![(); count], |()| {
+            together.wait();
+            thread::current().id()
+        });
+        assert_eq!(who.iter().collect::<HashSet<_>>().len(), count);
+        assert!(who.contains(&thread::current().id()));
+    }
+
+    #[test]
+    fn nobody_waits_for_threads_that_have_other_work() {
+        let count = threads().max(2);
+        let Some(others) = OTHERS.get_or_init(|| start(count - 1)) else { return };
+        let helpers = Helper::all_free(count - 1);
+        let (done, ends) = mpsc::channel();
+        let (told, outcome) = mpsc::channel();
+        others.spawn(move || told.send(ends.recv_timeout(Duration::from_secs(20)).is_ok()).unwrap());
+        assert_eq!(map(threads(), &[1, 2, 3], |n| n * n), [1, 4, 9]);
+        done.send(()).unwrap();
+        assert!(outcome.recv().unwrap(), "the other work was over before");
+        drop(helpers);
     }
 
     #[test]
