@@ -56,7 +56,7 @@ pub struct Mode {
 
 impl Stiff {
     /// `(1 - h J)⁻¹` of a change, for the derivative `J` that these modes make.
-    fn damper(&self, h: f64, members: [bool; BALLS]) -> impl Fn(&Phase) -> Phase {
+    fn damper(&self, h: f64) -> impl Fn(&Phase) -> Phase {
         let count = self.0.len();
         let mut matrix: Vec<f64> =
             self.0.iter().flat_map(|a| self.0.iter().map(|b| -h * a.row.dot(&b.column))).collect();
@@ -66,7 +66,7 @@ impl Stiff {
         move |change| {
             let mut sizes: Vec<f64> = self.0.iter().map(|mode| mode.row.dot(change)).collect();
             substitute(&matrix, &pivots, &mut sizes);
-            self.0.iter().zip(sizes).fold(*change, |sum, (mode, size)| plus(&sum, &mode.column, h * size, members))
+            self.0.iter().zip(sizes).fold(*change, |sum, (mode, size)| plus(&sum, &mode.column, h * size))
         }
     }
 }
@@ -74,6 +74,28 @@ impl Stiff {
 impl Phase {
     /// Nothing at all: what a sum begins with.
     pub const ZERO: Self = Self { balls: [BallState::at_rest(DVec2::ZERO); BALLS], time: 0.0 };
+
+    /// Adds so many times a slope.
+    #[inline(always)]
+    fn add(&mut self, slope: &Self, factor: f64) {
+        for (sum, slope) in self.balls.iter_mut().zip(&slope.balls) {
+            sum.position += factor * slope.position;
+            sum.velocity += factor * slope.velocity;
+            sum.spin += factor * slope.spin;
+        }
+        self.time += factor * slope.time;
+    }
+
+    /// Becomes `newer`, carried on by so many times the way from this to it.
+    #[inline(always)]
+    fn extrapolate(&mut self, newer: &Self, factor: f64) {
+        for (older, newer) in self.balls.iter_mut().zip(&newer.balls) {
+            older.position = newer.position + factor * (newer.position - older.position);
+            older.velocity = newer.velocity + factor * (newer.velocity - older.velocity);
+            older.spin = newer.spin + factor * (newer.spin - older.spin);
+        }
+        self.time = newer.time + factor * (newer.time - self.time);
+    }
 
     /// Scalar product of velocities and spins.
     pub fn dot(&self, other: &Self) -> f64 {
@@ -97,19 +119,18 @@ fn is_hopeless(error: f64, error_before: f64, rounds: usize, tolerance: f64) -> 
 }
 
 /// Steps from `begin`, whose slope is `first`, over `length`, in as many rounds as bring the error below `tolerance`, or until it is
-/// plain that none will. Only the `members` move, balls of a `radius` in m. `stiff` is what decays fast, if anything does.
+/// plain that none will. The balls have a `radius` in m; the slope of those that do not take part is zero. `stiff` is what decays fast, if
+/// anything does.
 pub fn extrapolate(
     begin: &Phase,
     first: &Phase,
     mut slope: impl FnMut(&Phase) -> Phase,
     stiff: Option<&Stiff>,
-    members: [bool; BALLS],
     length: f64,
     (radius, tolerance): (f64, f64),
 ) -> Step {
-    let plus = |base: &Phase, slope: &Phase, factor: f64| plus(base, slope, factor, members);
-    // The last row of the Aitken-Neville table.
-    let mut row: [Phase; ROUNDS] = [*begin; ROUNDS];
+    // The last row of the Aitken-Neville table, what is extrapolated farthest first.
+    let mut row = [Phase::ZERO; ROUNDS];
     let mut best = Step { end: *begin, error: f64::INFINITY, best_length: LEAST_GROWTH * length };
     let (mut least_work, mut done) = (f64::INFINITY, 0.0);
     let counts = if stiff.is_some() { STIFF_COUNTS } else { COUNTS };
@@ -117,20 +138,18 @@ pub fn extrapolate(
         let h = length / count as f64;
         let error_before = best.error;
         done += count as f64;
-        let mut newer = match stiff {
-            Some(stiff) => semi_implicit_midpoint(begin, first, &mut slope, stiff, members, (count, h)),
-            None => modified_midpoint(begin, first, &mut slope, members, (count, h)),
+        row[round] = match stiff {
+            Some(stiff) => semi_implicit_midpoint(begin, first, &mut slope, stiff, (count, h)),
+            None => modified_midpoint(begin, first, &mut slope, (count, h)),
         };
-        for column in 1..=round {
-            let ratio = count as f64 / counts[round - column] as f64;
-            let weight = 1.0 / (ratio * ratio - 1.0);
-            let older = row[column - 1];
-            row[column - 1] = newer;
-            newer = plus(&newer, &plus(&newer, &older, -1.0), weight);
+        for column in (0..round).rev() {
+            let ratio = count as f64 / counts[column] as f64;
+            let (older, newer) = row.split_at_mut(column + 1);
+            older[column].extrapolate(&newer[0], 1.0 / (ratio * ratio - 1.0));
         }
         if round > 0 {
             // An error of this round falls with the power 2 round + 1 of the length.
-            best.error = distance(&newer, &row[round - 1], members, radius);
+            best.error = distance(&row[0], &row[1], radius);
             let room = CAUTION * tolerance / best.error.max(f64::MIN_POSITIVE);
             let growth = libm::pow(room, 1.0 / (2 * round + 1) as f64).clamp(LEAST_GROWTH, MOST_GROWTH);
             let work = done / growth;
@@ -144,8 +163,6 @@ pub fn extrapolate(
                 (least_work, best.best_length) = (work, (growth * more).min(MOST_GROWTH) * length);
             }
         }
-        row[round] = newer;
-        best.end = newer;
         if best.error <= tolerance {
             break;
         }
@@ -154,6 +171,7 @@ pub fn extrapolate(
             break;
         }
     }
+    best.end = row[0];
     best
 }
 
@@ -163,17 +181,16 @@ fn modified_midpoint(
     begin: &Phase,
     first: &Phase,
     slope: &mut impl FnMut(&Phase) -> Phase,
-    members: [bool; BALLS],
     (count, h): (usize, f64),
 ) -> Phase {
-    let mut before = *begin;
-    let mut now = plus(begin, first, h, members);
+    let (mut before, mut now) = (*begin, plus(begin, first, h));
     for _ in 1..count {
-        let after = plus(&before, &slope(&now), 2.0 * h, members);
-        (before, now) = (now, after);
+        before.add(&slope(&now), 2.0 * h);
+        std::mem::swap(&mut before, &mut now);
     }
-    let ahead = plus(&before, &slope(&now), h, members);
-    plus(&ahead, &plus(&now, &ahead, -1.0, members), 0.5, members)
+    before.add(&slope(&now), h);
+    before.add(&plus(&now, &before, -1.0), 0.5);
+    before
 }
 
 /// Bader's and Deuflhard's method: the same with the stiff part of the slope implicit.
@@ -182,11 +199,9 @@ fn semi_implicit_midpoint(
     first: &Phase,
     slope: &mut impl FnMut(&Phase) -> Phase,
     stiff: &Stiff,
-    members: [bool; BALLS],
     (count, h): (usize, f64),
 ) -> Phase {
-    let plus = |base: &Phase, slope: &Phase, factor: f64| plus(base, slope, factor, members);
-    let damped = stiff.damper(h, members);
+    let damped = stiff.damper(h);
     let mut change = damped(&plus(&Phase::ZERO, first, h));
     let mut now = plus(begin, &change, 1.0);
     for _ in 1..count {
@@ -199,20 +214,14 @@ fn semi_implicit_midpoint(
 }
 
 #[inline(always)]
-fn plus(base: &Phase, slope: &Phase, factor: f64, members: [bool; BALLS]) -> Phase {
+fn plus(base: &Phase, slope: &Phase, factor: f64) -> Phase {
     let mut sum = *base;
-    for ball in (0..BALLS).filter(|&ball| members[ball]) {
-        sum.balls[ball].position += factor * slope.balls[ball].position;
-        sum.balls[ball].velocity += factor * slope.balls[ball].velocity;
-        sum.balls[ball].spin += factor * slope.balls[ball].spin;
-    }
-    sum.time += factor * slope.time;
+    sum.add(slope, factor);
     sum
 }
 
-fn distance(one: &Phase, other: &Phase, members: [bool; BALLS], radius: f64) -> f64 {
-    (0..BALLS).filter(|&ball| members[ball]).fold((one.time - other.time).abs(), |size, ball| {
-        let (a, b) = (&one.balls[ball], &other.balls[ball]);
+fn distance(one: &Phase, other: &Phase, radius: f64) -> f64 {
+    one.balls.iter().zip(&other.balls).fold((one.time - other.time).abs(), |size, (a, b)| {
         size.max(a.position.distance(b.position))
             .max(a.velocity.distance(b.velocity))
             .max(radius * a.spin.distance(b.spin))
@@ -236,7 +245,7 @@ mod tests {
             time: 1.0,
         };
         let begin = Phase { balls: [BallState::at_rest(DVec2::X); BALLS], time: 0.0 };
-        let step = extrapolate(&begin, &slope(&begin), slope, None, [false, true, true], 0.5, (1.0, 1e-14));
+        let step = extrapolate(&begin, &slope(&begin), slope, None, 0.5, (1.0, 1e-14));
         assert!((step.end.balls[1].position.x - 0.5_f64.cos()).abs() < 1e-14, "{step:?}");
         assert!((step.end.balls[2].velocity.x + 0.5_f64.sin()).abs() < 1e-14);
         assert!(step.error <= 1e-14 && step.best_length > 0.1 && (step.end.time - 0.5).abs() < 1e-15);
@@ -252,7 +261,7 @@ mod tests {
         };
         let first =
             Phase { balls: [BallState { velocity: DVec2::X, ..BallState::at_rest(DVec2::X) }; BALLS], time: 1.0 };
-        let step = extrapolate(&Phase::ZERO, &first, kinked, None, [true; BALLS], 0.5, (1.0, 1e-12));
+        let step = extrapolate(&Phase::ZERO, &first, kinked, None, 0.5, (1.0, 1e-12));
         assert!(step.error > 1e-12 && step.best_length < 0.5, "{step:?}");
         // All rounds take 72.
         assert!(slopes < 30, "{slopes}");
@@ -263,20 +272,20 @@ mod tests {
     fn what_decays_fast_is_followed_in_long_steps() {
         const RATE: f64 = 1e5;
         let wanted = |time: f64| DVec2::new(time.cos(), 0.0);
-        let slope = |phase: &Phase| Phase {
-            balls: phase.balls.map(|ball| BallState {
-                position: ball.velocity,
-                velocity: RATE * (wanted(phase.time) - ball.velocity) - DVec2::new(phase.time.sin(), 0.0),
-                spin: DVec3::ZERO,
-            }),
-            time: 1.0,
+        let slope = |phase: &Phase| {
+            let mut slope = Phase { time: 1.0, ..Phase::ZERO };
+            let velocity = phase.balls[1].velocity;
+            let sine = DVec2::new(phase.time.sin(), 0.0);
+            (slope.balls[1].position, slope.balls[1].velocity) =
+                (velocity, RATE * (wanted(phase.time) - velocity) - sine);
+            slope
         };
         let [mut begin, mut row, mut column] = [Phase::ZERO; 3];
         begin.balls[1].velocity = wanted(0.0);
         row.balls[1].velocity = DVec2::X;
         column.balls[1].velocity = DVec2::NEG_X * RATE;
         let stiff = Stiff(vec![Mode { row, column }]);
-        let played = |stiff| extrapolate(&begin, &slope(&begin), slope, stiff, [false, true, false], 0.2, (1.0, 1e-12));
+        let played = |stiff| extrapolate(&begin, &slope(&begin), slope, stiff, 0.2, (1.0, 1e-12));
         let step = played(Some(&stiff));
         assert!(step.error <= 1e-12 && step.end.balls[1].velocity.distance(wanted(0.2)) < 1e-12, "{step:?}");
         // What the fast part leaves in its integral is beyond the estimate: a ten-thousandth of its time times the square of a step.

@@ -375,8 +375,7 @@ impl Resting {
         let first = self.slope(table.radius, &begin.balls, (&from.forces.linear, &from.forces.angular));
         let (length, tolerance) = (span - from.span, self.constants.tolerance.step);
         let stiff = self.stiff(table, from, length);
-        let mut step =
-            extrapolate(begin, &first, slope, stiff.as_ref(), self.members, length, (table.radius, tolerance));
+        let mut step = extrapolate(begin, &first, slope, stiff.as_ref(), length, (table.radius, tolerance));
         let forces = self.forces(table, &self.set, &step.end.balls, &from.forces);
         // Where a friction yields, forces are at the edge of the laws and rarely found to rounding; there the error of the step counts alone.
         if is_lost || !yields && !forces.converged {
@@ -475,11 +474,13 @@ impl Resting {
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {
         let rate = self.time_rate(radius, state);
-        let balls = std::array::from_fn(|ball| BallState {
+        let slope = |ball: usize| BallState {
             position: rate * state[ball].velocity,
             velocity: rate * linear[ball],
             spin: rate * angular[ball],
-        });
+        };
+        let none = BallState::at_rest(DVec2::ZERO);
+        let balls = std::array::from_fn(|ball| if self.members[ball] { slope(ball) } else { none });
         Phase { balls, time: rate }
     }
 

@@ -24,11 +24,11 @@ mod stopping;
 
 use glam::{DVec2, DVec3};
 
-use self::joint::{Joint, Movement, Triple};
+use self::joint::{Joint, Movement, Response, Triple};
 pub use self::stopping::stop_by_impulses;
 use super::{
     ActiveSet, Contact, Forces, Friction, MAX_CONTACTS,
-    linear::{PROXIMITY, factorize, substitute},
+    linear::{PROXIMITY, eliminate, factorize, substitute},
     problem::{coefficient, rolling_resistance},
 };
 use crate::{
@@ -112,7 +112,6 @@ impl Sticking {
 struct Held<const ROOM: usize> {
     joints: [Joint; ROOM],
     contacts: usize,
-    unknowns: usize,
     sticking: [Sticking; BALLS],
     members: [bool; BALLS],
     /// Each contact's unknowns.
@@ -123,8 +122,12 @@ struct Held<const ROOM: usize> {
     torn: f64,
 }
 
+/// How the balls move under each unknown of each contact alone.
+type Responses<const ROOM: usize> = [[Response; 3]; ROOM];
+
 impl<const ROOM: usize> Held<ROOM> {
     /// The system of the `contacts`; `has_friction` says whether the normal force of one that slips brings its friction with it.
+    #[inline(always)]
     fn new(
         table: &Table,
         balls: &[BallState; BALLS],
@@ -137,19 +140,34 @@ impl<const ROOM: usize> Held<ROOM> {
             let mu = if has_friction(contact) { coefficient(table, contact) } else { 0.0 };
             Joint::new(table.radius, balls, contact, set.contact[index], mu)
         };
-        let mut system = Self {
-            joints: [Joint::NONE; ROOM],
+        let joints = std::array::from_fn(|index| if index < contacts.len() { joint(index) } else { Joint::NONE });
+        Self {
+            joints,
             contacts: contacts.len().min(ROOM),
-            unknowns: 0,
             sticking: std::array::from_fn(|ball| Sticking::of(set, ball)),
             members: std::array::from_fn(|ball| contacts.iter().any(|contact| contact.has(ball))),
             sizes: [[0.0; 3]; ROOM],
             redundant: false,
             torn: 0.0,
-        };
-        for (index, place) in system.joints[..system.contacts].iter_mut().enumerate() {
-            *place = Joint { at: system.unknowns, ..joint(index) };
-            system.unknowns += place.unknowns;
+        }
+    }
+
+    /// The same with the forces that come nearest to `similar` ones where they are not unique.
+    #[inline(always)]
+    fn near(
+        table: &Table,
+        balls: &[BallState; BALLS],
+        contacts: &[Contact],
+        set: &ActiveSet,
+        similar: Option<&Forces>,
+    ) -> Self {
+        let mut system = Self::new(table, balls, contacts, set, |_| true);
+        if let Some(similar) = similar {
+            system.redundant = similar.redundant;
+            for (index, joint) in system.joints[..system.contacts].iter().enumerate() {
+                let friction = if joint.unknowns == 3 { similar.friction[index] } else { DVec2::ZERO };
+                system.sizes[index] = [similar.normal[index], friction.x, friction.y];
+            }
         }
         system
     }
@@ -158,33 +176,57 @@ impl<const ROOM: usize> Held<ROOM> {
         &self.joints[..self.contacts]
     }
 
-    /// How the balls move under each unknown alone, where the cloth holds them.
+    /// Numbers the unknowns. `SHAPE` tells the compiler how many there are of each contact, in two bits for each; with zero it is not told.
     #[inline(always)]
-    fn responses(&self) -> [[Movement; 3]; ROOM] {
-        let mut responses = [[Movement::NONE; 3]; ROOM];
-        let all = responses.as_flattened_mut();
-        for joint in self.joints() {
-            for unknown in 0..joint.unknowns {
+    fn number<const SHAPE: usize>(&mut self) {
+        let mut at = 0;
+        for (index, joint) in self.joints.iter_mut().enumerate() {
+            if SHAPE != 0 {
+                joint.unknowns = SHAPE >> (2 * index) & 3;
+            }
+            joint.at = at;
+            at += joint.unknowns;
+        }
+    }
+
+    /// How many unknowns there are.
+    #[inline(always)]
+    fn unknowns(&self) -> usize {
+        self.joints.iter().map(|joint| joint.unknowns).sum()
+    }
+
+    /// How the balls move under each unknown alone, where the cloth holds them, contact by contact.
+    #[inline(always)]
+    fn responses(&self) -> Responses<ROOM> {
+        let mut responses = [[Response::NONE; 3]; ROOM];
+        for (joint, responses) in self.joints.iter().zip(&mut responses) {
+            for (unknown, response) in responses[..joint.unknowns].iter_mut().enumerate() {
                 let (push, twist) = joint.act(joint.unit(unknown));
-                let response = &mut all[joint.at + unknown];
-                for (ball, sense) in joint.members() {
-                    (response.linear[ball], response.angular[ball]) = self.sticking[ball].held(sense * push, twist);
+                for (place, (ball, sense)) in joint.members().enumerate() {
+                    (response.linear[place], response.angular[place]) = self.sticking[ball].held(sense * push, twist);
                 }
             }
         }
         responses
     }
 
-    /// The rates of all unknowns by all unknowns, row by row.
+    /// The rates of all unknowns by all unknowns, row by row, as a square matrix at the beginning of the room for it.
     #[inline(always)]
-    fn fill(&self, matrix: &mut [f64], responses: &[Movement]) {
-        for (column, response) in responses.iter().enumerate() {
-            for joint in self.joints() {
-                for (row, rate) in joint.rates(response)[..joint.unknowns].iter().enumerate() {
-                    matrix[(joint.at + row) * responses.len() + column] = *rate;
+    fn matrix(&self, responses: &Responses<ROOM>) -> [[[[f64; 3]; 3]; ROOM]; ROOM] {
+        let mut matrix = [[[[0.0; 3]; 3]; ROOM]; ROOM];
+        let entries = matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut();
+        let count = self.unknowns();
+        for (acting, responses) in self.joints.iter().zip(responses) {
+            for unknown in 0..acting.unknowns {
+                for joint in &self.joints {
+                    let rates = joint.rates_by(acting, &responses[unknown]);
+                    for row in 0..joint.unknowns {
+                        entries[(joint.at + row) * count + acting.at + unknown] = rates[row];
+                    }
                 }
             }
         }
+        matrix
     }
 
     /// Finds the sizes for which all rates vanish if the balls would move like `free` without the contacts; `bends` says
@@ -192,56 +234,116 @@ impl<const ROOM: usize> Held<ROOM> {
     /// anything else keeps the rates from vanishing together.
     #[inline(always)]
     fn solve(&mut self, free: &Movement, bends: bool) -> Option<Movement> {
-        // Numbers that the compiler knows make most of the systems cheaper: a contact that slips, one that sticks, and both.
-        match self.unknowns {
-            1 => self.solve_for(1, free, bends),
-            3 => self.solve_for(3, free, bends),
-            4 => self.solve_for(4, free, bends),
-            count => self.solve_for(count, free, bends),
+        let shape = self.joints().iter().rev().fold(0, |shape, joint| 4 * shape + joint.unknowns);
+        // Numbers that the compiler knows make most of the systems cheaper: of contacts that slip, and of those that stick.
+        match (ROOM, shape) {
+            (1, 0b01) => self.solve_in_shape::<0b01>(free, bends),
+            (1, 0b11) => self.solve_in_shape::<0b11>(free, bends),
+            (2, 0b11_01) => self.solve_in_shape::<0b11_01>(free, bends),
+            (2, 0b11_10) => self.solve_in_shape::<0b11_10>(free, bends),
+            (2, 0b11_11) => self.solve_in_shape::<0b11_11>(free, bends),
+            _ => self.solve_in_shape::<0>(free, bends),
         }
     }
 
     #[inline(always)]
-    fn solve_for(&mut self, count: usize, free: &Movement, bends: bool) -> Option<Movement> {
+    fn solve_in_shape<const SHAPE: usize>(&mut self, free: &Movement, bends: bool) -> Option<Movement> {
+        self.number::<SHAPE>();
         let responses = self.responses();
-        let responses = &responses.as_flattened()[..count];
-        let mut matrix = [[[[0.0; 3]; 3]; ROOM]; ROOM];
-        let factors = &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..count * count];
+        if !self.redundant {
+            let mut moved = self.without_unknowns(free);
+            let (mut matrix, mut side) = (self.matrix(&responses), self.resist(&moved, bends));
+            let entries = matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut();
+            if eliminate(entries, &mut side.as_flattened_mut()[..self.unknowns()]) {
+                self.forget();
+                self.add(side.as_flattened(), &responses, &mut moved);
+                return Some(moved);
+            }
+        }
+        self.refine(&responses, free, bends)
+    }
+
+    /// How the balls move before anything is known: under `free` accelerations, and a friction upwards that has been prescribed.
+    #[inline(always)]
+    fn without_unknowns(&self, free: &Movement) -> Movement {
+        let mut moved = *free;
+        for (joint, sizes) in self.joints.iter().zip(&self.sizes).filter(|(joint, _)| joint.unknowns == 2) {
+            moved.angular[joint.first] += joint.act([0.0, 0.0, sizes[2]]).1;
+        }
+        self.held(&moved)
+    }
+
+    /// Takes all unknowns for nothing.
+    #[inline(always)]
+    fn forget(&mut self) {
+        for (joint, sizes) in self.joints.iter().zip(&mut self.sizes) {
+            sizes[..joint.unknowns].fill(0.0);
+        }
+    }
+
+    /// The rates against which the unknowns have to act, one after another; `bends` says whether the courses' bends count.
+    #[inline(always)]
+    fn resist(&self, moved: &Movement, bends: bool) -> [[f64; 3]; ROOM] {
+        let mut side = [[0.0; 3]; ROOM];
+        for joint in &self.joints {
+            let rates = joint.rates(moved);
+            for unknown in 0..joint.unknowns {
+                let bias = if bends { joint.bias[unknown] } else { 0.0 };
+                side.as_flattened_mut()[joint.at + unknown] = -(rates[unknown] + bias);
+            }
+        }
+        side
+    }
+
+    /// Adds changes of the sizes, and what they do to a movement.
+    #[inline(always)]
+    fn add(&mut self, changes: &[f64], responses: &Responses<ROOM>, moved: &mut Movement) {
+        for ((joint, sizes), responses) in self.joints.iter().zip(&mut self.sizes).zip(responses) {
+            for unknown in 0..joint.unknowns {
+                let change = changes[joint.at + unknown];
+                sizes[unknown] += change;
+                joint.add(moved, change, &responses[unknown]);
+            }
+        }
+    }
+
+    /// The same where it takes more: some pivots are small, or what is held is held more often than needed.
+    #[inline(never)]
+    fn refine(&mut self, responses: &Responses<ROOM>, free: &Movement, bends: bool) -> Option<Movement> {
+        let count = self.unknowns();
+        let mut matrix = self.matrix(responses);
         let mut pivots = [[0; 3]; ROOM];
         let pivots = &mut pivots.as_flattened_mut()[..count];
-        self.fill(factors, responses);
+        let factors = &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..count * count];
         let unique = !self.redundant && factorize(factors, pivots) > SINGULAR;
-        if unique {
-            for (joint, sizes) in self.joints[..self.contacts].iter().zip(&mut self.sizes) {
-                sizes[..joint.unknowns].fill(0.0);
-            }
+        let mut moved = if unique {
+            self.forget();
+            self.without_unknowns(free)
         } else {
-            if !self.redundant {
-                self.fill(factors, responses);
-                self.redundant = true;
-            }
+            self.redundant = true;
+            matrix = self.matrix(responses);
+            let factors = &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..count * count];
             for index in 0..count {
                 factors[index * (count + 1)] += PROXIMITY;
             }
             factorize(factors, pivots);
-        }
+            self.held(&self.unheld(free))
+        };
+        let factors = &matrix.as_flattened().as_flattened().as_flattened()[..count * count];
         let scale = (0..BALLS).fold(f64::MIN_POSITIVE, |scale, ball| {
             scale.max(free.linear[ball].abs().max_element()).max(free.angular[ball].abs().max_element())
         });
-        let mut moved = self.held(&self.unheld(free));
         let mut smallest = f64::INFINITY;
         for round in 0..MAX_REFINEMENTS {
-            let mut side = [[0.0; 3]; ROOM];
+            let mut side = self.resist(&moved, bends);
             let side = side.as_flattened_mut();
             let (mut residual, mut opens, mut scale) = (0.0_f64, 0.0_f64, scale);
-            for (joint, sizes) in self.joints().iter().zip(&self.sizes) {
-                let rates = joint.rates(&moved);
+            for (joint, sizes) in self.joints.iter().zip(&self.sizes) {
                 for unknown in 0..joint.unknowns {
-                    let bias = if bends { joint.bias[unknown] } else { 0.0 };
-                    let rate = rates[unknown] + bias;
-                    side[joint.at + unknown] = -rate;
+                    let rate = -side[joint.at + unknown];
                     residual = residual.max(rate.abs());
                     opens = if unknown == 0 { opens.max(rate) } else { opens };
+                    let bias = if bends { joint.bias[unknown] } else { 0.0 };
                     scale = scale.max(sizes[unknown].abs()).max(bias.abs());
                 }
             }
@@ -256,16 +358,21 @@ impl<const ROOM: usize> Held<ROOM> {
             }
             smallest = smallest.min(residual);
             substitute(factors, pivots, &mut side[..count]);
-            for (joint, sizes) in self.joints[..self.contacts].iter().zip(&mut self.sizes) {
-                for (size, change) in sizes[..joint.unknowns].iter_mut().zip(&side[joint.at..]) {
-                    *size += change;
-                }
-            }
-            for (change, response) in side.iter().zip(responses) {
-                moved.add(*change, response);
-            }
+            self.add(side, responses, &mut moved);
         }
         None
+    }
+
+    /// Takes the friction upwards out of the unknowns at a cushion that holds one of these balls, which rolls: the cloth holds the same.
+    /// Returns which contact that is.
+    fn prescribe(&mut self, is_meant: impl Fn(usize) -> bool) -> Option<usize> {
+        let holds = |joint: &Joint| {
+            let rolls = self.sticking[joint.first].cloth == Cloth::Rolls;
+            rolls && joint.second.is_none() && joint.unknowns == 3 && is_meant(joint.first)
+        };
+        let index = self.joints().iter().position(holds)?;
+        self.joints[index].unknowns = 2;
+        Some(index)
     }
 
     /// The force in a contact.
@@ -321,7 +428,18 @@ pub fn accelerations(
     set: &ActiveSet,
     similar: &Forces,
 ) -> Option<([DVec2; BALLS], [DVec3; BALLS])> {
-    let moved = in_room!(contacts, ROOM => Solved::<ROOM>::new(table, balls, contacts, set, Some(similar))?.moved);
+    let moved = in_room!(contacts, ROOM => {
+        let mut system = Held::<ROOM>::near(table, balls, contacts, set, Some(similar));
+        let free = free(table, balls, set, system.members);
+        match set.eased() {
+            Some(ball) => Solved::easing(table, balls, contacts, system, &free, ball)?.moved,
+            None => {
+                // However the forces that hold a ball are divided, it moves alike.
+                system.redundant = system.redundant && system.prescribe(|_| true).is_none();
+                system.solve(&free, true)?
+            }
+        }
+    });
     Some((moved.linear, moved.angular.map(|angular| angular / table.radius)))
 }
 
@@ -343,14 +461,7 @@ impl<const ROOM: usize> Solved<ROOM> {
         set: &ActiveSet,
         similar: Option<&Forces>,
     ) -> Option<Self> {
-        let mut system = Held::new(table, balls, contacts, set, |_| true);
-        if let Some(similar) = similar {
-            system.redundant = similar.redundant;
-            for (index, joint) in system.joints[..system.contacts].iter().enumerate() {
-                let friction = if joint.unknowns == 3 { similar.friction[index] } else { DVec2::ZERO };
-                system.sizes[index] = [similar.normal[index], friction.x, friction.y];
-            }
-        }
+        let mut system = Held::near(table, balls, contacts, set, similar);
         let free = free(table, balls, set, system.members);
         if let Some(ball) = set.eased() {
             return Self::easing(table, balls, contacts, system, &free, ball);
@@ -403,6 +514,7 @@ impl<const ROOM: usize> Solved<ROOM> {
 }
 
 /// How the `members` would move without their contacts.
+#[inline(always)]
 fn free(table: &Table, balls: &[BallState; BALLS], set: &ActiveSet, members: [bool; BALLS]) -> Movement {
     let [sliding, _, boring] = frictions(table);
     let mut free = Movement::NONE;

@@ -5,6 +5,38 @@
 /// things at once is held more often than needed. It picks the forces nearest to what they were; further steps take its effect out again.
 pub const PROXIMITY: f64 = 1e-7;
 
+/// A pivot above this is large: the entries of a system of forces are 1 to 10.
+const LARGE_PIVOT: f64 = 0.05;
+
+/// Solves a system whose pivots on the diagonal are all large, so that rows need no exchange: what the compiler can unroll where it
+/// knows the size. `side` becomes the solution; false, and neither is of use, where a pivot is small.
+#[inline(always)]
+pub fn eliminate(entries: &mut [f64], side: &mut [f64]) -> bool {
+    let size = side.len();
+    let mut inverse = [0.0; 3 * super::MAX_CONTACTS];
+    for column in 0..size {
+        let pivot = entries[column * (size + 1)];
+        if pivot.abs() <= LARGE_PIVOT || pivot.is_nan() {
+            return false;
+        }
+        inverse[column] = 1.0 / pivot;
+        for row in column + 1..size {
+            let factor = entries[row * size + column] * inverse[column];
+            for other in column + 1..size {
+                entries[row * size + other] -= factor * entries[column * size + other];
+            }
+            side[row] -= factor * side[column];
+        }
+    }
+    for column in (0..size).rev() {
+        side[column] *= inverse[column];
+        for row in 0..column {
+            side[row] -= entries[row * size + column] * side[column];
+        }
+    }
+    true
+}
+
 /// Factorizes the square matrix with these rows, one after another: `L` below the diagonal, `U` on and above it; `pivots`
 /// become the rows that stood in each place when it was eliminated. Returns the smallest pivot's size, zero for a matrix that
 /// is singular to the last bit, which cannot be used.

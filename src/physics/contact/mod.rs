@@ -104,6 +104,7 @@ impl Contact {
     }
 
     /// The normal, and the slip along `t = z×n` and along z, m/s.
+    #[inline(always)]
     fn normal_and_slip(&self, radius: f64, balls: &[BallState; BALLS]) -> (DVec2, DVec2) {
         let n = self.normal(balls);
         let t = n.perp();

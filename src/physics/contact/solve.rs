@@ -232,7 +232,10 @@ impl<'a> System<'a> {
 
     /// The largest of all forces and accelerations, m/s², whose rounding the residual has.
     fn scale(&self, sizes: &Sizes) -> f64 {
-        self.bias.iter().chain(sizes).fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()))
+        self.bias[..self.count]
+            .iter()
+            .chain(&sizes[..self.count])
+            .fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()))
     }
 
     /// How strongly an unknown's rates answer to its force: the same for both rows of a friction, which keeps its direction.

@@ -49,6 +49,8 @@ pub struct Row {
     pub failed: u64,
     /// What is wrong with the first of them.
     pub example: Option<String>,
+    /// That shot, on its table.
+    pub finding: Option<Finding>,
     /// Whether all shots were played: the run was not interrupted.
     pub complete: bool,
 }
@@ -56,17 +58,18 @@ pub struct Row {
 impl Row {
     /// Plays a case. `watch` is that of [`super::Sweep::run`].
     pub fn of(case: &Case, plan: &Plan, mut watch: impl FnMut(Progress, Option<&Finding>) -> bool) -> Self {
-        let (mut failed, mut example) = (0, None);
+        let (mut failed, mut first) = (0, None);
         let mut complete = true;
         let figures = case.run(plan.shots(case), plan.seed, |progress, finding| {
-            if let Some(violation) = finding.and_then(|finding| finding.violations.first()) {
+            if let Some(finding) = finding {
                 failed += 1;
-                example.get_or_insert_with(|| violation.to_string());
+                first.get_or_insert_with(|| finding.clone());
             }
             complete = watch(progress, finding);
             complete
         });
-        Self { name: case.name, checked: case.holds, figures, failed, example, complete }
+        let example = first.as_ref().and_then(|finding| finding.violations.first()).map(ToString::to_string);
+        Self { name: case.name, checked: case.holds, figures, failed, example, finding: first, complete }
     }
 
     /// Whether nothing failed.
@@ -219,7 +222,7 @@ mod tests {
 
     fn row() -> Row {
         let figures = Figures { shots: 12, events: 7, ..Figures::default() };
-        Row { name: "a case", checked: "something", figures, failed: 0, example: None, complete: true }
+        Row { name: "a case", checked: "something", figures, failed: 0, example: None, finding: None, complete: true }
     }
 
     #[test]

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::{Held, Joint, Movement, SINGULAR, Solved, Triple, coefficient, factorize, frictions, rolling_resistance};
+use super::{Held, Movement, SINGULAR, Solved, Triple, coefficient, factorize, frictions, rolling_resistance};
 use crate::{
     physics::{
         BallState,
@@ -57,23 +57,13 @@ impl Movement {
 
 impl<const ROOM: usize> Held<ROOM> {
     /// Whether its forces are unique.
-    fn is_unique(&self) -> bool {
-        let mut matrix = [[[[0.0; 3]; 3]; ROOM]; ROOM];
-        let factors =
-            &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..self.unknowns * self.unknowns];
+    fn is_unique(&mut self) -> bool {
+        self.number::<0>();
+        let count = self.unknowns();
+        let mut matrix = self.matrix(&self.responses());
         let mut pivots = [[0; 3]; ROOM];
-        self.fill(factors, &self.responses().as_flattened()[..self.unknowns]);
-        factorize(factors, &mut pivots.as_flattened_mut()[..self.unknowns]) > SINGULAR
-    }
-
-    /// Takes the friction upwards out of the unknowns at the cushion that holds the `ball`, which it returns: the cloth holds the same.
-    fn prescribe(&mut self, ball: usize) -> Option<usize> {
-        let held = |joint: &Joint| joint.first == ball && joint.second.is_none() && joint.unknowns == 3;
-        let index = self.joints().iter().position(held)?;
-        self.joints[index].unknowns = 2;
-        self.unknowns -= 1;
-        self.joints[index + 1..].iter_mut().for_each(|joint| joint.at -= 1);
-        self.is_unique().then_some(index)
+        let factors = &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..count * count];
+        factorize(factors, &mut pivots.as_flattened_mut()[..count]) > SINGULAR
     }
 
     /// Forces and movement, and how the cloth holds the `ball`.
@@ -101,7 +91,11 @@ impl<const ROOM: usize> Solved<ROOM> {
         let [limit, ..] = frictions(table);
         let mut without = *free;
         without.linear[ball] += rolling_resistance(table, &balls[ball]) * balls[ball].velocity.normalize_or_zero();
-        let cushion = if system.is_unique() { None } else { Some(system.prescribe(ball)?) };
+        let cushion = if system.is_unique() {
+            None
+        } else {
+            Some(system.prescribe(|held| held == ball).filter(|_| system.is_unique())?)
+        };
         let (whole, none) = (system.solution(free, ball)?, system.solution(&without, ball)?);
         let held = Force { whole: whole.cloth, by_share: none.cloth - whole.cloth, by_up: DVec2::ZERO };
         let mut edge = Edge::of_the_cloth(limit, held);

@@ -20,14 +20,6 @@ pub struct Movement {
 impl Movement {
     pub const NONE: Self = Self { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS] };
 
-    /// Adds a multiple of another one.
-    pub fn add(&mut self, factor: f64, other: &Self) {
-        for ball in 0..BALLS {
-            self.linear[ball] += factor * other.linear[ball];
-            self.angular[ball] += factor * other.angular[ball];
-        }
-    }
-
     /// The largest difference of the members' speeds.
     pub fn distance(&self, other: &Self, members: [bool; BALLS]) -> f64 {
         (0..BALLS).filter(|&ball| members[ball]).fold(0.0, |largest, ball| {
@@ -35,6 +27,17 @@ impl Movement {
             linear.max(self.angular[ball].distance(other.angular[ball])).max(largest)
         })
     }
+}
+
+/// How a contact's balls, the first and the second, move under one of its unknowns alone.
+#[derive(Clone, Copy)]
+pub struct Response {
+    pub linear: [DVec2; 2],
+    pub angular: [DVec3; 2],
+}
+
+impl Response {
+    pub const NONE: Self = Self { linear: [DVec2::ZERO; 2], angular: [DVec3::ZERO; 2] };
 }
 
 /// Along a contact's normal, its tangent `t = z×n` and z: forces, or rates.
@@ -71,6 +74,7 @@ impl Joint {
 
     /// The joint of a contact whose friction does this, with the coefficient `mu` where it slips; the numbers of its unknowns begin
     /// at 0. The balls' radius is in m.
+    #[inline(always)]
     pub fn new(radius: f64, balls: &[BallState; BALLS], contact: &Contact, friction: Friction, mu: f64) -> Self {
         let (n, slip) = contact.normal_and_slip(radius, balls);
         let against = friction.direction(slip);
@@ -100,16 +104,45 @@ impl Joint {
         (normal * self.n + along * self.t, (2.5 * up * self.t).extend(-2.5 * along))
     }
 
+    /// Its balls, with the sense in which a force acts on them.
     pub fn members(&self) -> impl Iterator<Item = (usize, f64)> {
         [(self.first, 1.0)].into_iter().chain(self.second.map(|second| (second, -1.0)))
     }
 
+    #[inline(always)]
     pub fn rates(&self, movement: &Movement) -> Triple {
         let (mut apart, mut around) = (movement.linear[self.first], movement.angular[self.first]);
         if let Some(second) = self.second {
             apart -= movement.linear[second];
             around += movement.angular[second];
         }
+        self.rates_of(apart, around)
+    }
+
+    /// The same where only the balls of another contact move, in `response` to it.
+    #[inline(always)]
+    pub fn rates_by(&self, other: &Self, response: &Response) -> Triple {
+        let (mut apart, mut around) = (DVec2::ZERO, DVec3::ZERO);
+        for (place, (ball, _)) in other.members().enumerate() {
+            if let Some((_, sense)) = self.members().find(|(member, _)| *member == ball) {
+                apart += sense * response.linear[place];
+                around += response.angular[place];
+            }
+        }
+        self.rates_of(apart, around)
+    }
+
+    #[inline(always)]
+    fn rates_of(&self, apart: DVec2, around: DVec3) -> Triple {
         [apart.dot(self.n), apart.dot(self.t) - around.z, around.truncate().dot(self.t)]
+    }
+
+    /// Adds a multiple of a response to it to a movement.
+    #[inline(always)]
+    pub fn add(&self, movement: &mut Movement, factor: f64, response: &Response) {
+        for (place, (ball, _)) in self.members().enumerate() {
+            movement.linear[ball] += factor * response.linear[place];
+            movement.angular[ball] += factor * response.angular[place];
+        }
     }
 }
