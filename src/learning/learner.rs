@@ -212,7 +212,7 @@ pub trait Learner: Debug + Send {
     /// measured to earn, `date` the day on which the run was started.
     fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError>;
 
-    /// Adds the arrays of its whole state to a file and returns everything else ([`note_of`]).
+    /// Adds the arrays of its whole state to a file and returns everything else (`note_of`).
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError>;
 
     /// Takes the weights, and nothing but the weights, from a file that [`Learner::save`] filled, or a policy file, of
@@ -221,10 +221,7 @@ pub trait Learner: Debug + Send {
 }
 
 /// What serde makes of `note`, its numbers written as shortly as they are in a file (`f32` as well as `f64`).
-///
-/// # Errors
-/// Whatever serde reports.
-pub fn note_of(note: &impl Serialize) -> Result<Value, WeightsError> {
+pub(crate) fn note_of(note: &impl Serialize) -> Result<Value, WeightsError> {
     let text = serde_json::to_string(note).map_err(safetensors::SafeTensorError::from)?;
     Ok(serde_json::from_str(&text).map_err(safetensors::SafeTensorError::from)?)
 }

@@ -62,7 +62,7 @@ impl<'a> ByRail<'a> {
     /// Ways by the cushion of an observation, if it has one.
     pub fn of(table: &'a Table, observation: &'a Observation) -> Option<Self> {
         // Most observations have none: nothing is worked out for them.
-        let rail = observation.rail_on_table()?;
+        let rail = Rail::with_normal(observation.mirror * observation.rail?.normal());
         Some(Self {
             table,
             observation,

@@ -86,7 +86,9 @@ impl Run {
             // A finished run whose last checkpoint was lost goes on from the one before.
             let _ = fs::remove_file(self.folder.join(result::FILE));
         }
-        let clock = Clock::new(self.learner.shots(), last.map_or(0.0, |record| record.seconds));
+        let before = last.map_or(0.0, |record| record.seconds);
+        let last = (before, self.learner.shots());
+        let clock = Clock { start: Instant::now(), before, paused: Duration::ZERO, last };
         let mut reporting =
             Reporting { metrics, events, clock, heartbeat: Heartbeat::new(&self.folder), layouts, watcher };
         let ending = self.iterate_until(limits, &mut reporting).and_then(|ending| {
@@ -162,7 +164,7 @@ impl Run {
                 Some(request) => break request,
             }
         };
-        reporting.clock.leave_out(begin);
+        reporting.clock.paused += begin.elapsed();
         request
     }
 
@@ -243,11 +245,6 @@ struct Clock {
 }
 
 impl Clock {
-    /// Starts now, for a run that has played so many shots in so many seconds.
-    fn new(shots: u64, before: f64) -> Self {
-        Self { start: Instant::now(), before, paused: Duration::ZERO, last: (before, shots) }
-    }
-
     /// Time since the start.
     fn session(&self) -> Duration {
         self.start.elapsed().saturating_sub(self.paused)
@@ -256,11 +253,6 @@ impl Clock {
     /// Seconds of training in all.
     fn seconds(&self) -> f64 {
         self.before + self.session().as_secs_f64()
-    }
-
-    /// Leaves a pause out that began at `begin` and ends now.
-    fn leave_out(&mut self, begin: Instant) {
-        self.paused += begin.elapsed();
     }
 
     /// The line that is due now, `measuring` seconds after the last shot: a speed that fell with each measurement would say
