@@ -144,7 +144,7 @@ pub struct TrainingPlan {
 }
 
 /// What one iteration, rollout and update, did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Iteration {
     /// Mean reward of the shots played, exploration included.
     pub mean_reward: f64,
@@ -172,7 +172,8 @@ pub struct Progress {
 }
 
 /// An agent that trains. It can be saved between any two iterations and goes on bit for bit as if it had not been: what it
-/// does depends on nothing but its own state.
+/// does depends on nothing but its own state. Errors are candle's, safetensors' and serde's.
+#[expect(clippy::missing_errors_doc, reason = "said of all of them at once")]
 pub trait Learner: Debug + Send {
     /// Its [`AgentKind::name`].
     fn agent(&self) -> &'static str;
@@ -197,51 +198,30 @@ pub trait Learner: Debug + Send {
         self.shots() >= self.plan().shots
     }
 
-    /// Plays at least one shot and learns.
-    ///
-    /// # Errors
-    /// Where the networks no longer give finite numbers.
+    /// Plays at least one shot and learns. Fails where the networks no longer give finite numbers.
     fn iterate(&mut self) -> candle_core::Result<Iteration>;
 
     /// Plays one shot on every layout as well as it can, without exploration. Its own state, the random numbers to come
     /// included, stays as it is.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score>;
 
     /// Its shots on the layouts, as [`Learner::score`] plays them.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>>;
 
     /// The bytes of a policy file, for agents whose policy the coach can use. `held_out_reward` is what it has been
     /// measured to earn, `date` the day on which the run was started.
-    ///
-    /// # Errors
-    /// Whatever candle or safetensors reports.
     fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError>;
 
-    /// Adds the arrays of its whole state to a file and returns everything else ([`note_of`]).
-    ///
-    /// # Errors
-    /// Whatever candle or serde reports.
+    /// Adds the arrays of its whole state to a file and returns everything else (`note_of`).
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError>;
 
     /// Takes the weights, and nothing but the weights, from a file that [`Learner::save`] filled, or a policy file, of
-    /// the same kind of agent.
-    ///
-    /// # Errors
-    /// Where the file has no such weights, or some of other sizes: the learner is then unchanged.
+    /// the same kind of agent. Where the file has no such weights, or some of other sizes, it stays as it is.
     fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError>;
 }
 
 /// What serde makes of `note`, its numbers written as shortly as they are in a file (`f32` as well as `f64`).
-///
-/// # Errors
-/// Whatever serde reports.
-pub fn note_of(note: &impl Serialize) -> Result<Value, WeightsError> {
+pub(crate) fn note_of(note: &impl Serialize) -> Result<Value, WeightsError> {
     let text = serde_json::to_string(note).map_err(safetensors::SafeTensorError::from)?;
     Ok(serde_json::from_str(&text).map_err(safetensors::SafeTensorError::from)?)
 }

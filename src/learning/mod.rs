@@ -9,9 +9,9 @@ pub(crate) mod ddpg;
 pub mod evaluation;
 pub mod learner;
 pub(crate) mod nn;
-pub mod replay;
+pub(crate) mod replay;
 pub mod run;
-pub mod settings;
+pub(crate) mod settings;
 pub mod thesis;
 
 pub use ddpg::policy::{self, Policy, Proposal, file::PolicyError};

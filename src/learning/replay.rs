@@ -39,11 +39,6 @@ impl<T: Copy> ReplayBuffer<T> {
         self.held.len()
     }
 
-    /// Whether there are none.
-    pub const fn is_empty(&self) -> bool {
-        self.held.is_empty()
-    }
-
     /// Share of the buffer that is filled.
     pub fn fill(&self) -> f64 {
         self.held.len() as f64 / self.capacity as f64
@@ -61,7 +56,7 @@ impl<T: Copy> ReplayBuffer<T> {
 
     /// `count` shots drawn uniformly, the same one possibly twice; none from an empty buffer.
     pub fn sample(&self, count: usize, rng: &mut (impl Rng + ?Sized)) -> Vec<T> {
-        if self.is_empty() {
+        if self.held.is_empty() {
             return Vec::new();
         }
         (0..count).map(|_| self.held[rng.random_range(0..self.held.len())]).collect()

@@ -17,49 +17,31 @@ impl SettingError {
 }
 
 /// Fails where `accept` is false.
-///
-/// # Errors
-/// [`SettingError`] otherwise.
 pub fn check(name: &'static str, value: f64, accept: bool, accepted: &'static str) -> Result<(), SettingError> {
     if accept { Ok(()) } else { Err(SettingError { name, value, accepted }) }
 }
 
 /// Checks that a share is one.
-///
-/// # Errors
-/// [`SettingError`] otherwise.
 pub fn check_share(name: &'static str, value: f64) -> Result<(), SettingError> {
     check(name, value, (0.0..=1.0).contains(&value), "0 to 1")
 }
 
 /// Checks a number that must be positive.
-///
-/// # Errors
-/// [`SettingError`] otherwise.
 pub fn check_positive(name: &'static str, value: f64) -> Result<(), SettingError> {
     check(name, value, value > 0.0 && value <= 1e3, "above 0 and at most 1000")
 }
 
 /// Checks a count.
-///
-/// # Errors
-/// [`SettingError`] otherwise.
 pub fn check_count(name: &'static str, value: usize) -> Result<(), SettingError> {
     check(name, value as f64, (1..=1 << 24).contains(&value), "1 to 16777216")
 }
 
 /// Checks how many rows are worked on at once: more would ask for more memory than most machines have.
-///
-/// # Errors
-/// [`SettingError`] otherwise.
 pub fn check_batch(name: &'static str, value: usize) -> Result<(), SettingError> {
     check(name, value as f64, (1..=1 << 16).contains(&value), "1 to 65536")
 }
 
 /// Checks hidden layers.
-///
-/// # Errors
-/// [`SettingError`] otherwise.
 pub fn check_layers(name: &'static str, layers: &[usize]) -> Result<(), SettingError> {
     check(name, layers.len() as f64, (1..=16).contains(&layers.len()), "1 to 16 layers")?;
     let check_units = |units: &usize| check(name, *units as f64, (1..=8192).contains(units), "1 to 8192 units a layer");

@@ -20,14 +20,14 @@ use crate::{
             action::Action,
             agent::{Ddpg, ShotBatch},
             hyperparameters::Hyperparameters,
+            networks::Networks,
             observation::Observation,
             observation_batch::ObservationBatch,
         },
-        nn::mlp::Operations,
+        nn::{adam::AdamConfig, mlp::Operations},
         thesis::{
-            actor_critic::{ActorCritic, Layers, Rates},
-            batch::Batch,
-            replay::StoredTransition,
+            actor_critic::{ActorCritic, Guidance, Rates, sizes},
+            replay::{Batch, StoredTransition},
         },
     },
     physics::CueInputs,
@@ -201,10 +201,9 @@ fn thesis_updates(
     operations: Operations,
 ) -> candle_core::Result<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
-    let layers = Layers { actor: actor.to_vec(), critic: critic.to_vec() };
     // Slow enough to stay finite, for the same batch again and again is nothing to learn from.
-    let rates = Rates { learning_rate: 1e-6, keep: 0.999, gradient_clip: 1.0 };
-    let mut agent = ActorCritic::random(&layers, rates, &mut rng)?.with(operations);
+    let rates = Rates { adam: AdamConfig { learning_rate: 1e-6, gradient_clip: 1.0 }, keep: 0.999 };
+    let mut agent = ActorCritic::random(&sizes(actor, critic), rates, &mut rng)?.with(operations);
     let mut number = || rng.random_range(-1.0..1.0);
     let drawn: Vec<StoredTransition> = (0..rows)
         .map(|_| StoredTransition {
@@ -217,7 +216,7 @@ fn thesis_updates(
         })
         .collect();
     let batch = Batch::new(&drawn, 0.99)?;
-    updates_a_second(time, || agent.update(&batch))
+    updates_a_second(time, || agent.update(&batch, &Guidance::NONE))
 }
 
 /// Updates of the networks that coach, with the settings that trained them, from a batch that is at hand.
@@ -230,7 +229,7 @@ fn coach_updates(time: Duration, table: &Table, operations: Operations) -> candl
     let observed = ObservationBatch::on(&Arc::new(table.clone()), space, observations)?;
     let actions: Vec<Action> = (0..rows).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();
     let successes: Vec<f32> = (0..rows).map(|_| f32::from(u8::from(rng.random_bool(0.1)))).collect();
-    let mut agent = Ddpg::new(settings, &mut rng)?.with(operations);
+    let mut agent = Ddpg::starting_from(Networks::random(&settings, &mut rng)?.with(operations), settings)?;
     let played = ShotBatch { observed, actions, successes };
     updates_a_second(time, || agent.update(&played, None, 1.0))
 }

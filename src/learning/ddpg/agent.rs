@@ -12,12 +12,11 @@ use super::{
     action::{ACTIONS, Action},
     hyperparameters::Hyperparameters,
     networks::Networks,
+    observation::Observation,
     observation_batch::{ObservationBatch, action_rows},
+    randomized_tables::Conditions,
 };
-use crate::learning::nn::{
-    adam::{Adam, soft_update},
-    mlp::Operations,
-};
+use crate::learning::nn::adam::{Adam, soft_update};
 
 /// Outputs of the actor beyond which the hyperbolic tangent, 0.96 here, hardly has a slope.
 const SATURATED: f64 = 2.0;
@@ -25,6 +24,19 @@ const SATURATED: f64 = 2.0;
 /// Weights of the squared differences in [`Ddpg::imitation_loss`]: a small error of the aim loses the point, the same share of the
 /// speed seldom does.
 const WAY_WEIGHTS: [f32; ACTIONS] = [4.0, 1.0, 1.0, 1.0, 1.0];
+
+/// One shot as the replay buffer holds it: what was seen, what was done, what it earned. A shot is a whole episode, so there is no next state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transition {
+    /// The layout as the agent saw it.
+    pub observation: Observation,
+    /// Under which conditions it was played.
+    pub conditions: Conditions,
+    /// What it did.
+    pub action: Action,
+    /// What that earned, as a share of the most that there is to earn.
+    pub success: f32,
+}
 
 /// Shots to learn from: as many observations as actions and successes.
 #[derive(Clone, Debug)]
@@ -64,19 +76,14 @@ impl Ddpg {
 
     /// An agent that begins to learn with these networks.
     pub fn starting_from(online: Networks, hyper: Hyperparameters) -> Result<Self> {
+        let [actor, critic] = hyper.adam();
         Ok(Self {
             target: online.duplicate()?,
-            actor_optimiser: Adam::new(vec![online.actor.parameters().clone()], hyper.actor_adam())?,
-            critic_optimiser: Adam::new(vec![online.critic.parameters().clone()], hyper.critic_adam())?,
+            actor_optimiser: Adam::new(vec![online.actor.parameters().clone()], actor)?,
+            critic_optimiser: Adam::new(vec![online.critic.parameters().clone()], critic)?,
             online,
             hyper,
         })
-    }
-
-    /// This agent with other operations in its networks.
-    #[must_use]
-    pub fn with(self, operations: Operations) -> Self {
-        Self { online: self.online.with(operations), target: self.target.with(operations), ..self }
     }
 
     /// Learns from a batch of shots that were played, and the actor besides from the best strokes that searches have found.
@@ -115,7 +122,7 @@ impl Ddpg {
     fn imitation_loss(&self, ShotBatch { observed, actions, successes }: &ShotBatch) -> Result<Tensor> {
         let (space, rows) = (observed.space(), actions.len());
         let used = space.actions();
-        let proposed = self.online.squash(&self.online.actor.forward(observed.states())?)?;
+        let proposed = self.online.squash(&self.online.actor.forward(&observed.states)?)?;
         let wanted = action_rows(space, actions)?.reshape((rows, 1, used))?;
         let weights = Tensor::new(&WAY_WEIGHTS[..used], &Device::Cpu)?;
         let apart =
@@ -134,7 +141,7 @@ impl Ddpg {
     /// What the actor climbs, from every head's own action (the deterministic policy gradient): the mean of the critic's
     /// probability and of a share of its logit, less what saturated outputs cost; beside it the mean probability.
     fn actor_goal(&self, observed: &ObservationBatch) -> Result<(Tensor, Tensor)> {
-        let outputs = self.online.actor.forward(observed.states())?;
+        let outputs = self.online.actor.forward(&observed.states)?;
         let actions = self.online.squash(&outputs)?;
         let logits = self.online.critic.forward_frozen(&observed.with_actions(&actions)?)?;
         let probability = sigmoid(&logits)?.mean_all()?;
@@ -162,7 +169,6 @@ mod tests {
             ddpg::{
                 action::ActionSpace,
                 features::{FREE_PATHS, STATE_FEATURES},
-                observation::Observation,
             },
             nn::mlp::Mlp,
         },
@@ -183,7 +189,7 @@ mod tests {
             for _ in 0..40 {
                 agent.update(&batch, None, 1.0).unwrap();
             }
-            let outputs = agent.online.actor.forward(batch.observed.states()).unwrap();
+            let outputs = agent.online.actor.forward(&batch.observed.states).unwrap();
             outputs.mean_all().unwrap().to_scalar::<f32>().unwrap()
         };
         let [free, held] = [0.0, 0.1].map(outputs);
@@ -310,7 +316,7 @@ mod tests {
         }
         let observed = observed(&mut rng);
         let (actions, logits) = agent.target.judge(&observed).unwrap();
-        let heads = actions.len() / observed.seen().len();
+        let heads = actions.len() / observed.seen.len();
         for (actions, logits) in actions.chunks(heads).zip(logits.chunks(heads)) {
             let best = (0..heads).max_by(|a, b| logits[*a].total_cmp(&logits[*b])).unwrap();
             let apart = [0, 1].map(|k| (actions[best][k] - BEST[k]).abs());

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::{
     action::ActionSpace,
-    features::{ACTION_FEATURES, FEATURE_VERSION, STATE_FEATURES},
+    features::{ACTION_FEATURES, STATE_FEATURES},
     first_contact::RAIL_FEATURES,
 };
 use crate::table::{Rail, RailModel, Rails, Table};
@@ -18,9 +18,6 @@ const USUAL_ERRORS: f64 = 3.7;
 
 /// Numbers about a table and a player: the constants, which laws the table follows, the way it leans, and the errors.
 pub const CONTEXT_FEATURES: usize = CONSTANTS + 2 + 2 + 2;
-
-/// The version of the features with a context.
-const CONTEXT_VERSION: &str = "final-course-1, context-1";
 
 /// What each constant is on `match`, and by how much it differs by one unit: twice what it differs by between tables of which
 /// nothing is known (`unknown_doubt.toml`).
@@ -77,17 +74,11 @@ impl Inputs {
     }
 
     /// Changes whenever the features change: weights fit one version only.
-    pub const fn version(self) -> &'static str {
-        match (self.context, self.rails_first, self.closed_form) {
-            (false, false, true) => FEATURE_VERSION,
-            (true, false, true) => CONTEXT_VERSION,
-            (false, true, true) => "final-course-1, rails-1",
-            (true, true, true) => "final-course-1, context-1, rails-1",
-            (false, false, false) => "final-course-1, actions alone",
-            (true, false, false) => "final-course-1, context-1, actions alone",
-            (false, true, false) => "final-course-1, rails-1, actions alone",
-            (true, true, false) => "final-course-1, context-1, rails-1, actions alone",
-        }
+    pub fn version(self) -> String {
+        let Self { context, closed_form, rails_first, .. } = self;
+        let further = [(context, "context-1"), (rails_first, "rails-1"), (!closed_form, "actions alone")];
+        let further = further.into_iter().filter(|(has, _)| *has).map(|(_, name)| name);
+        std::iter::once("final-course-1").chain(further).collect::<Vec<_>>().join(", ")
     }
 }
 

@@ -7,12 +7,12 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     action::{ACTIONS, Action, aim_at, speed_of},
+    agent::Transition,
     context::Inputs,
     networks::Networks,
     observation::Observation,
     observation_batch::{ObservationBatch, action_rows},
     randomized_tables::{Conditions, RandomizedTables},
-    replay::Transition,
 };
 use crate::{game::Reward, statistics::normal_pair, table::Layout};
 
@@ -116,9 +116,14 @@ impl Expert<'_> {
             (Observation::random(table, self.layout, self.inputs.rails_first, rng), self.stroke(rng))
         });
         let all: Vec<_> = proposals.iter().copied().chain(tried).collect();
+        // Those that make the point where nobody errs.
+        let steady = Conditions { errors: 0.0, ..self.conditions };
+        let mut scores_as_meant = |(observation, action): &(Observation, Action)| {
+            self.tables.attempt(self.reward, self.layout, (observation, *action), steady, rng) >= 1.0
+        };
         let mut runners: Vec<Runner> = all
             .into_iter()
-            .filter(|(observation, action)| self.scores_as_meant(observation, *action, rng))
+            .filter(&mut scores_as_meant)
             .map(|(observation, action)| Runner::new(observation, action))
             .collect();
         self.judge(&mut runners)?;
@@ -147,7 +152,8 @@ impl Expert<'_> {
         let again = |runner: &Runner, attempts| {
             let mut again = [Runner::new(runner.observation, runner.action)];
             self.race(&mut again, attempts, !seed);
-            self.transition(&again[0])
+            let success = (again[0].mean() / self.reward.highest()) as f32;
+            Transition { observation: runner.observation, conditions: self.conditions, action: runner.action, success }
         };
         let Some(winner) = runners.first().copied().filter(|winner| winner.earned > 0.0) else {
             return Ok(Found::default());
@@ -162,12 +168,6 @@ impl Expert<'_> {
         let [best, others] = [(best, ROUNDS[2].0), (others, AGAIN)]
             .map(|(strokes, attempts)| strokes.iter().map(|stroke| again(stroke, attempts)).collect());
         Ok(Found { best, others })
-    }
-
-    /// Whether a stroke makes the point where nobody errs.
-    fn scores_as_meant(&self, observation: &Observation, action: Action, rng: &mut (impl Rng + ?Sized)) -> bool {
-        let steady = Conditions { errors: 0.0, ..self.conditions };
-        self.tables.attempt(self.reward, self.layout, (observation, action), steady, rng) >= 1.0
     }
 
     /// Puts the critic's favourites first.
@@ -227,11 +227,6 @@ impl Expert<'_> {
     fn used(&self, mut action: Action) -> Action {
         action[self.inputs.space.actions()..ACTIONS].fill(0.0);
         action
-    }
-
-    fn transition(&self, runner: &Runner) -> Transition {
-        let success = (runner.mean() / self.reward.highest()) as f32;
-        Transition { observation: runner.observation, conditions: self.conditions, action: runner.action, success }
     }
 }
 

@@ -26,9 +26,6 @@ pub const FREE_PATHS: [usize; 2] = [29, 57];
 /// Those among them that tell the action and nothing that follows from it.
 const CHOSEN: [Range<usize>; 2] = [0..8, 30..37];
 
-/// Changes whenever the features change: weights fit one version only.
-pub const FEATURE_VERSION: &str = "final-course-1";
-
 /// Appends [`STATE_FEATURES`] numbers of the order of one: where the balls lie, how they lie to each other, the cushions
 /// behind the first ball, and the second ball's images in the cushions as seen from the first.
 pub fn push_state_features(table: &Table, observation: &Observation, out: &mut Vec<f32>) {

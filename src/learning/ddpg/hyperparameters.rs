@@ -145,20 +145,13 @@ impl Hyperparameters {
         ]
     }
 
-    /// The critic's optimiser at the start of a run.
-    pub const fn critic_adam(&self) -> AdamConfig {
-        AdamConfig { learning_rate: self.critic_learning_rate, gradient_clip: self.gradient_clip }
-    }
-
-    /// The actor's.
-    pub const fn actor_adam(&self) -> AdamConfig {
-        AdamConfig { learning_rate: self.actor_learning_rate, gradient_clip: self.gradient_clip }
+    /// The optimisers of the actor and of the critic at the start of a run.
+    pub fn adam(&self) -> [AdamConfig; 2] {
+        [self.actor_learning_rate, self.critic_learning_rate]
+            .map(|learning_rate| AdamConfig { learning_rate, gradient_clip: self.gradient_clip })
     }
 
     /// Checks every setting.
-    ///
-    /// # Errors
-    /// The first one that is outside its range.
     pub fn validate(&self) -> Result<(), SettingError> {
         check_layers("actor_layers", &self.actor_layers)?;
         check_layers("critic_layers", &self.critic_layers)?;

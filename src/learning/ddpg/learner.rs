@@ -9,7 +9,6 @@ use super::{
     first_contact::RAIL_FEATURES,
     hyperparameters::Hyperparameters,
     networks::Networks,
-    policy::score,
     snapshot,
     trainer::{Task, Trainer},
 };
@@ -89,12 +88,25 @@ impl Learner for Trainer {
         }
     }
 
+    /// Plays some shots, then learns from a batch of those that are remembered.
     fn iterate(&mut self) -> candle_core::Result<Iteration> {
-        self.iterate()
+        let lr_factor = self.lr_factor();
+        let mean_reward = self.play()?;
+        let hyper = &self.task.hyperparameters;
+        let (batch, imitated) = (hyper.batch, if hyper.imitation > 0.0 { hyper.actor_batch } else { 0 });
+        let played = self.replay.sample(batch, &mut self.rng);
+        let searched = self.searched.sample(imitated, &mut self.rng);
+        let (played, searched) =
+            (self.batch(&played)?, if searched.is_empty() { None } else { Some(self.batch(&searched)?) });
+        let losses = self.agent.update(&played, searched.as_ref(), lr_factor)?;
+        self.updates += 1;
+        // The critic's mean probability of success over all heads.
+        let q_value = -losses.actor;
+        Ok(Iteration { mean_reward, q_value, critic_loss: losses.critic, actor_loss: Some(losses.actor) })
     }
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
-        Ok(score(&self.policy(0.0, "")?, &self.table, self.task.plan.reward, layouts))
+        Ok(self.policy(0.0, "")?.score(&self.table, self.task.plan.reward, layouts))
     }
 
     fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {

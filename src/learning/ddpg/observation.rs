@@ -75,11 +75,6 @@ impl Observation {
         self.rail.map_or(self.cue, |rail| rail.image(table.reach(), self.cue))
     }
 
-    /// The cushion on the table.
-    pub fn rail_on_table(&self) -> Option<Rail> {
-        self.rail.map(|rail| Rail::with_normal(self.mirror * rail.normal()))
-    }
-
     /// A direction of this observation as an angle on the table, rad.
     pub fn angle_on_table(&self, direction: DVec2) -> f64 {
         (self.mirror * direction).to_angle()

@@ -52,8 +52,10 @@ fn padded(used: &[f32]) -> Action {
 #[derive(Clone, Debug)]
 pub struct ObservationBatch {
     inputs: Inputs,
-    seen: Arc<[Seen]>,
-    states: Tensor,
+    /// What it was made of.
+    pub seen: Arc<[Seen]>,
+    /// The actor's input, a row for each observation.
+    pub states: Tensor,
 }
 
 impl ObservationBatch {
@@ -80,19 +82,9 @@ impl ObservationBatch {
         Self::new(inputs, observations.into_iter().map(seen).collect())
     }
 
-    /// What it was made of.
-    pub fn seen(&self) -> &[Seen] {
-        &self.seen
-    }
-
     /// What the actions mean.
     pub const fn space(&self) -> ActionSpace {
         self.inputs.space
-    }
-
-    /// The actor's input, a row for each observation.
-    pub const fn states(&self) -> &Tensor {
-        &self.states
     }
 
     /// The first `count` observations, or all if there are fewer.
@@ -202,7 +194,7 @@ mod tests {
             assert_eq!(actions_in(space, &actions).unwrap(), values);
             let inputs = observed.with_actions(&actions).unwrap();
             let rows: Vec<Vec<f32>> = inputs.to_vec2().unwrap();
-            let states: Vec<Vec<f32>> = observed.states().to_vec2().unwrap();
+            let states: Vec<Vec<f32>> = observed.states.to_vec2().unwrap();
             for (row, input) in rows.iter().enumerate() {
                 assert_eq!(input.len(), observed.inputs.critic());
                 assert_eq!(input[..observed.inputs.actor()], states[row / 2]);
@@ -210,7 +202,7 @@ mod tests {
             let gradients = inputs.sum_all().unwrap().backward().unwrap();
             let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();
             let mut features = Vec::new();
-            push_action_features(&Ways::of(&table, &observed.seen()[1].observation), values[2], true, &mut features);
+            push_action_features(&Ways::of(&table, &observed.seen[1].observation), values[2], true, &mut features);
             let expected = features.iter().map(|feature| feature.slope[0] as f32).sum::<f32>();
             assert!((gradient[2][0] - expected).abs() < 1e-4);
             assert!(observed.with_actions(&actions.narrow(0, 0, 3).unwrap()).is_err());

@@ -62,7 +62,7 @@ impl<'a> ByRail<'a> {
     /// Ways by the cushion of an observation, if it has one.
     pub fn of(table: &'a Table, observation: &'a Observation) -> Option<Self> {
         // Most observations have none: nothing is worked out for them.
-        let rail = observation.rail_on_table()?;
+        let rail = Rail::with_normal(observation.mirror * observation.rail?.normal());
         Some(Self {
             table,
             observation,
@@ -87,7 +87,7 @@ impl<'a> ByRail<'a> {
             let partial = |index: usize| {
                 let mut moved = chosen;
                 moved[index] += STEPS[index];
-                let there = self.way(&moved)?;
+                let there = self.follow(&self.impulse(&moved), moved[0])?;
                 let slope = |to: f64, from: f64| (to - from) / STEPS[index];
                 let numbers = std::array::from_fn::<_, NUMBERS, _>(|n| slope(there.numbers[n], way.numbers[n]));
                 Some((slope(there.passed, way.passed), numbers))
@@ -151,10 +151,6 @@ impl<'a> ByRail<'a> {
         None
     }
 
-    fn way(&self, chosen: &Chosen) -> Option<Way> {
-        self.follow(&self.impulse(chosen), chosen[0])
-    }
-
     /// The stroke's impulse on a ball that leaves the cue along the x axis.
     fn impulse(&self, &[_, speed, left, up, theta]: &Chosen) -> Impulse {
         let a = self.observation.side_on_table(left);
@@ -183,8 +179,10 @@ impl<'a> ByRail<'a> {
         let course = mirror(arriving.along);
         let place = mirror(point) / constants.reach;
         let second = observation.mirror * observation.second;
-        let free =
-            |from: DVec2, to: DVec2, ball: DVec2| squashed(distance_to(from, to, ball) / constants.diameter - 1.0);
+        let free = |from: DVec2, to: DVec2, ball: DVec2| {
+            let gap = distance_to(from, to, ball) / constants.diameter - 1.0;
+            gap / (1.0 + gap.abs())
+        };
         Some(Way {
             passed: handed * arriving.along.perp_dot(ball.position - *first),
             numbers: [
@@ -275,11 +273,6 @@ fn distance_to(from: DVec2, to: DVec2, point: DVec2) -> f64 {
     let way = to - from;
     let share = ((point - from).dot(way) / way.length_squared().max(1e-12)).clamp(0.0, 1.0);
     point.distance(from + share * way)
-}
-
-/// A number of any size between -1 and 1.
-fn squashed(number: f64) -> f64 {
-    number / (1.0 + number.abs())
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
-//! Rollout, the shots of one iteration: near the agent's choices, its best proposals as they are, and a search's solutions.
+//! Rollout: the shots of one iteration, near the agent's choices, its best proposals as they are, and a search's solutions; and those
+//! by which a finished run's critic is calibrated, its own choice on fresh layouts.
 
 use candle_core::Result;
 use rand::{RngExt, SeedableRng};
@@ -6,20 +7,31 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     action::Action,
+    agent::Transition,
     expert::{Expert, Found},
     hyperparameters::Hyperparameters,
     networks::Networks,
     observation::Observation,
     observation_batch::ObservationBatch,
+    policy::calibration::{Calibration, Trial},
     randomized_tables::{Conditions, RandomizedTables},
-    replay::Transition,
     trainer::Trainer,
+    ways::playable,
 };
 use crate::{platform, table::Layout};
 
 /// Proposals of a layout that are played where the critic learns to rank them, the best ones: among the others it hardly ever
 /// chooses wrongly. (Six heads make 24 for straight ways.)
 const RANKED: usize = 8;
+
+/// How often a player who errs strikes each of his choices where the critic is calibrated.
+const ATTEMPTS_AT_CHOICE: usize = 16;
+
+/// Layouts that are judged in one pass there: their numbers stay in the processor's cache.
+const AT_ONCE: usize = 64;
+
+/// Tells those layouts from all else that is drawn from a run's seed.
+const STREAM: u64 = 0x0070_6c61_7474;
 
 /// A layout, and the conditions under which it is played.
 pub(super) type Scene = (Layout, Conditions);
@@ -79,11 +91,10 @@ impl Trainer {
     /// What networks propose on each of the layouts from every side ([`Networks::proposals`]).
     pub(super) fn judged(&self, networks: &Networks, scenes: &[Scene]) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
         let inputs = self.task.hyperparameters.inputs();
-        let sides = scenes.iter().flat_map(|(layout, conditions)| {
-            let all = Observation::every(self.tables.table(*conditions), layout, inputs.rails_first).into_iter();
-            all.map(|observation| self.tables.seen(observation, *conditions))
-        });
-        networks.proposals(inputs, sides.collect(), scenes.len())
+        let scenes = scenes
+            .iter()
+            .map(|(layout, conditions)| (self.tables.table(*conditions), layout, f64::from(conditions.errors)));
+        networks.proposals(inputs, scenes)
     }
 
     /// Plays the averaged networks' best proposals on every layout, as they are. Returns the rewards' sum.
@@ -125,14 +136,15 @@ impl Trainer {
         let mut total = 0.0;
         for (index, scene) in scenes.iter().enumerate() {
             let choice = actions[index * heads + self.rng.random_range(0..heads)];
-            total += self.stray(scene, observed.seen()[index].observation, choice);
+            total += self.stray(scene, observed.seen[index].observation, choice);
         }
         Ok(total)
     }
 
     /// Plays and remembers one shot near `choice`; returns its reward.
     fn stray(&mut self, scene: &Scene, observation: Observation, choice: Action) -> f64 {
-        let action = self.task.hyperparameters.exploration.stray(self.space(), choice, &mut self.rng);
+        let hyper = &self.task.hyperparameters;
+        let action = hyper.exploration.stray(hyper.actions, choice, &mut self.rng);
         self.rollout(scene, observation, action)
     }
 
@@ -145,5 +157,40 @@ impl Trainer {
         let success = (earned / reward.highest()) as f32;
         self.replay.push(Transition { observation, conditions, action, success });
         earned
+    }
+
+    /// Fits the calibration: the averaged networks' own choice is played on fresh layouts, half of them on the run's own table, with
+    /// errors drawn as in practice.
+    pub(super) fn calibration(&self) -> Result<Calibration> {
+        let Hyperparameters { perfect, calibrated, .. } = self.task.hyperparameters;
+        let reward = self.task.plan.reward;
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.task.plan.seed ^ STREAM);
+        let scenes: Vec<Scene> = (0..calibrated)
+            .map(|number| {
+                let conditions = self.tables.draw(perfect, &mut rng);
+                let conditions = if number % 2 == 0 { conditions.at_home() } else { conditions };
+                (Layout::random(self.tables.table(conditions), &mut rng), conditions)
+            })
+            .collect();
+        let mut trials = Vec::with_capacity(calibrated);
+        for scenes in scenes.chunks(AT_ONCE) {
+            for ((layout, conditions), mut proposals) in scenes.iter().zip(self.judged(&self.agent.target, scenes)?) {
+                let table = self.tables.table(*conditions);
+                let has_room = |(observation, action, _): &(Observation, Action, f32)| {
+                    playable(table, layout, observation, *action).is_ok()
+                };
+                proposals.sort_by(|(.., a), (.., b)| a.total_cmp(b));
+                let Some((observation, action, logit)) = proposals.into_iter().rfind(has_room) else { continue };
+                let attempts = if conditions.errors == 0.0 { 1 } else { ATTEMPTS_AT_CHOICE };
+                let attempt = |_| self.tables.attempt(reward, layout, (&observation, action), *conditions, &mut rng);
+                trials.push(Trial {
+                    logit: f64::from(logit),
+                    errors: f64::from(conditions.errors),
+                    attempts: attempts as f64,
+                    successes: (0..attempts).map(attempt).sum::<f64>() / reward.highest(),
+                });
+            }
+        }
+        Ok(Calibration::of(&trials))
     }
 }

@@ -10,12 +10,11 @@ use serde_json::Value;
 
 use super::{
     action::ACTIONS,
-    agent::Ddpg,
+    agent::{Ddpg, Transition},
     context::Inputs,
     networks::Networks,
     observation::Observation,
     randomized_tables::{Conditions, RandomizedTables},
-    replay::Transition,
     trainer::{Task, Trainer},
 };
 use crate::{
@@ -67,7 +66,7 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
     note_of(&TrainerState {
         task: trainer.task.clone(),
         table: Table::clone(&trainer.table),
-        features: inputs.version().to_owned(),
+        features: inputs.version(),
         actions: trainer.task.hyperparameters.actions.meaning().to_owned(),
         shots: trainer.shots,
         updates: trainer.updates,
@@ -98,9 +97,10 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     };
     let (online, target) = (networks("online")?, networks("target")?);
     let hyper = &note.task.hyperparameters;
+    let [actor, critic] = hyper.adam();
     let agent = Ddpg {
-        actor_optimiser: reader.optimiser("actor", &online.actor, hyper.actor_adam(), note.actor_steps)?,
-        critic_optimiser: reader.optimiser("critic", &online.critic, hyper.critic_adam(), note.critic_steps)?,
+        actor_optimiser: reader.optimiser("actor", &online.actor, actor, note.actor_steps)?,
+        critic_optimiser: reader.optimiser("critic", &online.critic, critic, note.critic_steps)?,
         hyper: hyper.clone(),
         online,
         target,
@@ -114,11 +114,6 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     Ok(Trainer { task, table, tables, agent, replay, searched, rng, shots, updates })
 }
 
-fn view_numbers(observation: &Observation) -> [f64; OBSERVATION_NUMBERS] {
-    let Observation { cue, first, second, mirror, .. } = *observation;
-    [cue.x, cue.y, first.x, first.y, second.x, second.y, mirror.x, mirror.y]
-}
-
 /// The number that stands for a cushion in a snapshot.
 fn number_of(rail: Option<Rail>) -> f32 {
     rail.and_then(|rail| Rail::ALL.iter().position(|own| *own == rail)).map_or(STRAIGHT, |index| index as f32)
@@ -126,10 +121,13 @@ fn number_of(rail: Option<Rail>) -> f32 {
 
 fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer<Transition>, inputs: Inputs) {
     let held = shots.held();
-    let observations: Vec<f64> = held.iter().flat_map(|held| view_numbers(&held.observation)).collect();
+    let views =
+        held.iter().flat_map(|Transition { observation: Observation { cue, first, second, mirror, .. }, .. }| {
+            [cue.x, cue.y, first.x, first.y, second.x, second.y, mirror.x, mirror.y]
+        });
     let actions: Vec<f32> = held.iter().flat_map(|held| held.action).collect();
     let successes: Vec<f32> = held.iter().map(|held| held.success).collect();
-    writer.add_f64(format!("{name}.views"), &[held.len(), OBSERVATION_NUMBERS], &observations);
+    writer.add_f64(format!("{name}.views"), &[held.len(), OBSERVATION_NUMBERS], &views.collect::<Vec<_>>());
     writer.add(format!("{name}.actions"), &[held.len(), ACTIONS], &actions);
     writer.add(format!("{name}.successes"), &[held.len()], &successes);
     if inputs.rails_first {
@@ -172,7 +170,7 @@ fn transitions(reader: &Reader<'_>, name: &str, inputs: Inputs) -> Result<Vec<Tr
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::ddpg::trainer::tests::small_task;
+    use crate::learning::{ddpg::trainer::tests::small_task, learner::Learner};
 
     fn bytes(trainer: &Trainer) -> Vec<u8> {
         let mut writer = Writer::default();

@@ -8,19 +8,14 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    action::ActionSpace,
-    agent::{Ddpg, ShotBatch},
+    agent::{Ddpg, ShotBatch, Transition},
     hyperparameters::Hyperparameters,
     observation_batch::ObservationBatch,
     policy::{Policy, calibration::Calibration, file::Origin},
     randomized_tables::RandomizedTables,
-    replay::Transition,
 };
 use crate::{
-    learning::{
-        learner::{Iteration, TrainingPlan},
-        replay::ReplayBuffer,
-    },
+    learning::{learner::TrainingPlan, replay::ReplayBuffer},
     printing::VERSION,
     table::Table,
 };
@@ -68,7 +63,7 @@ impl Trainer {
             table: self.table.name.clone(),
             reward: self.task.plan.reward,
             actions: self.task.hyperparameters.actions.meaning().to_owned(),
-            features: self.task.hyperparameters.inputs().version().to_owned(),
+            features: self.task.hyperparameters.inputs().version(),
             seed: self.task.plan.seed,
             shots: self.shots,
             date: date.to_owned(),
@@ -80,32 +75,8 @@ impl Trainer {
         Ok(Policy { networks: self.agent.target.duplicate()?, origin })
     }
 
-    pub(super) const fn space(&self) -> ActionSpace {
-        self.task.hyperparameters.actions
-    }
-
-    /// Plays some shots, then learns from a batch of those that are remembered.
-    ///
-    /// # Errors
-    /// Where the networks no longer give finite numbers.
-    pub fn iterate(&mut self) -> Result<Iteration> {
-        let lr_factor = self.lr_factor();
-        let mean_reward = self.play()?;
-        let hyper = &self.task.hyperparameters;
-        let (batch, imitated) = (hyper.batch, if hyper.imitation > 0.0 { hyper.actor_batch } else { 0 });
-        let played = self.replay.sample(batch, &mut self.rng);
-        let searched = self.searched.sample(imitated, &mut self.rng);
-        let (played, searched) =
-            (self.batch(&played)?, if searched.is_empty() { None } else { Some(self.batch(&searched)?) });
-        let losses = self.agent.update(&played, searched.as_ref(), lr_factor)?;
-        self.updates += 1;
-        // The critic's mean probability of success over all heads.
-        let q_value = -losses.actor;
-        Ok(Iteration { mean_reward, q_value, critic_loss: losses.critic, actor_loss: Some(losses.actor) })
-    }
-
     /// Shots as the agent learns from them.
-    fn batch(&self, shots: &[Transition]) -> Result<ShotBatch> {
+    pub(super) fn batch(&self, shots: &[Transition]) -> Result<ShotBatch> {
         let seen = shots.iter().map(|shot| self.tables.seen(shot.observation, shot.conditions)).collect();
         Ok(ShotBatch {
             observed: ObservationBatch::new(self.task.hyperparameters.inputs(), seen)?,
@@ -127,7 +98,6 @@ pub(in crate::learning) mod tests {
     use crate::{
         game::Reward,
         learning::{
-            ddpg::policy::score,
             evaluation::{HELD_OUT_SEED, held_out_layouts},
             learner::Learner,
         },
@@ -199,7 +169,7 @@ pub(in crate::learning) mod tests {
         let mut trainer = Trainer::new(task, table.clone()).unwrap();
         let layouts = held_out_layouts(&table, 400, HELD_OUT_SEED);
         let reward =
-            |trainer: &Trainer| score(&trainer.policy(0.0, "").unwrap(), &table, Reward::R3, &layouts).mean_reward;
+            |trainer: &Trainer| trainer.policy(0.0, "").unwrap().score(&table, Reward::R3, &layouts).mean_reward;
         let before = reward(&trainer);
         while !trainer.is_finished() {
             trainer.iterate().unwrap();

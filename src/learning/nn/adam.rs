@@ -33,15 +33,8 @@ const EPSILON: f32 = 1e-8;
 
 impl Adam {
     /// An optimiser that continues from what [`Adam::moments`] and [`Adam::steps`] gave.
-    ///
-    /// # Errors
-    /// Where a moment has not the shape of its variable.
-    pub fn resume(variables: Vec<Var>, config: AdamConfig, moments: Vec<[Tensor; 2]>, steps: u32) -> Result<Self> {
-        let fit = |(variable, pair): (&Var, &[Tensor; 2])| pair.iter().all(|moment| moment.shape() == variable.shape());
-        if moments.len() != variables.len() || !variables.iter().zip(&moments).all(fit) {
-            bail!("the optimiser's moments do not have the shapes of its variables");
-        }
-        Ok(Self { variables, moments, config, steps })
+    pub const fn resume(variables: Vec<Var>, config: AdamConfig, moments: Vec<[Tensor; 2]>, steps: u32) -> Self {
+        Self { variables, moments, config, steps }
     }
 
     /// The decaying averages of each variable's gradient and its square.
@@ -101,9 +94,6 @@ impl Optimizer for Adam {
 }
 
 /// Moves the target network's parameters the fraction `rate` of the way to the online network's (Polyak averaging).
-///
-/// # Errors
-/// Where the lengths differ.
 pub fn soft_update(target: &Var, online: &Var, rate: f64) -> Result<()> {
     target.inplace_op2(online.as_tensor(), &Blend { keep: (1.0 - rate) as f32, scale: 1.0, squared: false })
 }

@@ -60,9 +60,6 @@ impl Mlp {
     }
 
     /// A network with the given parameters.
-    ///
-    /// # Errors
-    /// Where their number does not fit the layer sizes.
     pub fn from_parameters(sizes: &[usize], parameters: Vec<f32>) -> Result<Self> {
         let count = parameter_count(sizes);
         if parameters.len() != count {
@@ -84,9 +81,6 @@ impl Mlp {
     }
 
     /// This network with another bias in its last layer.
-    ///
-    /// # Errors
-    /// Where `bias` has not one value for each output.
     pub fn with_output_bias(self, bias: &[f32]) -> Result<Self> {
         let mut parameters: Vec<f32> = self.parameters.to_vec1()?;
         let outputs = self.sizes[self.sizes.len() - 1];
@@ -100,9 +94,6 @@ impl Mlp {
 
     /// This network with `count` more inputs, which come after its first `after` ones and change nothing: their weights are
     /// nought.
-    ///
-    /// # Errors
-    /// Where it has not so many inputs.
     pub fn with_more_inputs(self, after: usize, count: usize) -> Result<Self> {
         let mut parameters: Vec<f32> = self.parameters.to_vec1()?;
         let mut sizes = self.sizes;
@@ -126,9 +117,6 @@ impl Mlp {
     }
 
     /// As [`Module::forward`], without gradients for the parameters.
-    ///
-    /// # Errors
-    /// Where the inputs have another shape.
     pub fn forward_frozen(&self, inputs: &Tensor) -> Result<Tensor> {
         self.apply(inputs, &self.parameters.as_detached_tensor())
     }

@@ -2,10 +2,7 @@
 
 use candle_core::{CpuStorage, Layout, Result, Storage, bail};
 
-/// The values of a contiguous `f32` tensor, as a custom operation meets it.
-///
-/// # Errors
-/// Where the tensor is not contiguous or not of `f32`.
+/// The values of a contiguous `f32` tensor, as a custom operation meets it; others are refused.
 pub fn values<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
     match layout.contiguous_offsets() {
         Some((start, end)) => Ok(&storage.as_slice::<f32>()?[start..end]),
@@ -14,9 +11,6 @@ pub fn values<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]>
 }
 
 /// As [`values`], from what `Tensor::storage_and_layout` gives.
-///
-/// # Errors
-/// As [`values`], and where it is not in the CPU's memory.
 pub fn stored_values<'a>(storage: &'a Storage, layout: &Layout) -> Result<&'a [f32]> {
     match storage {
         Storage::Cpu(storage) => values(storage, layout),

@@ -68,64 +68,32 @@ impl Writer {
     }
 
     /// Adds an array of `f64`.
-    pub fn add_f64(&mut self, name: impl Into<String>, shape: &[usize], values: &[f64]) {
+    pub(crate) fn add_f64(&mut self, name: impl Into<String>, shape: &[usize], values: &[f64]) {
         let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
         self.arrays.push((name.into(), Dtype::F64, shape.to_vec(), bytes));
     }
 
-    /// Adds an array with half the digits: 16 bits a value.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
-    fn add_half(&mut self, name: String, shape: &[usize], values: &[f32]) -> Result<(), WeightsError> {
-        let mut bytes = Vec::with_capacity(2 * values.len());
-        Tensor::from_slice(values, shape, &Device::Cpu)?.to_dtype(DType::F16)?.write_bytes(&mut bytes)?;
-        self.arrays.push((name, Dtype::F16, shape.to_vec(), bytes));
+    /// Adds a network layer by layer: `name.0.weight` (inputs x outputs), `name.0.bias`, and so on.
+    pub(crate) fn add_network(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
+        for (name, shape, values) in layers(name, network)? {
+            self.add(name, &shape, &values);
+        }
         Ok(())
     }
 
-    /// Adds a network layer by layer: `name.0.weight` (inputs x outputs), `name.0.bias`, and so on.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
-    pub fn add_network(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
-        self.add_layers(name, network, |writer, name, shape, values| {
-            writer.add(name, shape, values);
-            Ok(())
-        })
-    }
-
-    /// The same with half the digits, for networks that are done with learning.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
-    pub fn add_network_half(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
-        self.add_layers(name, network, Self::add_half)
-    }
-
-    fn add_layers(
-        &mut self,
-        name: &str,
-        network: &Mlp,
-        add: impl Fn(&mut Self, String, &[usize], &[f32]) -> Result<(), WeightsError>,
-    ) -> Result<(), WeightsError> {
-        let parameters: Vec<f32> = network.parameters().to_vec1()?;
-        let mut rest = parameters.as_slice();
-        for (layer, pair) in network.sizes().windows(2).enumerate() {
-            let (weight, after) = rest.split_at(pair[0] * pair[1]);
-            let (bias, after) = after.split_at(pair[1]);
-            add(self, format!("{name}.{layer}.weight"), pair, weight)?;
-            add(self, format!("{name}.{layer}.bias"), &pair[1..], bias)?;
-            rest = after;
+    /// The same with half the digits, 16 bits a value, for networks that are done with learning.
+    pub(crate) fn add_network_half(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
+        for (name, shape, values) in layers(name, network)? {
+            let mut bytes = Vec::with_capacity(2 * values.len());
+            let values = Tensor::from_vec(values, shape.as_slice(), &Device::Cpu)?;
+            values.to_dtype(DType::F16)?.write_bytes(&mut bytes)?;
+            self.arrays.push((name, Dtype::F16, shape, bytes));
         }
         Ok(())
     }
 
     /// Adds the state of a network's optimiser: `name.moment.0` and `name.moment.1`, without the point where `name` is empty.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
-    pub fn add_optimiser(&mut self, name: &str, optimiser: &Adam) -> Result<(), WeightsError> {
+    pub(crate) fn add_optimiser(&mut self, name: &str, optimiser: &Adam) -> Result<(), WeightsError> {
         for pair in optimiser.moments() {
             for (order, moment) in pair.iter().enumerate() {
                 self.add(moment_name(name, order), moment.dims(), &moment.to_vec1()?);
@@ -175,7 +143,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Whether there is an array called `name`.
-    pub fn has(&self, name: &str) -> bool {
+    pub(crate) fn has(&self, name: &str) -> bool {
         self.arrays.tensor(name).is_ok()
     }
 
@@ -187,13 +155,9 @@ impl<'a> Reader<'a> {
         let array = self
             .typed(name, Dtype::F32, "an array of 32-bit numbers")
             .or_else(|error| self.typed(name, Dtype::F16, "").map_err(|_| error))?;
-        let values: Vec<f32> = if array.dtype() == Dtype::F16 {
-            let half = Tensor::from_raw_buffer(array.data(), DType::F16, array.shape(), &Device::Cpu)?;
-            half.to_dtype(DType::F32)?.flatten_all()?.to_vec1()?
-        } else {
-            let (values, _) = array.data().as_chunks::<4>();
-            values.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()
-        };
+        let digits = if array.dtype() == Dtype::F16 { DType::F16 } else { DType::F32 };
+        let values = Tensor::from_raw_buffer(array.data(), digits, array.shape(), &Device::Cpu)?;
+        let values: Vec<f32> = values.to_dtype(DType::F32)?.flatten_all()?.to_vec1()?;
         if values.iter().all(|value| value.is_finite()) {
             Ok((array.shape().to_vec(), values))
         } else {
@@ -202,10 +166,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The values of an array of `f64`.
-    ///
-    /// # Errors
-    /// [`WeightsError::Array`].
-    pub fn array_f64(&self, name: &str) -> Result<Vec<f64>, WeightsError> {
+    pub(crate) fn array_f64(&self, name: &str) -> Result<Vec<f64>, WeightsError> {
         let array = self.typed(name, Dtype::F64, "an array of 64-bit numbers")?;
         let (values, _) = array.data().as_chunks::<8>();
         Ok(values.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect())
@@ -222,7 +183,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Where it has others, or an array is missing.
-    pub fn network(&self, name: &str, sizes: &[usize]) -> Result<Mlp, WeightsError> {
+    pub(crate) fn network(&self, name: &str, sizes: &[usize]) -> Result<Mlp, WeightsError> {
         let weight = |layer: usize| format!("{name}.{layer}.weight");
         let shapes = (0..).map_while(|layer| Some(self.arrays.tensor(&weight(layer)).ok()?.shape().to_vec()));
         let found: Vec<_> = shapes.collect();
@@ -245,7 +206,7 @@ impl<'a> Reader<'a> {
         Ok(Mlp::from_parameters(sizes, parameters)?)
     }
 
-    /// The optimiser of `network` that [`Writer::add_optimiser`] wrote after so many steps.
+    /// The optimiser of `network` that `Writer::add_optimiser` wrote after so many steps.
     ///
     /// # Errors
     /// Where it is missing or does not fit the network.
@@ -260,8 +221,24 @@ impl<'a> Reader<'a> {
             Ok(Tensor::from_vec(values, expected, &Device::Cpu)?)
         };
         let moments = vec![[moment(0)?, moment(1)?]];
-        Ok(Adam::resume(vec![network.parameters().clone()], config, moments, steps)?)
+        Ok(Adam::resume(vec![network.parameters().clone()], config, moments, steps))
     }
+}
+
+/// Name, shape and values.
+type Array = (String, Vec<usize>, Vec<f32>);
+
+/// The arrays of a network, layer after layer: the weights, then the bias.
+fn layers(name: &str, network: &Mlp) -> Result<Vec<Array>, WeightsError> {
+    let (mut rest, mut arrays) = (network.parameters().to_vec1::<f32>()?, Vec::new());
+    for (layer, pair) in network.sizes().windows(2).enumerate() {
+        for (part, shape) in [("weight", pair), ("bias", &pair[1..])] {
+            let after = rest.split_off(shape.iter().product());
+            arrays.push((format!("{name}.{layer}.{part}"), shape.to_vec(), rest));
+            rest = after;
+        }
+    }
+    Ok(arrays)
 }
 
 /// Layer sizes in a sentence.

@@ -1,7 +1,10 @@
 //! Checkpoints: the last one and the one before, each whole and verified, so that one of them can always be gone on
 //! from.
 
-use std::path::{Path, PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 
 use super::{
     contents::{self, State, restore},
@@ -19,16 +22,21 @@ pub const CURRENT: &str = "checkpoint.safetensors";
 pub const PREVIOUS: &str = "checkpoint-previous.safetensors";
 
 /// What the checkpoint with these bytes, read from `path`, holds.
-///
-/// # Errors
-/// Where it is damaged or of another version.
 pub fn load(path: &Path, bytes: Vec<u8>) -> Result<Loaded, RunError> {
-    let (learner, state) = restore(&bytes).map_err(|reason| RunError::Checkpoints {
+    loaded(path, Ok(bytes)).map_err(|damage| RunError::Checkpoints {
         folder: path.parent().unwrap_or(path).display().to_string(),
-        current: Box::new(Damage { path: path.display().to_string(), reason }),
+        current: Box::new(damage),
         previous: None,
-    })?;
-    Ok(Loaded { learner, state, bytes, fallback: None })
+    })
+}
+
+fn loaded(path: &Path, bytes: io::Result<Vec<u8>>) -> Result<Loaded, Damage> {
+    let load = || {
+        let bytes = bytes?;
+        let (learner, state) = restore(&bytes)?;
+        Ok(Loaded { learner, state, bytes, fallback: None })
+    };
+    load().map_err(|reason| Damage { path: path.display().to_string(), reason })
 }
 
 /// Shots that the newer checkpoint in `folder` that says so has played.
@@ -68,17 +76,9 @@ impl Checkpoints {
     /// # Errors
     /// [`RunError::Missing`] or [`RunError::Checkpoints`].
     pub fn open(folder: &Path) -> Result<(Self, Loaded), RunError> {
-        let read = |name: &str| {
-            let path = folder.join(name);
-            let read = || {
-                let bytes = storage::read(&path, storage::LARGE)?;
-                let (learner, state) = restore(&bytes)?;
-                Ok(Loaded { learner, state, bytes, fallback: None })
-            };
-            read().map_err(|reason| Damage { path: path.display().to_string(), reason })
-        };
+        let read = |name: &str| loaded(&folder.join(name), storage::read(&folder.join(name), storage::LARGE));
         let is_missing = |damage: &Damage| match &damage.reason {
-            DamageReason::File(error) => error.kind() == std::io::ErrorKind::NotFound,
+            DamageReason::File(error) => error.kind() == io::ErrorKind::NotFound,
             _ => false,
         };
         let current = match read(CURRENT) {
@@ -102,7 +102,7 @@ impl Checkpoints {
     ///
     /// # Errors
     /// Whatever the file system reports. The whole ones that were there are still there.
-    pub fn write(&mut self, bytes: &[u8]) -> std::io::Result<()> {
+    pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         let current = self.folder.join(CURRENT);
         let staged = Staged::new(&current, bytes)?;
         // Killed between the two renames, the run goes on from the one before.
@@ -121,7 +121,10 @@ mod tests {
     use crate::{
         learning::{
             ddpg::trainer::{Trainer, tests::small_task},
-            run::{accumulator::Accumulator, config::Schedule, contents::bytes},
+            run::{
+                config::Schedule,
+                contents::{Accumulator, bytes},
+            },
         },
         table::Table,
     };

@@ -116,10 +116,7 @@ impl Config {
     }
 
     /// Writes it for the run in `folder`.
-    ///
-    /// # Errors
-    /// Whatever the file system reports.
-    pub fn write(&self, folder: &Path) -> Result<(), RunError> {
+    pub(super) fn write(&self, folder: &Path) -> Result<(), RunError> {
         json::write(&folder.join(FILE), self)
     }
 

@@ -6,14 +6,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    accumulator::Accumulator,
     checksum::{NO_CHECKSUM, is_whole, write_checksum},
     config::{Schedule, Start},
     error::{DamageReason, FORMAT},
 };
 use crate::{
     learning::{
-        learner::{AgentKind, Learner},
+        learner::{AgentKind, Iteration, Learner},
         nn::weights::{Reader, WeightsError, Writer},
     },
     storage,
@@ -45,10 +44,45 @@ pub struct State {
     pub accumulator: Accumulator,
 }
 
+/// Sums over iterations. They are part of a checkpoint: a line's means must not depend on where a run was interrupted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Accumulator {
+    #[serde(rename = "turns")]
+    iterations: u64,
+    #[serde(flatten)]
+    sums: Iteration,
+}
+
+impl Accumulator {
+    /// Adds an iteration. `false` where it has numbers that are not finite.
+    #[must_use]
+    pub fn add(&mut self, iteration: &Iteration) -> bool {
+        self.iterations += 1;
+        let Iteration { mean_reward, q_value, critic_loss, actor_loss } = &mut self.sums;
+        *mean_reward += iteration.mean_reward;
+        *q_value += iteration.q_value;
+        *critic_loss += iteration.critic_loss;
+        if let Some(loss) = iteration.actor_loss {
+            *actor_loss.get_or_insert_default() += loss;
+        }
+        [*mean_reward, *q_value, *critic_loss, actor_loss.unwrap_or_default()].iter().all(|sum| sum.is_finite())
+    }
+
+    /// The means over the iterations added since the last call.
+    pub fn take(&mut self) -> Iteration {
+        let Self { iterations, sums: Iteration { mean_reward, q_value, critic_loss, actor_loss } } =
+            std::mem::take(self);
+        let count = iterations.max(1) as f64;
+        Iteration {
+            mean_reward: mean_reward / count,
+            q_value: q_value / count,
+            critic_loss: critic_loss / count,
+            actor_loss: actor_loss.map(|sum| sum / count),
+        }
+    }
+}
+
 /// The bytes of a checkpoint.
-///
-/// # Errors
-/// Whatever candle or safetensors reports.
 pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsError> {
     let mut writer = Writer::default();
     let note = Header {
@@ -64,9 +98,6 @@ pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsErr
 }
 
 /// The learner and the run's state in a checkpoint's bytes.
-///
-/// # Errors
-/// Where they are damaged or of another version.
 pub fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> {
     match is_whole(bytes) {
         Some(true) => {}
@@ -83,35 +114,26 @@ pub fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> 
     Ok(((agent.restore)(&reader, learner)?, state))
 }
 
-/// Whether the bytes claim to be a checkpoint, whole or not.
-pub fn is_checkpoint(bytes: &[u8]) -> bool {
-    is_whole(bytes).is_some()
-}
-
 /// The agent whose run wrote the checkpoint at `path`; `None` where that is no checkpoint, or cannot be read.
 pub fn agent_of_checkpoint(path: &Path) -> Option<String> {
-    #[derive(Deserialize)]
-    struct Whose {
-        agent: String,
-    }
-    let bytes = storage::read(path, storage::LARGE).ok().filter(|bytes| is_checkpoint(bytes))?;
-    Some(Reader::new(&bytes).ok()?.note::<Whose>().ok()?.agent)
+    Some(told(path, "agent")?.as_str()?.to_owned())
+}
+
+/// Shots that the checkpoint at `path` has played; `None` where that cannot be read.
+pub fn shots_in(path: &Path) -> Option<u64> {
+    told(path, "shots")?.as_u64()
+}
+
+/// What the note of the checkpoint at `path` says under `name`; that of a policy names no agent.
+fn told(path: &Path, name: &str) -> Option<Value> {
+    let bytes = storage::read(path, storage::LARGE).ok()?;
+    Reader::new(&bytes).ok()?.note::<Value>().ok()?.get(name).cloned()
 }
 
 /// The part of a note that every version has.
 #[derive(Deserialize)]
 struct Version {
     format: u32,
-}
-
-/// Shots that the checkpoint at `path` has played; `None` where that cannot be read.
-pub fn shots_in(path: &Path) -> Option<u64> {
-    #[derive(Deserialize)]
-    struct Progress {
-        shots: u64,
-    }
-    let bytes = storage::read(path, storage::LARGE).ok()?;
-    Some(Reader::new(&bytes).ok()?.note::<Progress>().ok()?.shots)
 }
 
 #[cfg(test)]
@@ -138,5 +160,17 @@ mod tests {
         assert!(write_checksum(&mut bytes));
         let message = restore(&bytes).unwrap_err().to_string();
         assert!(message.contains("format 99") && message.contains("format 2"), "{message}");
+    }
+
+    #[test]
+    fn means_are_over_the_iterations_since_the_last_and_survive_a_file() {
+        let iteration = |reward| Iteration { mean_reward: reward, q_value: 0.1, critic_loss: 0.7, actor_loss: None };
+        let mut accumulator = Accumulator::default();
+        assert!(accumulator.add(&iteration(0.1)) && accumulator.add(&iteration(0.2)));
+        let text = serde_json::to_string(&accumulator).unwrap();
+        let mut again: Accumulator = serde_json::from_str(&text).unwrap();
+        assert_eq!(again, accumulator);
+        assert_eq!((again.take().mean_reward, again.take()), (f64::midpoint(0.1, 0.2), Iteration::default()));
+        assert!(!accumulator.add(&Iteration { critic_loss: f64::INFINITY, ..iteration(0.0) }));
     }
 }

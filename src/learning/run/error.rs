@@ -62,7 +62,7 @@ pub enum RunError {
         /// The file or the run.
         path: String,
         /// What is wrong.
-        reason: Box<OriginError>,
+        reason: String,
     },
     /// The policy to start from cannot be used.
     #[error(transparent)]
@@ -73,14 +73,9 @@ pub enum RunError {
     /// The networks no longer give finite numbers.
     #[error("training stopped: {0}")]
     Training(#[from] candle_core::Error),
-    /// The networks no longer give finite losses.
-    #[error(
-        "training stopped after {shots} shots: the loss is not a finite number any more; try a lower learning rate"
-    )]
-    NotFinite {
-        /// Shots played.
-        shots: u64,
-    },
+    /// The networks no longer give finite losses, after so many shots.
+    #[error("training stopped after {0} shots: the loss is not a finite number any more; try a lower learning rate")]
+    NotFinite(u64),
     /// The work since the last checkpoint could not be saved.
     #[error(
         "the run could not be saved after {shots} shots: {reason}; the last checkpoint is whole: make room, then go on \
@@ -110,44 +105,22 @@ pub struct Damage {
 /// Why the bytes of a checkpoint cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum DamageReason {
-    /// The file cannot be read.
     #[error("{0}")]
     File(#[from] std::io::Error),
-    /// A byte has changed.
     #[error("it is damaged: its content does not fit its checksum")]
     Checksum,
-    /// There is no checksum.
     #[error("it has no checksum: it is damaged, or not a checkpoint of this version of carom")]
     NoChecksum,
-    /// It is of another version.
     #[error("it has format {0}, and this version of carom reads format {FORMAT}")]
     Format(u32),
-    /// Nobody can take it up.
     #[error("its agent \"{0}\" is not known to this version of carom")]
     Agent(String),
-    /// The learner refuses it.
     #[error("{0}")]
     Content(#[from] WeightsError),
 }
 
-/// Why weights are no start for a run.
-#[derive(Debug, thiserror::Error)]
-pub enum OriginError {
-    /// They are of another kind of agent.
-    #[error("they are {found}'s, and the run's agent is {expected}; leave out --agent, or choose other weights")]
-    Agent {
-        /// Whose they are.
-        found: String,
-        /// Whose they should be.
-        expected: String,
-    },
-    /// They cannot be used.
-    #[error("{0}{advice}", advice = advice(_0))]
-    Weights(#[from] WeightsError),
-}
-
 /// What to do about weights that a run cannot take up.
-const fn advice(error: &WeightsError) -> &'static str {
+pub const fn advice(error: &WeightsError) -> &'static str {
     match error {
         WeightsError::Shape { .. } => {
             "; leave out the settings that give the networks other sizes, or start without --from"

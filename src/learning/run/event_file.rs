@@ -11,7 +11,6 @@ use std::{
 };
 
 use crc::{CRC_32_ISCSI, Crc};
-use serde_json::Value;
 
 use super::metrics::Record;
 
@@ -26,13 +25,11 @@ pub struct EventFile(File);
 
 impl EventFile {
     /// A file anew, with all lines that the run has written so far.
-    ///
-    /// # Errors
-    /// Whatever the file system reports.
     pub fn create(folder: &Path, records: &[Record]) -> io::Result<Self> {
         let file = OpenOptions::new().create(true).truncate(true).write(true).open(folder.join(FILE))?;
         let mut events = Self(file);
-        let mut bytes = framed(&version_event());
+        let version = [field(WALL_TIME, DOUBLE, &now().to_le_bytes()), sized(FILE_VERSION, b"brain.Event:2")].concat();
+        let mut bytes = framed(&version);
         // As if the run had gone on without a break: when its parts were played is not known.
         let begin = now() - records.last().map_or(0.0, |last| last.seconds);
         for record in records {
@@ -43,9 +40,6 @@ impl EventFile {
     }
 
     /// Adds a line.
-    ///
-    /// # Errors
-    /// Whatever the file system reports.
     pub fn push(&mut self, record: &Record) -> io::Result<()> {
         self.0.write_all(&framed(&event(record, now())))
     }
@@ -82,27 +76,17 @@ const DOUBLE: u8 = 1;
 const BYTES: u8 = 2;
 const FLOAT: u8 = 5;
 
-fn version_event() -> Vec<u8> {
-    let mut event = field(WALL_TIME, DOUBLE, &now().to_le_bytes());
-    event.extend(sized(FILE_VERSION, b"brain.Event:2"));
-    event
-}
-
-/// A line of metrics: every number under its name, at its number of shots.
+/// A line of metrics: every finite number under its name in `metrics.jsonl`, at its number of shots.
 fn event(record: &Record, wall_time: f64) -> Vec<u8> {
     let mut summary = Vec::new();
-    for (name, value) in numbers(record) {
+    let fields = serde_json::to_value(record).unwrap_or_default();
+    let numbers = fields.as_object().into_iter().flatten().filter_map(|(name, value)| Some((name, value.as_f64()?)));
+    for (name, value) in numbers {
         let value = [sized(TAG, name.as_bytes()), field(SIMPLE_VALUE, FLOAT, &(value as f32).to_le_bytes())].concat();
         summary.extend(sized(VALUE, &value));
     }
     let step = field(STEP, VARINT, &varint(record.shots));
     [field(WALL_TIME, DOUBLE, &wall_time.to_le_bytes()), step, sized(SUMMARY, &summary)].concat()
-}
-
-/// The finite numbers of a line with their names in `metrics.jsonl`.
-fn numbers(record: &Record) -> Vec<(String, f64)> {
-    let Ok(Value::Object(fields)) = serde_json::to_value(record) else { return Vec::new() };
-    fields.into_iter().filter_map(|(name, value)| Some((name, value.as_f64()?))).collect()
 }
 
 fn field(number: u8, kind: u8, content: &[u8]) -> Vec<u8> {

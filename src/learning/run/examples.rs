@@ -40,10 +40,7 @@ pub struct Examples {
 
 impl Examples {
     /// Those of a measurement of `learner` on `layouts`.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
-    pub fn of(learner: &dyn Learner, layouts: &[Layout]) -> candle_core::Result<Self> {
+    pub(crate) fn of(learner: &dyn Learner, layouts: &[Layout]) -> candle_core::Result<Self> {
         let layouts = &layouts[..layouts.len().min(COUNT)];
         let (reward, table) = (learner.plan().reward, learner.table());
         let shots = learner.shots_on(layouts)?.into_iter().zip(layouts);
@@ -52,18 +49,12 @@ impl Examples {
     }
 
     /// Writes them for the run in `folder`.
-    ///
-    /// # Errors
-    /// Whatever the file system reports.
-    pub fn write(&self, folder: &Path) -> std::io::Result<()> {
+    pub(crate) fn write(&self, folder: &Path) -> std::io::Result<()> {
         replace(&folder.join(FILE), &serde_json::to_vec(self)?)
     }
 
     /// Reads those of the run in `folder`.
-    ///
-    /// # Errors
-    /// Where there are none, or something else.
-    pub fn read(folder: &Path) -> std::io::Result<Self> {
+    pub(crate) fn read(folder: &Path) -> std::io::Result<Self> {
         json::read(&folder.join(FILE), storage::LARGE)
     }
 }

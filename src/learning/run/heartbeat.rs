@@ -25,7 +25,8 @@ const SPEED_BEATS: usize = 6;
 #[derive(Debug)]
 pub struct Heartbeat {
     folder: PathBuf,
-    status: RunStatus,
+    /// What is told with the next beat.
+    pub status: RunStatus,
     beaten: Option<Instant>,
     listened: Instant,
     /// Seconds of training, shots and updates at the last beats, for the speeds.
@@ -54,16 +55,6 @@ impl Heartbeat {
         self.status.reason = reason;
         Request::clear(&self.folder);
         self.tell(phase, learner, seconds);
-    }
-
-    /// Keeps what the run has earned on the held-out layouts: a run that is stopped has no line of metrics for it.
-    pub const fn measured(&mut self, reward: f64) {
-        self.status.held_out_reward = Some(reward);
-    }
-
-    /// Keeps a sentence for those who watch.
-    pub fn warn(&mut self, sentence: &str) {
-        self.status.warning = Some(sentence.to_owned());
     }
 
     /// What the run is asked to do, or a sentence about what is not understood.

@@ -8,17 +8,11 @@ use super::error::{RunError, file};
 use crate::storage::{self, write_atomic};
 
 /// The content of the file at `path`, which has at most `largest` bytes.
-///
-/// # Errors
-/// Where there is none, or something else.
 pub fn read<T: DeserializeOwned>(path: &Path, largest: u64) -> io::Result<T> {
     Ok(serde_json::from_slice(&storage::read(path, largest)?)?)
 }
 
 /// Replaces the file at `path`, to be read by people, too.
-///
-/// # Errors
-/// Whatever the file system reports.
 pub fn write(path: &Path, content: &impl Serialize) -> Result<(), RunError> {
     let write = || write_atomic(path, (serde_json::to_string_pretty(content)? + "\n").as_bytes());
     write().map_err(file(path))

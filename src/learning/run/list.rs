@@ -9,13 +9,12 @@ use std::{
 
 use serde::Serialize;
 
-use super::metrics;
 use super::{
     METRICS,
     checkpoint::shots_in,
     config::{self, Config},
     follow::{Condition, Signs, Stamp, condition},
-    holds_checkpoints,
+    holds_checkpoints, metrics,
     status::{self, RunStatus},
 };
 use crate::{game::Reward, printing::moment};
@@ -71,7 +70,7 @@ pub struct Listing {
 
 /// The runs in a folder, looked at again and again: metrics are read only where they have changed.
 #[derive(Debug)]
-pub struct RunsFolder {
+pub(crate) struct RunsFolder {
     folder: PathBuf,
     known: HashMap<PathBuf, (Option<Stamp>, Rewards)>,
 }
@@ -91,9 +90,6 @@ impl RunsFolder {
     }
 
     /// Looks once.
-    ///
-    /// # Errors
-    /// As [`runs_in`].
     pub fn look(&mut self) -> io::Result<Listing> {
         let mut listing = Listing::default();
         for (name, folder) in run_folders(&self.folder)? {

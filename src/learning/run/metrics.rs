@@ -45,20 +45,12 @@ pub struct Record {
     #[serde(rename = "rollout/ep_rew_mean", with = "number")]
     pub rollout_reward: f64,
     /// How strongly the agent explores, see [`Progress`](crate::learning::learner::Progress::exploration).
-    #[serde(
-        rename = "rollout/exploration_rate",
-        with = "number::option",
-        default,
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(rename = "rollout/exploration_rate")]
+    #[serde(with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub exploration: Option<f64>,
     /// Share of the replay buffer that is filled, for agents that have one.
-    #[serde(
-        rename = "train/replay_buffer_fill",
-        with = "number::option",
-        default,
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(rename = "train/replay_buffer_fill")]
+    #[serde(with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub replay_fill: Option<f64>,
     /// Mean reward of the averaged networks' first choice on held-out layouts, without exploration.
     #[serde(rename = "eval/mean_reward", with = "number::option", default, skip_serializing_if = "Option::is_none")]
@@ -77,13 +69,13 @@ pub fn read(path: &Path) -> io::Result<Vec<Record>> {
 }
 
 /// Whether the file ends within a line; what cannot be read is told by who opens it.
-pub fn is_torn(path: &Path) -> bool {
+pub(super) fn is_torn(path: &Path) -> bool {
     content(path).is_ok_and(|bytes| bytes.last().is_some_and(|byte| *byte != b'\n'))
 }
 
 /// A sentence where lines are missing in the file of a run that goes on after `shots` shots: there is one for every `log_every` shots.
 /// What cannot be read is told by who opens it.
-pub fn gap(path: &Path, shots: u64, log_every: u64) -> Option<String> {
+pub(super) fn gap(path: &Path, shots: u64, log_every: u64) -> Option<String> {
     let records = read(path).ok()?;
     let last = records.iter().map(|record| record.shots).filter(|last| *last <= shots).max();
     // A checkpoint is written after all lines before it: none is missing where no line is due between the last one and it.
@@ -99,13 +91,13 @@ pub fn gap(path: &Path, shots: u64, log_every: u64) -> Option<String> {
 }
 
 /// The sentence about a file whose last line is of `last` shots, where `shots` were played and lines are missing.
-pub fn cut_off(last: u64, shots: u64) -> String {
+pub(super) fn cut_off(last: u64, shots: u64) -> String {
     format!("{METRICS} has been emptied or cut off: it ends after {last} of the {shots} shots played")
 }
 
 /// A run's file of metrics while the run writes it. Lines that cannot be written wait in memory.
 #[derive(Debug)]
-pub struct MetricsFile {
+pub(super) struct MetricsFile {
     path: PathBuf,
     /// Bytes of whole lines in the file.
     length: u64,
@@ -114,10 +106,7 @@ pub struct MetricsFile {
 
 impl MetricsFile {
     /// Opens the file of a run that goes on after `shots` shots: what was written later, and a last line that was cut
-    /// off, is dropped, so that no line comes twice. Returns the last line that is left, too.
-    ///
-    /// # Errors
-    /// Whatever the file system reports; a missing file is an empty one.
+    /// off, is dropped, so that no line comes twice. Returns the last line that is left, too. A missing file is an empty one.
     pub fn open(path: &Path, shots: u64) -> io::Result<(Self, Option<Record>)> {
         let bytes = content(path)?;
         let (mut length, mut last) = (0, None);
@@ -142,18 +131,12 @@ impl MetricsFile {
         let _ = printing::json_line(&mut self.waiting, record);
     }
 
-    /// Writes the lines that wait.
-    ///
-    /// # Errors
-    /// Whatever the file system reports; the lines then go on waiting, and the file has whole lines only.
+    /// Writes the lines that wait. Where that fails they go on waiting, and the file has whole lines only.
     pub fn flush(&mut self) -> io::Result<()> {
         self.write().map(|_| ())
     }
 
-    /// Writes the lines that wait, and returns when they would outlive a power cut.
-    ///
-    /// # Errors
-    /// As [`MetricsFile::flush`].
+    /// The same, and returns when they would outlive a power cut.
     pub fn sync(&mut self) -> io::Result<()> {
         self.write()?.sync_data()
     }
@@ -202,6 +185,15 @@ mod tests {
         Record { shots, actor_loss: Some(-0.5), rollout_reward: 0.25, ..Record::default() }
     }
 
+    /// A new folder, the path of a file in it, and that file, opened for a run that goes on after `shots` shots.
+    fn opened(shots: u64) -> (tempfile::TempDir, PathBuf, MetricsFile) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        let (file, last) = MetricsFile::open(&path, shots).unwrap();
+        assert_eq!(last, None);
+        (folder, path, file)
+    }
+
     #[test]
     fn lines_speak_the_names_of_stable_baselines() {
         let line = serde_json::to_string(&Record { held_out_reward: Some(0.5), ..record(7) }).unwrap();
@@ -214,10 +206,7 @@ mod tests {
 
     #[test]
     fn a_run_that_goes_on_drops_later_lines_and_a_torn_one() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("metrics.jsonl");
-        let (mut file, none) = MetricsFile::open(&path, 5).unwrap();
-        assert_eq!(none, None);
+        let (_folder, path, mut file) = opened(5);
         for shots in [1, 2, 3] {
             file.push(&record(shots));
             file.flush().unwrap();
@@ -237,11 +226,9 @@ mod tests {
 
     #[test]
     fn lines_that_are_missing_before_a_checkpoint_are_told_with_the_gap() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("metrics.jsonl");
+        let (_folder, path, mut file) = opened(0);
         assert_eq!(gap(&path, 99, 100), None, "no line is due yet");
         assert!(gap(&path, 640, 100).unwrap().contains("is missing: there is no line of the 640 shots"));
-        let (mut file, _) = MetricsFile::open(&path, 0).unwrap();
         for shots in [192, 384, 576] {
             file.push(&record(shots));
         }
@@ -255,9 +242,7 @@ mod tests {
 
     #[test]
     fn a_file_that_was_cut_off_meanwhile_goes_on_after_its_last_whole_line() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("metrics.jsonl");
-        let (mut file, _) = MetricsFile::open(&path, 0).unwrap();
+        let (_folder, path, mut file) = opened(0);
         for shots in [1, 2] {
             file.push(&record(shots));
         }
@@ -275,9 +260,7 @@ mod tests {
 
     #[test]
     fn lines_that_cannot_be_written_wait_and_come_later() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("metrics.jsonl");
-        let (mut file, _) = MetricsFile::open(&path, 0).unwrap();
+        let (_folder, path, mut file) = opened(0);
         fs::create_dir(&path).unwrap();
         for shots in [1, 2] {
             file.push(&record(shots));

@@ -4,10 +4,8 @@
 //! policy, then the lines of metrics, last the checkpoint; whatever is younger than the checkpoint is done again,
 //! to the same bits. A run that is stopped writes the checkpoint before it is measured, and the policy after that.
 
-mod accumulator;
 mod checkpoint;
 mod checksum;
-mod clock;
 mod config;
 mod contents;
 mod error;
@@ -20,11 +18,11 @@ mod json;
 pub mod list;
 pub mod metrics;
 mod number;
-pub mod origin;
+pub(crate) mod origin;
 pub mod quantity;
 pub mod request;
 mod result;
-pub mod seeds;
+pub(crate) mod seeds;
 pub mod status;
 mod training;
 
@@ -34,16 +32,15 @@ use std::{
 };
 
 use self::{
-    accumulator::Accumulator,
     checkpoint::{Checkpoints, Loaded},
-    contents::State,
+    contents::{Accumulator, State},
     error::file,
     metrics::MetricsFile,
 };
 pub use self::{
     config::{Config, Schedule, Start, run_name},
     contents::agent_of_checkpoint,
-    error::{OriginError, RunError},
+    error::RunError,
     training::{Ending, Limits, Watcher},
 };
 use crate::{

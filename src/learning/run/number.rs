@@ -12,9 +12,6 @@ const ABOVE: &str = "Infinity";
 const BELOW: &str = "-Infinity";
 
 /// Writes a number, or its name.
-///
-/// # Errors
-/// Whatever the serializer reports.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
 pub fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     match *number {
@@ -25,9 +22,6 @@ pub fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S:
 }
 
 /// Reads a number, or its name; `null`, which many programs write for what is no number, is one that is none.
-///
-/// # Errors
-/// Anything else.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     match Number::deserialize(deserializer)? {
         Number::Finite(number) => Ok(number),
@@ -60,9 +54,6 @@ pub mod option {
     struct Present(#[serde(with = "super")] f64);
 
     /// Writes the number that is there.
-    ///
-    /// # Errors
-    /// Whatever the serializer reports.
     #[expect(clippy::ref_option, reason = "serde calls it with a reference")]
     pub fn serialize<S: Serializer>(number: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
         match number {
@@ -72,9 +63,6 @@ pub mod option {
     }
 
     /// Reads a number, or its name, or nothing.
-    ///
-    /// # Errors
-    /// Anything else.
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
         Ok(Option::<Present>::deserialize(deserializer)?.map(|Present(number)| number))
     }

@@ -6,15 +6,15 @@ use serde_json::Value;
 
 use super::{
     checkpoint::{self, Checkpoints, Loaded},
+    checksum::is_whole,
     config::Start,
-    contents::is_checkpoint,
-    error::{OriginError, RunError, file},
+    error::{RunError, advice, file},
 };
 use crate::{
     learning::{
         Policy,
         learner::{Learner, note_of},
-        nn::weights::{Reader, WeightsError},
+        nn::weights::Reader,
     },
     storage::{self, write_atomic},
     table::Table,
@@ -34,15 +34,13 @@ pub struct Weights {
 
 impl Weights {
     /// The weights in a run's folder, in a checkpoint or in a policy file.
-    ///
-    /// # Errors
-    /// Where there are none that this version can use.
     pub fn load(path: &Path) -> Result<Self, RunError> {
         if path.is_dir() {
             return Ok(Self::of_checkpoint(path, Checkpoints::open(path)?.1));
         }
         let bytes = storage::read(path, storage::LARGE).map_err(file(path))?;
-        if is_checkpoint(&bytes) {
+        // Whole or not, it claims to be one.
+        if is_whole(&bytes).is_some() {
             return Ok(Self::of_checkpoint(path, checkpoint::load(path, bytes)?));
         }
         // From the same bytes: a run may replace the file at any moment.
@@ -57,11 +55,8 @@ impl Weights {
             seed: origin.seed,
             shots: origin.shots,
         };
-        let refuse = |reason: WeightsError| {
-            let reason = Box::new(OriginError::from(reason));
-            RunError::Origin { path: path.display().to_string(), reason }
-        };
-        let settings = note_of(&origin.hyperparameters).map_err(refuse)?;
+        let settings = note_of(&origin.hyperparameters)
+            .map_err(|error| RunError::Origin { path: path.display().to_string(), reason: error.to_string() })?;
         Ok(Self { start, settings, table: None, bytes })
     }
 
@@ -84,19 +79,18 @@ impl Weights {
     /// # Errors
     /// [`RunError::Origin`] where the agent or the sizes differ.
     pub fn give_to(&self, learner: &mut dyn Learner) -> Result<(), RunError> {
-        let refuse = |reason| RunError::Origin { path: self.start.path.clone(), reason: Box::new(reason) };
+        let refuse = |reason| RunError::Origin { path: self.start.path.clone(), reason };
         let (found, expected) = (&self.start.agent, learner.agent());
         if found != expected {
-            return Err(refuse(OriginError::Agent { found: found.clone(), expected: expected.to_owned() }));
+            return Err(refuse(format!(
+                "they are {found}'s, and the run's agent is {expected}; leave out --agent, or choose other weights"
+            )));
         }
-        let mut load = || learner.load_weights(&Reader::new(&self.bytes)?);
-        load().map_err(|reason| refuse(reason.into()))
+        let loaded = Reader::new(&self.bytes).and_then(|weights| learner.load_weights(&weights));
+        loaded.map_err(|error| refuse(format!("{error}{}", advice(&error))))
     }
 
     /// Keeps a copy of the file.
-    ///
-    /// # Errors
-    /// Whatever the file system reports.
     pub fn write(&self, path: &Path) -> Result<(), RunError> {
         write_atomic(path, &self.bytes).map_err(file(path))
     }

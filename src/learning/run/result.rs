@@ -18,51 +18,35 @@ use crate::{
 pub const FILE: &str = "result.json";
 
 /// The content of the file.
-#[derive(Debug, Serialize)]
-pub struct RunResult {
-    /// The agent's name.
-    pub agent: String,
-    /// What earned a reward.
-    pub reward: Reward,
-    /// Seed of everything random.
-    pub seed: u64,
+#[derive(Serialize)]
+struct RunResult {
+    agent: &'static str,
+    reward: Reward,
+    seed: u64,
     /// Shots played: those of the last iteration beyond the plan included.
-    pub shots: u64,
-    /// Name of the table.
-    pub table: String,
-    /// Updates made.
-    pub updates: u64,
+    shots: u64,
+    table: String,
+    updates: u64,
     /// Mean reward on the held-out layouts, without exploration: what is to be made large.
-    pub held_out_reward: f64,
+    held_out_reward: f64,
     /// Share of those layouts in which any proposal earns at least 1.
-    #[serde(rename = "held_out_reach")]
-    pub best_of_k: f64,
-    /// Version of carom.
-    pub version: String,
+    held_out_reach: f64,
+    version: &'static str,
 }
 
-impl RunResult {
-    /// What `learner` has come to with this last measurement.
-    pub fn of(learner: &dyn Learner, score: Score) -> Self {
-        let TrainingPlan { reward, seed, .. } = learner.plan();
-        Self {
-            agent: learner.agent().to_owned(),
-            reward,
-            seed,
-            shots: learner.shots(),
-            table: learner.table().name.clone(),
-            updates: learner.progress().updates,
-            held_out_reward: score.mean_reward,
-            best_of_k: score.best_of_k,
-            version: VERSION.to_owned(),
-        }
-    }
-
-    /// Writes it for the run in `folder`.
-    ///
-    /// # Errors
-    /// Whatever the file system reports.
-    pub fn write(&self, folder: &Path) -> Result<(), RunError> {
-        json::write(&folder.join(FILE), self)
-    }
+/// Writes for the run in `folder` what its `learner` has come to with this last measurement.
+pub fn write(folder: &Path, learner: &dyn Learner, score: Score) -> Result<(), RunError> {
+    let TrainingPlan { reward, seed, .. } = learner.plan();
+    let result = RunResult {
+        agent: learner.agent(),
+        reward,
+        seed,
+        shots: learner.shots(),
+        table: learner.table().name.clone(),
+        updates: learner.progress().updates,
+        held_out_reward: score.mean_reward,
+        held_out_reach: score.best_of_k,
+        version: VERSION,
+    };
+    json::write(&folder.join(FILE), &result)
 }

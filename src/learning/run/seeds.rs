@@ -8,12 +8,11 @@ use std::{
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::metrics;
 use super::{
     METRICS, Run, RunError,
     config::{Schedule, Start},
     error::file,
-    holds_checkpoints, json,
+    holds_checkpoints, json, metrics,
     origin::Weights,
 };
 use crate::{
@@ -49,18 +48,12 @@ pub struct TrainingSpec {
 
 impl TrainingSpec {
     /// A new run with this seed.
-    ///
-    /// # Errors
-    /// Where the agent refuses, the weights do not suit, or the folder is taken.
     pub fn start(&self, folder: &Path, seed: u64, weights: Option<&Weights>) -> Result<Run, RunError> {
         let learner = self.untrained(seed, weights)?;
         Run::create(folder, learner, self.schedule, weights.map(|weights| weights.start.clone()))
     }
 
     /// All settings of the agent, with the defaults of those that are not given.
-    ///
-    /// # Errors
-    /// Where the agent refuses one.
     pub fn all_settings(&self) -> Result<Value, RunError> {
         Ok(self.untrained(self.plan.seed, None)?.settings())
     }
@@ -84,19 +77,10 @@ struct GroupFile {
     spec: TrainingSpec,
 }
 
-impl GroupFile {
-    fn read(folder: &Path) -> Result<Self, RunError> {
-        let path = folder.join(FILE);
-        json::read(&path, storage::SMALL).map_err(file(&path))
-    }
-}
-
 /// What the group in `folder` trains, with how many seeds, and from whose weights.
-///
-/// # Errors
-/// Where its description cannot be read.
 pub fn described(folder: &Path) -> Result<(TrainingSpec, u64, Option<Start>), RunError> {
-    let GroupFile { seeds, spec, from } = GroupFile::read(folder)?;
+    let path = folder.join(FILE);
+    let GroupFile { seeds, spec, from } = json::read(&path, storage::SMALL).map_err(file(&path))?;
     Ok((spec, seeds, from))
 }
 
@@ -104,7 +88,8 @@ pub fn described(folder: &Path) -> Result<(TrainingSpec, u64, Option<Start>), Ru
 #[derive(Debug)]
 pub struct Group {
     folder: PathBuf,
-    note: GroupFile,
+    spec: TrainingSpec,
+    seeds: u64,
     weights: Option<Weights>,
     _lock: Lock,
 }
@@ -125,22 +110,19 @@ impl Group {
         }
         let note = GroupFile { seeds, from: weights.as_ref().map(|weights| weights.start.clone()), spec };
         json::write(&folder.join(FILE), &note)?;
-        Ok(Self { folder: folder.to_owned(), note, weights, _lock: lock })
+        Ok(Self { folder: folder.to_owned(), spec: note.spec, seeds, weights, _lock: lock })
     }
 
     /// The group in `folder`.
-    ///
-    /// # Errors
-    /// Where its description or its weights cannot be read, or another process works on it.
     pub fn resume(folder: &Path) -> Result<Self, RunError> {
-        let note = GroupFile::read(folder)?;
+        let (spec, seeds, from) = described(folder)?;
         let lock = super::lock(folder)?;
         let mut weights = None;
-        if let Some(start) = &note.from {
+        if let Some(start) = from {
             // Under what was known of them when the file was copied.
-            weights.insert(Weights::load(&folder.join(WEIGHTS))?).start = start.clone();
+            weights.insert(Weights::load(&folder.join(WEIGHTS))?).start = start;
         }
-        Ok(Self { folder: folder.to_owned(), note, weights, _lock: lock })
+        Ok(Self { folder: folder.to_owned(), spec, seeds, weights, _lock: lock })
     }
 
     /// The group's folder.
@@ -150,21 +132,18 @@ impl Group {
 
     /// The seeds, in order.
     pub fn seeds(&self) -> impl Iterator<Item = u64> {
-        let first = self.note.spec.plan.seed;
-        (0..self.note.seeds).map(move |index| first.wrapping_add(index))
+        let first = self.spec.plan.seed;
+        (0..self.seeds).map(move |index| first.wrapping_add(index))
     }
 
     /// The run with this seed: a new one, or the one that is there as it was left, with what [`Run::resume`]
     /// has to say.
-    ///
-    /// # Errors
-    /// As [`Run::create`] and [`Run::resume`].
     pub fn run(&self, seed: u64) -> Result<(Run, Vec<String>), RunError> {
         let folder = self.member(seed);
         if holds_checkpoints(&folder) {
             return Run::resume(&folder);
         }
-        Ok((self.note.spec.start(&folder, seed, self.weights.as_ref())?, Vec::new()))
+        Ok((self.spec.start(&folder, seed, self.weights.as_ref())?, Vec::new()))
     }
 
     fn member(&self, seed: u64) -> PathBuf {
@@ -172,9 +151,6 @@ impl Group {
     }
 
     /// Writes the spread between the seeds at every measurement as CSV and returns its last line, if there is one.
-    ///
-    /// # Errors
-    /// Whatever the file system reports.
     pub fn write_spread(&self) -> Result<Option<Spread>, RunError> {
         let mut rewards = std::collections::BTreeMap::<u64, Vec<f64>>::new();
         for seed in self.seeds() {

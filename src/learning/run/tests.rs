@@ -2,8 +2,7 @@
 
 use std::{cell::Cell, fs};
 
-use super::metrics::{self, Record};
-use super::*;
+use super::{metrics::Record, *};
 use crate::{
     game::Reward,
     learning::{

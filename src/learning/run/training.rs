@@ -7,18 +7,20 @@ use std::{
 
 use super::{
     METRICS, Run, RunError, Schedule,
-    clock::Clock,
     error::file,
     event_file::EventFile,
     examples::Examples,
     heartbeat::Heartbeat,
     metrics::{self, MetricsFile, Record},
     request::Request,
-    result::{self, RunResult},
+    result,
     status::Phase,
 };
 use crate::{
-    learning::evaluation::{HELD_OUT_SEED, Score, held_out_layouts},
+    learning::{
+        evaluation::{HELD_OUT_SEED, Score, held_out_layouts},
+        learner::{Iteration, Learner},
+    },
     table::Layout,
 };
 
@@ -84,12 +86,14 @@ impl Run {
             // A finished run whose last checkpoint was lost goes on from the one before.
             let _ = fs::remove_file(self.folder.join(result::FILE));
         }
-        let clock = Clock::new(self.learner.shots(), last.map_or(0.0, |record| record.seconds));
+        let before = last.map_or(0.0, |record| record.seconds);
+        let last = (before, self.learner.shots());
+        let clock = Clock { start: Instant::now(), before, paused: Duration::ZERO, last };
         let mut reporting =
             Reporting { metrics, events, clock, heartbeat: Heartbeat::new(&self.folder), layouts, watcher };
         let ending = self.iterate_until(limits, &mut reporting).and_then(|ending| {
             if let Ending::Finished(score) = ending {
-                RunResult::of(self.learner.as_ref(), score).write(&self.folder)?;
+                result::write(&self.folder, self.learner.as_ref(), score)?;
             }
             Ok(ending)
         });
@@ -160,7 +164,7 @@ impl Run {
                 Some(request) => break request,
             }
         };
-        reporting.clock.leave_out(begin);
+        reporting.clock.paused += begin.elapsed();
         request
     }
 
@@ -169,7 +173,8 @@ impl Run {
         let learner = self.learner.as_ref();
         reporting.heartbeat.beat(phase, learner, reporting.clock.seconds());
         let score = learner.score(&reporting.layouts)?;
-        reporting.heartbeat.measured(score.mean_reward);
+        // A run that is stopped has no line of metrics for it.
+        reporting.heartbeat.status.held_out_reward = Some(score.mean_reward);
         // They are for looking at: where they cannot be written, nothing is lost.
         let _ = Examples::of(learner, &reporting.layouts)?.write(&self.folder);
         Ok(score)
@@ -197,7 +202,7 @@ impl Run {
             // Until there is room it waits in memory. No checkpoint is written before it is.
             let _ = reporting.metrics.flush();
         }
-        if is_finite { Ok(score) } else { Err(RunError::NotFinite { shots }) }
+        if is_finite { Ok(score) } else { Err(RunError::NotFinite(shots)) }
     }
 }
 
@@ -215,7 +220,7 @@ impl Reporting<'_> {
 
     fn warn(&mut self, sentence: &str) {
         self.watcher.warn(sentence);
-        self.heartbeat.warn(sentence);
+        self.heartbeat.status.warning = Some(sentence.to_owned());
     }
 
     fn warn_of_checkpoint(&mut self, reason: &RunError, shots: u64) {
@@ -224,5 +229,53 @@ impl Reporting<'_> {
              goes on to the next"
         );
         self.warn(&sentence);
+    }
+}
+
+/// The time that training takes, pauses left out.
+#[derive(Debug)]
+struct Clock {
+    start: Instant,
+    /// Seconds of the sessions before.
+    before: f64,
+    /// Time that passed in pauses.
+    paused: Duration,
+    /// Seconds and shots of the last line, or of the start.
+    last: (f64, u64),
+}
+
+impl Clock {
+    /// Time since the start.
+    fn session(&self) -> Duration {
+        self.start.elapsed().saturating_sub(self.paused)
+    }
+
+    /// Seconds of training in all.
+    fn seconds(&self) -> f64 {
+        self.before + self.session().as_secs_f64()
+    }
+
+    /// The line that is due now, `measuring` seconds after the last shot: a speed that fell with each measurement would say
+    /// nothing of either.
+    fn record(&mut self, learner: &dyn Learner, means: Iteration, score: Option<Score>, measuring: f64) -> Record {
+        let seconds = self.seconds();
+        let (shots, progress) = (learner.shots(), learner.progress());
+        let record = Record {
+            shots,
+            seconds,
+            shots_per_second: (shots - self.last.1) as f64 / (seconds - measuring - self.last.0).max(1e-9),
+            updates: progress.updates,
+            learning_rate: progress.learning_rate,
+            critic_loss: means.critic_loss,
+            actor_loss: means.actor_loss,
+            q_value: means.q_value,
+            rollout_reward: means.mean_reward,
+            exploration: Some(progress.exploration),
+            replay_fill: progress.replay_fill,
+            held_out_reward: score.map(|score| score.mean_reward),
+            best_of_k: score.map(|score| score.best_of_k),
+        };
+        self.last = (seconds, shots);
+        record
     }
 }

@@ -6,47 +6,26 @@ use rand::Rng;
 
 use super::{
     agent::UpdateStats,
-    batch::{Batch, number},
     environment::{ACTIONS, STATES},
+    replay::{Batch, number},
 };
 use crate::learning::nn::{
     adam::{Adam, AdamConfig, soft_update},
     mlp::{Mlp, Operations, parameter_count},
 };
 
-/// Hidden layers of both networks. The actor goes from the state to the action, the critic from both to one value.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Layers {
-    /// The actor's.
-    pub actor: Vec<usize>,
-    /// The critic's.
-    pub critic: Vec<usize>,
-}
-
-impl Layers {
-    fn sizes(&self) -> [Vec<usize>; 2] {
-        [
-            [&[STATES], self.actor.as_slice(), &[ACTIONS]].concat(),
-            [&[STATES + ACTIONS], &self.critic[..], &[1]].concat(),
-        ]
-    }
+/// Layer sizes of an actor with these hidden layers, from the state to the action, and of a critic, from both to one value.
+pub fn sizes(actor: &[usize], critic: &[usize]) -> [Vec<usize>; 2] {
+    [[&[STATES], actor, &[ACTIONS]].concat(), [&[STATES + ACTIONS], critic, &[1]].concat()]
 }
 
 /// How to learn (thesis Table 4; the networks' example gives the clipping).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
-    /// Adam's learning rate for both networks.
-    pub learning_rate: f64,
+    /// Both networks' optimisers.
+    pub adam: AdamConfig,
     /// The part k of the target networks that a soft update keeps (equation 59).
     pub keep: f64,
-    /// Longest gradient that is not shortened.
-    pub gradient_clip: f64,
-}
-
-impl Rates {
-    const fn adam(&self) -> AdamConfig {
-        AdamConfig { learning_rate: self.learning_rate, gradient_clip: self.gradient_clip }
-    }
 }
 
 /// How the actor learns beside climbing the critic.
@@ -89,129 +68,76 @@ impl Guidance {
     }
 }
 
-/// An actor and a critic.
-#[derive(Debug)]
-struct Pair {
-    actor: Mlp,
-    critic: Mlp,
-}
-
-impl Pair {
-    fn networks(&self) -> [&Mlp; 2] {
-        [&self.actor, &self.critic]
-    }
-
-    fn duplicate(&self) -> Result<Self> {
-        Ok(Self { actor: self.actor.duplicate()?, critic: self.critic.duplicate()? })
-    }
-
-    fn with(self, operations: Operations) -> Self {
-        Self { actor: self.actor.with(operations), critic: self.critic.with(operations) }
-    }
-}
-
-/// Networks, target networks and optimisers.
+/// An actor and a critic, the networks that they follow slowly, and optimisers; of each the actor's first.
 #[derive(Debug)]
 pub struct ActorCritic {
     rates: Rates,
-    online: Pair,
-    target: Pair,
-    actor_optimiser: Adam,
-    critic_optimiser: Adam,
+    online: [Mlp; 2],
+    target: [Mlp; 2],
+    optimisers: [Adam; 2],
 }
 
 impl ActorCritic {
-    /// Networks with weights drawn from `rng` (Glorot and Bengio 2010); the target networks begin as copies.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
-    pub fn random(layers: &Layers, rates: Rates, rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
-        let [actor, critic] = layers.sizes();
-        Self::starting_from(Pair { actor: Mlp::glorot(&actor, rng)?, critic: Mlp::glorot(&critic, rng)? }, rates)
+    /// Networks of these [`sizes`] with weights drawn from `rng` (Glorot and Bengio 2010); the target networks begin as copies.
+    pub fn random([actor, critic]: &[Vec<usize>; 2], rates: Rates, rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
+        Self::starting_from([Mlp::glorot(actor, rng)?, Mlp::glorot(critic, rng)?], rates)
     }
 
     /// Learning starts with these networks.
-    fn starting_from(online: Pair, rates: Rates) -> Result<Self> {
-        Ok(Self {
-            target: online.duplicate()?,
-            actor_optimiser: Adam::new(vec![online.actor.parameters().clone()], rates.adam())?,
-            critic_optimiser: Adam::new(vec![online.critic.parameters().clone()], rates.adam())?,
-            online,
-            rates,
-        })
+    fn starting_from(online: [Mlp; 2], rates: Rates) -> Result<Self> {
+        let [actor, critic] = &online;
+        let target = [actor.duplicate()?, critic.duplicate()?];
+        let optimiser = |network: &Mlp| Adam::new(vec![network.parameters().clone()], rates.adam);
+        Ok(Self { optimisers: [optimiser(actor)?, optimiser(critic)?], rates, online, target })
     }
 
     /// Networks that go on from what [`ActorCritic::values`] and [`ActorCritic::updates`] gave.
-    ///
-    /// # Errors
-    /// Where the number of values does not fit the layers.
-    pub fn from_values(layers: &Layers, rates: Rates, values: &[f32], updates: u32) -> Result<Self> {
-        let [online, target, first, second] = split(layers, values)?;
-        let resume = |network: &Mlp, moments: [&Mlp; 2]| {
-            let moments = moments.map(|moment| moment.parameters().as_detached_tensor());
-            Adam::resume(vec![network.parameters().clone()], rates.adam(), vec![moments], updates)
-        };
-        Ok(Self {
-            actor_optimiser: resume(&online.actor, [&first.actor, &second.actor])?,
-            critic_optimiser: resume(&online.critic, [&first.critic, &second.critic])?,
-            online,
-            target,
-            rates,
-        })
+    pub fn from_values(sizes: &[Vec<usize>; 2], rates: Rates, values: &[f32], updates: u32) -> Result<Self> {
+        let [online, target, first, second] = split(sizes, values)?;
+        let optimisers = [0, 1].map(|which: usize| {
+            let moments = [&first, &second].map(|moments| moments[which].parameters().as_detached_tensor());
+            Adam::resume(vec![online[which].parameters().clone()], rates.adam, vec![moments], updates)
+        });
+        Ok(Self { rates, online, target, optimisers })
     }
 
     /// Networks that begin to learn with the weights among such values.
-    ///
-    /// # Errors
-    /// Where the number of values does not fit the layers.
-    pub fn from_weights(layers: &Layers, rates: Rates, values: &[f32]) -> Result<Self> {
-        let [online, ..] = split(layers, values)?;
+    pub fn from_weights(sizes: &[Vec<usize>; 2], rates: Rates, values: &[f32]) -> Result<Self> {
+        let [online, ..] = split(sizes, values)?;
         Self::starting_from(online, rates)
     }
 
     /// These networks with other operations.
     #[must_use]
     pub fn with(self, operations: Operations) -> Self {
-        Self { online: self.online.with(operations), target: self.target.with(operations), ..self }
+        let [online, target] = [self.online, self.target].map(|pair| pair.map(|network| network.with(operations)));
+        Self { online, target, ..self }
     }
 
     /// Updates made so far.
     pub const fn updates(&self) -> u32 {
-        self.actor_optimiser.steps()
+        self.optimisers[0].steps()
     }
 
     /// Everything that changes: parameters, target parameters, Adam's averages of the gradient and of its square, each
     /// the actor's and then the critic's.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     pub fn values(&self) -> Result<Vec<f32>> {
-        let mut values = Vec::new();
-        for network in self.online.networks().into_iter().chain(self.target.networks()) {
-            values.extend(network.parameters().to_vec1::<f32>()?);
-        }
-        for order in 0..2 {
-            for optimiser in [&self.actor_optimiser, &self.critic_optimiser] {
-                for moments in optimiser.moments() {
-                    values.extend(moments[order].to_vec1::<f32>()?);
-                }
-            }
-        }
-        Ok(values)
+        let parameters = self.online.iter().chain(&self.target).map(|network| network.parameters().as_tensor());
+        let moments = self.optimisers.iter().flat_map(Adam::moments);
+        let (first, second) = (moments.clone().map(|[first, _]| first), moments.map(|[_, second]| second));
+        let all = parameters.chain(first).chain(second).map(Tensor::to_vec1::<f32>);
+        Ok(all.collect::<Result<Vec<_>>>()?.concat())
     }
 
     /// The actor's actions in `states` (rows x states).
-    ///
-    /// # Errors
-    /// Where they have another shape.
     pub fn act(&self, states: &Tensor) -> Result<Tensor> {
-        self.online.actor.forward_frozen(states)
+        self.online[0].forward_frozen(states)
     }
 
     /// Learns from now on at `share` of its learning rate.
     pub fn slow_down(&mut self, share: f64) {
-        for optimiser in [&mut self.actor_optimiser, &mut self.critic_optimiser] {
-            optimiser.set_learning_rate(share * self.rates.learning_rate);
+        for optimiser in &mut self.optimisers {
+            optimiser.set_learning_rate(share * self.rates.adam.learning_rate);
         }
     }
 
@@ -219,31 +145,24 @@ impl ActorCritic {
     ///
     /// # Errors
     /// Where the networks no longer give finite numbers.
-    pub fn update(&mut self, batch: &Batch) -> Result<UpdateStats> {
-        self.update_guided(batch, &Guidance::NONE)
-    }
-
-    /// As [`ActorCritic::update`], the actor's step guided by more than the critic.
-    ///
-    /// # Errors
-    /// Where the networks no longer give finite numbers.
-    pub fn update_guided(&mut self, batch: &Batch, guidance: &Guidance) -> Result<UpdateStats> {
-        let Pair { actor, critic } = &self.online;
+    pub fn update(&mut self, batch: &Batch, guidance: &Guidance) -> Result<UpdateStats> {
+        let [[actor, critic], [target_actor, target_critic]] = [&self.online, &self.target];
+        let [actor_optimiser, critic_optimiser] = &mut self.optimisers;
         // The critic comes nearer to what it should have said: the reward and, where the episode went on, the value of the
         // target actor's action thereafter in the target critic's eyes (equations 57 and 58).
         let wanted = batch.targets(|states| {
-            let actions = self.target.actor.forward_frozen(states)?;
-            self.target.critic.forward_frozen(&Tensor::cat(&[states, &actions], 1)?)
+            let actions = target_actor.forward_frozen(states)?;
+            target_critic.forward_frozen(&Tensor::cat(&[states, &actions], 1)?)
         })?;
         let loss = mse(&critic.forward(&Tensor::cat(&[&batch.states, &batch.actions], 1)?)?, &wanted)?;
-        self.critic_optimiser.backward_step(&loss)?;
+        critic_optimiser.backward_step(&loss)?;
 
         // The actor climbs the critic (the deterministic policy gradient), and may be guided.
         let actions = actor.forward(&batch.states)?;
         let value = critic.forward_frozen(&Tensor::cat(&[&batch.states, &actions], 1)?)?.mean_all()?;
-        self.actor_optimiser.backward_step(&guidance.loss(&value, &actions, batch)?)?;
+        actor_optimiser.backward_step(&guidance.loss(&value, &actions, batch)?)?;
 
-        for (target, online) in self.target.networks().into_iter().zip(self.online.networks()) {
+        for (target, online) in self.target.iter().zip(&self.online) {
             soft_update(target.parameters(), online.parameters(), 1.0 - self.rates.keep)?;
         }
         Ok(UpdateStats { loss: number(&loss)?, value: number(&value)? })
@@ -251,22 +170,17 @@ impl ActorCritic {
 }
 
 /// The four parts of [`ActorCritic::values`].
-fn split(layers: &Layers, values: &[f32]) -> Result<[Pair; 4]> {
-    let [actor, critic] = layers.sizes();
-    let [actors, critics] = [&actor, &critic].map(|sizes| parameter_count(sizes));
+fn split([actor, critic]: &[Vec<usize>; 2], values: &[f32]) -> Result<[[Mlp; 2]; 4]> {
+    let (actors, critics) = (parameter_count(actor), parameter_count(critic));
     let expected = 4 * (actors + critics);
     if values.len() != expected {
         bail!("an actor of layers {actor:?} and a critic of {critic:?} have {expected} values, not {}", values.len());
     }
-    let mut parts = values.chunks_exact(actors + critics).map(|part| {
-        let (first, second) = part.split_at(actors);
-        Ok(Pair {
-            actor: Mlp::from_parameters(&actor, first.to_vec())?,
-            critic: Mlp::from_parameters(&critic, second.to_vec())?,
-        })
-    });
-    let mut part = || parts.next().unwrap_or_else(|| bail!("the values have fewer than four parts"));
-    Ok([part()?, part()?, part()?, part()?])
+    let part = |number: usize| -> Result<[Mlp; 2]> {
+        let (first, second) = values[number * (actors + critics)..][..actors + critics].split_at(actors);
+        Ok([Mlp::from_parameters(actor, first.to_vec())?, Mlp::from_parameters(critic, second.to_vec())?])
+    };
+    Ok([part(0)?, part(1)?, part(2)?, part(3)?])
 }
 
 #[cfg(test)]
@@ -276,11 +190,7 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    const RATES: Rates = Rates { learning_rate: 1e-3, keep: 0.999, gradient_clip: 1.0 };
-
-    fn layers(actor: &[usize], critic: &[usize]) -> Layers {
-        Layers { actor: actor.to_vec(), critic: critic.to_vec() }
-    }
+    const RATES: Rates = Rates { adam: AdamConfig { learning_rate: 1e-3, gradient_clip: 1.0 }, keep: 0.999 };
 
     fn random_batch(rows: usize, goes_on: impl Fn(usize) -> bool, seed: u64) -> Batch {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
@@ -303,20 +213,20 @@ mod tests {
     #[test]
     fn the_first_step_goes_down_the_finite_differences_of_both_losses() {
         // Adam's averages after one step are the gradient times 0.1, which makes it visible.
-        let rates = Rates { learning_rate: 1e-12, gradient_clip: f64::INFINITY, ..RATES };
-        let layers = layers(&[5, 4], &[6, 5]);
+        let adam = AdamConfig { learning_rate: 1e-12, gradient_clip: f64::INFINITY };
+        let (sizes, rates) = (sizes(&[5, 4], &[6, 5]), Rates { adam, ..RATES });
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(4);
         let batch = random_batch(8, |_| true, 9);
-        let mut start = ActorCritic::random(&layers, rates, &mut rng).unwrap().values().unwrap();
+        let mut start = ActorCritic::random(&sizes, rates, &mut rng).unwrap().values().unwrap();
         let count = start.len() / 4;
         start[..2 * count].iter_mut().for_each(|value| *value *= 1.5);
         let run = |values: &[f32]| {
-            let mut agent = ActorCritic::from_values(&layers, rates, values, 0).unwrap();
-            let seen = agent.update(&batch).unwrap();
+            let mut agent = ActorCritic::from_values(&sizes, rates, values, 0).unwrap();
+            let seen = agent.update(&batch, &Guidance::NONE).unwrap();
             (seen, agent.values().unwrap())
         };
         let (_, after) = run(&start);
-        let actors = parameter_count(&layers.sizes()[0]);
+        let actors = parameter_count(&sizes[0]);
         for (is_critic, part) in [(false, 0..actors), (true, actors..count)] {
             let mut largest = 0.0f64;
             for index in part.step_by(3) {
@@ -337,9 +247,9 @@ mod tests {
 
     #[test]
     fn the_actor_goes_to_the_nearest_lesson_and_back_into_its_range() {
-        let layers = layers(&[16; 3], &[32; 3]);
+        let sizes = sizes(&[16; 3], &[32; 3]);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
-        let mut agent = ActorCritic::random(&layers, RATES, &mut rng).unwrap();
+        let mut agent = ActorCritic::random(&sizes, RATES, &mut rng).unwrap();
         let state = [0.3, -0.2, 0.5, 0.1, -0.7, 0.4];
         let lesson = |direction| StoredTransition {
             state,
@@ -357,7 +267,7 @@ mod tests {
         // Their mean lies on the other side.
         let batch = Batch::new(&[lesson(near), lesson(far), lesson(near), lesson(far)], 0.0).unwrap();
         for _ in 0..400 {
-            agent.update_guided(&batch, &guidance).unwrap();
+            agent.update(&batch, &guidance).unwrap();
         }
         assert!((act(&agent)[0] - near).abs() < 0.03 && (act(&agent)[1] - 0.5).abs() < 0.03, "{:?}", act(&agent));
         let outside = Batch::new(&[lesson(1.8)], 0.0).unwrap();
@@ -366,7 +276,7 @@ mod tests {
         // What Adam still carries leads on into the range.
         for (guidance, within) in [(far, 1.2..2.0), (back, -1.05..1.05)] {
             for _ in 0..1000 {
-                agent.update_guided(&outside, &guidance).unwrap();
+                agent.update(&outside, &guidance).unwrap();
             }
             assert!(within.contains(&act(&agent)[0]), "{guidance:?}: {:?}", act(&agent));
         }
@@ -374,14 +284,14 @@ mod tests {
 
     #[test]
     fn numbers_that_are_not_finite_are_refused_before_they_do_harm() {
-        let layers = layers(&[4], &[4]);
+        let sizes = sizes(&[4], &[4]);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(6);
-        let mut agent = ActorCritic::random(&layers, RATES, &mut rng).unwrap();
+        let mut agent = ActorCritic::random(&sizes, RATES, &mut rng).unwrap();
         let mut batch = random_batch(8, |_| false, 1);
         batch.rewards = (batch.rewards * f64::NAN).unwrap();
         let before = agent.values().unwrap();
-        assert!(agent.update(&batch).unwrap_err().to_string().contains("finite"));
+        assert!(agent.update(&batch, &Guidance::NONE).unwrap_err().to_string().contains("finite"));
         assert_eq!((agent.values().unwrap(), agent.updates()), (before.clone(), 0));
-        assert!(ActorCritic::from_values(&layers, RATES, &before[1..], 0).is_err());
+        assert!(ActorCritic::from_values(&sizes, RATES, &before[1..], 0).is_err());
     }
 }

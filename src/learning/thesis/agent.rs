@@ -72,7 +72,9 @@ pub trait Settings: Clone + std::fmt::Debug + Default + Serialize + DeserializeO
     fn validate(&self) -> Result<(), SettingError>;
 }
 
-/// One of the thesis' agents.
+/// One of the thesis' agents. Errors are candle's, where networks no longer give finite numbers or an array has another size, and
+/// those of files that do not fit the settings.
+#[expect(clippy::missing_errors_doc, reason = "said of all of them at once")]
 pub trait Agent: std::fmt::Debug + Send + Sized {
     /// Name on the command line and in files.
     const NAME: &'static str;
@@ -84,9 +86,6 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     type Settings: Settings;
 
     /// An untrained agent.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     fn new(settings: Self::Settings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error>;
 
     /// Its settings.
@@ -96,15 +95,9 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     fn progress(&self) -> Progress;
 
     /// What it does while it learns.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error>;
 
     /// What it thinks best.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
     fn best(&self, seen: &Observation) -> Result<Choice, Error>;
 
     /// Looks for lessons before a shot is played, which only some agents do.
@@ -118,27 +111,15 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     }
 
     /// Remembers a shot and learns from those that it remembers; nothing as long as these are too few.
-    ///
-    /// # Errors
-    /// Where the networks no longer give finite numbers.
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error>;
 
     /// Adds the arrays of its state to a file and returns everything else.
-    ///
-    /// # Errors
-    /// Whatever candle or serde reports.
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError>;
 
     /// The agent whose [`Agent::save`] filled the file and returned `note`.
-    ///
-    /// # Errors
-    /// Where they do not fit the settings.
     fn restore(settings: Self::Settings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError>;
 
     /// Takes what it plays by, and nothing else, from such a file.
-    ///
-    /// # Errors
-    /// Where the file has none that fits.
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError>;
 }
 

@@ -35,7 +35,7 @@ const SQUARES: [u32; 2] = [6, 12];
 /// A game of carom.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Carom {
-    table: Table,
+    pub(super) table: Table,
     reward: Reward,
     episode: Episode,
     layout: Layout,
@@ -47,11 +47,6 @@ impl Carom {
     /// A game on `table`.
     pub fn new(table: Table, reward: Reward, episode: Episode) -> Self {
         Self { layout: Layout::opening(&table), table, reward, episode, shots: 0 }
-    }
-
-    /// The table.
-    pub const fn table(&self) -> &Table {
-        &self.table
     }
 
     /// What an agent sees of a layout.

@@ -8,24 +8,24 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    actor_critic::{ActorCritic, Guidance, Layers, Rates},
+    actor_critic::{ActorCritic, Guidance, Rates, sizes},
     agent::{Agent, Choice, Settings, Transition, UpdateStats},
-    batch::Batch,
     carom::Episode,
     environment::{Action, Environment, Observation, STATES},
     exploration::OrnsteinUhlenbeck,
     lessons::{Lessons, LessonsState, Sought},
     q_learning::check_episode,
-    replay::{self, MEMORY, StoredTransition},
+    replay::{self, Batch, MEMORY, StoredTransition},
     symmetry::{WAYS, seen},
-};
-use crate::learning::settings::{
-    SettingError, check, check_batch, check_count, check_layers, check_positive, check_share,
 };
 use crate::learning::{
     learner::{Progress, note_of},
-    nn::weights::{Reader, WeightsError, Writer},
+    nn::{
+        adam::AdamConfig,
+        weights::{Reader, WeightsError, Writer},
+    },
     replay::ReplayBuffer,
+    settings::{SettingError, check, check_batch, check_count, check_layers, check_positive, check_share},
 };
 
 /// Settings of [`PlainDdpg`]: Table 4; what the thesis leaves open is as in keras-rl's example.
@@ -160,13 +160,13 @@ impl Settings for PlainDdpgSettings {
 }
 
 impl PlainDdpgSettings {
-    fn layers(&self) -> Layers {
-        Layers { actor: self.actor_layers.clone(), critic: self.critic_layers.clone() }
+    fn sizes(&self) -> [Vec<usize>; 2] {
+        sizes(&self.actor_layers, &self.critic_layers)
     }
 
-    fn rates(&self) -> Rates {
+    const fn rates(&self) -> Rates {
         let Self { learning_rate, keep, gradient_clip, .. } = *self;
-        Rates { learning_rate, keep, gradient_clip }
+        Rates { adam: AdamConfig { learning_rate, gradient_clip }, keep }
     }
 
     /// What is left after `shots` of something of which `last` is left in the end.
@@ -233,7 +233,7 @@ impl PlainDdpg {
             }
         }
         let batch = Batch::new(&drawn, settings.discount)?;
-        self.networks.update_guided(&batch, &settings.guidance(lessons, self.shots))
+        self.networks.update(&batch, &settings.guidance(lessons, self.shots))
     }
 }
 
@@ -243,7 +243,7 @@ impl Agent for PlainDdpg {
     type Settings = PlainDdpgSettings;
 
     fn new(settings: PlainDdpgSettings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error> {
-        let networks = ActorCritic::random(&settings.layers(), settings.rates(), rng)?;
+        let networks = ActorCritic::random(&settings.sizes(), settings.rates(), rng)?;
         let (replay, lessons) = (ReplayBuffer::new(settings.memory), Lessons::new(settings.memory));
         Ok(Self { settings, networks, replay, lessons, noise: Action::default(), shots: 0 })
     }
@@ -312,7 +312,7 @@ impl Agent for PlainDdpg {
         let PlainDdpgState { shots, updates, next, noise, lessons } =
             serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
         let (_, values) = reader.array("networks")?;
-        let networks = ActorCritic::from_values(&settings.layers(), settings.rates(), &values, updates)?;
+        let networks = ActorCritic::from_values(&settings.sizes(), settings.rates(), &values, updates)?;
         let replay = replay::restore(settings.memory, reader, MEMORY, next)?;
         let memory = settings.memory;
         let lessons =
@@ -323,7 +323,7 @@ impl Agent for PlainDdpg {
     /// The learning networks become both the learning ones and the targets; the optimisers start again.
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
         let (_, values) = reader.array("networks")?;
-        self.networks = ActorCritic::from_weights(&self.settings.layers(), self.settings.rates(), &values)?;
+        self.networks = ActorCritic::from_weights(&self.settings.sizes(), self.settings.rates(), &values)?;
         Ok(())
     }
 }

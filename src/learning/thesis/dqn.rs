@@ -9,14 +9,12 @@ use serde_json::Value;
 
 use super::{
     agent::{Agent, Choice, Settings, Transition, UpdateStats},
-    batch::{Batch, number},
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Observation, STATES},
     exploration::Epsilon,
     q_learning::{check_episode, check_epsilon},
-    replay::{self, MEMORY, StoredTransition},
+    replay::{self, Batch, MEMORY, StoredTransition, number},
 };
-use crate::learning::settings::{SettingError, check_batch, check_count, check_layers, check_positive, check_share};
 use crate::learning::{
     learner::{Progress, note_of},
     nn::{
@@ -25,6 +23,7 @@ use crate::learning::{
         weights::{Reader, WeightsError, Writer},
     },
     replay::ReplayBuffer,
+    settings::{SettingError, check_batch, check_count, check_layers, check_positive, check_share},
 };
 
 /// Settings of [`Dqn`]: Tables 2 and 3; the thesis says nothing on epsilon.
@@ -184,11 +183,8 @@ impl Agent for Dqn {
         writer.add_network("online", &self.online)?;
         writer.add_network("target", &self.target)?;
         writer.add_optimiser("", &self.optimiser)?;
-        note_of(&DqnState {
-            shots: self.shots,
-            updates: self.updates,
-            next: replay::save(&self.replay, MEMORY, writer),
-        })
+        let next = replay::save(&self.replay, MEMORY, writer);
+        note_of(&DqnState { shots: self.shots, updates: self.updates, next })
     }
 
     fn restore(settings: DqnSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {

@@ -1,14 +1,16 @@
 //! Hindsight (Andrychowicz et al. 2017; thesis 6.1.1): a shot that met one ball would have made the point, had the other lain
 //! on the cue ball's way.
 
+use std::ops::ControlFlow;
+
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
-use super::cue_way::CueWay;
 use crate::{
     game::Reward,
     learning::evaluation::CONTACT_STEPS,
-    physics::CueInputs,
+    physics::{CueInputs, strike},
+    simulation::{Event, EventKind, Observer, Segment, StepBudget, watch},
     table::{Layout, Table},
 };
 
@@ -47,6 +49,56 @@ pub fn layouts(
         (reward.within(table, &moved, cue, CONTACT_STEPS) >= 1.0).then_some(moved)
     };
     (0..MOMENTS).filter_map(|_| place()).collect()
+}
+
+/// The cue ball's way in a shot after it has met its first ball.
+#[derive(Debug)]
+struct CueWay {
+    /// The ball that the cue ball met first, and when, s.
+    met: Option<(usize, f64)>,
+    /// Pieces of the way and when they end, s.
+    segments: Vec<(Segment, f64)>,
+    patience: StepBudget,
+}
+
+impl CueWay {
+    /// Plays a shot, with at most [`CONTACT_STEPS`] steps of resting contacts.
+    fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Self {
+        let mut way = Self { met: None, segments: Vec::new(), patience: StepBudget(CONTACT_STEPS) };
+        watch(table, layout, &strike(table, cue), &mut way);
+        way
+    }
+
+    /// Where the cue ball was at `time` and how fast, m and m/s; nothing before its first meeting or after its end.
+    fn at(&self, time: f64) -> Option<[DVec2; 2]> {
+        let (segment, _) = self.segments.iter().find(|(segment, end)| segment.start <= time && time <= *end)?;
+        Some([segment.position_after(time - segment.start), segment.velocity_after(time - segment.start)])
+    }
+}
+
+impl Observer for CueWay {
+    fn wants_segments(&self) -> bool {
+        true
+    }
+
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        if let EventKind::BallBall(0, ball) = event.kind
+            && self.met.is_none()
+        {
+            self.met = Some((ball, event.time));
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
+        if ball == 0 && self.met.is_some() {
+            self.segments.push((segment.clone(), end));
+        }
+    }
+
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        self.patience.step()
+    }
 }
 
 #[cfg(test)]

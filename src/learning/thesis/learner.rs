@@ -39,54 +39,50 @@ const fn line<A: Agent + 'static>() -> AgentKind {
         name: A::NAME,
         title: A::TITLE,
         defaults: defaults_of::<A::Settings>,
-        start: start::<A>,
-        restore: restore::<A>,
+        start: |plan, table, settings| {
+            let settings = settings_from(settings, A::Settings::validate)?;
+            if settings.are_about_points() && plan.reward.rule().is_none() {
+                return Err(StartError::settings(
+                    "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion",
+                ));
+            }
+            let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
+            let game = Carom::new(table, plan.reward, settings.episode());
+            let agent = A::new(settings, &mut rng)?;
+            let state = State { plan, game, episode: EpisodeState::default(), rng, shots: 0 };
+            Ok(Box::new(TrainingLoop { agent, state }))
+        },
+        restore: |reader, note| {
+            let note = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+            let Note::<A::Settings> { settings, agent, state } = note;
+            settings.validate()?;
+            Ok(Box::new(TrainingLoop { agent: A::restore(settings, reader, agent)?, state }))
+        },
         shots_per_iteration: |_| Some(SHOTS_PER_ITERATION),
         of_one_start: &[],
     }
 }
 
-fn start<A: Agent + 'static>(
-    plan: TrainingPlan,
-    table: Table,
-    settings: &Value,
-) -> Result<Box<dyn Learner>, StartError> {
-    let settings = settings_from(settings, A::Settings::validate)?;
-    if settings.are_about_points() && plan.reward.rule().is_none() {
-        let reason = "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
-        return Err(StartError::settings(reason));
-    }
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
-    let game = Carom::new(table, plan.reward, settings.episode());
-    let agent = A::new(settings, &mut rng)?;
-    Ok(Box::new(TrainingLoop { plan, agent, game, episode: EpisodeState::default(), rng, shots: 0 }))
-}
-
-fn restore<A: Agent + 'static>(reader: &Reader<'_>, note: Value) -> Result<Box<dyn Learner>, WeightsError> {
-    let note: TrainingLoopState<A::Settings> = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
-    note.settings.validate()?;
-    let agent = A::restore(note.settings, reader, note.agent)?;
-    let TrainingLoopState { plan, game, episode, rng, shots, .. } = note;
-    Ok(Box::new(TrainingLoop { plan, agent, game, episode, rng, shots }))
-}
-
 /// An agent and its game.
 #[derive(Debug)]
 struct TrainingLoop<A> {
-    plan: TrainingPlan,
     agent: A,
-    game: Carom,
-    episode: EpisodeState,
-    rng: Xoshiro256PlusPlus,
-    shots: u64,
+    state: State,
 }
 
 /// What a file holds beside arrays.
 #[derive(Serialize, Deserialize)]
-struct TrainingLoopState<S> {
-    plan: TrainingPlan,
+struct Note<S> {
     settings: S,
     agent: Value,
+    #[serde(flatten)]
+    state: State,
+}
+
+/// What there is beside the agent.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct State {
+    plan: TrainingPlan,
     game: Carom,
     #[serde(rename = "progress")]
     episode: EpisodeState,
@@ -100,11 +96,11 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn plan(&self) -> TrainingPlan {
-        self.plan
+        self.state.plan
     }
 
     fn table(&self) -> &Table {
-        self.game.table()
+        &self.state.game.table
     }
 
     fn settings(&self) -> Value {
@@ -113,7 +109,7 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn shots(&self) -> u64 {
-        self.shots
+        self.state.shots
     }
 
     fn progress(&self) -> Progress {
@@ -121,10 +117,11 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn iterate(&mut self) -> candle_core::Result<Iteration> {
-        let shots = self.plan.shots.saturating_sub(self.shots).clamp(1, SHOTS_PER_ITERATION);
+        let State { plan, game, episode, rng, shots: played } = &mut self.state;
+        let shots = plan.shots.saturating_sub(*played).clamp(1, SHOTS_PER_ITERATION);
         let (mut iteration, mut updates) = (Iteration::default(), 0_u32);
         for _ in 0..shots {
-            let (reward, learnt) = self.episode.shoot(&mut self.agent, &mut self.game, &mut self.rng)?;
+            let (reward, learnt) = episode.shoot(&mut self.agent, game, rng)?;
             iteration.mean_reward += reward / shots as f64;
             if let Some(stats) = learnt {
                 iteration.critic_loss += stats.loss;
@@ -132,7 +129,7 @@ impl<A: Agent> Learner for TrainingLoop<A> {
                 updates += 1;
             }
         }
-        self.shots += shots;
+        *played += shots;
         iteration.critic_loss /= f64::from(updates.max(1));
         iteration.q_value /= f64::from(updates.max(1));
         Ok(iteration)
@@ -140,15 +137,16 @@ impl<A: Agent> Learner for TrainingLoop<A> {
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
         let play = |layout| {
-            let choice = self.agent.best(&self.game.observation(layout))?;
-            let reward = self.game.reward_of(layout, choice.action);
+            let choice = self.agent.best(&self.state.game.observation(layout))?;
+            let reward = self.state.game.reward_of(layout, choice.action);
             Ok((reward, reward >= 1.0))
         };
         Ok(Score::of(&layouts.iter().map(play).collect::<candle_core::Result<Vec<_>>>()?))
     }
 
     fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
-        let shot = |layout| self.agent.best(&self.game.observation(layout)).map(|choice| cue_inputs(choice.action));
+        let shot =
+            |layout| self.agent.best(&self.state.game.observation(layout)).map(|choice| cue_inputs(choice.action));
         layouts.iter().map(shot).collect()
     }
 
@@ -157,16 +155,8 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
-        let agent = self.agent.save(writer)?;
-        note_of(&TrainingLoopState {
-            plan: self.plan,
-            settings: self.agent.settings().clone(),
-            agent,
-            game: self.game.clone(),
-            episode: self.episode,
-            rng: self.rng.clone(),
-            shots: self.shots,
-        })
+        let (settings, agent) = (self.agent.settings().clone(), self.agent.save(writer)?);
+        note_of(&Note { settings, agent, state: self.state.clone() })
     }
 
     fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {

@@ -25,11 +25,10 @@ pub struct Sought {
     pub tries: u32,
 }
 
-/// Both memories.
+/// The memories of both kinds, in the order of their [`NAMES`].
 #[derive(Debug)]
 pub struct Lessons {
-    hindsight: ReplayBuffer<StoredTransition>,
-    demonstrations: ReplayBuffer<StoredTransition>,
+    memories: [ReplayBuffer<StoredTransition>; 2],
     layouts: u64,
 }
 
@@ -46,8 +45,7 @@ const NAMES: [&str; 2] = ["hindsight", "demonstrations"];
 impl Lessons {
     /// Empty memories for `capacity` lessons each.
     pub fn new(capacity: usize) -> Self {
-        let empty = || ReplayBuffer::new(capacity);
-        Self { hindsight: empty(), demonstrations: empty(), layouts: 0 }
+        Self { memories: NAMES.map(|_| ReplayBuffer::new(capacity)), layouts: 0 }
     }
 
     /// Looks for lessons before `action` is played: where it would have made the point, and what makes it here.
@@ -59,9 +57,10 @@ impl Lessons {
         action: Action,
         rng: &mut Xoshiro256PlusPlus,
     ) {
+        let [hindsight, demonstrations] = &mut self.memories;
         if sought.hindsight {
             for state in environment.in_hindsight(action, rng) {
-                self.hindsight.push(lesson(state, action));
+                hindsight.push(lesson(state, action));
             }
         }
         if self.layouts < sought.layouts {
@@ -69,7 +68,7 @@ impl Lessons {
             for _ in 0..sought.tries {
                 let tried: Action = std::array::from_fn(|_| rng.random_range(-1.0..=1.0));
                 if environment.would_earn(tried) >= 1.0 {
-                    self.demonstrations.push(lesson(seen.state, tried));
+                    demonstrations.push(lesson(seen.state, tried));
                 }
             }
         }
@@ -77,26 +76,19 @@ impl Lessons {
 
     /// So many lessons of each kind, drawn uniformly; none of a kind of which there is none yet.
     pub fn sample(&self, rows: [usize; 2], rng: &mut (impl Rng + ?Sized)) -> Vec<StoredTransition> {
-        let [hindsight, demonstrations] = rows;
-        let mut drawn = self.hindsight.sample(hindsight, rng);
-        drawn.extend(self.demonstrations.sample(demonstrations, rng));
-        drawn
+        self.memories.iter().zip(rows).flat_map(|(memory, rows)| memory.sample(rows, rng)).collect()
     }
 
     /// Adds both memories to a file and returns everything else.
     pub fn save(&self, writer: &mut Writer) -> LessonsState {
-        let next =
-            [replay::save(&self.hindsight, NAMES[0], writer), replay::save(&self.demonstrations, NAMES[1], writer)];
+        let next = [0, 1].map(|kind| replay::save(&self.memories[kind], NAMES[kind], writer));
         LessonsState { next, layouts: self.layouts }
     }
 
     /// The memories that [`Lessons::save`] wrote.
-    ///
-    /// # Errors
-    /// Where the file has none.
     pub fn restore(capacity: usize, reader: &Reader<'_>, state: LessonsState) -> Result<Self, WeightsError> {
         let memory = |kind: usize| replay::restore(capacity, reader, NAMES[kind], state.next[kind]);
-        Ok(Self { hindsight: memory(0)?, demonstrations: memory(1)?, layouts: state.layouts })
+        Ok(Self { memories: [memory(0)?, memory(1)?], layouts: state.layouts })
     }
 }
 

@@ -1,20 +1,18 @@
 //! The thesis' three agents (its chapter 4): Q-learning, deep Q-learning and a plain deep deterministic policy gradient.
 //!
-//! An [`agent`] plays against an [`environment`], which is [`carom`] or anything else that has states of six numbers
+//! An [`agent`] plays against an [`environment`], which is `carom` or anything else that has states of six numbers
 //! and actions of two. What the thesis found with them, and what they find here, is in `docs/thesis.md`.
 
-pub mod actor_critic;
+pub(crate) mod actor_critic;
 pub mod agent;
-pub mod batch;
-pub mod carom;
-mod cue_way;
+pub(crate) mod carom;
 pub mod ddpg;
 pub mod dqn;
 pub mod environment;
 pub mod exploration;
 mod hindsight;
-pub mod learner;
-pub mod lessons;
+pub(crate) mod learner;
+mod lessons;
 pub mod q_learning;
-pub mod replay;
+pub(crate) mod replay;
 mod symmetry;

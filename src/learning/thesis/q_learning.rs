@@ -14,10 +14,10 @@ use super::{
     environment::{DISCRETE_ACTIONS, Observation},
     exploration::Epsilon,
 };
-use crate::learning::settings::{SettingError, check, check_positive, check_share};
 use crate::learning::{
     learner::{Progress, note_of},
     nn::weights::{Reader, WeightsError, Writer},
+    settings::{SettingError, check, check_positive, check_share},
 };
 
 /// Settings of [`QLearning`]. The thesis gives the squares, the actions and epsilon-greedy, but no numbers.

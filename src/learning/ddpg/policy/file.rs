@@ -15,22 +15,28 @@ use crate::{
     table::Table,
 };
 
-/// The bundled policies: the table's name, what was rewarded, and the file.
-const BUNDLED: [(&str, Reward, &[u8]); 6] = [
+/// The bundled policies: the table's name, or `context` for those that are told table and player, for all tables like `match`; what
+/// was rewarded; and the file.
+const BUNDLED: [(&str, Reward, &[u8]); 9] = [
     ("match", Reward::R3, include_bytes!("../../../../models/match-r3.safetensors")),
     ("match", Reward::OneCushion, include_bytes!("../../../../models/match-one-cushion.safetensors")),
     ("match", Reward::ThreeCushion, include_bytes!("../../../../models/match-three-cushion.safetensors")),
     ("thesis", Reward::R3, include_bytes!("../../../../models/thesis-r3.safetensors")),
     ("thesis", Reward::OneCushion, include_bytes!("../../../../models/thesis-one-cushion.safetensors")),
     ("thesis", Reward::ThreeCushion, include_bytes!("../../../../models/thesis-three-cushion.safetensors")),
+    (CONTEXT, Reward::R3, include_bytes!("../../../../models/context-r3.safetensors")),
+    (CONTEXT, Reward::OneCushion, include_bytes!("../../../../models/context-one-cushion.safetensors")),
+    (CONTEXT, Reward::ThreeCushion, include_bytes!("../../../../models/context-three-cushion.safetensors")),
 ];
 
-/// The bundled policies that are told table and player, for all tables like `match`: what was rewarded, and the file.
-const WITH_CONTEXT: [(Reward, &[u8]); 3] = [
-    (Reward::R3, include_bytes!("../../../../models/context-r3.safetensors")),
-    (Reward::OneCushion, include_bytes!("../../../../models/context-one-cushion.safetensors")),
-    (Reward::ThreeCushion, include_bytes!("../../../../models/context-three-cushion.safetensors")),
-];
+/// Whose the policies are that are told table and player.
+const CONTEXT: &str = "context";
+
+/// The bundled file of this name for `rule`.
+fn bundled_file(whose: &str, rule: Rule) -> Option<&'static [u8]> {
+    let reward = Reward::for_rule(rule);
+    BUNDLED.into_iter().find(|(name, what, _)| (*name, *what) == (whose, reward)).map(|(.., bytes)| bytes)
+}
 
 /// Where a policy comes from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,7 +95,7 @@ pub enum PolicyError {
         /// What the file has.
         found: String,
         /// What is needed.
-        expected: &'static str,
+        expected: String,
     },
 }
 
@@ -101,9 +107,7 @@ impl Policy {
     /// Where the bundled file is damaged, which a test rules out.
     pub fn bundled(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
         Table::preset(&table.name).ok().filter(|preset| preset == table)?;
-        let reward = Reward::for_rule(rule);
-        let (.., bytes) =
-            BUNDLED.into_iter().find(|(name, what, _)| (*name, *what) == (table.name.as_str(), reward))?;
+        let bytes = bundled_file(&table.name, rule)?;
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on \"{}\"", table.name)))
     }
 
@@ -125,19 +129,18 @@ impl Policy {
 
     /// The policy for `rule` on all tables like `match`, if this is one.
     fn bundled_with_context(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
-        let reward = Reward::for_rule(rule);
-        let (_, bytes) = WITH_CONTEXT.into_iter().find(|(what, _)| *what == reward && knows(table))?;
+        let bytes = bundled_file(CONTEXT, rule).filter(|_| knows(table))?;
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\"")))
     }
 
     /// What the bundled file with these networks is called (`models/README.md`), without `.safetensors`; `None` where they are no
     /// bundled ones.
     pub fn bundled_name(&self) -> Option<String> {
-        let mut all = BUNDLED.into_iter().chain(WITH_CONTEXT.map(|(reward, bytes)| ("context", reward, bytes)));
         // Seed, shots and settings tell them apart.
         let is_this =
             |bytes| Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin));
-        all.find(|(.., bytes)| is_this(*bytes)).map(|(whose, reward, _)| format!("{whose}-{reward}"))
+        let found = BUNDLED.into_iter().find(|(.., bytes)| is_this(*bytes));
+        found.map(|(whose, reward, _)| format!("{whose}-{reward}"))
     }
 
     /// Reads a policy from a file.
@@ -161,13 +164,12 @@ impl Policy {
         let content = |reason| PolicyError::Content { origin: name.to_owned(), reason };
         let reader = Reader::new(bytes).map_err(content)?;
         let origin: Origin = reader.note().map_err(content)?;
-        let version = |what, found: &String, expected| {
-            let same = found == expected;
-            let error = || PolicyError::Version { origin: name.to_owned(), what, found: found.clone(), expected };
-            if same { Ok(()) } else { Err(error()) }
+        let version = |what, found: &str, expected: &str| {
+            let [origin, found, expected] = [name, found, expected].map(str::to_owned);
+            if found == expected { Ok(()) } else { Err(PolicyError::Version { origin, what, found, expected }) }
         };
         let inputs = origin.hyperparameters.inputs();
-        version("features", &origin.features, inputs.version())?;
+        version("features", &origin.features, &inputs.version())?;
         version("actions", &origin.actions, inputs.space.meaning())?;
         let [actor, critic] = origin.hyperparameters.sizes();
         let actor = reader.network("actor", &actor).map_err(content)?;
@@ -244,9 +246,7 @@ mod tests {
         assert_ne!(erring.origin().seed, flawless.origin().seed);
         let thesis = Table::preset("thesis").unwrap();
         assert!(!Policy::bundled_for(&thesis, Rule::ThreeCushion, true).unwrap().unwrap().has_context());
-        let sizes =
-            BUNDLED.iter().map(|(.., bytes)| bytes.len()).chain(WITH_CONTEXT.iter().map(|(_, bytes)| bytes.len()));
-        let size: usize = sizes.sum();
+        let size: usize = BUNDLED.iter().map(|(.., bytes)| bytes.len()).sum();
         assert!(size <= 7_200_000, "{size} bytes of weights");
     }
 

@@ -152,7 +152,8 @@ pub fn condition(signs: &Signs) -> Condition {
             // One that is told to stop saves before it is measured: a second signal, which ends it at once, has stopped it.
             let gone = if phase == Phase::Stopping { Condition::Is(Phase::Stopped) } else { Condition::Died };
             match is_held {
-                Some(true) if silent >= timeout => Condition::Stalled(whole_seconds(silent)),
+                // In whole seconds, so that a condition changes once a second, and not with every look.
+                Some(true) if silent >= timeout => Condition::Stalled(Duration::from_secs(silent.as_secs())),
                 Some(false) if silent >= FRESH => gone,
                 // Where there are no locks, silence is all there is to tell by.
                 None if silent >= timeout => gone,
@@ -167,11 +168,6 @@ pub fn condition(signs: &Signs) -> Condition {
         None if is_run || planned.is_some() || shots.is_some() => Condition::Interrupted,
         None => Condition::Missing,
     }
-}
-
-/// So that a condition changes once a second, and not with every look.
-const fn whole_seconds(duration: Duration) -> Duration {
-    Duration::from_secs(duration.as_secs())
 }
 
 #[cfg(test)]

@@ -31,7 +31,7 @@ const SELDOM: Duration = Duration::from_secs(1);
 const GAPS_BEHIND: u64 = 2;
 
 /// Looks at a run's files. It only reads them, so any number may follow one run.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Follower {
     folder: PathBuf,
     tail: Tail,
@@ -39,8 +39,8 @@ pub struct Follower {
     config: Option<Stamp>,
     status: Option<Stamp>,
     examples: Option<Stamp>,
-    /// When what the run says of itself last changed.
-    heard: Instant,
+    /// When what the run says of itself last changed; nothing before it has said anything.
+    heard: Option<Instant>,
     /// Lines of metrics read.
     lines: u64,
     /// Most shots between two of them, where that is known.
@@ -57,22 +57,7 @@ pub struct Follower {
 impl Follower {
     /// A follower of the run in `folder`, which need not be there yet.
     pub fn new(folder: &Path) -> Self {
-        Self {
-            folder: folder.to_owned(),
-            tail: Tail::new(&folder.join(METRICS)),
-            seldom: None,
-            config: None,
-            status: None,
-            examples: None,
-            heard: Instant::now(),
-            lines: 0,
-            longest_gap: None,
-            said: 0,
-            signs: Signs::default(),
-            condition: Condition::Unknown,
-            troubles: [const { None }; 4],
-            told: Vec::new(),
-        }
+        Self { folder: folder.to_owned(), tail: Tail::new(&folder.join(METRICS)), ..Self::default() }
     }
 
     /// Looks once; `None` where nothing has changed. Never fails: what is wrong becomes a notice.
@@ -89,7 +74,7 @@ impl Follower {
         }
         self.look_at_status(&mut update);
         let is_there = self.look_at_metrics(&mut update, see);
-        self.signs.silent = self.heard.elapsed();
+        self.signs.silent = self.heard.map_or(Duration::ZERO, |heard| heard.elapsed());
         let now = condition(&self.signs);
         if now != self.condition {
             self.condition = now;
@@ -151,7 +136,7 @@ impl Follower {
         self.status = stamp;
         // A look at a run that has said nothing for an hour finds it an hour silent.
         let age = stamp.filter(|_| is_first).map_or(Duration::ZERO, |stamp| stamp.age());
-        self.heard = Instant::now().checked_sub(age).unwrap_or_else(Instant::now);
+        self.heard = Some(Instant::now().checked_sub(age).unwrap_or_else(Instant::now));
         match RunStatus::read(&self.folder) {
             Ok(status) => {
                 self.signs.phase = Some(status.phase);
@@ -204,7 +189,7 @@ impl Follower {
             Ok(false) if is_behind => {
                 Some(format!("{METRICS} is missing: there is nothing to show of the {} shots played", self.said))
             }
-            Ok(_) => match self.tail.unreadable() {
+            Ok(_) => match self.tail.unreadable {
                 0 if self.condition.is_over() && self.tail.is_torn() => {
                     Some(format!("the last line of {METRICS} is cut off and is left out"))
                 }

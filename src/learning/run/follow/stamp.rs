@@ -12,7 +12,8 @@ use crate::platform;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp {
     modified: Option<SystemTime>,
-    length: u64,
+    /// Bytes of the file.
+    pub length: u64,
     identity: u64,
 }
 
@@ -20,11 +21,6 @@ impl Stamp {
     /// That of the file at `path`; none where there is no file.
     pub fn of(path: &Path) -> Option<Self> {
         std::fs::metadata(path).ok().map(|data| Self::from(&data))
-    }
-
-    /// Bytes of the file.
-    pub const fn length(&self) -> u64 {
-        self.length
     }
 
     /// How long ago the file was written last; nothing where the system does not tell.

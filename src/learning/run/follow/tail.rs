@@ -17,7 +17,7 @@ const CHUNK: usize = 1 << 20;
 const MARK: usize = 256;
 
 /// Reads a file that grows.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Tail {
     path: PathBuf,
     /// Bytes of whole lines read.
@@ -27,29 +27,21 @@ pub struct Tail {
     /// The file as it was last read.
     stamp: Option<Stamp>,
     /// Lines that are no records of this version.
-    unreadable: u64,
+    pub unreadable: u64,
 }
 
 impl Tail {
     /// Of the file at `path`, from its beginning.
     pub fn new(path: &Path) -> Self {
-        Self { path: path.to_owned(), offset: 0, mark: Vec::new(), stamp: None, unreadable: 0 }
-    }
-
-    /// Lines that are no records of this version.
-    pub const fn unreadable(&self) -> u64 {
-        self.unreadable
+        Self { path: path.to_owned(), ..Self::default() }
     }
 
     /// Whether the file ends in the middle of a line.
     pub fn is_torn(&self) -> bool {
-        self.stamp.is_some_and(|stamp| self.offset < stamp.length())
+        self.stamp.is_some_and(|stamp| self.offset < stamp.length)
     }
 
     /// Reads what is new and hands it to `take`; `false` where there is no file.
-    ///
-    /// # Errors
-    /// Whatever the file system reports.
     pub fn look(&mut self, mut take: impl FnMut(Taken)) -> io::Result<bool> {
         let stamp = Stamp::of(&self.path);
         if stamp == self.stamp {
@@ -64,7 +56,7 @@ impl Tail {
         };
         // Taken from the file that is read: another may stand in its place by now.
         let stamp = Stamp::from(&file.metadata()?);
-        if !self.is_the_same(&mut file, stamp.length())? {
+        if !self.is_the_same(&mut file, stamp.length)? {
             *self = Self::new(&self.path);
             take(Taken::Afresh);
         }
@@ -137,6 +129,14 @@ mod tests {
         )
     }
 
+    /// A new folder, the path of a file in it, and that file's tail.
+    fn fresh() -> (tempfile::TempDir, PathBuf, Tail) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        let tail = Tail::new(&path);
+        (folder, path, tail)
+    }
+
     /// Whether the file was read afresh, and its new lines; `None` where there is no file.
     fn look(tail: &mut Tail) -> Option<(bool, Vec<u64>)> {
         let (mut afresh, mut shots) = (false, Vec::new());
@@ -149,9 +149,7 @@ mod tests {
 
     #[test]
     fn only_whole_lines_are_taken_and_each_once() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("metrics.jsonl");
-        let mut tail = Tail::new(&path);
+        let (_folder, path, mut tail) = fresh();
         assert_eq!(look(&mut tail), None);
         let (first, second) = (line(1), line(2));
         let (half, rest) = second.split_at(30);
@@ -161,14 +159,12 @@ mod tests {
         assert_eq!(look(&mut tail), Some((false, vec![])));
         fs::write(&path, first + half + rest + "no line of ours\n\n" + &line(3)).unwrap();
         assert_eq!(look(&mut tail), Some((false, vec![2, 3])));
-        assert_eq!((tail.is_torn(), tail.unreadable()), (false, 1));
+        assert_eq!((tail.is_torn(), tail.unreadable), (false, 1));
     }
 
     #[test]
     fn a_file_that_was_cut_off_or_removed_is_read_afresh() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("metrics.jsonl");
-        let mut tail = Tail::new(&path);
+        let (_folder, path, mut tail) = fresh();
         fs::write(&path, line(1) + &line(2) + &line(3)).unwrap();
         assert_eq!(look(&mut tail), Some((false, vec![1, 2, 3])));
         fs::write(&path, line(1)).unwrap();
@@ -188,10 +184,8 @@ mod tests {
 
     #[test]
     fn what_cannot_be_read_is_tried_again() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("metrics.jsonl");
+        let (_folder, path, mut tail) = fresh();
         std::fs::create_dir(&path).unwrap();
-        let mut tail = Tail::new(&path);
         for _ in 0..2 {
             assert!(tail.look(|_| ()).is_err());
         }
@@ -203,15 +197,13 @@ mod tests {
 
     #[test]
     fn files_longer_than_a_chunk_and_lines_without_end_are_read() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("metrics.jsonl");
+        let (_folder, path, mut tail) = fresh();
         let many: String = (1..=10_000).map(line).collect();
         assert!(many.len() > CHUNK + CHUNK / 2);
         fs::write(&path, many).unwrap();
-        let mut tail = Tail::new(&path);
         assert_eq!(look(&mut tail).unwrap().1, (1..=10_000).collect::<Vec<_>>());
         fs::write(&path, vec![b'x'; 9 * CHUNK]).unwrap();
         assert_eq!(look(&mut tail), Some((true, vec![])));
-        assert_eq!(tail.unreadable(), 2);
+        assert_eq!(tail.unreadable, 2);
     }
 }
