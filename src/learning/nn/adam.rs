@@ -102,13 +102,15 @@ pub fn soft_update(target: &Var, online: &Var, rate: f64) -> Result<()> {
 fn squares(tensor: &Tensor) -> Result<f64> {
     let (storage, layout) = tensor.storage_and_layout();
     let (chunks, rest) = stored_values(&storage, layout)?.as_chunks::<16>();
-    // Sixteen sums at a time, which the processor can add side by side.
+    // Sixteen sums at a time, which the processor can add side by side in wide registers.
     let mut sums = [0.0f32; 16];
-    for chunk in chunks {
-        for (sum, x) in sums.iter_mut().zip(chunk) {
-            *sum += x * x;
+    Arch::new().dispatch(|| {
+        for chunk in chunks {
+            for (sum, x) in sums.iter_mut().zip(chunk) {
+                *sum += x * x;
+            }
         }
-    }
+    });
     Ok(sums.into_iter().chain(rest.iter().map(|x| x * x)).map(f64::from).sum())
 }
 

@@ -48,10 +48,10 @@ impl Guidance {
     /// Nothing but the critic.
     pub const NONE: Self = Self { climbing: 1.0, lessons: 0, cloning: 0.0, width: [1.0; 2], pull: 0.0 };
 
-    /// What the actor's step goes down, from the mean `value` of its `actions`.
-    fn loss(&self, value: &Tensor, actions: &Tensor, batch: &Batch) -> Result<Tensor> {
-        let mut loss = (value * -self.climbing)?;
+    /// What the actor's step goes down, from the sum of the values of its `actions`.
+    fn loss(&self, values: &Tensor, actions: &Tensor, batch: &Batch) -> Result<Tensor> {
         let rows = actions.dim(0)? as f64;
+        let mut loss = (values * (-self.climbing / rows))?;
         if self.lessons > 0 {
             // Climbing a bell around each lesson climbs the success of an action with noise of that width.
             let [own, shown] = [actions, &batch.actions].map(|actions| actions.narrow(0, 0, self.lessons));
@@ -159,13 +159,13 @@ impl ActorCritic {
 
         // The actor climbs the critic (the deterministic policy gradient), and may be guided.
         let actions = actor.forward(&batch.states)?;
-        let value = critic.forward_frozen(&Tensor::cat(&[&batch.states, &actions], 1)?)?.mean_all()?;
-        actor_optimiser.backward_step(&guidance.loss(&value, &actions, batch)?)?;
+        let values = critic.forward_frozen(&Tensor::cat(&[&batch.states, &actions], 1)?)?.sum_all()?;
+        actor_optimiser.backward_step(&guidance.loss(&values, &actions, batch)?)?;
 
         for (target, online) in self.target.iter().zip(&self.online) {
             soft_update(target.parameters(), online.parameters(), 1.0 - self.rates.keep)?;
         }
-        Ok(UpdateStats { loss: number(&loss)?, value: number(&value)? })
+        Ok(UpdateStats { loss: number(&loss)?, value: number(&values)? / actions.dim(0)? as f64 })
     }
 }
 
