@@ -129,7 +129,7 @@ pub enum TableError {
     #[error("the table file is not valid: {0}")]
     Syntax(String),
     /// A value is outside what the equations allow.
-    #[error("the table \"{table}\" has {key} = {value}; accepted is {accepted}")]
+    #[error("the table \"{table}\" has {key} = {}; accepted is {accepted}", told(*value))]
     Value {
         /// The table's name.
         table: String,
@@ -148,6 +148,12 @@ pub enum TableError {
         /// What is wrong with it.
         error: DoubtError,
     },
+}
+
+/// A number as it stands in a file: very large and very small ones by their powers of ten.
+fn told(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
 }
 
 impl Table {
@@ -373,7 +379,7 @@ mod tests {
             (gravity, "\ng = 1e9", "g = 1000000000; accepted is 0.1 to 100 m/s²"),
             (gravity, "\ng = 0.01", "g = 0.01; accepted is"),
             (gravity, "\ng = nan", "g = NaN; accepted is"),
-            (ball, "\nm = 1e300", "accepted is 0.001 to 1 kg"),
+            (ball, "\nm = 1e300", "m = 1e300; accepted is 0.001 to 1 kg"),
             (ball, "\nm = 0", "m = 0; accepted is"),
             (cue, "\nM = 1e-9", "accepted is 0.05 to 5 kg"),
             (cue, "\nM = 210", "M = 210; accepted is"),
