@@ -28,6 +28,38 @@ fn a_position_is_shared_added_replaced_and_removed() {
 }
 
 #[test]
+fn a_tag_is_one_word_and_its_sign_does_not_matter() {
+    let folder = folder();
+    let tagged = |tag: &str| drill(folder.path(), &[SAVE, &["--replace", "--tag", tag]].concat());
+    assert_eq!(tagged("#steep-one").code, Some(0));
+    for tag in ["steep-one", "#steep-one"] {
+        let found = drill(folder.path(), &["list", "--tag", tag, "--json"]);
+        assert_eq!(found.json().iter().map(|row| &row["tags"][0]).collect::<Vec<_>>(), ["steep-one"], "{}", found.err);
+    }
+    for tag in ["a b", "#", ""] {
+        let refused = tagged(tag);
+        assert!(refused.code == Some(2) && refused.err.contains("accepted is one word"), "{}", refused.err);
+    }
+}
+
+#[test]
+fn a_title_of_blanks_is_none_and_one_without_end_is_refused() {
+    let folder = folder();
+    let titled = |title: &str| drill(folder.path(), &[SAVE, &["--replace", "--title", title]].concat());
+    for (title, shown) in [("", "mine"), ("  ", "mine"), (" Mine ", "Mine")] {
+        assert_eq!(titled(title).code, Some(0));
+        assert_eq!(drill(folder.path(), &["show", "mine", "--json"]).json()[0]["title"], shown);
+    }
+    let refused = titled(&"x".repeat(5000));
+    assert!(
+        refused.code == Some(2) && refused.err.contains("has 5000 bytes; accepted are up to 400"),
+        "{}",
+        refused.err
+    );
+    assert!(refused.err.len() < 200, "{}", refused.err);
+}
+
+#[test]
 fn what_is_exported_is_imported_elsewhere_and_once() {
     let (here, there) = (folder(), tempfile::tempdir().unwrap());
     drill(here.path(), &["log", "mine", "make", "miss"]);
