@@ -14,6 +14,9 @@ pub struct LibraryFile {
     pub format: String,
     /// Version of the format.
     pub version: u32,
+    /// The version of carom that wrote it; files from before "match" was fitted to filmed balls have none, nor do bundled ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub carom: Option<String>,
     /// The exercises. A file that holds other things may have none.
     #[serde(default)]
     pub exercises: Vec<Exercise>,
@@ -45,7 +48,8 @@ impl LibraryFile {
 
     /// A file of this version.
     pub fn new(exercises: Vec<Exercise>) -> Self {
-        Self { format: Self::FORMAT.to_owned(), version: Self::VERSION, exercises }
+        let carom = Some(env!("CARGO_PKG_VERSION").to_owned());
+        Self { format: Self::FORMAT.to_owned(), version: Self::VERSION, carom, exercises }
     }
 
     /// Reads a file's text. Fields that are not known are skipped; the exercises are not checked: see

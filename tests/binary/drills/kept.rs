@@ -60,6 +60,25 @@ fn a_title_of_blanks_is_none_and_one_without_end_is_refused() {
 }
 
 #[test]
+fn only_what_an_older_version_has_saved_brings_its_notice() {
+    let folder = folder();
+    drill(folder.path(), &["log", "mine", "make"]);
+    let listed_anew = || {
+        fs::remove_dir_all(folder.path().join("state")).unwrap();
+        drill(folder.path(), &["list", "--category", "own"]).err
+    };
+    assert_eq!(listed_anew(), "", "all is of this version");
+    let position = folder.path().join("carom/positions/mine.json");
+    let version = format!("  \"carom\": \"{}\",\n", env!("CARGO_PKG_VERSION"));
+    let text = fs::read_to_string(&position).unwrap();
+    assert!(text.contains(&version), "{text}");
+    fs::write(&position, text.replace(&version, "")).unwrap();
+    assert!(listed_anew().contains("\"match\" is now a table as filmed balls show it"));
+    assert_eq!(drill(folder.path(), &["list", "--category", "own"]).err, "", "once");
+    assert_eq!(tried(folder.path()), 1);
+}
+
+#[test]
 fn what_is_exported_is_imported_elsewhere_and_once() {
     let (here, there) = (folder(), tempfile::tempdir().unwrap());
     drill(here.path(), &["log", "mine", "make", "miss"]);
