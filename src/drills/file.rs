@@ -26,8 +26,11 @@ pub struct LibraryFile {
 #[derive(Debug, thiserror::Error)]
 pub enum LibraryFileError {
     /// It is no JSON, or not of this form.
-    #[error("this is no file of exercises: {0}")]
+    #[error("this is no file of exercises: {}", told(_0))]
     Syntax(#[from] serde_json::Error),
+    /// It is JSON, and does not say what it holds.
+    #[error("this is no file of exercises: it does not begin with a \"format\" and a \"version\"; {ACCEPTED}")]
+    NoHeader,
     /// It is something else.
     #[error("the file says that its format is \"{0}\"; accepted is \"{format}\"", format = LibraryFile::FORMAT)]
     Format(String),
@@ -37,6 +40,22 @@ pub enum LibraryFileError {
         newest = LibraryFile::VERSION
     )]
     Version(u32),
+}
+
+/// What would be accepted.
+const ACCEPTED: &str = "accepted is a JSON file as carom drill export writes it";
+
+/// What is wrong with a file's text, and where.
+fn told(error: &serde_json::Error) -> String {
+    let (line, column) = (error.line(), error.column());
+    if error.is_data() {
+        let text = error.to_string();
+        let reason = text.split(" at line ").next().unwrap_or_default();
+        // What lies within other parts has no place.
+        let place = if line > 0 { format!("at line {line}, column {column}, ") } else { String::new() };
+        return format!("{place}{reason}; {ACCEPTED}");
+    }
+    format!("it is no JSON from line {line}, column {column} on; {ACCEPTED}")
 }
 
 impl LibraryFile {
@@ -63,7 +82,8 @@ impl LibraryFile {
             format: String,
             version: u32,
         }
-        let header: Header = serde_json::from_str(text)?;
+        let header: Header = serde_json::from_str(text)
+            .map_err(|error| if error.is_data() { LibraryFileError::NoHeader } else { error.into() })?;
         if header.format != Self::FORMAT {
             return Err(LibraryFileError::Format(header.format));
         }
@@ -198,7 +218,14 @@ mod tests {
         let newer = said(r#"{"format": "carom-library", "version": 7, "exercises": {"other": "form"}}"#);
         assert!(newer.contains("version 7") && newer.contains("1 to 1"), "{newer}");
         assert!(said(r#"{"format": "pool", "version": 1}"#).contains("\"pool\""));
-        assert!(said("half a fi").contains("line 1"));
+        assert!(
+            said("half a fi")
+                .contains("it is no JSON from line 1, column 1 on; accepted is a JSON file as carom drill export")
+        );
+        for text in ["[1,2]", "3", r#"{"version": 1}"#, r#"{"format": 3, "version": 1}"#] {
+            assert!(said(text).contains("does not begin with a \"format\""), "{}", said(text));
+            assert!(said(text).contains("carom drill export"), "{}", said(text));
+        }
         assert!(said(&TEXT.replace("first-caroms", "bowling")).contains("bowling"));
     }
 }

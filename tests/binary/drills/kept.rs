@@ -79,6 +79,22 @@ fn only_what_an_older_version_has_saved_brings_its_notice() {
 }
 
 #[test]
+fn what_is_no_export_is_refused_in_plain_words() {
+    let folder = folder();
+    for (text, says) in [
+        ("name = \"mine\"", "it is no JSON from line 1, column 2 on"),
+        ("[1,2]", "does not begin with a \"format\" and a \"version\""),
+        (r#"{"format":"carom-library","version":1,"exercises":[{"name":3}]}"#, "at line 1, column "),
+        (r#"{"format":"carom-library","version":1,"sessions":3}"#, "invalid type"),
+    ] {
+        fs::write(folder.path().join("other"), text).unwrap();
+        let refused = drill(folder.path(), &["import", "other"]);
+        assert!(refused.code == Some(2) && refused.err.contains(says), "{}", refused.err);
+        assert!(refused.err.contains("accepted is a JSON file as carom drill export writes it"), "{}", refused.err);
+    }
+}
+
+#[test]
 fn what_is_exported_is_imported_elsewhere_and_once() {
     let (here, there) = (folder(), tempfile::tempdir().unwrap());
     drill(here.path(), &["log", "mine", "make", "miss"]);
