@@ -27,7 +27,7 @@ pub enum Source {
 impl fmt::Display for Source {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.pad(match self {
-            Self::Policy => "policy",
+            Self::Policy => "networks",
             Self::Variation => "variation",
             Self::Search | Self::Former => "search",
         })

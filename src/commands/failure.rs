@@ -2,7 +2,7 @@
 
 use std::{fmt::Display, io};
 
-use crate::platform::UNFINISHED;
+use crate::{learning::PolicyError, platform::UNFINISHED};
 
 /// A sentence for the user and the process' exit code.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -42,6 +42,16 @@ impl Failure {
     /// Whether there is nothing to say: it is said already, or the reader of the output has closed it.
     pub fn is_silent(&self) -> bool {
         self.message.is_empty()
+    }
+}
+
+impl From<PolicyError> for Failure {
+    /// A file that cannot be read is another thing than one that holds no policy.
+    fn from(error: PolicyError) -> Self {
+        match error {
+            PolicyError::Read { .. } => Self::failed(error),
+            PolicyError::Content { .. } | PolicyError::Version { .. } => Self::wrong_input(error),
+        }
     }
 }
 

@@ -88,16 +88,16 @@ pub fn policy_called(name: &str) -> Result<Policy, Failure> {
         } else {
             no_policies_of(&agent)
         };
-        return Err(Failure::failed(format_args!("{shown} is a checkpoint, not a policy; {advice}")));
+        return Err(Failure::wrong_input(format_args!("{shown} is a checkpoint, not a policy; {advice}")));
     }
-    Policy::load(&found).map_err(Failure::failed)
+    Ok(Policy::load(&found)?)
 }
 
 /// The policy in a run's folder.
 fn policy_of_run(folder: &Path) -> Result<Policy, Failure> {
     let (file, shown) = (folder.join(POLICY), folder.display());
     if file.exists() {
-        return Policy::load(&file).map_err(Failure::failed);
+        return Ok(Policy::load(&file)?);
     }
     let agent = Config::read(folder).map(|config| config.agent);
     Err(Failure::failed(match agent {

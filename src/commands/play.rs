@@ -2,7 +2,7 @@
 
 use super::{
     Failure,
-    drill::{PlayOptions, Strokes, Workspace, play, strokes},
+    drill::{MOST_STROKES, PlayOptions, Strokes, Workspace, play, strokes},
     input::{bundled_table, whole},
 };
 use crate::{
@@ -27,8 +27,8 @@ pub struct Args {
     /// Innings.
     #[arg(long, default_value_t = 10, value_parser = whole(1..=10_000_u32))]
     innings: u32,
-    /// Strokes after which it ends in any case.
-    #[arg(long, default_value_t = 1000, value_parser = whole(1..=10_000_u32))]
+    /// Strokes after which it ends in any case, with a note where innings are left.
+    #[arg(long, default_value_t = 1000, value_parser = whole(1..=MOST_STROKES))]
     strokes: u32,
     /// Where the balls lie at first, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower
     /// left corner ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.

@@ -84,6 +84,7 @@ struct BatchLine {
 
 impl Keys for BatchLine {
     const KEYS: &'static [&'static str] = &["preset", "layout", "cue", "impulse", "rule"];
+    const FORM: &'static str = "preset, layout, and cue or impulse; rule may be left out";
 }
 
 /// A motion of the cue ball in the place of a stroke, as a film shows it.

@@ -138,6 +138,14 @@ pub struct Exercise {
     pub par: Option<Par>,
 }
 
+/// Longest title or tag that is taken from a player, bytes; files may have longer ones.
+pub const LONGEST_TITLE: usize = 400;
+
+/// A tag without the `#` with which it is shown and may be typed.
+pub fn bare_tag(tag: &str) -> &str {
+    tag.trim_start_matches('#')
+}
+
 pub(super) fn match_table() -> String {
     "match".to_owned()
 }

@@ -14,6 +14,9 @@ pub struct LibraryFile {
     pub format: String,
     /// Version of the format.
     pub version: u32,
+    /// The version of carom that wrote it; files from before "match" was fitted to filmed balls have none, nor do bundled ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub carom: Option<String>,
     /// The exercises. A file that holds other things may have none.
     #[serde(default)]
     pub exercises: Vec<Exercise>,
@@ -23,8 +26,11 @@ pub struct LibraryFile {
 #[derive(Debug, thiserror::Error)]
 pub enum LibraryFileError {
     /// It is no JSON, or not of this form.
-    #[error("this is no file of exercises: {0}")]
+    #[error("this is no file of exercises: {}", told(_0))]
     Syntax(#[from] serde_json::Error),
+    /// It is JSON, and does not say what it holds.
+    #[error("this is no file of exercises: it does not begin with a \"format\" and a \"version\"; {ACCEPTED}")]
+    NoHeader,
     /// It is something else.
     #[error("the file says that its format is \"{0}\"; accepted is \"{format}\"", format = LibraryFile::FORMAT)]
     Format(String),
@@ -36,6 +42,22 @@ pub enum LibraryFileError {
     Version(u32),
 }
 
+/// What would be accepted.
+const ACCEPTED: &str = "accepted is a JSON file as carom drill export writes it";
+
+/// What is wrong with a file's text, and where.
+fn told(error: &serde_json::Error) -> String {
+    let (line, column) = (error.line(), error.column());
+    if error.is_data() {
+        let text = error.to_string();
+        let reason = text.split(" at line ").next().unwrap_or_default();
+        // What lies within other parts has no place.
+        let place = if line > 0 { format!("at line {line}, column {column}, ") } else { String::new() };
+        return format!("{place}{reason}; {ACCEPTED}");
+    }
+    format!("it is no JSON from line {line}, column {column} on; {ACCEPTED}")
+}
+
 impl LibraryFile {
     /// What stands in `format`.
     pub const FORMAT: &str = "carom-library";
@@ -45,7 +67,8 @@ impl LibraryFile {
 
     /// A file of this version.
     pub fn new(exercises: Vec<Exercise>) -> Self {
-        Self { format: Self::FORMAT.to_owned(), version: Self::VERSION, exercises }
+        let carom = Some(env!("CARGO_PKG_VERSION").to_owned());
+        Self { format: Self::FORMAT.to_owned(), version: Self::VERSION, carom, exercises }
     }
 
     /// Reads a file's text. Fields that are not known are skipped; the exercises are not checked: see
@@ -59,7 +82,8 @@ impl LibraryFile {
             format: String,
             version: u32,
         }
-        let header: Header = serde_json::from_str(text)?;
+        let header: Header = serde_json::from_str(text)
+            .map_err(|error| if error.is_data() { LibraryFileError::NoHeader } else { error.into() })?;
         if header.format != Self::FORMAT {
             return Err(LibraryFileError::Format(header.format));
         }
@@ -194,7 +218,14 @@ mod tests {
         let newer = said(r#"{"format": "carom-library", "version": 7, "exercises": {"other": "form"}}"#);
         assert!(newer.contains("version 7") && newer.contains("1 to 1"), "{newer}");
         assert!(said(r#"{"format": "pool", "version": 1}"#).contains("\"pool\""));
-        assert!(said("half a fi").contains("line 1"));
+        assert!(
+            said("half a fi")
+                .contains("it is no JSON from line 1, column 1 on; accepted is a JSON file as carom drill export")
+        );
+        for text in ["[1,2]", "3", r#"{"version": 1}"#, r#"{"format": 3, "version": 1}"#] {
+            assert!(said(text).contains("does not begin with a \"format\""), "{}", said(text));
+            assert!(said(text).contains("carom drill export"), "{}", said(text));
+        }
         assert!(said(&TEXT.replace("first-caroms", "bowling")).contains("bowling"));
     }
 }

@@ -1,6 +1,6 @@
 //! The exercises there are: the bundled ones and the user's own.
 
-use super::{Category, Exercise, LibraryFile, LibraryFileError};
+use super::{Category, Exercise, LibraryFile, LibraryFileError, exercise::bare_tag};
 
 /// The bundled files, one a category.
 const BUNDLED: [&str; 9] = [
@@ -176,10 +176,14 @@ impl Filter {
         let has = |words: &str, text: &str| words.to_lowercase().contains(&text.to_lowercase());
         self.category.is_none_or(|category| exercise.category == category)
             && self.grade.is_none_or(|grade| exercise.grade == grade)
-            && self.tag.as_ref().is_none_or(|tag| exercise.tags.contains(tag))
+            && self.tag.as_ref().is_none_or(|tag| {
+                // Versions that kept the sign as well have left it in files.
+                exercise.tags.iter().any(|own| bare_tag(own) == bare_tag(tag))
+            })
             && self.text.as_ref().is_none_or(|text| {
                 let Exercise { name, title, point, tags, .. } = exercise;
-                [name, title, point].into_iter().chain(tags).any(|words| has(words, text))
+                [name, title, point].into_iter().any(|words| has(words, text))
+                    || tags.iter().any(|tag| has(&format!("#{}", bare_tag(tag)), text))
             })
     }
 }
@@ -243,5 +247,23 @@ mod tests {
         assert!(library.find(&exact).any(|exercise| exercise == wanted));
         assert_eq!(library.find(&Filter { grade: Some(wanted.grade + 1), ..exact }).count(), 0);
         assert_eq!(library.find(&Filter { tag: Some("no such tag".to_owned()), ..draw }).count(), 0);
+    }
+
+    #[test]
+    fn a_tag_is_found_with_and_without_its_sign() {
+        let tagged = |name: &str, tag: &str| Exercise {
+            tags: vec![tag.to_owned()],
+            ..crate::drills::session::tests::exercise(name)
+        };
+        let mut library = Library::default();
+        // An older version has kept the sign.
+        for exercise in [tagged("new", "corner"), tagged("old", "#corner"), tagged("other", "rail")] {
+            library.add(exercise).unwrap();
+        }
+        for tag in ["corner", "#corner"] {
+            let by_tag = Filter { tag: Some(tag.to_owned()), ..Filter::default() };
+            let by_text = Filter { text: Some(tag.to_owned()), ..Filter::default() };
+            assert_eq!((library.find(&by_tag).count(), library.find(&by_text).count()), (2, 2), "{tag}");
+        }
     }
 }

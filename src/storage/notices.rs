@@ -2,7 +2,9 @@
 
 use std::{fs, path::Path};
 
-use super::{Places, SMALL, read_text, write_atomic};
+use serde::{Deserialize, de::IgnoredAny};
+
+use super::{PRACTICE, Places, SMALL, read, read_text, write_atomic};
 
 /// Said where something was saved while "match" meant another table.
 const MATCH: &str = "\"match\" is now a table as filmed balls show it, and what you saved for \"match\" is played on it; the former one is \"textbook\"";
@@ -18,8 +20,8 @@ pub fn notice(places: &Places) -> Option<&'static str> {
         return None;
     }
     let Places { sessions, positions, last, .. } = places;
-    let holds_any = |folder: &Path| fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
-    let has_saved = holds_any(sessions) || holds_any(positions) || last.exists();
+    // What the last session left is beside this notice: no version since has written one without the other.
+    let has_saved = holds_older(sessions) || holds_older(positions) || last.exists();
     let folder = places.notices.parent();
     folder.map(fs::create_dir_all);
     // Where it fails, the sentence comes again: better twice than never.
@@ -29,21 +31,43 @@ pub fn notice(places: &Places) -> Option<&'static str> {
     has_saved.then_some(MATCH)
 }
 
+/// Whether a file of practice in the folder was written before "match" meant its present table: since then files say by which
+/// version of carom they were written.
+fn holds_older(folder: &Path) -> bool {
+    #[derive(Deserialize)]
+    struct Header {
+        carom: Option<IgnoredAny>,
+    }
+    let is_older = |path: &Path| {
+        let bytes = read(path, PRACTICE).unwrap_or_default();
+        // What cannot be read is told elsewhere.
+        serde_json::from_slice::<Header>(&bytes).is_ok_and(|header| header.carom.is_none())
+    };
+    let mut paths = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    paths.any(|path| path.extension().is_some_and(|extension| extension == "json") && is_older(&path))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn who_has_saved_something_is_told_once_and_a_newcomer_never() {
+    fn who_has_saved_something_with_an_older_version_is_told_once_and_others_never() {
         let folder = tempfile::tempdir().unwrap();
-        for is_newcomer in [true, false] {
-            let places = Places::under(&folder.path().join(if is_newcomer { "new" } else { "old" }));
-            if !is_newcomer {
+        let files = [
+            ("new", "", false),
+            ("old", r#"{"format":"carom-session","version":1}"#, true),
+            ("present", r#"{"format":"carom-session","version":1,"carom":"0.1.0"}"#, false),
+        ];
+        for (who, file, is_told) in files {
+            let places = Places::under(&folder.path().join(who));
+            if !file.is_empty() {
                 fs::create_dir_all(&places.sessions).unwrap();
                 assert!(!places.notices.exists());
-                fs::write(places.sessions.join("one.json"), "{}").unwrap();
+                fs::write(places.sessions.join("one.json"), file).unwrap();
+                fs::write(places.sessions.join("lock"), "").unwrap();
             }
-            assert_eq!(notice(&places).is_some(), !is_newcomer);
+            assert_eq!(notice(&places).is_some(), is_told, "{who}");
             assert_eq!(notice(&places), None);
         }
     }

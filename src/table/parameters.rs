@@ -129,7 +129,7 @@ pub enum TableError {
     #[error("the table file is not valid: {0}")]
     Syntax(String),
     /// A value is outside what the equations allow.
-    #[error("the table \"{table}\" has {key} = {value}; accepted is {accepted}")]
+    #[error("the table \"{table}\" has {key} = {}; accepted is {accepted}", told(*value))]
     Value {
         /// The table's name.
         table: String,
@@ -148,6 +148,12 @@ pub enum TableError {
         /// What is wrong with it.
         error: DoubtError,
     },
+}
+
+/// A number as it stands in a file: very large and very small ones by their powers of ten.
+fn told(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
 }
 
 impl Table {
@@ -209,9 +215,11 @@ impl Table {
         let restitution: fn(f64) -> bool = |x| (0.0..=1.0).contains(&x);
         let checks: [Check; 14] = [
             ("R", self.radius, positive, "a positive number of metres"),
-            ("m", self.ball_mass, positive, "a positive number of kilograms"),
-            ("M", self.cue_mass, positive, "a positive number of kilograms"),
-            ("g", self.gravity, positive, "a positive number of m/s²"),
+            // From a light ball of a toy table to more than any ball of stone, and from a stick to an iron bar.
+            ("m", self.ball_mass, |m| (0.001..=1.0).contains(&m), "0.001 to 1 kg; a carom ball has 0.21"),
+            ("M", self.cue_mass, |m| (0.05..=5.0).contains(&m), "0.05 to 5 kg; a carom cue has 0.5"),
+            // From asteroids to four times Jupiter; beyond, balls hardly part or hardly ever stop.
+            ("g", self.gravity, |g| (0.1..=100.0).contains(&g), "0.1 to 100 m/s²; the Earth has 9.81"),
             ("L", self.length, positive, "a positive number of metres"),
             ("l", self.width, positive, "a positive number of metres"),
             ("mu_s", self.sliding_friction, cloth, "0.0001 to 1000"),
@@ -358,6 +366,37 @@ mod tests {
     fn a_cloth_without_friction_on_which_no_shot_would_end_is_refused() {
         let text = TEXTBOOK.replace("mu_r = 0.010", "mu_r = 0");
         assert!(matches!(Table::from_toml(&text), Err(TableError::Value { key: "mu_r", .. })));
+    }
+
+    #[test]
+    fn masses_and_gravity_that_nobody_could_play_with_are_refused_by_name_and_value() {
+        let with = |from: &str, to: &str| {
+            assert!(TEXTBOOK.contains(from), "{from}");
+            Table::from_toml(&TEXTBOOK.replace(from, to)).map_err(|error| error.to_string())
+        };
+        let (gravity, ball, cue) = ("\ng = 9.81", "\nm = 0.21", "\nM = 0.54");
+        for (from, to, says) in [
+            (gravity, "\ng = 1e9", "g = 1000000000; accepted is 0.1 to 100 m/s²"),
+            (gravity, "\ng = 0.01", "g = 0.01; accepted is"),
+            (gravity, "\ng = nan", "g = NaN; accepted is"),
+            (ball, "\nm = 1e300", "m = 1e300; accepted is 0.001 to 1 kg"),
+            (ball, "\nm = 0", "m = 0; accepted is"),
+            (cue, "\nM = 1e-9", "accepted is 0.05 to 5 kg"),
+            (cue, "\nM = 210", "M = 210; accepted is"),
+        ] {
+            let message = with(from, to).unwrap_err();
+            assert!(message.contains(says), "{message}");
+        }
+        // The Moon, Jupiter; pool and snooker balls; a child's cue.
+        for (from, to) in [
+            (gravity, "\ng = 1.62"),
+            (gravity, "\ng = 24.8"),
+            (ball, "\nm = 0.17"),
+            (ball, "\nm = 0.142"),
+            (cue, "\nM = 0.25"),
+        ] {
+            with(from, to).unwrap();
+        }
     }
 
     #[test]

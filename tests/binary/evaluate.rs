@@ -86,7 +86,7 @@ fn what_is_not_a_whole_is_refused_by_name() {
         let files: Vec<&str> = files.into_iter().map(String::as_str).collect();
         let output = asked(&[&["evaluate", "--merge"][..], &files].concat()).output().unwrap();
         let error = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.code() == Some(1) && output.stdout.is_empty() && error.contains(said), "{error}");
+        assert!(output.status.code() == Some(2) && output.stdout.is_empty() && error.contains(said), "{error}");
     }
     for shard in ["0/3", "4/3", "2", "a/b", "1/0"] {
         let output = asked(&["evaluate", "--shard", shard]).output().unwrap();

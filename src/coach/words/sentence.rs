@@ -45,6 +45,9 @@ impl ShotWords {
         stops.extend(self.again.and(self.first).map(|hit| format!("{} again", names[hit.ball])));
         stops.extend(cushions(since));
         stops.extend(self.second.map(|hit| names[hit.ball].to_owned()));
+        if stops.is_empty() {
+            return "Meets neither ball nor cushion".to_owned();
+        }
         capital(&stops.join(" \u{2013} "))
     }
 

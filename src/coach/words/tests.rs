@@ -27,7 +27,11 @@ fn the_course_ends_with_how_the_second_ball_is_met_as_the_cue_ball_comes_on() {
     assert!(mirrored.ends_with(" \u{2013} red, half on the left."), "{mirrored}");
     let short = words("-1,0 0,0.02 0.6,0.1", "0,0.3,0,0,4").short_course(CueBall::White, Units::default());
     assert_eq!(short, told.replace(", half on the right", ""));
-    assert_eq!(course("-0.7,0 0.9,0.5 0,-0.03075", "0,0,0,10,0.3"), ".", "what meets nothing has no course");
+    let nothing = words("-0.7,0 0.9,0.5 0,-0.03075", "0,0,0,10,0.3");
+    let (white, units) = (CueBall::White, Units::default());
+    for told in [nothing.course(white, units), nothing.short_course(white, units)] {
+        assert_eq!(told, "Meets neither ball nor cushion.");
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::{
     PlayOptions, Workspace,
     options::StrokeInput,
-    strokes::{Strokes, play},
+    strokes::{MOST_STROKES, Strokes, play},
 };
 use crate::{
     commands::{Failure, input::whole},
@@ -50,7 +50,7 @@ pub struct RunArgs {
     #[arg(long)]
     coach: bool,
     /// Attempts after which it ends in any case.
-    #[arg(long, default_value_t = 1000, value_parser = whole(1..=10_000_u32))]
+    #[arg(long, default_value_t = 1000, value_parser = whole(1..=MOST_STROKES))]
     strokes: u32,
     #[command(flatten)]
     options: PlayOptions,

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{
     Workspace,
+    positions::tag,
     score::{Score, shot_text, words},
 };
 use crate::{
@@ -25,8 +26,8 @@ pub struct ListArgs {
     /// Only this grade, 1 (easy) to 5; 0 for exercises without a grade.
     #[arg(long, value_parser = whole(0..=5_u8))]
     grade: Option<u8>,
-    /// Only those with this tag.
-    #[arg(long)]
+    /// Only those with this tag, with or without #.
+    #[arg(long, value_parser = tag)]
     tag: Option<String>,
     /// Print JSON, an object an exercise.
     #[arg(long)]

@@ -18,7 +18,7 @@ use clap::Subcommand;
 pub use self::{
     attempts::strokes,
     options::PlayOptions,
-    strokes::{Strokes, play},
+    strokes::{MOST_STROKES, Strokes, play},
     workspace::Workspace,
 };
 use super::Failure;

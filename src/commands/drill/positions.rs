@@ -7,7 +7,7 @@ use crate::{
         input::bundled_table,
         output::{line, tell},
     },
-    drills::{Exercise, check, decode, encode, store::StoreError},
+    drills::{Exercise, LONGEST_TITLE, bare_tag, check, decode, encode, store::StoreError},
     game::{Rule, scores},
     physics::{CueInputs, has_room},
     table::Layout,
@@ -31,8 +31,8 @@ pub struct SaveArgs {
     /// What is to be learnt from it.
     #[arg(long, default_value = "")]
     point: String,
-    /// A word to find it by; may be given several times.
-    #[arg(long = "tag")]
+    /// A word to find it by, with or without #; may be given several times.
+    #[arg(long = "tag", value_parser = tag)]
     tags: Vec<String>,
     /// A shot that makes it: "a,b,theta,phi,V".
     #[arg(long, allow_hyphen_values = true)]
@@ -75,13 +75,29 @@ pub struct RemoveArgs {
     name: String,
 }
 
+/// Reads a tag, which is shown with a `#` and kept without.
+pub fn tag(text: &str) -> Result<String, String> {
+    let word = bare_tag(text.trim());
+    if word.is_empty() || word.contains(char::is_whitespace) || word.len() > LONGEST_TITLE {
+        return Err("accepted is one word, with or without # before it".to_owned());
+    }
+    Ok(word.to_owned())
+}
+
 pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     let table = bundled_table(&args.table)?;
     let shot = args.shot.as_deref().map(CueInputs::parse).transpose().map_err(Failure::wrong_input)?;
     shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
     let layout = Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?;
     let position = Exercise::own(&args.name, args.rule, &table.name, layout);
-    let title = args.title.clone().unwrap_or(position.title);
+    let typed = args.title.as_deref().map(str::trim).filter(|title| !title.is_empty());
+    let title = typed.map_or(position.title, str::to_owned);
+    if title.len() > LONGEST_TITLE {
+        return Err(Failure::wrong_input(format_args!(
+            "the title has {} bytes; accepted are up to {LONGEST_TITLE}",
+            title.len()
+        )));
+    }
     keep(&Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position }, args.replace)?;
     if let Some(cue) = &shot {
         if !has_room(&table, &layout, cue) {

@@ -9,10 +9,13 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{of_refused_lines, prompt},
+        output::{of_refused_lines, prompt, tell},
     },
     drills::{Session, Store},
 };
+
+/// Most strokes that `--strokes` takes.
+pub const MOST_STROKES: u32 = 10_000;
 
 /// Where the strokes come from.
 #[derive(Clone, Copy, Debug)]
@@ -80,5 +83,10 @@ pub fn play(
         game.refuse(lines, &failure)?;
     }
     game.finish()?;
+    // A stroke that is repeated was asked for so many times.
+    let is_cut = game.session().attempts.len() >= most && !game.session().is_over();
+    if is_cut && !matches!(strokes, Strokes::Same(_)) {
+        tell(format_args!("note: the limit of {most} strokes ended it; --strokes sets another, up to {MOST_STROKES}"));
+    }
     of_refused_lines(refused)
 }

@@ -11,7 +11,7 @@ use std::{path::PathBuf, time::Duration};
 use self::{
     drawn_tables::DrawnTables,
     shots::Player,
-    spec::{Part, Records, Shard, Spec, merged},
+    spec::{MergeError, Part, Records, Shard, Spec, merged},
 };
 use super::{
     Failure,
@@ -122,7 +122,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         }
         (spec, records)
     } else {
-        merged(&args.merge).map_err(Failure::failed)?
+        merged(&args.merge).map_err(|error| match error {
+            MergeError::File { .. } => Failure::failed(error),
+            _ => Failure::wrong_input(error),
+        })?
     };
     match records {
         Records::Shots(records) => shots::print(&spec, &records, args.json)?,
@@ -204,7 +207,7 @@ fn policy_named(name: &str, table: &Table, rule: Rule, errs: bool) -> Result<Pol
             table.name
         ))
     })?;
-    bundled.map_err(Failure::failed)
+    Ok(bundled?)
 }
 
 #[cfg(test)]

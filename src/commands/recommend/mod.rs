@@ -103,6 +103,7 @@ struct BatchLine {
 
 impl Keys for BatchLine {
     const KEYS: &'static [&'static str] = &["preset", "layout", "rule"];
+    const FORM: &'static str = "preset and layout; rule may be left out";
 }
 
 /// The answer in JSON.

@@ -244,12 +244,10 @@ fn how_to_go_on(folder: &Path) -> Failure {
 
 fn failure(error: RunError) -> Failure {
     match error {
-        RunError::Occupied(_)
-        | RunError::Foreign { .. }
-        | RunError::NoFolder(_)
-        | RunError::Agent(_)
-        | RunError::Origin { .. }
-        | RunError::Start(StartError::Settings(_)) => Failure::wrong_input(error),
+        RunError::Agent(_) | RunError::Origin { .. } | RunError::Start(StartError::Settings(_)) => {
+            Failure::wrong_input(error)
+        }
+        RunError::Policy(error) => error.into(),
         _ => Failure::failed(error),
     }
 }

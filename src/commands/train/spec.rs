@@ -116,7 +116,7 @@ pub fn same_spec(read: &Read, seeds: Option<u64>) -> Result<(), Failure> {
         None if theirs.table != ours.table => format!("another table of the name {}", ours.table.name),
         None => return Ok(()),
     };
-    Err(Failure::wrong_input(format_args!(
+    Err(Failure::failed(format_args!(
         "the run in {} has {difference}: --continue goes on with the run of the same order; choose another folder by --run",
         read.folder.display()
     )))

@@ -28,6 +28,8 @@ pub enum MarkError {
 struct Marked<'a, T> {
     format: &'static str,
     version: u32,
+    /// The version of carom that writes it.
+    carom: &'static str,
     #[serde(flatten)]
     content: &'a T,
 }
@@ -43,7 +45,7 @@ struct Header {
 /// # Errors
 /// Where a value has no JSON form.
 pub fn write<T: Serialize>(format: &'static str, content: &T) -> Result<Vec<u8>, serde_json::Error> {
-    let mut bytes = serde_json::to_vec(&Marked { format, version: NEWEST, content })?;
+    let mut bytes = serde_json::to_vec(&Marked { format, version: NEWEST, carom: env!("CARGO_PKG_VERSION"), content })?;
     bytes.push(b'\n');
     Ok(bytes)
 }

@@ -46,9 +46,9 @@ impl CoachQuery {
         Shooter { skill: self.skill, doubt: self.doubt }
     }
 
-    /// The policy's name.
+    /// The policy's name, in the words of players.
     pub fn name(&self) -> &str {
-        self.policy.as_ref().map_or("the bundled policy", |(name, _)| name)
+        self.policy.as_ref().map_or("the bundled networks", |(name, _)| name)
     }
 
     /// Whether `other` is asked the same policy; a policy is never changed, only replaced.

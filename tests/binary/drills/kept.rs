@@ -28,6 +28,73 @@ fn a_position_is_shared_added_replaced_and_removed() {
 }
 
 #[test]
+fn a_tag_is_one_word_and_its_sign_does_not_matter() {
+    let folder = folder();
+    let tagged = |tag: &str| drill(folder.path(), &[SAVE, &["--replace", "--tag", tag]].concat());
+    assert_eq!(tagged("#steep-one").code, Some(0));
+    for tag in ["steep-one", "#steep-one"] {
+        let found = drill(folder.path(), &["list", "--tag", tag, "--json"]);
+        assert_eq!(found.json().iter().map(|row| &row["tags"][0]).collect::<Vec<_>>(), ["steep-one"], "{}", found.err);
+    }
+    for tag in ["a b", "#", ""] {
+        let refused = tagged(tag);
+        assert!(refused.code == Some(2) && refused.err.contains("accepted is one word"), "{}", refused.err);
+    }
+}
+
+#[test]
+fn a_title_of_blanks_is_none_and_one_without_end_is_refused() {
+    let folder = folder();
+    let titled = |title: &str| drill(folder.path(), &[SAVE, &["--replace", "--title", title]].concat());
+    for (title, shown) in [("", "mine"), ("  ", "mine"), (" Mine ", "Mine")] {
+        assert_eq!(titled(title).code, Some(0));
+        assert_eq!(drill(folder.path(), &["show", "mine", "--json"]).json()[0]["title"], shown);
+    }
+    let refused = titled(&"x".repeat(5000));
+    assert!(
+        refused.code == Some(2) && refused.err.contains("has 5000 bytes; accepted are up to 400"),
+        "{}",
+        refused.err
+    );
+    assert!(refused.err.len() < 200, "{}", refused.err);
+}
+
+#[test]
+fn only_what_an_older_version_has_saved_brings_its_notice() {
+    let folder = folder();
+    drill(folder.path(), &["log", "mine", "make"]);
+    let listed_anew = || {
+        fs::remove_dir_all(folder.path().join("state")).unwrap();
+        drill(folder.path(), &["list", "--category", "own"]).err
+    };
+    assert_eq!(listed_anew(), "", "all is of this version");
+    let position = folder.path().join("carom/positions/mine.json");
+    let version = format!("  \"carom\": \"{}\",\n", env!("CARGO_PKG_VERSION"));
+    let text = fs::read_to_string(&position).unwrap();
+    assert!(text.contains(&version), "{text}");
+    fs::write(&position, text.replace(&version, "")).unwrap();
+    assert!(listed_anew().contains("\"match\" is now a table as filmed balls show it"));
+    assert_eq!(drill(folder.path(), &["list", "--category", "own"]).err, "", "once");
+    assert_eq!(tried(folder.path()), 1);
+}
+
+#[test]
+fn what_is_no_export_is_refused_in_plain_words() {
+    let folder = folder();
+    for (text, says) in [
+        ("name = \"mine\"", "it is no JSON from line 1, column 2 on"),
+        ("[1,2]", "does not begin with a \"format\" and a \"version\""),
+        (r#"{"format":"carom-library","version":1,"exercises":[{"name":3}]}"#, "at line 1, column "),
+        (r#"{"format":"carom-library","version":1,"sessions":3}"#, "invalid type"),
+    ] {
+        fs::write(folder.path().join("other"), text).unwrap();
+        let refused = drill(folder.path(), &["import", "other"]);
+        assert!(refused.code == Some(2) && refused.err.contains(says), "{}", refused.err);
+        assert!(refused.err.contains("accepted is a JSON file as carom drill export writes it"), "{}", refused.err);
+    }
+}
+
+#[test]
 fn what_is_exported_is_imported_elsewhere_and_once() {
     let (here, there) = (folder(), tempfile::tempdir().unwrap());
     drill(here.path(), &["log", "mine", "make", "miss"]);

@@ -209,3 +209,24 @@ fn an_exam_asks_twenty_exercises_once_and_says_whose_score_it_is() {
     let text = fed(command(folder.path(), &["drill", "exam"]), "0,0,0,0,1\n").out;
     assert!(text.contains("(1 of 20 played)"), "{text}");
 }
+
+#[test]
+fn a_game_that_the_limit_of_strokes_ends_says_so() {
+    let folder = folder();
+    let played = |strokes: &str| {
+        let args = ["play", "--coach", "--innings", "3", "--budget-ms", "10", "--seed", "1", "--strokes", strokes];
+        carom(folder.path(), &args)
+    };
+    let cut = played("2");
+    let says = "the limit of 2 strokes ended it; --strokes sets another, up to 10000";
+    assert!(cut.code == Some(0) && cut.err.contains(says), "{}", cut.err);
+    // The miss that ends the last inning ends the game, wherever the limit is.
+    let missing = fed(
+        command(folder.path(), &["play", "--innings", "1", "--strokes", "1", "--skill", "perfect"]),
+        "0,0,0,90,1\n",
+    );
+    assert!(missing.code == Some(0) && !missing.err.contains("limit"), "{}", missing.err);
+    let run = ["drill", "run", "mine", "--goal", "9", "--strokes", "2"];
+    let run = fed(command(folder.path(), &run), &"0,0,0,90,1\n".repeat(3));
+    assert!(run.err.contains(says), "{}", run.err);
+}

@@ -237,5 +237,5 @@ fn a_perfect_player_gets_the_first_point() {
     let [Answer { news: CoachNews::Advice(advice), .. }] = &told[..] else { panic!("{told:?}") };
     assert!(advice.effort.unwrap().simulations < 1000 && advice.proposals[0].shot.solved);
     let player = told.into_iter().fold(player, |player, Answer { id, news }| player.tell(id, news));
-    assert!(player.text(80, 24).contains("makes the point (policy"), "{}", player.text(80, 24));
+    assert!(player.text(80, 24).contains("makes the point (networks"), "{}", player.text(80, 24));
 }

@@ -50,7 +50,7 @@ impl CoachPage {
                 self.before.is_empty() && self.left_exam.is_none(),
                 "no exam was left and no earlier session waits; what is practised now is behind F3",
             ),
-            CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),
+            CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled networks are asked already"),
             CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is the coach's"),
             CoachCondition::StrokeUndone => refuse(!self.can_travel().1, "no change of the stroke was taken back"),
             CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),

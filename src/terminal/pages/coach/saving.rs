@@ -2,7 +2,7 @@
 //! name already, whether that may be replaced.
 
 use crate::{
-    drills::{Category, Exercise, Library},
+    drills::{Category, Exercise, LONGEST_TITLE, Library, bare_tag},
     storage::is_name,
     table::PRESETS,
     terminal::{
@@ -12,8 +12,6 @@ use crate::{
     },
 };
 
-/// Longest text that is typed or pasted, bytes.
-const LONGEST: usize = 400;
 /// Longest name that is made of a title, letters.
 const LONGEST_NAME: usize = 40;
 
@@ -83,7 +81,7 @@ impl CoachPage {
         let shot = self.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
         let position = Exercise { shot, ..Exercise::own("", self.query.rule, &self.table().name, *self.layout()) };
         if position.table().is_ok_and(|known| known == *self.table()) {
-            self.saving.question = Some(Question::Title(TextField::new(LONGEST), Box::new(position)));
+            self.saving.question = Some(Question::Title(TextField::new(LONGEST_TITLE), Box::new(position)));
         } else {
             let name = &self.table().name;
             let tables = PRESETS.join(", ");
@@ -163,7 +161,7 @@ fn title_name_tags(typed: &str) -> Result<(String, String, Vec<String>), String>
     if !is_name(&name) {
         return Err(format!("\"{title}\" makes no name; accepted is a title with letters or digits in it"));
     }
-    let tags = tags.iter().map(|tag| tag.trim_start_matches('#').to_owned()).filter(|tag| !tag.is_empty()).collect();
+    let tags = tags.iter().map(|tag| bare_tag(tag).to_owned()).filter(|tag| !tag.is_empty()).collect();
     Ok((title, name, tags))
 }
 

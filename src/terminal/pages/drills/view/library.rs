@@ -6,7 +6,7 @@ use ratatui::{
 };
 
 use crate::{
-    drills::{Category, Exercise},
+    drills::{Category, Exercise, bare_tag},
     terminal::{
         Mapping,
         pages::{
@@ -188,7 +188,7 @@ fn about(drills: &DrillsPage, exercise: &Exercise, theme: &Theme) -> Vec<Paragra
         None => add("you: not tried yet".to_owned(), theme.faint(), false),
     }
     if !exercise.tags.is_empty() {
-        let tags: Vec<String> = exercise.tags.iter().map(|tag| format!("#{tag}")).collect();
+        let tags: Vec<String> = exercise.tags.iter().map(|tag| format!("#{}", bare_tag(tag))).collect();
         add(tags.join(" "), theme.faint(), true);
     }
     all
