@@ -96,6 +96,13 @@ fn the_tip_is_told_in_the_unit_of_the_settings() {
 }
 
 #[test]
+fn the_speed_of_a_stroke_is_told_in_the_unit_of_the_settings() {
+    new().shows(&["at 0.3 m/s"]);
+    let feet = Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("F7");
+    feet.shows(&["at 1.0 ft/s"]).is_silent_on("m/s");
+}
+
+#[test]
 fn a_stroke_is_kept_at_once_and_its_values_are_shown_with_how_sure_they_are() {
     let player = enter(new(), &ROLL);
     assert_eq!(kept(&player).trials.len(), 1);
