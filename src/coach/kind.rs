@@ -106,15 +106,21 @@ impl fmt::Display for Pace {
     }
 }
 
-/// For who plays with white.
+impl Kind {
+    /// In words, for who plays with white and is told distances in `unit`.
+    pub fn words(self, unit: LengthUnit) -> String {
+        let Self { first_ball, cushion_first, way, pace, raised } = self;
+        let pace = pace.words(unit) + if raised { ", raised" } else { "" };
+        let start = if cushion_first { "cushion first to" } else { "first" };
+        match first_ball {
+            0 => format!("meets no ball, {pace}"),
+            _ => format!("{start} {}, {way}, {pace}", BALL_NAMES[first_ball.min(BALLS - 1)]),
+        }
+    }
+}
+
 impl fmt::Display for Kind {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { first_ball, cushion_first, way, pace, raised } = self;
-        let pace = if *raised { format!("{pace}, raised") } else { pace.to_string() };
-        let start = if *cushion_first { "cushion first to" } else { "first" };
-        match first_ball {
-            0 => formatter.pad(&format!("meets no ball, {pace}")),
-            _ => formatter.pad(&format!("{start} {}, {way}, {pace}", BALL_NAMES[(*first_ball).min(BALLS - 1)])),
-        }
+        formatter.pad(&self.words(LengthUnit::Metres))
     }
 }

@@ -112,6 +112,18 @@ fn a_reader_that_goes_away_takes_no_table_and_no_note_with_it() {
 }
 
 #[test]
+fn a_session_says_what_it_has_kept_of_a_stroke_what_is_missing_and_what_each_mark_is() {
+    let home = tempfile::tempdir().unwrap();
+    let output = at_home(home.path(), &["calibrate"]).write_stdin("9.1\n9.2 5.3 2\ndone\n").assert().success();
+    let said = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
+    assert!(said.contains("on one line"), "{said}");
+    assert!(said.contains("mark    rails: how many short rails it has met, if not 0"), "{said}");
+    let first = "kept: slow-roll, stroke 1: time 9.1; without stop, drift (undo takes it back)\n";
+    assert!(said.contains(first), "{said}");
+    assert!(said.contains("kept: slow-roll, stroke 2: time 9.2, stop 5.3, drift 2\n"), "{said}");
+}
+
+#[test]
 fn a_session_keeps_every_entry_and_goes_on_where_it_ended() {
     let home = tempfile::tempdir().unwrap();
     let file = home.path().join("data/carom/calibration.toml");

@@ -122,6 +122,8 @@ fn a_recommendation_is_told_as_a_player_says_it() {
     assert!(told.lines().nth(2).unwrap().contains(" mm on the "), "{told}");
     let told = text("length_unit = \"feet\"\n");
     assert!(told.contains(" more, ft/s") && told.contains(" more, in\n"), "{told}");
+    let mut sorts = told.lines().filter(|line| line.starts_with("or ") || line.starts_with("a point "));
+    assert!(sorts.all(|line| line.contains("8.2 ft/s") && !line.contains("m/s")), "{told}");
     let speed = answer["cue"]["speed"].as_f64().unwrap();
     let row = format!("V      {:>8.3} ft/s ({speed:.3} m/s where a shot is typed)", speed / 0.3048);
     assert!(told.contains(&row) && told.contains(") ft/s, w0 = "), "{told}");

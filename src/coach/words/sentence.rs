@@ -10,9 +10,20 @@ use crate::{
 impl ShotWords {
     /// How to strike, in one sentence, for who plays with `cue_ball`.
     pub fn sentence(&self, cue_ball: CueBall, units: Units) -> String {
-        let text =
-            format!("{}; {}; {}.", self.first_words(cue_ball, units), self.tip_words(units), self.stroke_words());
-        capital(&text)
+        let clock = self.clock.map_or_else(String::new, |clock| format!(" at {}", numbers::clock_words(clock)));
+        let lengths = short(self.table_lengths, 1);
+        let unit = if lengths == "1" { "length" } else { "lengths" };
+        self.sentence_with(cue_ball, units, &clock, &format!(" ({lengths} table {unit})"))
+    }
+
+    /// The same without the clock and the table lengths, which repeat the place of the tip and the pace.
+    pub fn short_sentence(&self, cue_ball: CueBall, units: Units) -> String {
+        self.sentence_with(cue_ball, units, "", "")
+    }
+
+    fn sentence_with(&self, cue_ball: CueBall, units: Units, clock: &str, lengths: &str) -> String {
+        let (first, tip) = (self.first_words(cue_ball, units), self.tip_words(units, clock));
+        capital(&format!("{first}; {tip}; {}{lengths}, {}.", pace_word(self.table_lengths), self.cue_words()))
     }
 
     /// Which way the cue ball goes: balls, and cushions with where each is met; and how the second ball is met.
@@ -84,8 +95,8 @@ impl ShotWords {
         }
     }
 
-    /// Where the tip meets the ball.
-    fn tip_words(&self, units: Units) -> String {
+    /// Where the tip meets the ball, with the `clock` where there is side.
+    fn tip_words(&self, units: Units, clock: &str) -> String {
         let half_tips = |tips: f64| (2.0 * tips.abs()).round() as u32;
         let [side, height] = match units.tip {
             TipUnit::Tips => [self.tips_right, self.tips_above]
@@ -107,26 +118,22 @@ impl ShotWords {
             "half a tip" => format!("a little {above} centre"),
             _ => format!("{height} {above} centre"),
         });
-        let clock = self.clock.map(numbers::clock_words).unwrap_or_default();
         match (side, height) {
             (None, None) => "centre ball".to_owned(),
             (None, Some(height)) => format!("no side, {height}"),
             (Some(side), height) => {
-                format!("{side} at {clock}, {}", height.unwrap_or_else(|| "centre height".to_owned()))
+                format!("{side}{clock}, {}", height.unwrap_or_else(|| "centre height".to_owned()))
             }
         }
     }
 
-    /// How hard, and how the cue is held.
-    fn stroke_words(&self) -> String {
-        let cue = match self.elevation_deg.round() {
+    /// How the cue is held.
+    fn cue_words(&self) -> String {
+        match self.elevation_deg.round() {
             _ if self.has_level_cue() => "level cue".to_owned(),
             _ if self.is_level => "cue as level as it can be".to_owned(),
             degrees => format!("cue raised {degrees}\u{b0}"),
-        };
-        let lengths = short(self.table_lengths, 1);
-        let unit = if lengths == "1" { "length" } else { "lengths" };
-        format!("{} ({lengths} table {unit}), {cue}", pace_word(self.table_lengths))
+        }
     }
 
     /// A place along a cushion.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::{
-    calibration::{Mark, PROTOCOL, Test, Unit},
+    calibration::{Mark, PROTOCOL, RAILS, Test, Unit},
     commands::{
         Failure,
         output::{json_line, line},
@@ -83,7 +83,7 @@ pub fn words(number: usize, test: &Test) -> Vec<String> {
     ];
     lines.extend(test.marks.iter().map(|Mark { name, words, .. }| format!("   mark    {name}: {words}")));
     if counts_rails(test) {
-        lines.push(format!("   mark    rails: {MET}{}", usual(test)));
+        lines.push(format!("   mark    {RAILS}: {MET}{}", usual(test)));
     }
     lines
 }
@@ -92,7 +92,7 @@ pub fn words(number: usize, test: &Test) -> Vec<String> {
 const MET: &str = "how many short rails it has met";
 
 fn counts_rails(test: &Test) -> bool {
-    test.rails.is_none_or(|rails| rails > 0)
+    test.asked().any(|name| name == RAILS)
 }
 
 fn usual(test: &Test) -> String {

@@ -17,9 +17,9 @@ use crate::{
 };
 
 /// What may be typed instead of marks.
-const HELP: &str = "type the marks in their order, or by name (stop 3.4 rails 5), - for one that is not known, far-end yes after \
-                    a test that was played from the far end; or skip, again (the last test once more), undo (the last entry), \
-                    done";
+const HELP: &str = "type the marks of a stroke on one line, in their order or by name (stop 3.4 rails 5), - for one that is not \
+                    known, far-end yes after a test that was played from the far end; or skip, again (the last test once \
+                    more), undo (the last entry), done";
 
 /// Asks for tests until all are played, the input has ended or the player is done; then tells what was found.
 pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure> {
@@ -50,8 +50,9 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             "help" | "?" => tell(HELP),
             marks => match entry(table, test, marks) {
                 Ok(entry) => {
+                    let kept = kept_words(test, &entry);
                     session.add(entry)?;
-                    tell(format_args!("kept: {}, stroke {}", test.name, session.count(test)));
+                    tell(format_args!("kept: {}, stroke {}: {kept}", test.name, session.count(test)));
                 }
                 Err(what) => {
                     refused += 1;
@@ -84,6 +85,18 @@ fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     }
     let (_, odd) = entry.readings(table);
     if odd.is_empty() { Ok(entry) } else { Err(odd.join("; ")) }
+}
+
+/// What an entry says and what it leaves open; nothing of rails whose usual number is known.
+fn kept_words(test: &Test, entry: &Entry) -> String {
+    let has = |name: &&str| !entry.typed(name).is_empty();
+    let named = test.asked().chain([FAR_END]).filter(has).map(|name| format!("{name} {}", entry.typed(name)));
+    let named = named.collect::<Vec<_>>().join(", ");
+    let is_open = |name: &&str| !has(name) && (*name != RAILS || test.rails.is_none());
+    match test.asked().filter(is_open).collect::<Vec<_>>().join(", ") {
+        open if open.is_empty() => named,
+        open => format!("{named}; without {open} (undo takes it back)"),
+    }
 }
 
 /// The words that were typed, a number together with its unit and with how sure it is: `725 mm ~ 5 mm` is one.

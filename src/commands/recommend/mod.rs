@@ -394,7 +394,7 @@ fn told_chance(told: Option<f64>, skill: Skill) -> String {
 
 /// What sort of shot, and how often the player makes it.
 fn words(sort: &Sort, chance: &Chance, args: &Args) -> String {
-    let description = sort.description.as_deref().unwrap_or_default();
+    let description = sort.kind.map(|kind| kind.words(units().length)).unwrap_or_default();
     match (chance.make_probability, chance.make_interval) {
         (Some(rate), Some([low, high])) => format!(
             "{description}; a player of skill \"{}\" makes it {:.1} % of the time ({:.1} to {:.1} %)",
@@ -403,6 +403,6 @@ fn words(sort: &Sort, chance: &Chance, args: &Args) -> String {
             100.0 * low,
             100.0 * high
         ),
-        _ => description.to_owned(),
+        _ => description,
     }
 }

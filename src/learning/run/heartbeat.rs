@@ -100,9 +100,10 @@ mod tests {
 
     use super::*;
     use crate::learning::run::{
-        Ending, Limits, Run, discard,
+        Ending, Limits, Run, Watcher, discard,
         examples::{self, Examples},
         follow::{Condition, Followed, Follower},
+        metrics::Record,
         tests::{FOREVER, Told, small_run},
     };
 
@@ -189,6 +190,28 @@ mod tests {
         let left: Vec<_> = std::fs::read_dir(&runs[0]).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(left, ["notes.txt"]);
         assert!(!runs[1].exists());
+    }
+
+    /// Gives its run up as soon as that has measured itself for the last time.
+    struct GivesUp<'a>(&'a Path);
+
+    impl Watcher for GivesUp<'_> {
+        fn line(&mut self, record: &Record) {
+            if record.shots == 160 {
+                Request::Abandon.send(self.0).unwrap();
+            }
+        }
+
+        fn warn(&mut self, _: &str) {}
+    }
+
+    #[test]
+    fn a_run_that_is_given_up_during_its_last_measurement_does_not_finish() {
+        let folder = tempfile::tempdir().unwrap();
+        let ending = small_run(folder.path()).train(&FOREVER, &mut GivesUp(folder.path())).unwrap();
+        assert_eq!(ending, Ending::Abandoned);
+        assert!(!folder.path().join("result.json").exists());
+        assert_eq!(RunStatus::read(folder.path()).unwrap().phase, Phase::Stopped);
     }
 
     #[test]

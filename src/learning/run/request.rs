@@ -26,7 +26,7 @@ pub enum Request {
     GoOn,
     /// Save, measure and end.
     Stop,
-    /// End at once and remove the run.
+    /// End and remove the run, after a measurement that is under way.
     Abandon,
 }
 

@@ -92,6 +92,10 @@ impl Run {
         let mut reporting =
             Reporting { metrics, events, clock, heartbeat: Heartbeat::new(&self.folder), layouts, watcher };
         let ending = self.iterate_until(limits, &mut reporting).and_then(|ending| {
+            // It may have been given up during the last measurement, after which nothing else is asked for.
+            if Request::take(&self.folder) == Some(Ok(Request::Abandon)) {
+                return Ok(Ending::Abandoned);
+            }
             if let Ending::Finished(score) = ending {
                 result::write(&self.folder, self.learner.as_ref(), score)?;
             }

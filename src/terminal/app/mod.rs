@@ -188,7 +188,7 @@ impl App {
     pub fn with_settings(mut self, settings: &Settings) -> Self {
         self.coach.take_settings(settings);
         self.drills.take_settings(settings);
-        self.calibration.tip_unit = settings.units.tip;
+        self.calibration.units = settings.units;
         self.settings.settings = settings.clone();
         self.in_force = settings.clone();
         self.mouse = settings.mouse;

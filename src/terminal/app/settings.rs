@@ -49,7 +49,7 @@ impl App {
             self.toasts.push(sentence, false);
         }
         self.drills.take_settings(&settings);
-        self.calibration.tip_unit = settings.units.tip;
+        self.calibration.units = settings.units;
         self.mouse = settings.mouse;
         let looks = |settings: &Settings| (settings.depth, settings.glyphs);
         if looks(&before) != looks(&settings) {

@@ -6,6 +6,10 @@ impl App {
     pub(super) fn lay_over(&mut self, page: Overlay) {
         self.command_palette = None;
         self.help = Some((page, 0));
+        if page == Overlay::Messages {
+            // All of them are there, and a toast would lie on them.
+            self.toasts.clear();
+        }
     }
 
     /// Opens a screen where it was left. What is thought about or trained meanwhile goes on, and is there when one comes back.

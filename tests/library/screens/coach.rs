@@ -7,11 +7,12 @@ use std::{
 
 use super::{
     keys::key,
-    player::{ASCII, NO_COLOUR, Player, SHOT, TRUE_COLOUR, advice, check, check_at},
+    player::{ASCII, NO_COLOUR, Player, SHOT, TRUE_COLOUR, advice, check, check_at, proposal},
 };
 use carom::{
     coach::{Difference, Kiss, Why},
     physics::CueInputs,
+    table::CueBall,
     terminal::{Advice, CoachNews, Effect, Effort, PageId, Proposal, Shot},
 };
 use glam::DVec2;
@@ -104,6 +105,28 @@ fn a_shot_is_recommended() {
     let text = player.press("N").text(120, 40);
     for part in ["0.200 R, 6.2 mm left", "288.00° ", "V0", "ω0"] {
         assert!(text.contains(part), "{part}\n{text}");
+    }
+}
+
+#[test]
+fn a_long_way_of_the_cue_ball_is_told_to_its_end_at_80_columns() {
+    let shots = ["-0.25,0.35,2,10.15,6", "-0.35,0.3,2,10.56,6", "0.35,-0.3,2,7.58,6"];
+    for settings in ["", "place_unit = \"mm\"\ntip_unit = \"mm\"\n"] {
+        for cue in shots {
+            let player = Player::with_settings(TRUE_COLOUR, settings).press("p").type_in("4d,2d 4.4d,2d 7d,3d");
+            let mut player = player.press("Enter Enter");
+            let job = player.asked.take().unwrap();
+            let shot = proposal(&job.table, &job.layout, cue, 490);
+            let (words, units) = (shot.shot.words.clone(), player.app.coach.units);
+            assert!(words.between.len() >= 5, "{cue}: {words:?}");
+            let advice = Advice { proposals: vec![shot], seed: 1, effort: None, found: None };
+            let text = player.tell(job.id, CoachNews::Advice(advice)).text(80, 24);
+            let rows: Vec<&str> = text.lines().map(|row| row.trim_matches(['"', ' '])).collect();
+            let way = words.short_course(CueBall::White, units);
+            assert!(rows.join(" ").contains(way.trim_end_matches('.')), "{way}\n{text}");
+            let how = if settings.is_empty() { "of running" } else { " mm of " };
+            assert!(text.contains("Yellow, ") && text.contains(how) && text.contains("very hard"), "{text}");
+        }
     }
 }
 

@@ -67,6 +67,18 @@ fn what_fails_elsewhere_is_told_wherever_one_is_and_can_be_read_again() {
 }
 
 #[test]
+fn nothing_lies_over_the_page_of_messages() {
+    let mistakes: Vec<String> = (1..=7).map(|n| format!("mistake{n} = 1")).collect();
+    let player = Player::with_settings(TRUE_COLOUR, &mistakes.join("\n"));
+    player.warns("and 6 more: F6");
+    let player = refused(player, &[0]).press("F6");
+    player.warns_nothing();
+    let text = player.text(120, 40);
+    assert!((1..=7).all(|n| text.contains(&format!("\"mistake{n}\""))), "{text}");
+    player.press("Esc").warns_nothing();
+}
+
+#[test]
 fn questions_are_never_hidden() {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left a");
     player.app.paste(&"half a code ".repeat(40));

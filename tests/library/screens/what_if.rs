@@ -56,6 +56,17 @@ fn the_coachs_shot_is_taken_over_changed_played_and_left() {
 }
 
 #[test]
+fn speeds_are_told_in_feet_where_lengths_are() {
+    let player = Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("Enter").answer().press("w");
+    for (width, height) in [(80, 24), (120, 40), (200, 60)] {
+        let text = player.text(width, height);
+        assert!(text.contains("8.20 ft/s") && !text.contains("m/s"), "{text}");
+    }
+    let numbers = player.press("Esc N").text(120, 40);
+    assert!(numbers.contains("8.20 ft/s, the cue") && !numbers.contains("m/s"), "{numbers}");
+}
+
+#[test]
 fn both_ways_are_told_apart_without_colours_too() {
     for caps in [NO_COLOUR, ASCII] {
         let player = taken_over(caps).press("S-Right");

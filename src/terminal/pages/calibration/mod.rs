@@ -16,7 +16,7 @@ use ratatui::layout::Position;
 use self::{form::Form, sheet::Sheet};
 use crate::{
     calibration::beside,
-    coach::words::TipUnit,
+    coach::words::Units,
     storage::Places,
     table::Table,
     terminal::{
@@ -55,8 +55,8 @@ pub struct CalibrationPage {
     places: Places,
     /// The table that is played on.
     pub table: Table,
-    /// What tells how far the tip is from the middle of the ball.
-    pub tip_unit: TipUnit,
+    /// In which the tip's place and the speed of a stroke are told.
+    pub units: Units,
     /// What is typed or asked.
     pub input: Option<Input>,
     /// A stroke whose form was left when it was typed in part.
@@ -85,7 +85,7 @@ impl CalibrationPage {
         Self {
             places,
             table: Table::default(),
-            tip_unit: TipUnit::default(),
+            units: Units::default(),
             input: None,
             aside: None,
             side: Side::Test,

@@ -20,7 +20,7 @@ use crate::{
         ui::{
             Spot, TableView, Ui, columns, cue_sign, draw_table, draw_tip, draw_title, shorten, wrap, write_paragraphs,
         },
-        words::{across_word, fixed, height_word},
+        words::{across_word, height_word, speed_words},
     },
 };
 
@@ -31,8 +31,8 @@ const TIP_ROWS: u16 = 7;
 const BESIDE: u16 = 46;
 /// Rows of the tip's words.
 const WORDS: u16 = 3;
-/// Columns of a mark's letter and name, and of what is typed: at least, and at most.
-const NAME: u16 = 10;
+/// Columns of a mark's sign, letter and name with a blank behind it, and of what is typed: at least, and at most.
+const NAME: u16 = 11;
 const TYPED: [usize; 2] = [10, 18];
 /// The letters of the marks: the diamonds have the numbers.
 const LETTERS: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
@@ -86,7 +86,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
 
 /// The tip, and the stroke in numbers below it.
 fn draw_stroke(page: &CalibrationPage, sketch: &Sketch, area: Rect, ui: &mut Ui) {
-    let (table, unit, cue) = (&page.table, page.tip_unit, &sketch.cue);
+    let (table, unit, cue) = (&page.table, page.units.tip, &sketch.cue);
     let height = area.height.saturating_sub(WORDS).min(TIP_ROWS);
     draw_tip(Some(cue), unit == TipUnit::Tips, table, Rect { height, ..area }, ui);
     let offset = |radii: f64, word: &str| Some(format!("{} {word}", unit.words(radii, table.radius)?));
@@ -95,7 +95,7 @@ fn draw_stroke(page: &CalibrationPage, sketch: &Sketch, area: Rect, ui: &mut Ui)
     if words.is_empty() {
         words.push("centre ball".to_owned());
     }
-    words.push(format!("at {} m/s", fixed(cue.speed, 1)));
+    words.push(format!("at {}", speed_words(cue.speed, page.units.length, 1)));
     for (text, y) in words.iter().zip(area.bottom().saturating_sub(WORDS)..area.bottom()) {
         // The longest begins at the table, and no word touches the page's edge.
         let x = (area.right() - 1).saturating_sub(columns(text) as u16).clamp(area.x, area.x + 1);

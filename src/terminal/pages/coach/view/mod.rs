@@ -160,12 +160,13 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         draw_tip_map(&study.tip, &shot.cue, table, unit, panes.tip.union(panes.sight), ui);
         return draw_legend([&study.aim, &study.tip], advised.query.rule, panes.events, ui);
     }
+    let told_in = (table, coach.units.length);
     match coach.proposal() {
         Some(_) if told.is_some() && is_wide => {}
-        Some(proposal) if coach.is_in_numbers => draw_proposal(proposal, table, coach.layout(), panes.shot, ui),
+        Some(proposal) if coach.is_in_numbers => draw_proposal(proposal, told_in, coach.layout(), panes.shot, ui),
         Some(proposal) => draw_card(proposal, coach, panes.shot, ui),
-        None if coach.followed().is_some() => draw_shot(None, &["no shot yet"], table, panes.shot, ui),
-        None => draw_shot(None, &["no shot yet", "Enter asks", "the coach"], table, panes.shot, ui),
+        None if coach.followed().is_some() => draw_shot(None, &["no shot yet"], told_in, panes.shot, ui),
+        None => draw_shot(None, &["no shot yet", "Enter asks", "the coach"], told_in, panes.shot, ui),
     }
     let how_long = shot.is_some() && !coach.is_in_numbers && coach.units.tip == TipUnit::Tips;
     draw_tip(shot.map(|shot| &shot.cue), how_long, table, panes.tip, ui);

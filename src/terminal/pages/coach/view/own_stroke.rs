@@ -29,7 +29,7 @@ pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &
     let is_wide = panes.is_beside() && time == 0.0;
     let area = if is_wide { panes.info.union(panes.events) } else { panes.info };
     draw_what_if(what_if, &beside, area, ui);
-    draw_shot(Some(shot), &[], table, panes.shot, ui);
+    draw_shot(Some(shot), &[], (table, coach.units.length), panes.shot, ui);
     draw_tip(Some(&shot.cue), coach.units.tip == TipUnit::Tips, table, panes.tip, ui);
     match shot.spin(time, table.radius) {
         Some(spin) => draw_spin(&spin, panes.sight, ui),

@@ -6,7 +6,7 @@ use ratatui::{
 };
 
 use crate::{
-    coach::{Mark, line_of_aim},
+    coach::{Mark, line_of_aim, words::LengthUnit},
     table::{Layout, Table},
     terminal::{
         Capabilities, Proposal, Shot,
@@ -23,8 +23,8 @@ const NARROW: usize = 14;
 /// Columns of the spin where its three numbers share a narrow row.
 const SPIN_WIDTH: usize = 12;
 
-/// Draws the panel; without a shot it says `empty`, a line a row.
-pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], table: &Table, area: Rect, ui: &mut Ui) {
+/// Draws the panel, with speeds in `unit`; without a shot it says `empty`, a line a row.
+pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], (table, unit): (&Table, LengthUnit), area: Rect, ui: &mut Ui) {
     let mut title = vec![Span::styled("Shot", ui.theme.text())];
     if let Some(shot) = shot {
         let (words, style) = if shot.solved { ("point", ui.theme.good()) } else { ("misses", ui.theme.warning()) };
@@ -36,13 +36,19 @@ pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], table: &Table, area: Rect,
     }
     let inner = draw_title(title, area, ui);
     match shot {
-        Some(shot) => draw_rows(shot, String::from("from the x axis"), table, inner, ui),
+        Some(shot) => draw_rows(shot, String::from("from the x axis"), (table, unit), inner, ui),
         None => draw_nothing(empty, inner, ui),
     }
 }
 
 /// Draws the panel of a shot that the coach proposes: how often it is made, and the aim in diamonds.
-pub fn draw_proposal(proposal: &Proposal, table: &Table, layout: &Layout, area: Rect, ui: &mut Ui) {
+pub fn draw_proposal(
+    proposal: &Proposal,
+    (table, unit): (&Table, LengthUnit),
+    layout: &Layout,
+    area: Rect,
+    ui: &mut Ui,
+) {
     let shot = &proposal.shot;
     let wide = area.width >= WIDE;
     let mut title = Vec::new();
@@ -60,13 +66,13 @@ pub fn draw_proposal(proposal: &Proposal, table: &Table, layout: &Layout, area: 
     let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 1));
     let [ahead, behind] = line_of_aim(table, layout, shot.cue.phi).map(mark);
     let aim = format!("{behind}{}{ahead}", ui.caps.pick("→", ">"));
-    draw_rows(shot, aim, table, inner, ui);
+    draw_rows(shot, aim, (table, unit), inner, ui);
 }
 
 /// The numbers, with a note on the direction.
-fn draw_rows(shot: &Shot, aim: String, table: &Table, inner: Rect, ui: &mut Ui) {
+fn draw_rows(shot: &Shot, aim: String, (table, unit): (&Table, LengthUnit), inner: Rect, ui: &mut Ui) {
     let wide = inner.width >= WIDE;
-    let rows = if wide { wide_rows(shot, aim, table.radius, ui.caps) } else { narrow_rows(shot, ui.caps) };
+    let rows = if wide { wide_rows(shot, aim, table.radius, unit, ui.caps) } else { narrow_rows(shot, unit, ui.caps) };
     let is_low = !wide && usize::from(inner.height) < rows.len();
     let lines = if is_low {
         low_lines(shot, rows, ui.theme, ui.caps)
@@ -120,14 +126,15 @@ fn low_lines(shot: &Shot, rows: Vec<Row>, theme: &Theme, caps: Capabilities) -> 
     tip.into_iter().chain([angles]).chain(speeds).chain([line(spin, 2, theme)]).collect()
 }
 
-fn wide_rows(shot: &Shot, aim: String, radius: f64, caps: Capabilities) -> Vec<Row> {
+fn wide_rows(shot: &Shot, aim: String, radius: f64, unit: LengthUnit, caps: Capabilities) -> Vec<Row> {
     let cue = &shot.cue;
+    let (factor, symbol) = unit.speed();
     let offset = |value: f64, word: &str| match value {
         0.0 => "R, at the centre".to_owned(),
         _ => format!("R, {} mm {word}", fixed((1000.0 * radius * value).abs(), 1)),
     };
     let degree = caps.pick("°", " deg");
-    let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+    let (v, w) = (factor * shot.impulse.velocity, shot.impulse.spin);
     let value = |text: String| format!("{text:>7}");
     let elevation = fixed(cue.theta.to_degrees(), 1);
     let words = if elevation == "0.0" { "level cue" } else { "cue raised" };
@@ -136,8 +143,8 @@ fn wide_rows(shot: &Shot, aim: String, radius: f64, caps: Capabilities) -> Vec<R
         ("b", value(fixed(cue.b, 3)), offset(cue.b, height_word(cue.b))),
         (caps.pick("θ", "th"), value(elevation + degree), words.into()),
         (caps.pick("φ", "ph"), value(cue.phi_text(2) + caps.pick("°", "")), aim),
-        ("V", value(fixed(cue.speed, 2)), "m/s, the cue".into()),
-        ("V0", format!("{:>6} {:>6}", fixed(v.x, 3), fixed(v.y, 3)), "m/s".into()),
+        ("V", value(fixed(factor * cue.speed, 2)), format!("{symbol}, the cue")),
+        ("V0", format!("{:>6} {:>6}", fixed(v.x, 3), fixed(v.y, 3)), symbol.into()),
         (
             caps.pick("ω0", "w0"),
             format!("{:>6} {:>6} {:>6}", fixed(w.x, 1), fixed(w.y, 1), fixed(w.z, 1)),
@@ -146,17 +153,18 @@ fn wide_rows(shot: &Shot, aim: String, radius: f64, caps: Capabilities) -> Vec<R
     ]
 }
 
-fn narrow_rows(shot: &Shot, caps: Capabilities) -> Vec<Row> {
+fn narrow_rows(shot: &Shot, unit: LengthUnit, caps: Capabilities) -> Vec<Row> {
     let cue = &shot.cue;
+    let (factor, symbol) = unit.speed();
     let degree = caps.pick("°", " deg");
-    let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+    let (v, w) = (factor * shot.impulse.velocity, shot.impulse.spin);
     let none = String::new;
     vec![
         ("a", format!("{:>6}", fixed(cue.a, 3)), across_word(cue.a).into()),
         ("b", format!("{:>6}", fixed(cue.b, 3)), height_word(cue.b).into()),
         (caps.pick("θ", "th"), format!("{:>6}", fixed(cue.theta.to_degrees(), 1)) + degree, none()),
         (caps.pick("φ", "ph"), format!("{:>6}", cue.phi_text(1)) + degree, none()),
-        ("V", format!("{:>6}", fixed(cue.speed, 2)), "m/s".into()),
+        ("V", format!("{:>6}", fixed(factor * cue.speed, 2)), symbol.into()),
         ("V0", format!("{:>6}{:>6}", fixed(v.x, 2), fixed(v.y, 2)), none()),
         (caps.pick("ω0", "w0"), format!("{:>6}{:>6}", fixed(w.x, 0), fixed(w.y, 0)), none()),
         ("", format!("{:>6}", fixed(w.z, 0)), "rad/s".into()),

@@ -30,12 +30,20 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
     let fits = |title: &Vec<Span>| title.iter().map(Span::width).sum::<usize>() < width;
     let title = titles.into_iter().find(fits);
     let aim = title.is_none().then(|| part(words.aim(units), ui.theme.text()));
-    // The line of aim, which the card has, too, goes before the end of the course.
-    let short = words.short_course(cue_ball, units);
-    let tries = [(words.course(cue_ball, units), &aim), (short.clone(), &aim), (short, &None)].map(|(course, aim)| {
-        let sentence = part(words.sentence(cue_ball, units), ui.theme.text().add_modifier(ui.theme.strong));
-        [Some(sentence), Some(part(course, ui.theme.accent())), aim.clone()].into_iter().flatten().collect()
-    });
+    let how = |sentence: &str| Some(part(sentence.to_owned(), ui.theme.text().add_modifier(ui.theme.strong)));
+    let way = |course: &str| Some(part(course.to_owned(), ui.theme.accent()));
+    let [sentence, brief] = [words.sentence(cue_ball, units), words.short_sentence(cue_ball, units)];
+    let [long, short] = [words.course(cue_ball, units), words.short_course(cue_ball, units)];
+    // The line of aim, which the card has, too, goes before the end of the course, and then what the sentence says twice. The
+    // course is never cut: the card has what the sentence says.
+    let tries = [
+        [how(&sentence), way(&long), aim.clone()],
+        [how(&sentence), way(&short), aim],
+        [how(&sentence), way(&short), None],
+        [how(&brief), way(&short), None],
+        [way(&short), how(&brief), None],
+    ]
+    .map(|parts| parts.into_iter().flatten().collect::<Vec<_>>());
     let mut lines = lay_out(&tries, width, rows, ui.caps.pick(" …", " ..."));
     let left = rows - lines.len();
     let why = coach.shown().filter(|_| left > 0).and_then(|advised| why_lines(advised, width, left, ui));
