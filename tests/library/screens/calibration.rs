@@ -66,7 +66,7 @@ fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
 #[test]
 fn every_mark_of_a_form_has_a_row_while_it_is_asked_for_at_80_columns() {
     for (n, test) in PROTOCOL.iter().enumerate() {
-        let rows: Vec<String> = test.asked().zip('a'..).map(|(name, letter)| format!("{letter} {name:<7}-")).collect();
+        let rows: Vec<String> = test.asked().zip('a'..).map(|(name, letter)| format!("{letter} {name:<7} -")).collect();
         let mut form = new().press(&"Down ".repeat(n)).press("Enter");
         for name in test.asked() {
             let text = form.text(80, 24);
@@ -100,6 +100,22 @@ fn the_speed_of_a_stroke_is_told_in_the_unit_of_the_settings() {
     new().shows(&["at 0.3 m/s"]);
     let feet = Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("F7");
     feet.shows(&["at 1.0 ft/s"]).is_silent_on("m/s");
+}
+
+#[test]
+fn no_name_runs_into_its_value() {
+    let form = enter(new().press("Down Down Down"), &["1.3"]);
+    let values = enter(Player::with(ASCII).press("F7"), &ROLL);
+    for (width, height) in [(80, 24), (120, 40), (200, 60)] {
+        let text = form.text(width, height);
+        assert!(text.contains("a lengths 1.3 s"), "{text}");
+        let text = values.text(width, height);
+        let said: Vec<&str> = text.lines().filter_map(|row| Some(row.split_once(" +-")?.0)).collect();
+        let is_apart =
+            |before: &&str| before.split_whitespace().last().is_some_and(|value| value.parse::<f64>().is_ok());
+        assert!(said.len() > 1 && said.iter().all(is_apart), "{text}");
+    }
+    assert!(values.text(80, 24).contains("rolling mu_r 0.00"), "{}", values.text(80, 24));
 }
 
 #[test]

@@ -13,8 +13,9 @@ use crate::{
 /// Columns, from the right, at which the strokes and the bits of a test end.
 const STROKES_END: u16 = 8;
 const BITS_END: u16 = 1;
-/// Columns of what a constant is called.
+/// Columns of what a constant is called, at least, and of its value.
 const NAME: usize = 12;
+const VALUE: usize = 16;
 
 /// Draws it.
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
@@ -130,11 +131,12 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let mut constants: Vec<&Change> = found.constants.iter().collect();
     constants.sort_by(|one, other| left(one).total_cmp(&left(other)));
     for (one, y) in constants.into_iter().zip(inner.y..inner.bottom()) {
-        let sign = ui.caps.pick("±", "+-");
-        let room = NAME.max(usize::from(inner.width).saturating_sub(19 + sign.chars().count()));
+        // As wide as each other, so that the name has a blank behind it.
+        let sign = ui.caps.pick("± ", "+-");
+        let room = NAME.max(usize::from(inner.width).saturating_sub(VALUE + 4));
         let style = if found.known(one) == "as before" { ui.theme.faint() } else { ui.theme.text() };
         draw_called(one, room, style, Position::new(inner.x + 2, y), ui);
-        let value = format!("{:.4} {sign} {:.4}", one.after, one.after_deviation);
+        let value = format!("{:.4} {sign}{:.4}", one.after, one.after_deviation);
         write_right(ui.buffer, inner.x, inner.right() - 1, y, &value, style);
     }
 }

@@ -31,8 +31,8 @@ const TIP_ROWS: u16 = 7;
 const BESIDE: u16 = 46;
 /// Rows of the tip's words.
 const WORDS: u16 = 3;
-/// Columns of a mark's letter and name, and of what is typed: at least, and at most.
-const NAME: u16 = 10;
+/// Columns of a mark's sign, letter and name with a blank behind it, and of what is typed: at least, and at most.
+const NAME: u16 = 11;
 const TYPED: [usize; 2] = [10, 18];
 /// The letters of the marks: the diamonds have the numbers.
 const LETTERS: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
