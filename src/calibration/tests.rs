@@ -309,3 +309,17 @@ fn a_test_from_the_far_end_is_read_and_written_and_what_it_meets_are_the_other_r
     assert_eq!(leaning.turned().turned(), leaning);
     assert_eq!(leaning.turned().rail.right, leaning.rail.left);
 }
+
+#[test]
+fn the_words_for_a_stroke_fit_the_place_of_the_tip() {
+    for test in PROTOCOL {
+        let [_, height, ..] = test.cue;
+        let expected = match height {
+            0.0 => "",
+            0.4 => "four tips",
+            _ => "two ",
+        };
+        let is_said = test.strike.contains(expected) && test.strike.contains(" above centre") != expected.is_empty();
+        assert!(is_said && !test.strike.contains("a little"), "{}: {}", test.name, test.strike);
+    }
+}
