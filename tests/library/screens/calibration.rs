@@ -115,7 +115,7 @@ fn no_name_runs_into_its_value() {
             |before: &&str| before.split_whitespace().last().is_some_and(|value| value.parse::<f64>().is_ok());
         assert!(said.len() > 1 && said.iter().all(is_apart), "{text}");
     }
-    values.shows(&["rolling mu_r 0.00"]);
+    assert!(values.text(80, 24).contains("rolling mu_r 0.00"), "{}", values.text(80, 24));
 }
 
 #[test]
