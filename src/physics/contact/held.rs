@@ -287,9 +287,9 @@ impl<const ROOM: usize> Held<ROOM> {
         let mut side = [[0.0; 3]; ROOM];
         for joint in &self.joints {
             let rates = joint.rates(moved);
-            for unknown in 0..joint.unknowns {
-                let bias = if bends { joint.bias[unknown] } else { 0.0 };
-                side.as_flattened_mut()[joint.at + unknown] = -(rates[unknown] + bias);
+            let places = &mut side.as_flattened_mut()[joint.at..][..joint.unknowns];
+            for ((place, rate), bias) in places.iter_mut().zip(rates).zip(joint.bias) {
+                *place = -(rate + if bends { bias } else { 0.0 });
             }
         }
         side
@@ -431,13 +431,12 @@ pub fn accelerations(
     let moved = in_room!(contacts, ROOM => {
         let mut system = Held::<ROOM>::near(table, balls, contacts, set, Some(similar));
         let free = free(table, balls, set, system.members);
-        match set.eased() {
-            Some(ball) => Solved::easing(table, balls, contacts, system, &free, ball)?.moved,
-            None => {
-                // However the forces that hold a ball are divided, it moves alike.
-                system.redundant = system.redundant && system.prescribe(|_| true).is_none();
-                system.solve(&free, true)?
-            }
+        if let Some(ball) = set.eased() {
+            Solved::easing(table, balls, contacts, system, &free, ball)?.moved
+        } else {
+            // However the forces that hold a ball are divided, it moves alike.
+            system.redundant = system.redundant && system.prescribe(|_| true).is_none();
+            system.solve(&free, true)?
         }
     });
     Some((moved.linear, moved.angular.map(|angular| angular / table.radius)))
