@@ -86,9 +86,9 @@ impl Phase {
         self.time += factor * slope.time;
     }
 
-    /// Becomes `newer`, carried on by so many times the way from this to it.
+    /// One step of the Aitken-Neville scheme: becomes `newer` and so many times the difference of that and this.
     #[inline(always)]
-    fn extrapolate(&mut self, newer: &Self, factor: f64) {
+    fn neville(&mut self, newer: &Self, factor: f64) {
         for (older, newer) in self.balls.iter_mut().zip(&newer.balls) {
             older.position = newer.position + factor * (newer.position - older.position);
             older.velocity = newer.velocity + factor * (newer.velocity - older.velocity);
@@ -145,7 +145,7 @@ pub fn extrapolate(
         for column in (0..round).rev() {
             let ratio = count as f64 / counts[column] as f64;
             let (older, newer) = row.split_at_mut(column + 1);
-            older[column].extrapolate(&newer[0], 1.0 / (ratio * ratio - 1.0));
+            older[column].neville(&newer[0], 1.0 / (ratio * ratio - 1.0));
         }
         if round > 0 {
             // An error of this round falls with the power 2 round + 1 of the length.

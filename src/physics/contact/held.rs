@@ -68,6 +68,14 @@ struct Held<const ROOM: usize> {
 /// How the balls move under each unknown of each contact alone.
 type Responses<const ROOM: usize> = [[Response; 3]; ROOM];
 
+/// Room for a square matrix with a row for each unknown: its entries are the first ones.
+type Matrix<const ROOM: usize> = [[[[f64; 3]; 3]; ROOM]; ROOM];
+
+/// All entries that there is room for.
+fn entries<const ROOM: usize>(matrix: &mut Matrix<ROOM>) -> &mut [f64] {
+    matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()
+}
+
 impl<const ROOM: usize> Held<ROOM> {
     /// The system of the `contacts`; `has_friction` says whether the normal force of one that slips brings its friction with it.
     #[inline(always)]
@@ -155,10 +163,9 @@ impl<const ROOM: usize> Held<ROOM> {
 
     /// The rates of all unknowns by all unknowns, row by row, as a square matrix at the beginning of the room for it.
     #[inline(always)]
-    fn matrix(&self, responses: &Responses<ROOM>) -> [[[[f64; 3]; 3]; ROOM]; ROOM] {
+    fn matrix(&self, responses: &Responses<ROOM>) -> Matrix<ROOM> {
         let mut matrix = [[[[0.0; 3]; 3]; ROOM]; ROOM];
-        let entries = matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut();
-        let count = self.unknowns();
+        let (entries, count) = (entries(&mut matrix), self.unknowns());
         for (acting, responses) in self.joints.iter().zip(responses) {
             for unknown in 0..acting.unknowns {
                 for joint in &self.joints {
@@ -189,16 +196,16 @@ impl<const ROOM: usize> Held<ROOM> {
         }
     }
 
+    /// The same where the compiler knows how many unknowns each contact has: see [`Held::number`].
     #[inline(always)]
     fn solve_in_shape<const SHAPE: usize>(&mut self, free: &Movement, bends: bool) -> Option<Movement> {
         self.number::<SHAPE>();
         let responses = self.responses();
         if !self.redundant {
             let mut moved = self.without_unknowns(free);
-            let (mut matrix, mut side) = (self.matrix(&responses), self.resist(&moved, bends));
-            let entries = matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut();
-            if eliminate(entries, &mut side.as_flattened_mut()[..self.unknowns()]) {
-                self.forget();
+            let (mut matrix, mut side) = (self.matrix(&responses), self.right_side(&moved, bends));
+            if eliminate(entries(&mut matrix), &mut side.as_flattened_mut()[..self.unknowns()]) {
+                self.clear();
                 self.add(side.as_flattened(), &responses, &mut moved);
                 return Some(moved);
             }
@@ -216,17 +223,18 @@ impl<const ROOM: usize> Held<ROOM> {
         self.held(&moved)
     }
 
-    /// Takes all unknowns for nothing.
+    /// Sets the sizes of the unknowns to zero.
     #[inline(always)]
-    fn forget(&mut self) {
+    fn clear(&mut self) {
         for (joint, sizes) in self.joints.iter().zip(&mut self.sizes) {
             sizes[..joint.unknowns].fill(0.0);
         }
     }
 
-    /// The rates against which the unknowns have to act, one after another; `bends` says whether the courses' bends count.
+    /// The right-hand side of the system: minus the rates that the unknowns have to cancel. `bends` says whether the courses' bends
+    /// count.
     #[inline(always)]
-    fn resist(&self, moved: &Movement, bends: bool) -> [[f64; 3]; ROOM] {
+    fn right_side(&self, moved: &Movement, bends: bool) -> [[f64; 3]; ROOM] {
         let mut side = [[0.0; 3]; ROOM];
         for joint in &self.joints {
             let rates = joint.rates(moved);
@@ -250,35 +258,35 @@ impl<const ROOM: usize> Held<ROOM> {
         }
     }
 
-    /// The same where it takes more: some pivots are small, or what is held is held more often than needed.
+    /// The same by iterative refinement, where some pivots are small or the sizes are not unique.
     #[inline(never)]
     fn refine(&mut self, responses: &Responses<ROOM>, free: &Movement, bends: bool) -> Option<Movement> {
         let count = self.unknowns();
         let mut matrix = self.matrix(responses);
         let mut pivots = [[0; 3]; ROOM];
         let pivots = &mut pivots.as_flattened_mut()[..count];
-        let factors = &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..count * count];
+        let factors = &mut entries(&mut matrix)[..count * count];
         let unique = !self.redundant && factorize(factors, pivots) > SINGULAR;
         let mut moved = if unique {
-            self.forget();
+            self.clear();
             self.without_unknowns(free)
         } else {
             self.redundant = true;
             matrix = self.matrix(responses);
-            let factors = &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..count * count];
+            let factors = &mut entries(&mut matrix)[..count * count];
             for index in 0..count {
                 factors[index * (count + 1)] += PROXIMITY;
             }
             factorize(factors, pivots);
             self.held(&self.unheld(free))
         };
-        let factors = &matrix.as_flattened().as_flattened().as_flattened()[..count * count];
+        let factors = &entries(&mut matrix)[..count * count];
         let scale = (0..BALLS).fold(f64::MIN_POSITIVE, |scale, ball| {
             scale.max(free.linear[ball].abs().max_element()).max(free.angular[ball].abs().max_element())
         });
         let mut smallest = f64::INFINITY;
         for round in 0..MAX_REFINEMENTS {
-            let mut side = self.resist(&moved, bends);
+            let mut side = self.right_side(&moved, bends);
             let side = side.as_flattened_mut();
             let (mut residual, mut opens, mut scale) = (0.0_f64, 0.0_f64, scale);
             for (joint, sizes) in self.joints.iter().zip(&self.sizes) {

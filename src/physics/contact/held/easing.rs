@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::{Held, Movement, SINGULAR, Solved, Triple, coefficient, factorize, frictions, rolling_resistance};
+use super::{Held, Movement, SINGULAR, Solved, Triple, coefficient, entries, factorize, frictions, rolling_resistance};
 use crate::{
     physics::{
         BallState,
@@ -62,8 +62,7 @@ impl<const ROOM: usize> Held<ROOM> {
         let count = self.unknowns();
         let mut matrix = self.matrix(&self.responses());
         let mut pivots = [[0; 3]; ROOM];
-        let factors = &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..count * count];
-        factorize(factors, &mut pivots.as_flattened_mut()[..count]) > SINGULAR
+        factorize(&mut entries(&mut matrix)[..count * count], &mut pivots.as_flattened_mut()[..count]) > SINGULAR
     }
 
     /// Forces and movement, and how the cloth holds the `ball`.

@@ -52,7 +52,7 @@ pub struct Joint {
     pub t: DVec2,
     /// Its first unknown.
     pub at: usize,
-    /// The normal force alone, or two frictions that hold as well.
+    /// The normal force alone, or two frictions that hold as well; without the one upwards where that is prescribed.
     pub unknowns: usize,
     /// Friction along t and z for each unit of the normal force, where the contact slips.
     pub slip_friction: DVec2,
