@@ -18,7 +18,7 @@ use crate::{
     physics::{CueInputs, Impulse, strike},
     player::aimed,
     simulation::{All, Event, EventKind, Observer, watch_with},
-    table::{Layout, Table},
+    table::{BALLS, Layout, Table},
 };
 
 /// What the cue ball has done up to the decision.
@@ -196,6 +196,10 @@ struct Hurried<'a> {
 impl Observer for Hurried<'_> {
     fn wants_ends(&self) -> bool {
         self.referee.wants_ends()
+    }
+
+    fn awaited(&self) -> Option<[bool; BALLS - 1]> {
+        self.referee.awaited()
     }
 
     #[inline]

@@ -194,6 +194,10 @@ impl Observer for Referee {
         self.enough.is_none()
     }
 
+    fn awaited(&self) -> Option<[bool; 2]> {
+        self.enough.map(|_| self.tally.met.map(|met| !met))
+    }
+
     #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.tally.note(&event);

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use serde::{Serialize, Serializer, ser::SerializeStruct};
 
-use crate::table::Rail;
+use crate::table::{BALLS, Rail};
 
 /// What happens at one moment of a shot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,6 +129,11 @@ pub trait Observer {
     /// the same throughout a shot.
     fn wants_ends(&self) -> bool {
         true
+    }
+
+    /// The object balls, 1 and 2, whose first meeting with the cue ball is all that still matters; `None` where more does.
+    fn awaited(&self) -> Option<[bool; BALLS - 1]> {
+        None
     }
 
     /// An event has happened. `Break` ends the simulation: the outcome is decided.

@@ -22,6 +22,7 @@ mod micro_collisions;
 mod playback;
 mod predict;
 mod pressing;
+mod reach;
 mod resting;
 mod roots;
 mod savings;

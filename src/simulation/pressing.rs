@@ -22,6 +22,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[cold]
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
+        if self.is_out_of_reach(&std::array::from_fn(|index| self.state(index, now))) {
+            return ControlFlow::Break(());
+        }
         if !self.is_exhausted() && resting.go_on(self.table) {
             self.effort.absorb(&resting.effort);
             self.observer.contact_step()?;
@@ -133,6 +136,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }),
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
+        if self.is_out_of_reach(&states) {
+            return ControlFlow::Break(());
+        }
         let previous = self.resting.take().or(self.ended.take());
         self.observer.contact_step()?;
         if let Some(previous) = &previous {

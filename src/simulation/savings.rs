@@ -23,6 +23,9 @@ pub trait Savings {
     const LAST_ROLLS: bool = true;
     /// The simulation ends when the observer says so: the outcome is decided.
     const EARLY_END: bool = true;
+    /// The simulation ends before a resting contact is followed if the energy that is left brings the cue ball to none of the balls for
+    /// which the observer waits.
+    const OUT_OF_REACH: bool = true;
 }
 
 /// All savings: what [`super::simulate`] uses.

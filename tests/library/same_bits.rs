@@ -3,10 +3,17 @@
 use std::ops::ControlFlow;
 
 use carom::{
+    game::{Referee, Tally},
+    physics::{CueInputs, strike},
     simulation::{All, Event, EventKind, Observer, Savings, Segment, watch, watch_with},
-    study::fingerprint::{TEXTBOOK, Trace, hash, shots, trace},
+    study::{
+        fingerprint::{TEXTBOOK, Trace, hash, shots, trace},
+        stability::{Shot, adversarial, random},
+    },
     table::Table,
 };
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
 
 /// How many shots are worth their time: those of the thesis' table end in resting contacts, which are integrated.
 const PLAYED: [(&str, usize); 3] = [("textbook", 2000), ("match", 1000), ("thesis", 300)];
@@ -55,6 +62,7 @@ fn no_saving_at_all_changes_no_bit() {
         const ALONE: bool = false;
         const LAST_ROLLS: bool = false;
         const EARLY_END: bool = false;
+        const OUT_OF_REACH: bool = false;
     }
     changes_no_bit::<Nothing>();
 }
@@ -131,6 +139,64 @@ fn rolling_out_the_last_ball_changes_no_bit_of_what_came_before() {
             assert_eq!(with, without);
         }
     }
+}
+
+/// Plays shots under a referee with and without the end that energy sets; tells how many have resting contacts that need not be followed.
+fn ends_out_of_reach(count: usize) -> usize {
+    struct Without;
+    impl Savings for Without {
+        const OUT_OF_REACH: bool = false;
+    }
+    /// A referee who counts the steps of resting contacts.
+    struct Counting(Referee, usize);
+    impl Observer for Counting {
+        fn wants_ends(&self) -> bool {
+            self.0.wants_ends()
+        }
+        fn awaited(&self) -> Option<[bool; 2]> {
+            self.0.awaited()
+        }
+        fn event(&mut self, event: Event) -> ControlFlow<()> {
+            self.0.event(event)
+        }
+        fn contact_step(&mut self) -> ControlFlow<()> {
+            self.1 += 1;
+            self.0.contact_step()
+        }
+    }
+    fn play<S: Savings>(table: &Table, shot: &Shot, enough: u8) -> (Tally, usize) {
+        let impulse = strike(table, &CueInputs::from(shot.cue));
+        let mut watching = Counting(Referee::new(Some(enough), u32::MAX), 0);
+        watch_with::<S, _>(table, &shot.layout, &impulse, &mut watching);
+        // Cushions do not count any more where no ball is met after them.
+        let Counting(Referee { tally, .. }, steps) = watching;
+        (Tally { cushions: 0, met_again: tally.met_again && tally.met_both(), ..tally }, steps)
+    }
+    let table = Table::preset("thesis").unwrap();
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
+    let mut spared = 0;
+    for number in 0..count {
+        let shot = if number % 2 == 0 { random::shot(&table, &mut rng) } else { adversarial::shot(&table, &mut rng) };
+        for enough in [1, 2] {
+            let (with, without) = (play::<All>(&table, &shot, enough), play::<Without>(&table, &shot, enough));
+            assert_eq!(with.0, without.0, "{shot:?}");
+            spared += usize::from(with.1 < without.1);
+        }
+    }
+    spared
+}
+
+#[test]
+fn ending_a_shot_whose_energy_is_spent_changes_no_verdict() {
+    let spared = ends_out_of_reach(4_000);
+    assert!(spared > 200, "{spared} of 8,000");
+}
+
+/// `cargo test --release --test library ending_a_shot -- --ignored`
+#[test]
+#[ignore = "takes a minute"]
+fn ending_a_shot_whose_energy_is_spent_changes_no_verdict_of_many() {
+    ends_out_of_reach(500_000);
 }
 
 /// Plays the shots of the hash twice. What it is `known` to be changes when results change on purpose: take the number from the message
