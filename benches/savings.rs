@@ -38,7 +38,7 @@ impl Observer for Watch {
     }
 
     fn awaited(&self) -> Option<[bool; 2]> {
-        Some(self.tally.met.map(|met| !met))
+        Some(self.tally.unmet())
     }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {

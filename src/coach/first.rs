@@ -21,9 +21,8 @@ const VARIATIONS: u32 = 64;
 /// How many of the policy's favourites are varied.
 pub const FAVOURITES: usize = 4;
 
-/// Steps of resting contacts after which a shot is given up that is not the policy's: there are always more. Of 7,000 random
-/// shots on seven layouts of `thesis` nine made three cushions, with 5 steps as with 20 and 100; with 5 they took a thirtieth
-/// of the time of 100.
+/// Steps of resting contacts after which a shot is given up that is not the policy's: there are always more. So a tenth of a second
+/// is enough for 2.2 times as many shots on `thesis` as without a limit, and finds three cushions on 86 instead of 79 % of 300 layouts.
 const HASTE: u32 = 5;
 
 /// One in so many of them is followed further: where balls touch from the start, all others may be given up.

@@ -11,7 +11,7 @@ use crate::{
     game::Tally,
     physics::{CueInputs, strike},
     simulation::{Event, Observer, StepBudget, simulate},
-    table::Layout,
+    table::{BALLS, Layout},
 };
 
 /// Fewest made attempts that tell how easy the next point is, and as many as tell it to three in a hundred.
@@ -90,6 +90,11 @@ struct Whole<'a> {
 }
 
 impl Observer for Whole<'_> {
+    /// Where a shot ends counts only if it makes the point.
+    fn awaited(&self) -> Option<[bool; BALLS - 1]> {
+        (!self.tally.met_both()).then(|| self.tally.unmet())
+    }
+
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.tally.note(&event);
         ControlFlow::Continue(())

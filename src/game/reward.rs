@@ -95,8 +95,8 @@ impl Reward {
     }
 
     /// As [`Reward::of`], but a shot whose resting contacts need more than `steps` steps of integration is given up and
-    /// earns what it has earned so far. For practice: on the `thesis` table one shot in fifty takes 90 % of the time, and
-    /// hardly any of those earns anything more, for balls that press each other have lost their speed.
+    /// earns what it has earned so far. For practice: hardly any of these earns anything more, for balls that press each other lose
+    /// their speed.
     pub fn within(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
         let impulse = strike(table, cue);
         let enough = match self {

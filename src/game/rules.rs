@@ -142,6 +142,11 @@ impl Tally {
         self.met[0] & self.met[1]
     }
 
+    /// Which object balls it has not met yet.
+    pub fn unmet(&self) -> [bool; 2] {
+        self.met.map(|met| !met)
+    }
+
     /// Whether there was a foul, after which nothing makes the point.
     pub const fn is_foul(&self) -> bool {
         self.left_table || self.pushed.is_some()
@@ -195,7 +200,7 @@ impl Observer for Referee {
     }
 
     fn awaited(&self) -> Option<[bool; 2]> {
-        self.enough.map(|_| self.tally.met.map(|met| !met))
+        self.enough.map(|_| self.tally.unmet())
     }
 
     #[inline]
