@@ -3,16 +3,19 @@
 use serde::Serialize;
 
 use super::{Figures, Shot, Violation, trace::BREAK_AFTER_SECONDS};
-use crate::table::Table;
+use crate::table::{PRESETS, Table};
 
 /// A shot that has not even had an event for so long hangs, s.
 pub const HANG: f64 = 3.0 * BREAK_AFTER_SECONDS;
 
-/// A shot that does something that it should not.
+/// A shot that does something that it should not; as JSON a question that `carom simulate --batch` reads, where the table is a bundled one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
     /// The table's name.
-    pub table: String,
+    pub preset: String,
+    /// The table itself, where none is bundled by this name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table: Option<Table>,
     /// The shot.
     #[serde(flatten)]
     pub shot: Shot,
@@ -33,7 +36,8 @@ impl Finding {
     pub fn new(table: &Table, shot: &Shot, measured: &Figures, violations: Vec<Violation>) -> Self {
         let words: Vec<String> = violations.iter().map(ToString::to_string).collect();
         Self {
-            table: table.name.clone(),
+            preset: table.name.clone(),
+            table: (!PRESETS.contains(&table.name.as_str())).then(|| table.clone()),
             shot: *shot,
             what: words.join("; "),
             violations,

@@ -245,6 +245,7 @@ mod tests {
         assert!(found.iter().all(|finding| finding.what == "not to my taste"));
         let json = serde_json::to_value(&found[0]).unwrap();
         assert!(json["layout"].is_array() && json["cue"]["theta_deg"].is_number(), "{json}");
+        assert!(json["preset"] == sweep().table.name.as_str() && json.get("table").is_none(), "{json}");
     }
 
     #[test]
