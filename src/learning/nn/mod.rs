@@ -5,5 +5,6 @@ pub mod adam;
 pub mod fused;
 mod matmul;
 pub mod mlp;
+pub mod squared_error;
 pub mod tensors;
 pub mod weights;

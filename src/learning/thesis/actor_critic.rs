@@ -1,7 +1,7 @@
 //! A plain actor and its critic, and how they learn (thesis Algorithm 4): candle's modules, optimiser and gradients.
 
 use candle_core::{Device, Result, Tensor, bail};
-use candle_nn::{Module, Optimizer, loss::mse};
+use candle_nn::{Module, Optimizer};
 use rand::Rng;
 
 use super::{
@@ -12,6 +12,7 @@ use super::{
 use crate::learning::nn::{
     adam::{Adam, AdamConfig, soft_update},
     mlp::{Mlp, Operations, parameter_count},
+    squared_error::squared_error,
 };
 
 /// Layer sizes of an actor with these hidden layers, from the state to the action, and of a critic, from both to one value.
@@ -154,7 +155,7 @@ impl ActorCritic {
             let actions = target_actor.forward_frozen(states)?;
             target_critic.forward_frozen(&Tensor::cat(&[states, &actions], 1)?)
         })?;
-        let loss = mse(&critic.forward(&Tensor::cat(&[&batch.states, &batch.actions], 1)?)?, &wanted)?;
+        let loss = squared_error(&critic.forward(&Tensor::cat(&[&batch.states, &batch.actions], 1)?)?, &wanted)?;
         critic_optimiser.backward_step(&loss)?;
 
         // The actor climbs the critic (the deterministic policy gradient), and may be guided.

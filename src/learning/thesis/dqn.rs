@@ -1,7 +1,7 @@
 //! Deep Q-learning (thesis Algorithm 3, Tables 2 and 3).
 
 use candle_core::{Device, Error, Tensor};
-use candle_nn::{Module, Optimizer, loss::mse};
+use candle_nn::{Module, Optimizer};
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
@@ -20,6 +20,7 @@ use crate::learning::{
     nn::{
         adam::{Adam, AdamConfig},
         mlp::Mlp,
+        squared_error::squared_error,
         weights::{Reader, WeightsError, Writer},
     },
     replay::ReplayBuffer,
@@ -118,7 +119,7 @@ impl Dqn {
         let batch = Batch::new(&self.replay.sample(self.settings.batch, rng), self.settings.discount)?;
         let wanted = batch.targets(|states| self.target.forward_frozen(states)?.max_keepdim(1))?;
         let values = self.online.forward(&batch.states)?;
-        let loss = mse(&values.gather(&batch.indices, 1)?, &wanted)?;
+        let loss = squared_error(&values.gather(&batch.indices, 1)?, &wanted)?;
         self.optimiser.backward_step(&loss)?;
         let value = values.detach().max(1)?.mean_all()?;
         self.updates += 1;
