@@ -78,7 +78,7 @@ fn not_json(error: &serde_json::Error) -> String {
     match error.classify() {
         Category::Eof => "it ends before its object does".to_owned(),
         _ if error.to_string().starts_with("number out of range") => {
-            format!("the number before column {} is out of range; accepted is up to 1.8e308", error.column())
+            format!("the number that ends at column {} is out of range; accepted is up to 1.8e308", error.column())
         }
         _ => format!("column {} is no JSON", error.column()),
     }
@@ -116,7 +116,7 @@ mod tests {
         assert_eq!(said(r#"{"preset" 3}"#), "column 11 is no JSON");
         assert_eq!(
             said(r#"{"preset": 3e400}"#),
-            "the number before column 17 is out of range; accepted is up to 1.8e308"
+            "the number that ends at column 16 is out of range; accepted is up to 1.8e308"
         );
     }
 }
