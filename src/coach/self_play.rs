@@ -31,7 +31,9 @@ pub struct Inning {
     pub missed: bool,
     /// Shots simulated by the coach.
     pub simulations: u64,
-    /// The longest that the coach took for a turn.
+    /// How long the coach took for all turns.
+    pub elapsed: Duration,
+    /// The longest that it took for a turn.
     pub slowest: Duration,
 }
 
@@ -60,6 +62,7 @@ pub fn inning(
         let told = misplaced(coach.table(), &layout, request.doubt.placing, || errors::normal(rng));
         let advice = coach.recommend(&told, &request)?;
         inning.simulations += advice.simulations;
+        inning.elapsed += advice.elapsed;
         inning.slowest = inning.slowest.max(advice.elapsed);
         let world = World { table: real.clone(), layout };
         let end = turn(coach.table(), &told, &request, &advice.cue, &errors::one(rng), &world);

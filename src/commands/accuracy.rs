@@ -9,7 +9,7 @@ use std::{
 use super::{
     Failure,
     input::{seed, table_named, whole},
-    output::tell,
+    output::{check_place, tell},
 };
 use crate::{
     printing::{self, ProgressLine},
@@ -46,7 +46,7 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["stability", "shots", "quick"])]
     filmed: bool,
     /// With --filmed, fit the constants of cloth and rails to the film, and to each half of it to judge them on the other.
-    #[arg(long, requires = "filmed")]
+    #[arg(long, requires = "filmed", conflicts_with_all = ["stability", "shots", "quick", "out"])]
     fit: bool,
     /// Write files into this folder: accuracy.csv, error-vs-time.svg, error-vs-condition.svg and stability.md; with --filmed
     /// filmed.csv and filmed.svg.
@@ -62,6 +62,9 @@ const SEED: u64 = 2026;
 
 /// Most shots whose every method is studied: all of them are kept.
 const MOST_STUDIED: u32 = 1_000_000;
+
+/// The page of the stability table.
+const STABILITY: &str = "stability.md";
 
 /// How much is done.
 struct Size {
@@ -81,6 +84,16 @@ impl Size {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if let Some(folder) = &args.out {
+        let first = if args.filmed {
+            "filmed.csv"
+        } else if args.stability {
+            STABILITY
+        } else {
+            "accuracy.csv"
+        };
+        check_place(folder, &folder.join(first))?;
+    }
     if args.filmed {
         return if args.fit { fit_film(args) } else { replay_film(args) };
     }
@@ -182,7 +195,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     let plan = stability::Plan { seed: args.seed.unwrap_or(plan.seed), ..*plan };
     let rows = stability::rows_with_progress(&plan, &AtomicBool::new(false));
     if let Some(folder) = &args.out {
-        write_file(folder, "stability.md", &stability::page(&plan, &rows))?;
+        write_file(folder, STABILITY, &stability::page(&plan, &rows))?;
     }
     let mut out = printing::stdout().exact(args.json);
     if args.json {

@@ -10,12 +10,13 @@ use std::{
     time::Duration,
 };
 
-use serde::{
-    Serialize,
-    de::{DeserializeOwned, IgnoredAny},
-};
+use serde::{Serialize, de::DeserializeOwned};
 
-use super::{Failure, output::tell};
+use super::{
+    Failure,
+    output::tell,
+    question::{Keys, question},
+};
 use crate::{
     game::{Reward, Rule},
     learning::{Policy, policy::file::Origin},
@@ -142,44 +143,8 @@ struct Refusal {
     error: String,
 }
 
-/// What a question may hold.
-pub trait Keys {
-    /// The names that mean something.
-    const KEYS: &'static [&'static str];
-
-    /// Which of them it needs, and which it may have, in words.
-    const FORM: &'static str;
-}
-
-/// Names that a question may hold besides: of files that hold the answers too.
-const ANSWERS: [&str; 8] = ["id", "cue", "rule", "duration", "condition", "events", "contacts", "final"];
-
 /// Longest line, bytes; a question has some hundred.
 const LONGEST_LINE: u64 = 1 << 20;
-
-/// The question in a line.
-fn question<Q: DeserializeOwned + Keys>(line: &[u8]) -> Result<Q, String> {
-    let accepted = format!("accepted is an object with {}", Q::FORM);
-    let reason = |error: serde_json::Error| {
-        let text = error.to_string();
-        match text.split_once(" at line 1") {
-            Some((missing, _)) if missing.starts_with("missing field") => format!("{missing}; {accepted}"),
-            // serde counts lines within the line: only its column helps.
-            Some((wrong, column)) => format!("{wrong},{column}"),
-            None => text,
-        }
-    };
-    if !line.trim_ascii_start().starts_with(b"{") {
-        return Err(format!("it begins with no brace; {accepted}"));
-    }
-    let question = serde_json::from_slice(line).map_err(reason)?;
-    #[expect(clippy::zero_sized_map_values, reason = "serde reads a set from no object")]
-    let keys: HashMap<String, IgnoredAny> = serde_json::from_slice(line).map_err(reason)?;
-    match keys.keys().find(|key| !Q::KEYS.contains(&key.as_str()) && !ANSWERS.contains(&key.as_str())) {
-        Some(key) => Err(format!("\"{key}\" is not known; accepted are {}", Q::KEYS.join(", "))),
-        None => Ok(question),
-    }
-}
 
 /// Most bytes of a line that is too long that are passed over: a device that has no lines at all comes to an end.
 const MOST_PASSED_OVER: u64 = 1 << 28;
@@ -295,24 +260,6 @@ mod tests {
         assert!(said("9d,1d 7d,1d 1d,1d").contains("accepted are 0.09d to 7.91d"));
         assert!(said("2,0 0,0 0.5,0").contains("accepted are |x| <= 1.3892"));
         assert!(said("0,0 0.5,0").contains("0,0 0.5,0"), "one place is missing");
-    }
-
-    #[test]
-    fn a_question_that_lacks_something_is_told_what_all_need() {
-        #[derive(Debug, serde::Deserialize)]
-        struct Line {
-            #[serde(rename = "preset")]
-            _preset: String,
-        }
-        impl Keys for Line {
-            const KEYS: &'static [&'static str] = &["preset", "rule"];
-            const FORM: &'static str = "preset; rule may be left out";
-        }
-        let said = |line: &str| question::<Line>(line.as_bytes()).unwrap_err();
-        let accepted = "accepted is an object with preset; rule may be left out";
-        assert_eq!(said("{}"), format!("missing field `preset`; {accepted}"));
-        assert_eq!(said("[]"), format!("it begins with no brace; {accepted}"));
-        assert!(said(r#"{"preset": 3}"#).contains(", column "), "{}", said(r#"{"preset": 3}"#));
     }
 
     #[test]

@@ -15,6 +15,7 @@ mod input;
 mod lookup;
 mod output;
 mod play;
+mod question;
 mod recommend;
 mod reproduce;
 mod simulate;

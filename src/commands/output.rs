@@ -14,6 +14,7 @@ use crate::{
     coach::{Units, words::LengthUnit},
     physics::Impulse,
     printing::{self, OneLine},
+    storage::room_in,
     terminal::Settings,
 };
 
@@ -21,6 +22,14 @@ use crate::{
 /// no reader any more, that is all.
 pub fn tell(sentence: impl Display) {
     let _ = writeln!(printing::stderr(), "{sentence}");
+}
+
+/// Refuses, before anything is worked out, to write into `folder` where nothing can be written; the first file would be `path`.
+pub fn check_place(folder: &Path, path: &Path) -> Result<(), Failure> {
+    match room_in(folder).refusal {
+        Some(refusal) => Err(Failure::failed(format_args!("{} cannot be written: {refusal}", path.display()))),
+        None => Ok(()),
+    }
 }
 
 /// Asks the user at the terminal.

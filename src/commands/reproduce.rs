@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::{
     Failure,
     input::{seed, table_named, whole, whole_from},
-    output::tell,
+    output::{check_place, tell},
 };
 use crate::{
     platform::stop_when_told,
@@ -49,6 +49,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if figures.is_empty() {
         figures = FIGURES.to_vec();
     }
+    check_place(&args.out, &args.out)?;
     let processors = || thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let session = Session {
         figures,

@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Failure, bounded,
-    input::{ByTable, Keys, PositionArgs, answer_lines},
+    input::{ByTable, PositionArgs, answer_lines},
     output::{impulse_words, tell, units},
+    question::{Key, Keys},
 };
 use crate::{
     coach::{Verdict, jump_words, words::LengthUnit},
@@ -83,7 +84,19 @@ struct BatchLine {
 }
 
 impl Keys for BatchLine {
-    const KEYS: &'static [&'static str] = &["preset", "layout", "cue", "impulse", "rule"];
+    const KEYS: &'static [Key] = &[
+        Key::PRESET,
+        Key::LAYOUT,
+        Key::of::<Option<CueInputs>>(
+            "cue",
+            r#"an object with the numbers "a", "b", "theta_deg", "phi_deg" and "speed""#,
+        ),
+        Key::of::<Option<GivenImpulse>>(
+            "impulse",
+            r#"an object with "velocity" [x, y] or [x, y, z] and "spin" [x, y, z], all numbers"#,
+        ),
+        Key::RULE,
+    ];
     const FORM: &'static str = "preset, layout, and cue or impulse; rule may be left out";
 }
 

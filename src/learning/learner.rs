@@ -125,6 +125,9 @@ fn in_plain_words(message: String, accepted: Option<&str>) -> String {
         ("expected u32", "expected a whole number", " from 0 on"),
         ("expected f64", "expected a number", ""),
         ("expected f32", "expected a number", ""),
+        ("expected a boolean", "expected true or false", ""),
+        ("unknown field", "unknown setting", ""),
+        ("unknown variant", "unknown word", ""),
     ];
     types.iter().fold(message, |message, (name, words, otherwise)| {
         let range = accepted.map_or_else(|| (*otherwise).to_owned(), |range| format!("; accepted is {range}"));
@@ -275,6 +278,9 @@ mod tests {
             ("thesis-ddpg", json!({"noise": 1}), "noise = 1: invalid type: integer `1`, expected theta, sigma and dt"),
             ("dqn", json!({"epsilon": 1}), "expected first, last and over"),
             ("ddpg", json!({"exploration": 1}), "expected noise and uniform"),
+            ("ddpg", json!({"context": 1}), "context = 1: invalid type: integer `1`, expected true or false"),
+            ("ddpg", json!({"memory": 1}), "memory = 1: unknown setting `memory`, expected one of `actions`"),
+            ("ddpg", json!({"actions": "all"}), "actions = \"all\": unknown word `all`, expected `phi-v` or `full`"),
         ] {
             let message = refused(agent, changes);
             assert!(message.contains(words), "{message}");

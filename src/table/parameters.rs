@@ -199,9 +199,12 @@ impl Table {
     /// [`TableError::Syntax`] or [`TableError::Value`].
     pub fn from_toml(text: &str) -> Result<Self, TableError> {
         let table = toml::Deserializer::parse(text).and_then(Self::deserialize).map_err(|error| {
-            let line = error.span().map(|span| text.bytes().take(span.start).filter(|&byte| byte == b'\n').count() + 1);
-            let place = line.map_or(String::new(), |line| format!("line {line}: "));
-            TableError::Syntax(place + error.message())
+            let line = error.span().map(|span| text.bytes().take(span.start).filter(|&byte| byte == b'\n').count());
+            let place = line.map_or(String::new(), |line| {
+                let key = text.lines().nth(line).and_then(|words| words.split_once('='));
+                format!("line {}{}: ", line + 1, key.map_or(String::new(), |(key, _)| format!(", {}", key.trim())))
+            });
+            TableError::Syntax(place + &error.message().replace("expected f64", "expected a number"))
         })?;
         table.validated()
     }
@@ -342,7 +345,8 @@ mod tests {
     #[test]
     fn what_is_no_table_is_refused_with_its_line() {
         let message = Table::from_toml(&TEXTBOOK.replace("mu_s = 0.2", "mu_s = \"slow\"")).unwrap_err().to_string();
-        assert!(message.contains("line 9") && message.contains("f64"), "{message}");
+        let words = "line 9, mu_s: invalid type: string \"slow\", expected a number";
+        assert!(message.contains(words), "{message}");
         assert!(Table::from_toml("").unwrap_err().to_string().contains("missing field"));
     }
 

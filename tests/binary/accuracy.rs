@@ -143,6 +143,35 @@ fn a_folder_that_cannot_be_made_is_named() {
     assert!(String::from_utf8(output.stderr).unwrap().contains("accuracy.csv"));
 }
 
+/// It was found out when all was measured: after three minutes, or an hour.
+#[test]
+fn a_place_that_cannot_be_written_is_named_before_anything_is_measured() {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let out = file.path().to_str().unwrap();
+    for arguments in [
+        &["accuracy", "--shots", "1000000", "--table", "textbook"][..],
+        &["accuracy", "--stability", "--shots", "100000000"],
+        &["accuracy", "--filmed"],
+        &["reproduce", "--figure", "29", "--episodes", "100000000"],
+    ] {
+        let mut command = asked(&[arguments, &["--out", out]].concat());
+        let output = command.timeout(std::time::Duration::from_secs(20)).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), said.lines().count()), (Some(1), 1), "{arguments:?}: {said}");
+        assert!(said.contains(out) && said.contains("is no folder") && output.stdout.is_empty(), "{said}");
+    }
+}
+
+#[test]
+fn a_fit_that_would_be_left_out_is_refused() {
+    for more in [&["--quick"][..], &["--stability", "--quick"], &["--shots", "1"], &["--filmed", "--out", "here"]] {
+        let output =
+            asked(&[&["accuracy", "--fit"], more].concat()).timeout(std::time::Duration::from_secs(20)).output();
+        let output = output.unwrap();
+        assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{more:?}");
+    }
+}
+
 #[test]
 fn anyone_can_see_what_fixed_steps_do_to_a_shot() {
     let shot = ["simulate", "--shot", "0,0.2,5,12.5,3", "--json"];

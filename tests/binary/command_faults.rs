@@ -137,6 +137,42 @@ fn a_line_of_a_batch_may_name_its_own_rule() {
     );
 }
 
+/// They were the words of the library that reads JSON: `invalid type: string "4", expected f64, column 113`.
+#[test]
+fn a_refused_line_names_the_field_with_its_value_and_what_is_accepted() {
+    let line = |name: &str, value: Value| {
+        let cue = json!({"a": 0, "b": 0, "theta_deg": 0, "phi_deg": 1, "speed": 4});
+        let mut line = json!({"preset": "match", "layout": [[-0.5, 0], [0, 0], [0.5, 0.03]], "cue": cue});
+        line[name] = value;
+        line.to_string()
+    };
+    let long = "x".repeat(100_000);
+    let whole = line("rule", json!("straight"));
+    for (line, words) in [
+        (line("preset", json!(7)), &["\"preset\" is 7", "a table's name"][..]),
+        (line("layout", json!([[0, 0], [0.5, 0]])), &["\"layout\" is [[0,0],[0.5,0]]", "three pairs [x, y]"]),
+        (line("layout", json!("0,0 0.5,0 1,0")), &["\"layout\" is \"0,0 0.5,0 1,0\"", "three pairs [x, y]"]),
+        (line("cue", json!({"a": 0, "theta": 0})), &["\"cue\" is {\"a\":0,\"theta\":0}", "\"theta_deg\"", "numbers"]),
+        (line("cue", json!(long)), &["\"cue\" is \"xxx", "…", "\"theta_deg\""]),
+        (line("impulse", json!({"velocity": 3})), &["\"impulse\" is {\"velocity\":3}", "[x, y, z]"]),
+        (line("rule", json!("Straight")), &["\"rule\" is \"Straight\"", "\"three-cushion\""]),
+        (whole[..40].to_owned(), &["it ends before its object does"]),
+        (whole.replacen("match", "match\" \"", 1), &[" is no JSON"]),
+        (whole.replacen("\"rule\"", "\"preset\": \"thesis\", \"rule\"", 1), &["\"preset\" is there twice"]),
+    ] {
+        let output = carom(&["simulate", "--batch", "-"]).write_stdin(line.clone()).output().unwrap();
+        let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let error = answer["error"].as_str().unwrap();
+        assert!(output.status.code() == Some(2) && error.starts_with("line 1 "), "{error}");
+        assert!(words.iter().all(|word| error.contains(word)) && error.len() < 600, "{line:.200}: {error}");
+        let jargon = ["invalid type", "f64", "array of length", "variant", "EOF"];
+        assert!(!jargon.iter().any(|word| error.contains(*word)), "{error}");
+    }
+    let wrong = json!({"preset": "match", "layout": [[0, 0], [0.5, 0]], "rule": "straight"}).to_string();
+    let output = carom(&["recommend", "--batch", "-"]).write_stdin(wrong).output().unwrap();
+    assert!(String::from_utf8(output.stdout).unwrap().contains("three pairs [x, y]"));
+}
+
 #[test]
 fn balls_have_their_colours_wherever_people_read() {
     let simulated = said(&simulate(CUSHIONS, &[]));

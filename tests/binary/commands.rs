@@ -166,6 +166,9 @@ fn self_play_counts_points_and_misses() {
     assert_eq!(report["runs"].as_array().unwrap().len(), 3);
     assert_eq!(number("misses") + number("broken_off"), 3);
     assert!(number("longest") <= 2 && number("points") <= 6);
+    // Of one turn the mean is the slowest; it counted what plays the shot, too.
+    let turn = json(&["evaluate", "--self-play", "--layouts", "1", "--most-points", "1", "--budget-ms", "9", "--json"]);
+    assert_eq!(turn["mean_ms"], turn["slowest_ms"]);
 }
 
 #[test]

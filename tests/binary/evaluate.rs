@@ -74,6 +74,13 @@ fn what_is_not_a_whole_is_refused_by_name() {
     let others = part(other.path(), "evaluate --layouts 4 --random-search 6", "1/3");
     let broken = folder.path().join("broken.json").display().to_string();
     fs::write(&broken, "{}").unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    let cut = file("cut.json", &fs::read_to_string(&one).unwrap()[..300]);
+    let (empty, prose, other_json) = (file("empty", ""), file("prose", "Notes"), file("list.json", "[7]"));
     for (files, said) in [
         (vec![&one, &two], "part 3/3 is missing"),
         (vec![&one, &two, &one], "which another file holds too"),
@@ -82,15 +89,45 @@ fn what_is_not_a_whole_is_refused_by_name() {
         (vec![&one, &halves], "are parts of different evaluations: of 3 and of 2 parts"),
         (vec![&one, &others], "are parts of different evaluations: random_search 5 and 6"),
         (vec![&broken], "is no part of an evaluation"),
+        (vec![&cut], "it ends in the middle of line 1"),
+        (vec![&empty], "it is empty"),
+        (vec![&prose], "line 1, column 1 is no JSON"),
+        (vec![&other_json], "line 1, column 2"),
     ] {
         let files: Vec<&str> = files.into_iter().map(String::as_str).collect();
         let output = asked(&[&["evaluate", "--merge"][..], &files].concat()).output().unwrap();
         let error = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.code() == Some(2) && output.stdout.is_empty() && error.contains(said), "{error}");
+        assert!(!["EOF", "missing field", "expected", "struct"].iter().any(|jargon| error.contains(jargon)), "{error}");
     }
     for shard in ["0/3", "4/3", "2", "a/b", "1/0"] {
         let output = asked(&["evaluate", "--shard", shard]).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{shard}");
+    }
+}
+
+/// clap does not ask for what an option needs where something is given that goes against that: the option was left out in silence,
+/// and the report named tables on which nothing had been played.
+#[test]
+fn an_option_of_another_kind_of_measurement_is_refused() {
+    for line in [
+        "--drawn-tables --budget-ms 5",
+        "--drawn-tables --simulations 5",
+        "--drawn-tables --random-search 5",
+        "--drawn-tables --self-play --most-points 1",
+        "--drawn-tables --plan",
+        "--drawn-tables --no-jumps",
+        "--most-points 3 --policy-only",
+        "--most-points 3 --random-search 5",
+        "--minutes 3 --policy-only",
+        "--minutes 3 --random-search 5",
+        "--reward r1 --plan",
+        "--reward r1 --simulations 5",
+    ] {
+        let output = asked(&words(&format!("evaluate --layouts 1 {line}"))).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{line}: {error}");
+        assert!(error.contains(words(line)[0]), "{line}: {error}");
     }
 }
 

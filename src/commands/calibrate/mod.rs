@@ -57,7 +57,8 @@ pub struct Args {
         value_parser = whole(1..=100_000_u32))]
     simulate: Option<u32>,
     /// With --simulate, the seed of tables and player.
-    #[arg(long, requires = "simulate", default_value_t = 1, value_parser = seed)]
+    #[arg(long, requires = "simulate", conflicts_with_all = ["file", "out", "daily", "tests", "template"], default_value_t = 1,
+        value_parser = seed)]
     seed: u64,
     /// Print one JSON object.
     #[arg(long)]

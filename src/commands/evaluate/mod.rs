@@ -27,6 +27,10 @@ use crate::{
     table::Table,
 };
 
+/// What goes with a search of shots, and not with the networks alone. clap does not ask for `--policy-only` beside one of these.
+const OF_SEARCHES: [&str; 7] =
+    ["random_search", "self_play", "choose_doubt", "plan", "no_jumps", "budget_ms", "simulations"];
+
 /// Measure the recommender, or with --policy-only the networks alone.
 ///
 /// They play layouts that nobody has practised. What is printed is the share on which the shot succeeds, with the 95 % confidence
@@ -52,14 +56,14 @@ pub struct Args {
     policy_only: bool,
     /// With --policy-only, play every layout on a table of its own, drawn from what tables in clubs differ by from --table. The
     /// networks are told its constants, if they take them; with --skill it is as well known as "match".
-    #[arg(long, requires = "policy_only")]
+    #[arg(long, requires = "policy_only", conflicts_with_all = OF_SEARCHES)]
     drawn_tables: bool,
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
     /// With --policy-only, what is measured in place of the rule: r1, r1-difficulty, r2, r3, r4, one-cushion or three-cushion. Where it is more than
     /// yes or no, the mean is given.
-    #[arg(long, requires = "policy_only", conflicts_with_all = ["rule", "random_search", "budget_ms"])]
+    #[arg(long, requires = "policy_only", conflicts_with_all = OF_SEARCHES, conflicts_with = "rule")]
     reward: Option<Reward>,
     /// Measure a search of so many shots of random phi and V, which the simulator checks: the first that succeeds counts.
     #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"],
@@ -81,10 +85,10 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["policy_only", "random_search", "reward"])]
     self_play: bool,
     /// With --self-play, points after which an inning is broken off.
-    #[arg(long, requires = "self_play", default_value_t = 1000, value_parser = whole_from(1_u32))]
+    #[arg(long, requires = "self_play", conflicts_with_all = ["policy_only", "random_search"], default_value_t = 1000, value_parser = whole_from(1_u32))]
     most_points: u32,
     /// With --self-play, minutes after which play is broken off; fractions are accepted.
-    #[arg(long, requires = "self_play")]
+    #[arg(long, requires = "self_play", conflicts_with_all = ["policy_only", "random_search"])]
     minutes: Option<f64>,
     /// Rank shots by the probability of this point and the next.
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]

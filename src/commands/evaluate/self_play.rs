@@ -36,6 +36,7 @@ pub struct InningRecord {
     points: u32,
     missed: bool,
     simulations: u64,
+    /// Of the coach, for all turns.
     seconds: f64,
     /// Of the turn that took longest.
     slowest_seconds: f64,
@@ -87,8 +88,7 @@ pub fn play(
     let mut records = Vec::new();
     let layouts = held_out_layouts(&spec.table, spec.layouts as usize, spec.seed);
     for (index, layout) in (0..).zip(&layouts).filter(|(index, _)| shard.holds(*index)) {
-        let start = Instant::now();
-        if start >= until {
+        if Instant::now() >= until {
             break;
         }
         let number = index + 1;
@@ -99,7 +99,7 @@ pub fn play(
         };
         // Numbers of its own for each inning: parts play what the whole plays.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(!spec.seed ^ (u64::from(index) << 32));
-        let Inning { points, missed, simulations, slowest } =
+        let Inning { points, missed, simulations, elapsed, slowest } =
             inning(coach, layout, request, most, until, &mut rng, &mut say).map_err(Failure::wrong_input)?;
         tell(format_args!(
             "inning {number}: {}{}",
@@ -111,7 +111,7 @@ pub fn play(
             points,
             missed,
             simulations,
-            seconds: start.elapsed().as_secs_f64(),
+            seconds: elapsed.as_secs_f64(),
             slowest_seconds: slowest.as_secs_f64(),
         });
     }

@@ -8,6 +8,7 @@ use std::{
 };
 
 use serde::{Deserialize, Serialize};
+use serde_json::error::Category;
 
 use super::{self_play::InningRecord, shots::ShotRecord};
 use crate::{
@@ -144,7 +145,7 @@ pub enum MergeError {
     #[error("{}: {error}", path.display())]
     File { path: PathBuf, error: std::io::Error },
     /// Its contents are no part.
-    #[error("{} is no part of an evaluation, as carom evaluate --shard prints it: {error}", path.display())]
+    #[error("{} is no part of an evaluation, as carom evaluate --shard prints it: {}", path.display(), what_is_wrong(error))]
     Contents { path: PathBuf, error: serde_json::Error },
     /// The parts measured different things.
     #[error("{} and {} are parts of different evaluations: {what}", one.display(), other.display())]
@@ -155,6 +156,17 @@ pub enum MergeError {
     /// Parts are missing.
     #[error("part {shard} is missing; give the files of all parts")]
     Missing { shard: Shard },
+}
+
+/// Where the contents stop being a part, without the words of the library that reads them.
+fn what_is_wrong(error: &serde_json::Error) -> String {
+    let (line, column) = (error.line(), error.column());
+    match error.classify() {
+        Category::Eof if (line, column) == (1, 0) => "it is empty".to_owned(),
+        Category::Eof => format!("it ends in the middle of line {line}"),
+        Category::Data => format!("it holds something else at line {line}, column {column}"),
+        Category::Syntax | Category::Io => format!("line {line}, column {column} is no JSON"),
+    }
 }
 
 /// The whole of which these files hold the parts.

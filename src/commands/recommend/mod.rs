@@ -19,9 +19,10 @@ use self::{
 };
 use super::{
     Failure,
-    input::{ByTable, Keys, PositionArgs, answer_lines, note_doubts, seed, whole, whole_from},
+    input::{ByTable, PositionArgs, answer_lines, note_doubts, seed, whole, whole_from},
     lookup::{policy_called, skill_called},
     output::{impulse_words, units},
+    question::{Key, Keys},
 };
 use crate::{
     coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Shooter, Skill, Source, systems::Guide},
@@ -102,7 +103,7 @@ struct BatchLine {
 }
 
 impl Keys for BatchLine {
-    const KEYS: &'static [&'static str] = &["preset", "layout", "rule"];
+    const KEYS: &'static [Key] = &[Key::PRESET, Key::LAYOUT, Key::RULE];
     const FORM: &'static str = "preset and layout; rule may be left out";
 }
 
