@@ -37,8 +37,22 @@ impl Key {
     }
 }
 
-/// Names that a question may hold besides: of files that hold the answers too.
-const ANSWERS: [&str; 8] = ["id", "cue", "rule", "duration", "condition", "events", "contacts", "final"];
+/// Names that a question may hold besides: of files that hold the answers too, and of shots that `carom accuracy --stability` has found.
+const ANSWERS: [&str; 13] = [
+    "id",
+    "cue",
+    "rule",
+    "duration",
+    "condition",
+    "events",
+    "contacts",
+    "final",
+    "table",
+    "what",
+    "violations",
+    "steps",
+    "ms",
+];
 
 /// Most letters of a value that are repeated where it is refused.
 const MOST_REPEATED: usize = 200;
@@ -95,6 +109,11 @@ fn beginning_of(value: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        physics::CueDegrees,
+        study::stability::{Finding, Shot},
+        table::Table,
+    };
 
     #[test]
     fn a_question_that_lacks_something_is_told_what_all_need() {
@@ -107,6 +126,15 @@ mod tests {
             const KEYS: &'static [Key] = &[Key::PRESET, Key::RULE];
             const FORM: &'static str = "preset; rule may be left out";
         }
+        #[derive(Debug, serde::Deserialize)]
+        struct Found {
+            #[serde(rename = "cue")]
+            _cue: CueDegrees,
+        }
+        impl Keys for Found {
+            const KEYS: &'static [Key] = &[Key::PRESET, Key::LAYOUT];
+            const FORM: &'static str = "preset, layout and cue";
+        }
         let said = |line: &str| question::<Line>(line.as_bytes()).unwrap_err();
         let accepted = "accepted is an object with preset; rule may be left out";
         assert_eq!(said("{}"), format!("missing field `preset`; {accepted}"));
@@ -114,6 +142,9 @@ mod tests {
         let name = "a table's name or the path of its file, as a string";
         assert_eq!(said(r#"{"preset": 3}"#), format!("\"preset\" is 3; accepted is {name}"));
         assert_eq!(said(r#"{"preset" 3}"#), "column 11 is no JSON");
+        let cue = CueDegrees { a: 0.0, b: 0.0, theta_deg: 0.0, phi_deg: 0.0, speed: 2.0 };
+        let finding = Finding::hang(&Table::default(), &Shot { layout: Layout::opening(&Table::default()), cue });
+        assert!(question::<Found>(&serde_json::to_vec(&finding).unwrap()).is_ok(), "{finding:?}");
         assert_eq!(
             said(r#"{"preset": 3e400}"#),
             "the number that ends at column 16 is out of range; accepted is up to 1.8e308"
