@@ -14,6 +14,7 @@ pub mod sight;
 pub mod spin;
 mod sprites;
 pub mod status_line;
+pub mod stroke;
 pub mod table;
 pub mod text;
 pub mod theme;
@@ -34,6 +35,7 @@ pub use self::{
     sight::draw_sight,
     spin::draw_spin,
     status_line::{draw_question, draw_status},
+    stroke::stroke_rows,
     table::{Spot, TableView, ball_at, cue_sign, draw_table},
     text::{columns, cut, end_of, ending, shorten, spell, wrap, write_right},
     theme::Theme,

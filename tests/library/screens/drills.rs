@@ -273,6 +273,9 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
 #[test]
 fn the_records() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("r");
+    // Why there is no estimate yet is told to its end.
+    let told = played().press("r").text(80, 24);
+    assert!(told.contains("no games"), "{told}");
     none.shows(&["all exercises", "attempts  0", "0 at 0;", "nothing is played yet"]);
     // 37 attempts at one shot tell how that shot is made, and too little of the player.
     let few = played().press("r");

@@ -67,6 +67,23 @@ fn speeds_are_told_in_feet_where_lengths_are() {
 }
 
 #[test]
+fn the_stroke_is_told_as_the_keys_change_it_and_in_the_thesis_numbers_only_where_the_coachs_is() {
+    let player = taken_over(TRUE_COLOUR);
+    for (width, height) in [(80, 24), (120, 40)] {
+        let text = player.text(width, height);
+        assert!(["aim ", "288.00°", "2 tips", "2.50 m/s", "6.0° up"].iter().all(|part| text.contains(part)), "{text}");
+        assert!(!text.contains("ω0"), "{text}");
+    }
+    // The smallest steps of every key are seen.
+    let small = player.press("C-Right l Up +").text(80, 24);
+    for part in ["287.99°", "1.8 tips", "2.60 m/s", "7.0° up"] {
+        assert!(small.contains(part), "{part}\n{small}");
+    }
+    let numbers = Player::new().press("Enter").answer().press("N w").text(80, 24);
+    assert!(numbers.contains("ω0"), "{numbers}");
+}
+
+#[test]
 fn both_ways_are_told_apart_without_colours_too() {
     for caps in [NO_COLOUR, ASCII] {
         let player = taken_over(caps).press("S-Right");

@@ -1,14 +1,21 @@
 //! The panels while the player's own stroke stands beside the coach's.
 
+use ratatui::layout::Rect;
+
 use crate::{
     coach::words::TipUnit,
     terminal::{
+        Shot,
         pages::coach::{
             CoachPage,
-            view::{draw_listed, panes::Panes, shot::draw_shot},
+            view::{
+                draw_listed,
+                panes::Panes,
+                shot::{WIDE, draw_shot, shot_title},
+            },
         },
         shot::WhatIf,
-        ui::{Beside, Ui, draw_sight, draw_spin, draw_tip, draw_what_if},
+        ui::{Beside, Ui, draw_lines, draw_sight, draw_spin, draw_tip, draw_title, draw_what_if, pair, stroke_rows},
     },
 };
 
@@ -29,7 +36,11 @@ pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &
     let is_wide = panes.is_beside() && time == 0.0;
     let area = if is_wide { panes.info.union(panes.events) } else { panes.info };
     draw_what_if(what_if, &beside, area, ui);
-    draw_shot(Some(shot), &[], (table, coach.units.length), panes.shot, ui);
+    if coach.is_in_numbers {
+        draw_shot(Some(shot), &[], (table, coach.units.length), panes.shot, ui);
+    } else {
+        draw_set(shot, coach, panes.shot, ui);
+    }
     draw_tip(Some(&shot.cue), coach.units.tip == TipUnit::Tips, table, panes.tip, ui);
     match shot.spin(time, table.radius) {
         Some(spin) => draw_spin(&spin, panes.sight, ui),
@@ -38,4 +49,17 @@ pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &
     if !is_wide {
         draw_listed(coach, Some(shot), Some(time), panes.events, ui);
     }
+}
+
+/// Draws the panel of the stroke as the keys change it, and whether it makes the point.
+fn draw_set(shot: &Shot, coach: &CoachPage, area: Rect, ui: &mut Ui) {
+    let inner = draw_title(shot_title(shot, ui), area, ui);
+    let rows = stroke_rows(&shot.cue, coach.units, coach.table().radius, ui.caps);
+    let (indent, columns) = if area.width >= WIDE { (1, 7) } else { (0, 6) };
+    let lines = rows.map(|(name, value)| {
+        // The longest name has no blank of its own in a narrow column, and the whole word for an angle no room.
+        let value = if columns > 6 { value } else { value.replace(" deg", "") };
+        pair(name, columns.max(name.len() + 1), value, ui.theme)
+    });
+    draw_lines(lines, Rect { x: inner.x + indent, width: inner.width.saturating_sub(indent), ..inner }, ui);
 }

@@ -25,20 +25,25 @@ const SPIN_WIDTH: usize = 12;
 
 /// Draws the panel, with speeds in `unit`; without a shot it says `empty`, a line a row.
 pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], (table, unit): (&Table, LengthUnit), area: Rect, ui: &mut Ui) {
-    let mut title = vec![Span::styled("Shot", ui.theme.text())];
-    if let Some(shot) = shot {
-        let (words, style) = if shot.solved { ("point", ui.theme.good()) } else { ("misses", ui.theme.warning()) };
-        title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
-        title.push(Span::styled(words, style));
-        if area.width >= WIDE {
-            title.push(Span::styled(format!(" {}", shot.source), ui.theme.faint()));
-        }
+    let mut title = shot.map_or_else(|| vec![Span::styled("Shot", ui.theme.text())], |shot| shot_title(shot, ui));
+    if let Some(shot) = shot.filter(|_| area.width >= WIDE) {
+        title.push(Span::styled(format!(" {}", shot.source), ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
     match shot {
         Some(shot) => draw_rows(shot, String::from("from the x axis"), (table, unit), inner, ui),
         None => draw_nothing(empty, inner, ui),
     }
+}
+
+/// The title of a shot's panel: whether it makes the point.
+pub fn shot_title(shot: &Shot, ui: &Ui) -> Vec<Span<'static>> {
+    let (words, style) = if shot.solved { ("point", ui.theme.good()) } else { ("misses", ui.theme.warning()) };
+    vec![
+        Span::styled("Shot", ui.theme.text()),
+        Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()),
+        Span::styled(words, style),
+    ]
 }
 
 /// Draws the panel of a shot that the coach proposes: how often it is made, and the aim in diamonds.

@@ -11,7 +11,7 @@ use crate::{
         Capabilities, DrillAction, Taught,
         keymap::{chord_of, keys_text},
         pages::drills::{Lesson, Meets, Sight, Turn, Watched, keys::EXERCISE, view::percent},
-        ui::{Ui, draw_lines, draw_title, pair, tip_rows, wrap, write_paragraphs},
+        ui::{Ui, draw_lines, draw_title, pair, stroke_rows, wrap, write_paragraphs},
         words::{fixed, rail_name},
     },
 };
@@ -25,29 +25,9 @@ pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
     // In a match one plays both sides.
     let title = if turn.session.is_match() { format!("Stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
     let inner = draw_title(title, area, ui);
-    let numbers = numbers(&cue, units, turn.table.radius, ui.caps);
+    let numbers = stroke_rows(&cue, units, turn.table.radius, ui.caps);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
     draw_lines(numbers.map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
-}
-
-/// The numbers of a stroke with a ball of this radius, m, and what they are called.
-fn numbers(cue: &CueInputs, units: Units, radius: f64, caps: Capabilities) -> [(&'static str, String); 5] {
-    let degree = caps.pick("°", " deg");
-    let [side, height] = tip_rows(cue, units.tip, radius);
-    let (in_a_metre, per_second) = units.length.speed();
-    [
-        ("aim", cue.phi_text(2) + degree),
-        side,
-        height,
-        ("speed", format!("{} {per_second}", fixed(in_a_metre * cue.speed, 2))),
-        (
-            "cue",
-            match fixed(cue.theta.to_degrees(), 1).as_str() {
-                "0.0" => "level".to_owned(),
-                angle => format!("{angle}{degree} up"),
-            },
-        ),
-    ]
 }
 
 /// Draws where the stroke is aimed and what is to be learnt; once it was played, how it compares.
@@ -152,7 +132,8 @@ fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, units: Units, caps
 fn hint(turn: &Turn, taught: &Taught, units: Units, caps: Capabilities) -> String {
     let advice = &taught.advice;
     let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", units, caps);
-    let numbers = numbers(&advice.cue, units, turn.table.radius, caps).map(|(name, value)| format!("{name} {value}"));
+    let numbers =
+        stroke_rows(&advice.cue, units, turn.table.radius, caps).map(|(name, value)| format!("{name} {value}"));
     format!("{} makes {}: {}. Yours: {changes}", teacher(taught), percent(advice.chance.rate), numbers.join(", "))
 }
 
@@ -205,7 +186,7 @@ mod tests {
         assert_eq!(said(other), "left rail at 724 mm, 20 in");
         let cue = CueInputs { a: 0.2, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 };
         let caps = Capabilities { depth: Depth::True, glyphs: Glyphs::Letters, unicode: true };
-        let told = |units| numbers(&cue, units, table.radius, caps).map(|(name, value)| format!("{name} {value}"));
+        let told = |units| stroke_rows(&cue, units, table.radius, caps).map(|(name, value)| format!("{name} {value}"));
         assert_eq!([&told(Units::default())[1], &told(Units::default())[3]], ["left 2 tips", "speed 2.00 m/s"]);
         assert_eq!([&told(other)[1], &told(other)[3]], ["left 6.2 mm", "speed 6.56 ft/s"]);
     }

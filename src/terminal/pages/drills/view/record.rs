@@ -16,7 +16,7 @@ use crate::{
         ui::{
             Message, Ui,
             chart::{Chart, Curve, SeriesId, draw_chart},
-            draw_lines, draw_title, pair, shorten, write_paragraphs, write_right,
+            draw_lines, draw_title, pair, shorten, wrap, write_paragraphs, write_right,
         },
         words::chance_words,
     },
@@ -33,10 +33,15 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     });
     draw_header(drills, "record", title, header, ui);
     let sessions = drills.book.sessions_of(scope);
-    let top = Rect { height: (area.height / 2).max(11), ..area };
     let (share, least, most) = NUMBERS;
-    let numbers = Rect { width: (top.width * share / 100).clamp(least, most), ..top };
-    draw_numbers(drills, &sessions, scope, numbers, ui);
+    let width = (area.width * share / 100).clamp(least, most);
+    let rows = number_rows(&sessions, scope);
+    let skill = skill_words(&drills.records.estimate, ui);
+    // The title, the numbers, a blank row, and what is known of the skill.
+    let needed = skill.as_ref().map_or(0, |(words, _)| 2 + rows.len() + wrap(words, usize::from(width) - 1).len());
+    let top = Rect { height: (area.height / 2).max(11).max(needed as u16), ..area };
+    let numbers = Rect { width, ..top };
+    draw_numbers(rows, skill, scope, numbers, ui);
     let chart = Rect { x: numbers.right() + 1, width: top.width - numbers.width - 1, ..top };
     let points = points(&sessions, scope);
     let curves = [Curve { points: &points, odd: NonFinite::default(), whose: SeriesId::Own }];
@@ -66,9 +71,8 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     })
 }
 
-fn draw_numbers(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>, area: Rect, ui: &mut Ui) {
-    let title = if scope.is_some() { "This exercise" } else { "All" };
-    let inner = draw_title(title, area, ui);
+/// The score in numbers, and what they are called.
+fn number_rows(sessions: &[&Session], scope: Option<&str>) -> Vec<(&'static str, String)> {
     let record = Record::of(sessions.iter().copied(), |session, attempt| match scope {
         Some(name) => attempt.exercise == name,
         None => !session.attempts.is_empty(),
@@ -84,17 +88,33 @@ fn draw_numbers(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>,
     if record.helped > 0 {
         rows.push(("hints", format!("{} of the attempts", record.helped)));
     }
+    rows
+}
+
+/// What is known of the skill.
+fn skill_words(estimate: &Estimate, ui: &Ui) -> Option<(String, Style)> {
+    match estimate {
+        Estimate::Unknown => None,
+        Estimate::Working => Some(("your skill: being estimated".to_owned(), ui.theme.faint())),
+        Estimate::Known(_, sentence) => Some((sentence.clone(), ui.theme.good())),
+        Estimate::Missing(sentence) => Some((sentence.clone(), ui.theme.faint())),
+    }
+}
+
+fn draw_numbers(
+    rows: Vec<(&'static str, String)>,
+    skill: Option<(String, Style)>,
+    scope: Option<&str>,
+    area: Rect,
+    ui: &mut Ui,
+) {
+    let title = if scope.is_some() { "This exercise" } else { "All" };
+    let inner = draw_title(title, area, ui);
     let y = inner.y + rows.len() as u16;
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
     draw_lines(rows.into_iter().map(|(name, value)| pair(name, 10, value, ui.theme)), text, ui);
-    let skill = match &drills.records.estimate {
-        Estimate::Unknown => return,
-        Estimate::Working => ("your skill: being estimated".to_owned(), ui.theme.faint()),
-        Estimate::Known(_, sentence) => (sentence.clone(), ui.theme.good()),
-        Estimate::Missing(sentence) => (sentence.clone(), ui.theme.faint()),
-    };
     let rest = Rect { x: inner.x + 1, y: y + 1, width: inner.width - 1, height: inner.bottom().saturating_sub(y + 1) };
-    write_paragraphs(&[skill], rest, ui);
+    write_paragraphs(skill.as_slice(), rest, ui);
 }
 
 /// The share of points in each session, over the attempts made.
