@@ -64,6 +64,9 @@ pub struct Difference {
     /// Probability of the point after it, where that counts too.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub next_probability: Option<f64>,
+    /// Whether it is made more often than the first beyond doubt: its interval lies above that of the first.
+    #[serde(skip)]
+    pub is_surely_more: bool,
 }
 
 /// Why a shot leads.
@@ -114,6 +117,10 @@ pub fn why(
             make_probability: other.make_probability.map(|rate| rate.rate),
             aim_deg: aim_width(&sensitivity, &other.cue),
             next_probability: other.next_probability,
+            is_surely_more: other
+                .make_probability
+                .zip(advice.make_probability)
+                .is_some_and(|(its, own)| its.low > own.high),
         })
     });
     Ok(Why {
@@ -236,7 +243,8 @@ impl Why {
         parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
             let [own, its] = [rate, other].map(percent);
             if (rate - other).abs() > TOLD_APART {
-                format!("made {own} of the time, the next shot {its}")
+                let luck = if self.is_unsure() { ", which is not surely more" } else { "" };
+                format!("made {own} of the time, the next shot {its}{luck}")
             } else {
                 format!("made {own} of the time, about as often as the next shot ({its})")
             }
@@ -282,6 +290,13 @@ impl Why {
             })
     }
 
+    /// Whether the second-best shot seems to be made more often, which luck may explain, and no plan decides.
+    fn is_unsure(&self) -> bool {
+        let made = self.make_probability.zip(self.second.as_ref());
+        made.is_some_and(|(own, second)| second.make_probability > Some(own) && !second.is_surely_more)
+            && !self.is_by_plan()
+    }
+
     /// How the next point is left, beside how the second-best shot, which is called `other`, leaves it.
     fn plan_words(&self, other: &str) -> Option<String> {
         let there = self.second.as_ref().and_then(|second| second.next_probability);
@@ -302,7 +317,8 @@ impl Why {
             || "no other was found".to_owned(),
             |second| {
                 let made = second.make_probability.map_or_else(String::new, |rate| format!(": {}", percent(rate)));
-                format!("shot 2 ({}){made}", second.parts(names))
+                let luck = if self.is_unsure() { ", not surely more" } else { "" };
+                format!("shot 2 ({}){made}{luck}", second.parts(names))
             },
         );
         let mut facts = self.facts(cue_ball);
@@ -312,7 +328,8 @@ impl Why {
 
     /// The part of it that a list of the shots with their chances does not say, ever shorter; nothing where there is nothing.
     pub fn beside_the_list(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
-        ever_shorter(self.facts(cue_ball)).map(|sentence| words::capital(&sentence))
+        let luck = self.is_unsure().then(|| "shot 2 is not surely made more often".to_owned());
+        ever_shorter(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| words::capital(&sentence))
     }
 
     /// What the list of the shots does not say. That the plan decides comes first, where it does.
@@ -421,6 +438,21 @@ mod tests {
         assert!(planned.beside_the_list(CueBall::White).all(|sentence| sentence.starts_with("The plan decides")));
         let unknown = Why { next_probability: None, ..planned }.words(CueBall::White, Units::default());
         assert!(unknown.contains("the plan decides: the next point counts too"), "{unknown}");
+        // By luck alone the second may seem to be made more often; then that is no reason against the first.
+        let second = |is_surely_more| {
+            let second =
+                why.second.clone().map(|second| Difference { make_probability: Some(0.54), is_surely_more, ..second });
+            Why { make_probability: Some(0.48), second, is_planned: false, ..why.clone() }
+        };
+        let said = second(false).words(CueBall::White, Units::default());
+        assert!(said.starts_with("Made 48 % of the time, the next shot 54 %, which is not surely more;"), "{said}");
+        for sentence in second(false).brief(CueBall::White) {
+            assert!(sentence.contains("%, not surely more"), "{sentence}");
+        }
+        let first = second(false).beside_the_list(CueBall::White).next().unwrap();
+        assert!(first.starts_with("Shot 2 is not surely made more often"), "{first}");
+        let said = second(true).words(CueBall::White, Units::default());
+        assert!(said.starts_with("Made 48 % of the time, the next shot 54 %; "), "{said}");
         let alone = Why { second: None, ..why }.words(CueBall::White, Units::default());
         assert!(alone.ends_with('.') && !alone.contains("next shot"), "{alone}");
     }

@@ -259,6 +259,7 @@ mod tests {
         };
         assert!(said("9d,1d 7d,1d 1d,1d").contains("accepted are 0.09d to 7.91d"));
         assert!(said("2,0 0,0 0.5,0").contains("accepted are |x| <= 1.3892"));
+        assert!(said("2,3 5,1 6,3").ends_with("in metres from the middle, or diamonds like 2d,0.5d"));
         assert!(said("0,0 0.5,0").contains("0,0 0.5,0"), "one place is missing");
     }
 

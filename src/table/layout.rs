@@ -42,7 +42,8 @@ pub enum LayoutError {
     },
     /// A ball is not on the table.
     #[error(
-        "{} at ({x:.4}, {y:.4}) m is outside the table; accepted are |x| <= {max_x:.4} and |y| <= {max_y:.4}",
+        "{} at ({x:.4}, {y:.4}) m is outside the table; accepted are |x| <= {max_x:.4} and |y| <= {max_y:.4} \
+         in metres from the middle, or diamonds like 2d,0.5d",
         BALL_NAMES[*ball]
     )]
     Outside {

@@ -58,7 +58,9 @@ impl Word {
             "make" => Ok(Self::Make),
             "miss" => Ok(Self::Miss),
             "undo" => Ok(Self::Undo),
-            _ => Err(Failure::wrong_input(format_args!("\"{text}\" is no result; accepted are make, miss and undo"))),
+            _ => Err(Failure::wrong_input(format_args!(
+                "\"{text}\" is no result; accepted are make, miss and undo, or --made 7 --of 10"
+            ))),
         }
     }
 }

@@ -56,8 +56,7 @@ pub fn draw_margins(study: Option<&ShotAnalysis>, unit: LengthUnit, empty: &str,
         .map(|(n, margin)| {
             let is_tightest = Some(n) == tightest;
             let (factor, unit) = margin.told_in(unit);
-            // No more digits than it has: 0.5, 0.125.
-            let yours = short(factor * skill.error(margin.input), 3);
+            let yours = yours(factor * skill.error(margin.input));
             Row { margin, factor, unit, yours, is_tightest, theme: ui.theme, caps: ui.caps }
         })
         .collect();
@@ -86,6 +85,11 @@ pub fn draw_margins(study: Option<&ShotAnalysis>, unit: LengthUnit, empty: &str,
             row.draw_half(inner.x + half * column, y, ui);
         }
     }
+}
+
+/// A standard error with no more digits than it has, and than there is room for: 0.5, 0.125, 2.2.
+fn yours(error: f64) -> String {
+    short(error, if error < 0.2 { 3 } else { 2 })
 }
 
 /// The input whose nearer margin is the fewest of the player's standard errors.
@@ -184,5 +188,6 @@ mod tests {
         assert_eq!(tightest(&margins, Skill::PERFECT), None, "who never errs finds nothing tight");
         let sizes = [(Some(9.994), "-"), (Some(9.996), "+"), (None, "-")].map(|(margin, sign)| size(margin, sign, 2));
         assert_eq!(sizes, ["-9.99", "+10.0", "wide"]);
+        assert_eq!([0.5, 0.125, 0.934, 2.1994].map(yours), ["0.5", "0.125", "0.93", "2.2"]);
     }
 }

@@ -41,7 +41,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     let needed = skill.as_ref().map_or(0, |(words, _)| 2 + rows.len() + wrap(words, usize::from(width) - 1).len());
     let top = Rect { height: (area.height / 2).max(11).max(needed as u16), ..area };
     let numbers = Rect { width, ..top };
-    draw_numbers(rows, skill, scope, numbers, ui);
+    draw_numbers(rows, skill.as_ref(), scope, numbers, ui);
     let chart = Rect { x: numbers.right() + 1, width: top.width - numbers.width - 1, ..top };
     let points = points(&sessions, scope);
     let curves = [Curve { points: &points, odd: NonFinite::default(), whose: SeriesId::Own }];
@@ -103,7 +103,7 @@ fn skill_words(estimate: &Estimate, ui: &Ui) -> Option<(String, Style)> {
 
 fn draw_numbers(
     rows: Vec<(&'static str, String)>,
-    skill: Option<(String, Style)>,
+    skill: Option<&(String, Style)>,
     scope: Option<&str>,
     area: Rect,
     ui: &mut Ui,
@@ -114,7 +114,7 @@ fn draw_numbers(
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
     draw_lines(rows.into_iter().map(|(name, value)| pair(name, 10, value, ui.theme)), text, ui);
     let rest = Rect { x: inner.x + 1, y: y + 1, width: inner.width - 1, height: inner.bottom().saturating_sub(y + 1) };
-    write_paragraphs(skill.as_slice(), rest, ui);
+    write_paragraphs(skill.map_or(&[], std::slice::from_ref), rest, ui);
 }
 
 /// The share of points in each session, over the attempts made.
