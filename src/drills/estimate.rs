@@ -101,7 +101,7 @@ pub enum NoEstimate {
     /// Too few attempts, or shots.
     #[error(
         "the skill cannot be estimated yet: it takes {FEWEST} attempts at {FEWEST_SHOTS} different shots at a real table, and \
-         there are {attempts} at {shots}; what counts are model shots with balls not shifted, or with the coach's hint, and no games"
+         there are {attempts} at {shots}; counted are the model shots, where no ball was shifted, and the shots of the coach's hints; games are not"
     )]
     TooFew {
         /// Attempts there are.

@@ -22,7 +22,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[cold]
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
-        if self.is_out_of_reach(&std::array::from_fn(|index| self.state(index, now))) {
+        if self.is_out_of_reach(|index| self.state(index, now)) {
             return ControlFlow::Break(());
         }
         if !self.is_exhausted() && resting.go_on(self.table) {
@@ -136,7 +136,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }),
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
-        if self.is_out_of_reach(&states) {
+        if self.is_out_of_reach(|index| states[index]) {
             return ControlFlow::Break(());
         }
         let previous = self.resting.take().or(self.ended.take());

@@ -18,8 +18,8 @@ const SLACK: f64 = 1e-4;
 const SLIDING_OVER_ROLLING: f64 = 2.0;
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
-    /// Whether the cue ball meets none of the balls any more for which the observer waits, from `states` on.
-    pub(super) fn is_out_of_reach(&self, states: &[BallState; BALLS]) -> bool {
+    /// Whether the cue ball meets none of the balls any more for which the observer waits, from the `state` of each ball on.
+    pub(super) fn is_out_of_reach(&self, state: impl Fn(usize) -> BallState) -> bool {
         let Constants { level, sliding, rolling, diameter, radius, .. } = &self.constants;
         // A ball in the air loses nothing on its way, and one on a slope may gain.
         let applies = self.cloth.is_none() && *level && *sliding >= SLIDING_OVER_ROLLING * rolling.least;
@@ -27,7 +27,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return false;
         }
         let Some(awaited) = self.observer.awaited() else { return false };
-        let reach = diameter + SLACK * radius + MARGIN * longest_ways(&self.constants, states);
+        let states = std::array::from_fn(state);
+        let reach = diameter + SLACK * radius + MARGIN * longest_ways(&self.constants, &states);
         let [cue_ball, objects @ ..] = states;
         objects
             .iter()
