@@ -101,7 +101,7 @@ pub enum NoEstimate {
     /// Too few attempts, or shots.
     #[error(
         "the skill cannot be estimated yet: it takes {FEWEST} attempts at {FEWEST_SHOTS} different shots at a real table, and \
-         there are {attempts} at {shots}; counted are the model shots, where no ball was shifted, and the shots of the coach's hints; games are not"
+         there are {attempts} at {shots}; counted are model shots where no ball was shifted, and shots of the coach's hints, but no games"
     )]
     TooFew {
         /// Attempts there are.
