@@ -50,7 +50,9 @@ impl From<PolicyError> for Failure {
     fn from(error: PolicyError) -> Self {
         match error {
             PolicyError::Read { .. } => Self::failed(error),
-            PolicyError::Content { .. } | PolicyError::Version { .. } => Self::wrong_input(error),
+            PolicyError::Content { .. } | PolicyError::Damaged { .. } | PolicyError::Version { .. } => {
+                Self::wrong_input(error)
+            }
         }
     }
 }

@@ -5,6 +5,7 @@
 //! good it is [`evaluation`] tells.
 
 pub mod agents;
+mod checksum;
 pub(crate) mod ddpg;
 pub mod evaluation;
 pub mod learner;

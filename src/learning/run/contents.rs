@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    checksum::{NO_CHECKSUM, is_whole, write_checksum},
     config::{Schedule, Start},
     error::{DamageReason, FORMAT},
 };
 use crate::{
     learning::{
+        checksum::{NO_CHECKSUM, OF_CHECKPOINT, is_whole, write_checksum},
         learner::{AgentKind, Iteration, Learner},
         nn::weights::{Reader, WeightsError, Writer},
     },
@@ -94,12 +94,12 @@ pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsErr
         learner: learner.save(&mut writer)?,
     };
     let mut bytes = writer.finish(&note)?;
-    if write_checksum(&mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
+    if write_checksum(OF_CHECKPOINT, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
 }
 
 /// The learner and the run's state in a checkpoint's bytes.
 pub fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> {
-    match is_whole(bytes) {
+    match is_whole(OF_CHECKPOINT, bytes) {
         Some(true) => {}
         Some(false) => return Err(DamageReason::Checksum),
         None => return Err(DamageReason::NoChecksum),
@@ -157,7 +157,7 @@ mod tests {
             learner: learner.save(&mut writer).unwrap(),
         };
         let mut bytes = writer.finish(&note).unwrap();
-        assert!(write_checksum(&mut bytes));
+        assert!(write_checksum(OF_CHECKPOINT, &mut bytes));
         let message = restore(&bytes).unwrap_err().to_string();
         assert!(message.contains("format 99") && message.contains("format 2"), "{message}");
     }

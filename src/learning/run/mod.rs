@@ -5,7 +5,6 @@
 //! to the same bits. A run that is stopped writes the checkpoint before it is measured, and the policy after that.
 
 mod checkpoint;
-mod checksum;
 mod config;
 mod contents;
 mod error;
@@ -211,7 +210,7 @@ pub fn discard(folder: &Path) -> Result<(), RunError> {
 /// Makes a folder where it is missing.
 fn make_folder(folder: &Path) -> Result<(), RunError> {
     // Also above it: a file there cannot hold it.
-    if let Some(in_the_way) = folder.ancestors().find(|path| path.is_file()) {
+    if let Some(in_the_way) = folder.ancestors().find(|path| path.exists() && !path.is_dir()) {
         return Err(RunError::NoFolder(in_the_way.display().to_string()));
     }
     std::fs::create_dir_all(folder).map_err(file(folder))

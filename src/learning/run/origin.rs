@@ -6,13 +6,13 @@ use serde_json::Value;
 
 use super::{
     checkpoint::{self, Checkpoints, Loaded},
-    checksum::is_whole,
     config::Start,
     error::{RunError, advice, file},
 };
 use crate::{
     learning::{
         Policy,
+        checksum::{OF_CHECKPOINT, is_whole},
         learner::{Learner, note_of},
         nn::weights::Reader,
     },
@@ -40,11 +40,11 @@ impl Weights {
         }
         let bytes = storage::read(path, storage::LARGE).map_err(file(path))?;
         // Whole or not, it claims to be one.
-        if is_whole(&bytes).is_some() {
+        if is_whole(OF_CHECKPOINT, &bytes).is_some() {
             return Ok(Self::of_checkpoint(path, checkpoint::load(path, bytes)?));
         }
         // From the same bytes: a run may replace the file at any moment.
-        let policy = Policy::from_bytes(&bytes, &path.display().to_string())?;
+        let policy = Policy::of_file(&bytes, &path.display().to_string())?;
         let origin = policy.origin();
         let start = Start {
             path: path.display().to_string(),

@@ -8,6 +8,7 @@ use super::{Policy, calibration::Calibration};
 use crate::{
     game::{Reward, Rule},
     learning::{
+        checksum::{NO_CHECKSUM, OF_POLICY, is_whole, write_checksum},
         ddpg::{context::knows, hyperparameters::Hyperparameters, networks::Networks},
         nn::weights::{Reader, WeightsError, Writer},
     },
@@ -66,6 +67,15 @@ pub struct Origin {
     pub hyperparameters: Hyperparameters,
 }
 
+/// What a policy's file says beside the weights.
+#[derive(Serialize)]
+struct Note<'a> {
+    /// First, so that it is found ([`write_checksum`]).
+    policy_checksum: &'static str,
+    #[serde(flatten)]
+    origin: &'a Origin,
+}
+
 /// Why a policy cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum PolicyError {
@@ -84,6 +94,14 @@ pub enum PolicyError {
         origin: String,
         /// What is wrong.
         reason: WeightsError,
+    },
+    /// Some of the file's bytes have changed since it was written.
+    #[error(
+        "{origin} is damaged: its content does not fit its checksum; copy it anew, or train one with `carom train`"
+    )]
+    Damaged {
+        /// Its path.
+        origin: String,
     },
     /// The policy speaks of other features or actions.
     #[error("{origin} has {what} \"{found}\", this version of carom needs \"{expected}\"; train it again")]
@@ -156,11 +174,20 @@ impl Policy {
         let origin = path.display().to_string();
         let bytes =
             storage::read(path, storage::LARGE).map_err(|reason| PolicyError::Read { path: origin.clone(), reason })?;
-        Ok((Self::from_bytes(&bytes, &origin)?, bytes))
+        Ok((Self::of_file(&bytes, &origin)?, bytes))
+    }
+
+    /// The policy in the bytes of a file that somebody may have changed: of a changed weight nothing else would tell. Those that earlier
+    /// versions wrote have no checksum.
+    pub(in crate::learning) fn of_file(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
+        if is_whole(OF_POLICY, bytes) == Some(false) {
+            return Err(PolicyError::Damaged { origin: name.to_owned() });
+        }
+        Self::from_bytes(bytes, name)
     }
 
     /// The policy in a file's bytes; `name` is what errors call the file.
-    pub(in crate::learning) fn from_bytes(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
+    fn from_bytes(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
         let content = |reason| PolicyError::Content { origin: name.to_owned(), reason };
         let reader = Reader::new(bytes).map_err(content)?;
         let origin: Origin = reader.note().map_err(content)?;
@@ -184,7 +211,8 @@ impl Policy {
         for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
             writer.add_network_half(name, network)?;
         }
-        writer.finish(&self.origin)
+        let mut bytes = writer.finish(&Note { policy_checksum: NO_CHECKSUM, origin: &self.origin })?;
+        if write_checksum(OF_POLICY, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
     }
 }
 
@@ -268,6 +296,33 @@ mod tests {
         assert!(message.contains("policy.safetensors") && message.contains("carom train"), "{message}");
         let missing = Policy::load(&folder.path().join("none")).unwrap_err().to_string();
         assert!(missing.contains("none") && missing.contains("cannot be read"), "{missing}");
+    }
+
+    #[test]
+    fn a_changed_byte_is_noticed_wherever_it_stands_and_files_of_earlier_versions_are_read() {
+        let policy = bundled();
+        let bytes = policy.to_bytes().unwrap();
+        let read = |bytes: &[u8]| Policy::of_file(bytes, "it");
+        assert_eq!(read(&bytes).unwrap().origin, policy.origin);
+        let header = 8 + usize::from(bytes[0]) + 256 * usize::from(bytes[1]);
+        // The header, and here and there a weight.
+        for index in (0..header).step_by(5).chain((header..bytes.len()).step_by(bytes.len() / 50)) {
+            let mut damaged = bytes.clone();
+            damaged[index] ^= 1;
+            // Where the checksum's own name is changed, there is none, and all else is as it was.
+            assert!(
+                read(&damaged).is_err() || index < header && read(&damaged).unwrap().origin == policy.origin,
+                "{index}"
+            );
+            assert!(read(&bytes[..index]).is_err(), "cut at {index}");
+        }
+        let mut damaged = bytes;
+        *damaged.last_mut().unwrap() ^= 1;
+        let said = read(&damaged).unwrap_err().to_string();
+        assert!(said.starts_with("it is damaged"), "{said}");
+        let earlier = bundled_file("match", Rule::StraightRail).unwrap();
+        assert_eq!(is_whole(OF_POLICY, earlier), None);
+        assert!(read(earlier).is_ok());
     }
 
     #[test]

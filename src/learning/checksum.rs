@@ -1,7 +1,10 @@
 //! A checksum within the file that it guards: any changed byte is noticed, wherever it stands.
 
-/// The bytes before the checksum: it is the first field of a JSON note, which stands as a text in the JSON of the header.
-const MARK: &[u8] = br#"{\"checksum\":\""#;
+/// What a checkpoint's checksum is called: the first field of a JSON note, which stands as a text in the JSON of the header.
+pub const OF_CHECKPOINT: &str = "checksum";
+
+/// A policy's.
+pub const OF_POLICY: &str = "policy_checksum";
 
 /// Hexadecimal digits of a checksum.
 const DIGITS: usize = 16;
@@ -9,25 +12,26 @@ const DIGITS: usize = 16;
 /// What stands in the note until the checksum is written.
 pub const NO_CHECKSUM: &str = "0000000000000000";
 
-/// Puts the checksum in its place. `false` where there is no place for it.
-pub fn write_checksum(bytes: &mut [u8]) -> bool {
-    let Some(place) = place(bytes) else { return false };
+/// Puts the checksum of this name in its place. `false` where there is no place for it.
+pub fn write_checksum(name: &str, bytes: &mut [u8]) -> bool {
+    let Some(place) = place(name, bytes) else { return false };
     bytes[place..place + DIGITS].copy_from_slice(NO_CHECKSUM.as_bytes());
     let digits = format!("{:016x}", hash([&*bytes].into_iter()));
     bytes[place..place + DIGITS].copy_from_slice(digits.as_bytes());
     true
 }
 
-/// Whether the content fits its checksum; `None` where there is none.
-pub fn is_whole(bytes: &[u8]) -> Option<bool> {
-    let place = place(bytes)?;
+/// Whether the content fits its checksum of this name; `None` where there is none.
+pub fn is_whole(name: &str, bytes: &[u8]) -> Option<bool> {
+    let place = place(name, bytes)?;
     let digits = &bytes[place..place + DIGITS];
     let parts = [&bytes[..place], NO_CHECKSUM.as_bytes(), &bytes[place + DIGITS..]];
     Some(digits == format!("{:016x}", hash(parts.into_iter())).as_bytes())
 }
 
-fn place(bytes: &[u8]) -> Option<usize> {
-    let place = bytes.windows(MARK.len()).position(|window| window == MARK)? + MARK.len();
+fn place(name: &str, bytes: &[u8]) -> Option<usize> {
+    let mark = format!("{{\\\"{name}\\\":\\\"").into_bytes();
+    let place = bytes.windows(mark.len()).position(|window| window == mark)? + mark.len();
     (place + DIGITS <= bytes.len()).then_some(place)
 }
 
@@ -48,16 +52,17 @@ mod tests {
         // The published value of this hash for "foobar".
         assert_eq!(hash([b"foo".as_slice(), b"bar"].into_iter()), 0x8594_4171_f739_67e8);
         let mut bytes = format!("{{\"note\":\"{{\\\"checksum\\\":\\\"{NO_CHECKSUM}\\\"}}\"}}  weights").into_bytes();
-        assert!(write_checksum(&mut bytes));
-        assert_eq!(is_whole(&bytes), Some(true));
+        assert!(write_checksum(OF_CHECKPOINT, &mut bytes));
+        assert_eq!(is_whole(OF_CHECKPOINT, &bytes), Some(true));
+        assert_eq!(is_whole(OF_POLICY, &bytes), None);
         for index in 0..bytes.len() {
             for change in [1, 0x20, 0x80, 0xff] {
                 let mut damaged = bytes.clone();
                 damaged[index] ^= change;
-                assert_ne!(is_whole(&damaged), Some(true), "byte {index}");
+                assert_ne!(is_whole(OF_CHECKPOINT, &damaged), Some(true), "byte {index}");
             }
-            assert_ne!(is_whole(&bytes[..index]), Some(true), "cut at {index}");
+            assert_ne!(is_whole(OF_CHECKPOINT, &bytes[..index]), Some(true), "cut at {index}");
         }
-        assert!(!write_checksum(&mut b"nothing to seal".to_vec()));
+        assert!(!write_checksum(OF_CHECKPOINT, &mut b"nothing to seal".to_vec()));
     }
 }
