@@ -98,8 +98,13 @@ impl Cli {
             }
             let words = std::env::args_os().chain([asked.clone().into()]);
             let is_safe = words.into_iter().all(|word| !word.to_string_lossy().chars().any(is_hidden));
-            // clap repeats what it was given as it is, between the codes of its own bold words.
-            let said = if is_safe { answer.print() } else { write!(printing::stderr(), "{}", answer.render()) };
+            let is_unicode = printing::is_unicode(|name| std::env::var(name).ok());
+            let said = match answer.use_stderr() {
+                // clap repeats what it was given as it is, between the codes of its own bold words, and spells nothing.
+                _ if is_safe && is_unicode => answer.print(),
+                true => write!(printing::stderr(), "{}", answer.render()),
+                false => write!(printing::stdout(), "{}", answer.render()),
+            };
             let code = u8::try_from(answer.exit_code()).unwrap_or(2);
             match said.and_then(|()| printing::stdout().flush()) {
                 Err(error) if code == 0 => error.into(),

@@ -17,6 +17,8 @@ fn what_people_read_is_ascii_where_the_locale_is_and_json_and_documents_stay() {
         (&miscue, "a\u{b2} + b\u{b2}", "a^2 + b^2"),
         (&["drill", "history", "mine"], "\u{2586}\u{2581}\u{2581}", "*.."),
         (&["drill", "show", "jump-red"], "", ""),
+        (&["recommend", "--help"], "mass\u{e9}", "masse"),
+        (&["recommend", "--rule", "mass\u{e9}"], "mass\u{e9}", "masse"),
     ] {
         let [fancy, plain] = ["C.UTF-8", "C"].map(|locale| said(args, locale)).map(|said| said.out + &said.err);
         assert!(fancy.contains(word), "{args:?}: {fancy}");
