@@ -8,7 +8,10 @@ use super::{
     estimate::{Reading, Trial},
     protocol::{Mark, PROTOCOL, Quantity, Test, Unit},
 };
-use crate::table::Table;
+use crate::{
+    storage::{json_flaw, toml_flaw},
+    table::Table,
+};
 
 /// How sure a place is that was measured with a tape, diamonds: 5 mm.
 const TAPE: f64 = 0.015;
@@ -100,31 +103,16 @@ pub struct Oddity {
     pub what: String,
 }
 
-/// Why a file of entries cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum EntriesError {
-    /// It is no TOML of this form.
-    #[error("{0}")]
-    Toml(String),
-    /// It is no JSON of this form.
-    #[error("{0}")]
-    Json(serde_json::Error),
-}
-
 impl Entries {
     /// Reads a file's text: TOML, or JSON where it begins with a brace.
     ///
     /// # Errors
-    /// Where it is neither.
-    pub fn parse(text: &str) -> Result<Self, EntriesError> {
+    /// Where it is neither, in words.
+    pub fn parse(text: &str) -> Result<Self, String> {
         if text.trim_start().starts_with('{') {
-            return serde_json::from_str(text).map_err(EntriesError::Json);
+            return serde_json::from_str(text).map_err(|error| json_flaw(&error));
         }
-        toml::from_str(text).map_err(|error| {
-            let line = error.span().map(|span| text.bytes().take(span.start).filter(|&byte| byte == b'\n').count() + 1);
-            let place = line.map_or(String::new(), |line| format!("line {line}: "));
-            EntriesError::Toml(place + error.message())
-        })
+        toml::from_str(text).map_err(|error| toml_flaw(text, &error))
     }
 
     /// The trials that can be used, each with its number in the file from 0 on, and what is odd about the others.

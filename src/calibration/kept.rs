@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::entries::{Entries, EntriesError, Entry};
+use super::entries::{Entries, Entry};
 use crate::storage::{self, target_of, write_atomic};
 
 /// A change of the entries.
@@ -31,7 +31,7 @@ pub enum KeptError {
     Unread(PathBuf, io::Error),
     /// It holds no entries.
     #[error("{0}: {1}")]
-    Wrong(PathBuf, EntriesError),
+    Wrong(PathBuf, String),
     /// It cannot be written.
     #[error("{0} cannot be written, so this change is not kept: {1}")]
     Unwritten(PathBuf, io::Error),

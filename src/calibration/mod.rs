@@ -31,11 +31,11 @@ mod tests;
 
 pub use calibrate::{Calibration, CalibrationError, Change, Next, Strange, Verdict, calibrate, prior, prospects};
 pub use daily::{DAILY, Play, overnight};
-pub use entries::{Entries, EntriesError, Entry, Oddity, Written};
+pub use entries::{Entries, Entry, Oddity, Written};
 pub use estimate::{Reading, Trial};
 pub use kept::{Edit, KeptError, beside, edit_entries, entries_of, kept_entries, put_aside_unread};
 pub use protocol::{Mark, Moment, PROTOCOL, Quantity, Test, Unit};
-pub use saved::{SaveError, save_table};
+pub use saved::{SaveError, may_save_table, save_table};
 pub use simulated::{Coverage, calibrated, coverage};
 pub use sketch::Sketch;
 pub use typed::{FAR_END, RAILS, TAPED};

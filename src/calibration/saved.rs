@@ -21,15 +21,24 @@ pub enum SaveError {
     Unwritten(PathBuf, io::Error),
 }
 
-/// Writes the table, over another table at most.
+/// Whether a table may be written there: over another table at most.
 ///
 /// # Errors
-/// Where something else is there, or the file cannot be written.
-pub fn save_table(path: &Path, table: &Table) -> Result<(), SaveError> {
+/// Where something else is there.
+pub fn may_save_table(path: &Path) -> Result<(), SaveError> {
     let is_table = |text: String| Table::from_toml(&text).is_ok();
     if path.exists() && !storage::read_text(path, storage::SMALL).is_ok_and(is_table) {
         return Err(SaveError::Other(path.to_owned()));
     }
+    Ok(())
+}
+
+/// Writes the table, over another table at most.
+///
+/// # Errors
+/// As [`may_save_table`], and where the file cannot be written.
+pub fn save_table(path: &Path, table: &Table) -> Result<(), SaveError> {
+    may_save_table(path)?;
     let unwritten = |error| SaveError::Unwritten(path.to_owned(), error);
     let text = toml::to_string(table).map_err(|error| unwritten(io::Error::other(error)))?;
     let text = format!(

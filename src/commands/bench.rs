@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::Failure;
 use crate::{
-    printing::{self, VERSION},
+    printing::{self, VERSION, number},
     study::throughput::{Figure, Machine, measure},
 };
 
@@ -41,7 +41,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let time = Duration::try_from_secs_f64(args.seconds).ok().filter(|_| accepted).ok_or_else(|| {
         Failure::wrong_input(format_args!(
             "--seconds {} is no time to measure; accepted is above 0 and at most {LONGEST}",
-            args.seconds
+            number(args.seconds)
         ))
     })?;
     let machine = Machine::this();

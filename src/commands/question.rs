@@ -3,7 +3,7 @@
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, error::Category};
 
-use crate::{game::Rule, table::Layout};
+use crate::{game::Rule, storage::in_plain_words, table::Layout};
 
 /// What a question may hold.
 pub trait Keys {
@@ -74,7 +74,10 @@ pub fn question<Q: DeserializeOwned + Keys>(line: &[u8]) -> Result<Q, String> {
             let text = error.to_string();
             let text = text.split(" at line ").next().unwrap_or_default();
             let twice = text.strip_prefix("duplicate field `").and_then(|name| name.strip_suffix('`'));
-            twice.map_or_else(|| format!("{text}; {accepted}"), |name| format!("\"{name}\" is there twice"))
+            twice.map_or_else(
+                || format!("{}; {accepted}", in_plain_words(text)),
+                |name| format!("\"{name}\" is there twice"),
+            )
         })
     })?;
     let is_known = |name: &str| Q::KEYS.iter().any(|key| key.name == name) || ANSWERS.contains(&name);
@@ -128,7 +131,7 @@ mod tests {
         }
         let said = |line: &str| question::<Line>(line.as_bytes()).unwrap_err();
         let accepted = "accepted is an object with preset; rule may be left out";
-        assert_eq!(said("{}"), format!("missing field `preset`; {accepted}"));
+        assert_eq!(said("{}"), format!("`preset` is missing; {accepted}"));
         assert_eq!(said("[]"), format!("it begins with no brace; {accepted}"));
         let name = "a table's name or the path of its file, as a string";
         assert_eq!(said(r#"{"preset": 3}"#), format!("\"preset\" is 3; accepted is {name}"));

@@ -2,12 +2,13 @@
 
 use std::io::{self, Write};
 
+use clap::builder::NonEmptyStringValueParser;
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{
     Failure, bounded,
-    input::{ByTable, PositionArgs, answer_lines},
+    input::{ByTable, PositionArgs, answer_lines, shot_typed},
     output::{impulse_words, tell, units},
     question::{Key, Keys},
 };
@@ -45,7 +46,7 @@ pub struct Args {
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = moment)]
     at: Vec<f64>,
     /// JSON Lines of shots with `preset`, `layout` and `cue`, or `impulse` (velocity, spin of the cue ball) in its place; "-" reads the standard input.
-    #[arg(long, value_name = "FILE", conflicts_with = "shot")]
+    #[arg(long, value_name = "FILE", conflicts_with = "shot", value_parser = NonEmptyStringValueParser::new())]
     batch: Option<String>,
     /// How time goes on: from event to event, or in the fixed steps of thesis 3.1, to see what they miss.
     #[arg(long, value_enum, default_value_t = Method::Events)]
@@ -336,7 +337,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let (table, layout) = args.position.read()?;
     // clap demands a shot where there is no batch.
-    let cue = CueInputs::parse(args.shot.as_deref().unwrap_or_default()).map_err(Failure::wrong_input)?;
+    let cue = shot_typed(args.shot.as_deref().unwrap_or_default())?;
     let played = play(&table, &layout, &cue, steps)?;
     if cue.validate_tip(table.miscue_limit).is_err() {
         tell(format_args!(

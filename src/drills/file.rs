@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::ser::Formatter;
 
 use super::Exercise;
+use crate::storage::json_flaw;
 
 /// Exercises in a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,11 +50,7 @@ const ACCEPTED: &str = "accepted is a JSON file as carom drill export writes it"
 fn told(error: &serde_json::Error) -> String {
     let (line, column) = (error.line(), error.column());
     if error.is_data() {
-        let text = error.to_string();
-        let reason = text.split(" at line ").next().unwrap_or_default();
-        // What lies within other parts has no place.
-        let place = if line > 0 { format!("at line {line}, column {column}, ") } else { String::new() };
-        return format!("{place}{reason}; {ACCEPTED}");
+        return format!("{}; {ACCEPTED}", json_flaw(error));
     }
     format!("it is no JSON from line {line}, column {column} on; {ACCEPTED}")
 }

@@ -13,6 +13,7 @@ use crate::{
         settings::SettingError,
     },
     physics::CueInputs,
+    storage::in_plain_words,
     table::{Layout, Table},
 };
 
@@ -108,31 +109,36 @@ pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
         // Which of them it is, where one alone cannot be read either.
         let alone = |(name, value): (&String, &Value)| {
             let error = read(&json!({ name: value })).err()?.to_string();
-            Some(format!("{name} = {value}: {}", in_plain_words(error, accepted(name))))
+            // Settings of earlier versions are read where they mean nothing, and are offered to nobody.
+            let error = match error.split_once("expected one of ") {
+                Some((what, _)) if defaults.get(name).is_none() => {
+                    format!("{what}expected one of {}", names(&defaults))
+                }
+                _ => error,
+            };
+            Some(format!("{name} = {value}: {}", told(&error, accepted(name))))
         };
         let named = object.as_object().and_then(|settings| settings.iter().find_map(alone));
-        StartError::settings(named.unwrap_or_else(|| in_plain_words(error.to_string(), None)))
+        StartError::settings(named.unwrap_or_else(|| told(&error.to_string(), None)))
     })?;
     validate(&settings).map_err(StartError::settings)?;
     Ok(settings)
 }
 
-/// A message of serde with the types that it expects in words, and with what is accepted where that is known.
-fn in_plain_words(message: String, accepted: Option<&str>) -> String {
-    let types = [
-        ("expected usize", "expected a whole number", " from 0 on"),
-        ("expected u64", "expected a whole number", " from 0 on"),
-        ("expected u32", "expected a whole number", " from 0 on"),
-        ("expected f64", "expected a number", ""),
-        ("expected f32", "expected a number", ""),
-        ("expected a boolean", "expected true or false", ""),
-        ("unknown field", "unknown setting", ""),
-        ("unknown variant", "unknown word", ""),
-    ];
-    types.iter().fold(message, |message, (name, words, otherwise)| {
-        let range = accepted.map_or_else(|| (*otherwise).to_owned(), |range| format!("; accepted is {range}"));
-        message.replace(name, &format!("{words}{range}"))
-    })
+/// The names in an object.
+fn names(object: &Value) -> String {
+    let names = object.as_object().into_iter().flat_map(serde_json::Map::keys);
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// A message of serde in plain words, with what is accepted where that is known.
+fn told(message: &str, accepted: Option<&str>) -> String {
+    let message = in_plain_words(message).replace("unknown field", "unknown setting");
+    let Some(range) = accepted else { return message };
+    let message = message.replace("a whole number from 0 on", "a whole number");
+    ["expected a whole number", "expected a number"]
+        .iter()
+        .fold(message, |message, words| message.replace(words, &format!("{words}; accepted is {range}")))
 }
 
 /// What is to be learnt, and how long; the same for every agent.
@@ -284,6 +290,8 @@ mod tests {
         ] {
             let message = refused(agent, changes);
             assert!(message.contains(words), "{message}");
+            // What only thesis-ddpg has is not offered.
+            assert!(agent != "ddpg" || !message.contains("hindsight"), "{message}");
         }
     }
 }

@@ -7,6 +7,7 @@
 
 mod calendar;
 mod json;
+mod number;
 mod progress;
 mod shell;
 mod shown;
@@ -17,6 +18,7 @@ mod visible;
 pub use self::{
     calendar::{moment, now, timestamp},
     json::{json_line, json_text},
+    number::number,
     progress::ProgressLine,
     shell::shell_word,
     shown::{Shown, clear_line, is_watched, redraw_line, stderr, stdout},

@@ -73,10 +73,20 @@ pub fn put_aside(path: &Path) -> String {
 pub fn open(path: &Path) -> io::Result<File> {
     may_read(path)?;
     // Before it is opened: that alone waits where a pipe has no writer.
-    regular(&fs::metadata(path)?)?;
+    regular(&fs::metadata(path).map_err(missing)?)?;
     let file = File::open(path)?;
     regular(&file.metadata()?)?;
     Ok(file)
+}
+
+/// What is not there is told in words; other reasons are the system's.
+fn missing(error: io::Error) -> io::Error {
+    match error.kind() {
+        kind @ (io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+            io::Error::new(kind, "there is no such file; accepted is a regular file")
+        }
+        _ => error,
+    }
 }
 
 /// Refuses what is there and is no regular file.
@@ -107,6 +117,12 @@ mod tests {
         assert_eq!(read_text(&path, 4).unwrap(), "four");
         assert!(read(&path, 3).unwrap_err().to_string().contains("more than 3 bytes"));
         assert!(read(folder.path(), 9).unwrap_err().to_string().contains("a folder"));
+        // In the place of a folder, too: "Not a directory" would be told of a file that nobody has named.
+        for missing in [folder.path().join("none"), path.join("none")] {
+            let error = read(&missing, 9).unwrap_err();
+            assert_eq!(error.to_string(), "there is no such file; accepted is a regular file");
+            assert_eq!(read_if_there(&missing, 9).unwrap(), None);
+        }
         #[cfg(unix)]
         assert!(read(Path::new("/dev/zero"), 9).unwrap_err().to_string().contains("a device"));
         fs::write(&path, [0xff]).unwrap();

@@ -9,6 +9,7 @@ use super::{
     DoubtError, Flight, Opening, Rail, Room, TableDoubt, flaws,
     models::{Fade, Rails, SlipFriction, is_zero},
 };
+use crate::{printing::number, storage::toml_flaw};
 
 /// Names of the bundled tables, the default first.
 pub const PRESETS: [&str; 3] = ["match", "textbook", "thesis"];
@@ -129,7 +130,7 @@ pub enum TableError {
     #[error("the table file is not valid: {0}")]
     Syntax(String),
     /// A value is outside what the equations allow.
-    #[error("the table \"{table}\" has {key} = {}; accepted is {accepted}", told(*value))]
+    #[error("the table \"{table}\" has {key} = {}; accepted is {accepted}", number(*value))]
     Value {
         /// The table's name.
         table: String,
@@ -148,12 +149,6 @@ pub enum TableError {
         /// What is wrong with it.
         error: DoubtError,
     },
-}
-
-/// A number as it stands in a file: very large and very small ones by their powers of ten.
-fn told(value: f64) -> String {
-    let text = format!("{value:?}");
-    text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
 }
 
 impl Table {
@@ -198,14 +193,8 @@ impl Table {
     /// # Errors
     /// [`TableError::Syntax`] or [`TableError::Value`].
     pub fn from_toml(text: &str) -> Result<Self, TableError> {
-        let table = toml::Deserializer::parse(text).and_then(Self::deserialize).map_err(|error| {
-            let line = error.span().map(|span| text.bytes().take(span.start).filter(|&byte| byte == b'\n').count());
-            let place = line.map_or(String::new(), |line| {
-                let key = text.lines().nth(line).and_then(|words| words.split_once('='));
-                format!("line {}{}: ", line + 1, key.map_or(String::new(), |(key, _)| format!(", {}", key.trim())))
-            });
-            TableError::Syntax(place + &error.message().replace("expected f64", "expected a number"))
-        })?;
+        let table = toml::Deserializer::parse(text).and_then(Self::deserialize);
+        let table = table.map_err(|error| TableError::Syntax(toml_flaw(text, &error)))?;
         table.validated()
     }
 
@@ -347,7 +336,7 @@ mod tests {
         let message = Table::from_toml(&TEXTBOOK.replace("mu_s = 0.2", "mu_s = \"slow\"")).unwrap_err().to_string();
         let words = "line 9, mu_s: invalid type: string \"slow\", expected a number";
         assert!(message.contains(words), "{message}");
-        assert!(Table::from_toml("").unwrap_err().to_string().contains("missing field"));
+        assert!(Table::from_toml("").unwrap_err().to_string().ends_with("`name` is missing"));
     }
 
     #[test]

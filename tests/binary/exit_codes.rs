@@ -21,6 +21,7 @@ fn what_a_name_or_a_path_stands_for_and_is_not_there_cannot_be_done() {
         &["evaluate", "--merge", "nowhere.json"],
         &["train", "--table", "nowhere"],
         &["train", "--from", "nowhere"],
+        &["train", "--config", "nowhere"],
         &["train", "--resume", "nowhere"],
         &["watch", "nowhere"],
         &["follow", "nowhere"],
@@ -43,6 +44,7 @@ fn what_a_name_or_a_path_stands_for_and_is_not_there_cannot_be_done() {
             said.err
         );
         assert!(said.err.starts_with("carom: ") && said.out.is_empty(), "{args:?}: {}", said.err);
+        assert!(!said.err.contains("os error"), "{args:?}: {}", said.err);
     }
 }
 

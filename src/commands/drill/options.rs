@@ -5,7 +5,7 @@ use crate::{
     coach::Skill,
     commands::{
         Failure,
-        input::{seed, whole},
+        input::{seed, shot_typed, whole},
         lookup::skill_called,
     },
     drills::{Exercise, Goal, Session, Venue},
@@ -60,7 +60,7 @@ impl std::str::FromStr for StrokeInput {
         if text == COACH {
             return Ok(Self::Coach);
         }
-        let cue = CueInputs::parse(text)
+        let cue = shot_typed(text)
             .map_err(|error| Failure::wrong_input(format_args!("{error}, or \"{COACH}\" for the coach's shot")))?;
         Ok(Self::Own(cue))
     }

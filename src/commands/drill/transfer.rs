@@ -83,7 +83,7 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
     } else {
         storage::read_text(&args.file, storage::PRACTICE).map(|read| text = read)
     };
-    read.map_err(|error| Failure::failed(format_args!("{file}: {error}")))?;
+    read.map_err(|error| Failure::failed(format_args!("{file} cannot be read: {error}")))?;
     let practice = Practice::parse(&text).map_err(|error| Failure::wrong_input(format_args!("{file}: {error}")))?;
     let workspace = Workspace::open()?;
     let imported = workspace.store.import(&practice);

@@ -8,7 +8,6 @@ use std::{
 };
 
 use serde::{Deserialize, Serialize};
-use serde_json::error::Category;
 
 use super::{self_play::InningRecord, shots::ShotRecord};
 use crate::{
@@ -142,7 +141,7 @@ impl Part {
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// A file cannot be read.
-    #[error("{}: {error}", path.display())]
+    #[error("{} cannot be read: {error}, as carom evaluate --shard prints it", path.display())]
     File { path: PathBuf, error: std::io::Error },
     /// Its contents are no part.
     #[error("{} is no part of an evaluation, as carom evaluate --shard prints it: {}", path.display(), what_is_wrong(error))]
@@ -160,13 +159,10 @@ pub enum MergeError {
 
 /// Where the contents stop being a part, without the words of the library that reads them.
 fn what_is_wrong(error: &serde_json::Error) -> String {
-    let (line, column) = (error.line(), error.column());
-    match error.classify() {
-        Category::Eof if (line, column) == (1, 0) => "it is empty".to_owned(),
-        Category::Eof => format!("it ends in the middle of line {line}"),
-        Category::Data => format!("it holds something else at line {line}, column {column}"),
-        Category::Syntax | Category::Io => format!("line {line}, column {column} is no JSON"),
+    if error.is_data() {
+        return format!("it holds something else at line {}, column {}", error.line(), error.column());
     }
+    storage::json_flaw(error)
 }
 
 /// The whole of which these files hold the parts.

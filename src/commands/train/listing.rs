@@ -18,9 +18,9 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
     // Somebody who has never trained has no folder yet.
     let Listing { runs, unreadable } = match (folder, folder.unwrap_or(&own)) {
         (None, own) if !own.exists() => Listing::default(),
-        (_, folder) => {
-            runs_in(folder).map_err(|error| Failure::failed(format_args!("{}: {error}", folder.display())))?
-        }
+        (_, folder) => runs_in(folder).map_err(|error| {
+            Failure::failed(format_args!("{} cannot be read as a folder of runs: {error}", folder.display()))
+        })?,
     };
     for sentence in unreadable {
         tell(format_args!("note: {}", OneLine(sentence)));

@@ -17,7 +17,7 @@ use crate::{
         },
     },
     printing::timestamp,
-    storage::{self, Places},
+    storage::{self, Places, toml_flaw},
 };
 
 /// What to train, with which weights, where.
@@ -137,14 +137,14 @@ fn known_spec(folder: &Path) -> Option<(TrainingSpec, Option<Start>, Option<u64>
 fn settings(path: Option<&Path>, set: &[String], known: Option<Value>, defaults: &Value) -> Result<Value, Failure> {
     let mut settings = known.unwrap_or_else(|| serde_json::json!({}));
     if let Some(path) = path {
-        let shown = path.display();
+        let shown = format!("the settings in {}", path.display());
         let text = storage::read_text(path, storage::SMALL)
-            .map_err(|error| Failure::failed(format_args!("{shown}: {error}")))?;
-        replace(&mut settings, &text, &format!("the settings in {shown}"), defaults)?;
+            .map_err(|error| Failure::failed(format_args!("{shown} cannot be read: {error}")))?;
+        replace(&mut settings, &text, &shown, defaults)?;
     }
     for pair in set {
         let shown = format!("--set {pair}");
-        let Some((name, value)) = pair.split_once('=') else {
+        let Some((name, value)) = pair.split_once('=').filter(|(name, _)| !name.trim().is_empty()) else {
             return Err(Failure::wrong_input(format_args!("{shown}: write NAME=VALUE, like heads=8")));
         };
         // A word needs no quotes here.
@@ -157,8 +157,12 @@ fn settings(path: Option<&Path>, set: &[String], known: Option<Value>, defaults:
 /// Puts the values of a TOML text in the place of those of the same names ([`lay_over`]).
 fn replace(settings: &mut Value, text: &str, origin: &str, defaults: &Value) -> Result<(), Failure> {
     let refuse = |reason: &str| Failure::wrong_input(format_args!("{origin}: {reason}"));
-    let read: toml::Table = toml::from_str(text).map_err(|error| refuse(error.message()))?;
+    let read: toml::Table = toml::from_str(text).map_err(|error| {
+        refuse(&format!("{}; accepted are lines like heads = 8, with words in quotes", toml_flaw(text, &error)))
+    })?;
     for (name, value) in read {
+        // JSON knows no dates either, and no setting is one: as a word it is refused by its own type.
+        let value = if value.is_datetime() { value.to_string().into() } else { value };
         let value = serde_json::to_value(value).map_err(|error| refuse(&error.to_string()))?;
         // TOML knows nan and inf, JSON does not.
         if value.is_null() {

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
+use crate::storage::json_flaw;
+
 /// Newest version that is understood of all files that are marked here, and the one that is written.
 pub const NEWEST: u32 = 1;
 
@@ -9,7 +11,7 @@ pub const NEWEST: u32 = 1;
 #[derive(Debug, thiserror::Error)]
 pub enum MarkError {
     /// It is no JSON, or not of this form.
-    #[error("it is damaged: {0}")]
+    #[error("it is damaged: {}", json_flaw(_0))]
     Syntax(#[from] serde_json::Error),
     /// It is something else.
     #[error("its format is \"{found}\"; accepted is \"{accepted}\"")]

@@ -30,7 +30,7 @@ pub enum RunError {
     #[error("another process is training in {0}; wait until it ends or stop it, or choose another folder by --run")]
     Busy(String),
     /// A file of the run cannot be read or written.
-    #[error("{path}: {reason}")]
+    #[error("{path} cannot be used: {reason}")]
     File {
         /// The file.
         path: String,

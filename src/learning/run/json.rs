@@ -9,7 +9,9 @@ use crate::storage::{self, write_atomic};
 
 /// The content of the file at `path`, which has at most `largest` bytes.
 pub fn read<T: DeserializeOwned>(path: &Path, largest: u64) -> io::Result<T> {
-    Ok(serde_json::from_slice(&storage::read(path, largest)?)?)
+    let bytes = storage::read(path, largest)?;
+    serde_json::from_slice(&bytes)
+        .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, storage::json_flaw(&error)))
 }
 
 /// Replaces the file at `path`, to be read by people, too.

@@ -3,6 +3,7 @@
 use std::{fmt, str::FromStr};
 
 use super::{Growth, Skill};
+use crate::printing::number;
 
 /// Why a skill is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
@@ -15,7 +16,7 @@ pub enum SkillError {
     )]
     Unknown(String),
     /// An error that nobody has.
-    #[error("the skill has {name} = {value}; accepted is 0 to {most} {unit}")]
+    #[error("the skill has {name} = {}; accepted is 0 to {most} {unit}", number(*value))]
     Range {
         /// Name of the cue input.
         name: &'static str,

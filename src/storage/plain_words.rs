@@ -1,0 +1,82 @@
+//! What is wrong with the text of a file, told without the words of the libraries that read it.
+
+use serde_json::error::Category;
+
+/// What the libraries say, and what people are told instead.
+const WORDS: [(&str, &str); 7] = [
+    ("expected usize", "expected a whole number from 0 on"),
+    ("expected u64", "expected a whole number from 0 on"),
+    ("expected u32", "expected a whole number from 0 on"),
+    ("expected f64", "expected a number"),
+    ("expected f32", "expected a number"),
+    ("expected a boolean", "expected true or false"),
+    ("unknown variant", "unknown word"),
+];
+
+/// A message of serde in plain words.
+pub fn in_plain_words(message: &str) -> String {
+    let missing = message.strip_prefix("missing field ");
+    let message = missing.map_or_else(|| message.to_owned(), |name| format!("{name} is missing"));
+    WORDS.iter().fold(message, |message, (theirs, ours)| message.replace(theirs, ours))
+}
+
+/// What is wrong with a TOML text: the line, the key that stands there, and why.
+pub fn toml_flaw(text: &str, error: &toml::de::Error) -> String {
+    let reason = in_plain_words(error.message());
+    let is_missing = error.message().starts_with("missing field ");
+    // What is missing in the whole file stands in no line of it, and what is missing in a section is no fault of another key.
+    let Some(start) = error.span().map(|span| span.start).filter(|start| !is_missing || *start > 0) else {
+        return reason;
+    };
+    let line = text.bytes().take(start).filter(|&byte| byte == b'\n').count();
+    let key = text.lines().nth(line).and_then(|words| words.split_once('=')).filter(|_| !is_missing);
+    let key = key.map_or(String::new(), |(key, _)| format!(", {}", key.trim()));
+    format!("line {}{key}: {reason}", line + 1)
+}
+
+/// What is wrong with a JSON text: the place, and why.
+pub fn json_flaw(error: &serde_json::Error) -> String {
+    let (line, column) = (error.line(), error.column());
+    match error.classify() {
+        Category::Eof if (line, column) == (1, 0) => "it is empty".to_owned(),
+        Category::Eof => format!("it ends in the middle of line {line}"),
+        Category::Syntax | Category::Io => format!("line {line}, column {column} is no JSON"),
+        Category::Data => {
+            let text = error.to_string();
+            let reason = in_plain_words(text.split(" at line ").next().unwrap_or_default());
+            // What lies within other parts has no place.
+            if line > 0 { format!("at line {line}, column {column}, {reason}") } else { reason }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Two {
+        #[serde(rename = "name")]
+        _name: String,
+        #[serde(rename = "count")]
+        _count: usize,
+    }
+
+    #[test]
+    fn nothing_is_told_in_the_words_of_a_library() {
+        let toml = |text: &str| toml_flaw(text, &toml::from_str::<Two>(text).unwrap_err());
+        assert_eq!(toml(""), "`name` is missing");
+        assert_eq!(toml("name = \"a\""), "`count` is missing");
+        assert_eq!(
+            toml("name = \"a\"\ncount = -1"),
+            "line 2, count: invalid value: integer `-1`, expected a whole number from 0 on"
+        );
+        assert!(toml("nmae = \"a\"\ncount = 1").starts_with("line 1, nmae: unknown field `nmae`"));
+        let json = |text: &str| json_flaw(&serde_json::from_str::<Two>(text).unwrap_err());
+        assert_eq!(json(""), "it is empty");
+        assert_eq!(json("{\"name\":\n"), "it ends in the middle of line 2");
+        assert_eq!(json("{\"name\" 3}"), "line 1, column 9 is no JSON");
+        assert_eq!(json("{\"name\":\"a\"}"), "at line 1, column 12, `count` is missing");
+    }
+}
