@@ -43,7 +43,7 @@ pub struct Args {
     #[arg(long, conflicts_with = "table")]
     stability: bool,
     /// Replay filmed shots of real balls instead, on several models of the table: how far each is from the film.
-    #[arg(long, conflicts_with_all = ["stability", "shots", "quick"])]
+    #[arg(long, conflicts_with_all = ["stability", "shots", "seed", "quick"])]
     filmed: bool,
     /// With --filmed, fit the constants of cloth and rails to the film, and to each half of it to judge them on the other.
     #[arg(long, requires = "filmed", conflicts_with_all = ["stability", "shots", "quick", "out"])]

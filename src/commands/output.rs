@@ -63,7 +63,7 @@ pub fn of_refused_lines(refused: usize) -> Result<(), Failure> {
 /// Where the folder of `file` is not there.
 pub fn need_folder(file: &Path) -> Result<(), Failure> {
     match file.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() && !folder.exists() => {
+        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
             let (file, folder) = (file.display(), folder.display());
             Err(Failure::failed(format_args!("{file}: there is no folder {folder}; make it first")))
         }

@@ -141,6 +141,9 @@ pub struct Exercise {
 /// Longest title or tag that is taken from a player, bytes; files may have longer ones.
 pub const LONGEST_TITLE: usize = 400;
 
+/// Longest point, likewise: some sentences.
+pub const LONGEST_POINT: usize = 4000;
+
 /// A tag without the `#` with which it is shown and may be typed.
 pub fn bare_tag(tag: &str) -> &str {
     tag.trim_start_matches('#')

@@ -19,7 +19,7 @@ mod verdict;
 
 pub use code::{CodeError, decode, encode, is_code};
 pub use compare::{Advice, advise, chance, difference};
-pub use exercise::{Category, Exercise, ExerciseError, LONGEST_TITLE, Par, bare_tag};
+pub use exercise::{Category, Exercise, ExerciseError, LONGEST_POINT, LONGEST_TITLE, Par, bare_tag};
 pub use file::{LibraryFile, LibraryFileError};
 pub use flaws::{GATHERED, flaws};
 pub use library::{Filter, Library, LibraryError};

@@ -17,6 +17,7 @@ mod fuzz;
 mod hostile;
 mod program;
 mod pty;
+mod refusals;
 mod reproduce;
 mod spelling;
 mod terminal;

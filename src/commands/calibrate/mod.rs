@@ -10,10 +10,11 @@ use std::path::{Path, PathBuf};
 use super::{
     Failure,
     input::{seed, table_named, whole},
-    output::{line, need_folder, tell},
+    output::{check_place, line, need_folder, tell},
 };
 use crate::{
-    calibration::{Entries, KeptError, Play, calibrate, entries_of, overnight, prior, save_table},
+    calibration::{Entries, KeptError, Play, calibrate, entries_of, may_save_table, overnight, prior, save_table},
+    drills::LONGEST_TITLE,
     storage::target_of,
     table::{PRESETS, Table, TableDoubt},
 };
@@ -33,13 +34,13 @@ pub struct Args {
     file: Option<PathBuf>,
     /// The table to begin with: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file, such as one that was calibrated
     /// before.
-    #[arg(long, default_value = "match")]
+    #[arg(long, default_value = "match", conflicts_with = "template")]
     table: String,
     /// Write the table to this TOML file.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Name of the table; "own" where the entries give none.
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["tests", "template", "simulate"])]
     name: Option<String>,
     /// A check of the day: the table is one that was calibrated before, and two strokes, a lag and a Corner-5, say whether it
     /// plays shorter or longer than then.
@@ -77,6 +78,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return simulated::run(&table, &prior(&table), tables, args.seed, args.json);
     }
     let doubt = doubt(args, &table)?;
+    // A session at the table is long: what it would end with is refused before it begins.
+    args.name.as_deref().map_or(Ok(()), check_name)?;
+    args.out.as_deref().map_or(Ok(()), check_out)?;
     match &args.file {
         Some(file) => tell_of(args, &table, &doubt, &entries_in(file)?),
         None => session::run(args, &table, &doubt),
@@ -110,6 +114,31 @@ fn doubt(args: &Args, table: &Table) -> Result<TableDoubt, Failure> {
     }
 }
 
+/// Refuses what a table cannot be called.
+fn check_name(name: &str) -> Result<(), Failure> {
+    if PRESETS.contains(&name) {
+        return Err(Failure::wrong_input(format_args!(
+            "\"{name}\" is the name of a bundled table; give another with --name"
+        )));
+    }
+    if name.trim().is_empty() || name.len() > LONGEST_TITLE {
+        return Err(Failure::wrong_input(format_args!(
+            "the name has {} bytes; accepted are up to {LONGEST_TITLE}, not all of them blanks",
+            name.len()
+        )));
+    }
+    Ok(())
+}
+
+/// Refuses where no table can be written.
+fn check_out(path: &Path) -> Result<(), Failure> {
+    let target = target_of(path);
+    need_folder(&target)?;
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    check_place(folder, path)?;
+    may_save_table(path).map_err(Failure::failed)
+}
+
 /// Calibrates with these entries, tells what was found and writes the table.
 fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) -> Result<(), Failure> {
     let (trials, odd) = entries.trials(table);
@@ -118,18 +147,13 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
     }
     let own = table.doubt.is_some().then_some(&table.name);
     let name = args.name.as_ref().or(entries.name.as_ref()).or(own).map_or(NAME, String::as_str);
-    if PRESETS.contains(&name) {
-        return Err(Failure::wrong_input(format_args!(
-            "\"{name}\" is the name of a bundled table; give another with --name"
-        )));
-    }
+    check_name(name)?;
     let found = calibrate(name, table, doubt, &trials).map_err(Failure::wrong_input)?;
     let play = args.daily.then(|| [Play::of(table), Play::of(&found.table)]);
     let report = Report::new(&found, entries, &odd, play);
     // Before anything is told: who stops reading still wants the table.
     let out = args.out.as_ref().filter(|_| odd.is_empty() && !found.is_contradictory());
     if let Some(path) = out {
-        need_folder(&target_of(path))?;
         save_table(path, &found.table).map_err(Failure::failed)?;
     }
     if args.json {

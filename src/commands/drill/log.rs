@@ -87,7 +87,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return log.read();
     }
     let words: Vec<Word> = args.results.iter().map(|text| Word::read(text)).collect::<Result<_, _>>()?;
-    words.iter().try_for_each(|word| log.take(word))?;
+    for word in &words {
+        if !log.take(word)? {
+            return Err(Failure::failed(log.nothing_to_undo()));
+        }
+    }
     log.keep()
 }
 
@@ -104,16 +108,23 @@ struct Log {
 }
 
 impl Log {
-    fn take(&mut self, word: &Word) -> Result<(), Failure> {
+    /// Does what a word says; `false` where there is nothing to take back.
+    fn take(&mut self, word: &Word) -> Result<bool, Failure> {
         match word {
-            Word::Make => self.session.log(true).map_err(Failure::failed),
-            Word::Miss => self.session.log(false).map_err(Failure::failed),
-            Word::Undo => self.undo(),
+            Word::Make => self.session.log(true).map_err(Failure::failed)?,
+            Word::Miss => self.session.log(false).map_err(Failure::failed)?,
+            Word::Undo => return self.undo(),
         }
+        Ok(true)
+    }
+
+    fn nothing_to_undo(&self) -> String {
+        format!("there is no attempt at {} to take back", self.name)
     }
 
     /// Takes the last note back; where there is none in this session, that of the last session at a table, which then goes on.
-    fn undo(&mut self) -> Result<(), Failure> {
+    /// `false` where there is none at all.
+    fn undo(&mut self) -> Result<bool, Failure> {
         if self.lock.is_none() {
             self.lock = Some(self.workspace.store.lock().map_err(Failure::failed)?);
             // Another program may have taken something of it back meanwhile.
@@ -127,8 +138,8 @@ impl Log {
                     && earlier.attempts.last().is_some_and(|last| last.exercise == self.name)
             };
             let mut earlier = self.workspace.sessions().into_iter().rev();
-            let noted = earlier.find(is_noted);
-            self.go_on_with(noted.ok_or_else(|| Failure::wrong_input("there is no attempt to take back"))?);
+            let Some(noted) = earlier.find(is_noted) else { return Ok(false) };
+            self.go_on_with(noted);
         }
         if self.session.unordered {
             // They were noted together, so the last one is not known.
@@ -138,7 +149,7 @@ impl Log {
             self.session.undo();
         }
         // The next word may take back what stands in another session.
-        self.save()
+        self.save().map(|()| true)
     }
 
     /// Goes on with a session as it is on the disk.
@@ -183,15 +194,19 @@ impl Log {
             if text.is_empty() {
                 continue;
             }
-            match Word::read(&text).and_then(|word| self.take(&word)) {
-                Err(failure) if failure.code() == 2 => {
+            match Word::read(&text) {
+                Err(failure) => {
                     refused += 1;
                     tell(failure);
                 }
-                done => {
-                    done?;
-                    // Who reads no more answers still wants every note kept.
-                    self.keep().or_else(|failure| if failure.is_silent() { Ok(()) } else { Err(failure) })?;
+                Ok(word) => {
+                    if self.take(&word)? {
+                        // Who reads no more answers still wants every note kept.
+                        self.keep().or_else(|failure| if failure.is_silent() { Ok(()) } else { Err(failure) })?;
+                    } else {
+                        tell(self.nothing_to_undo());
+                    }
+                    // Another program may note something before the next word.
                     self.lock = None;
                 }
             }

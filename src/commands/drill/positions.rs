@@ -4,12 +4,12 @@ use super::Workspace;
 use crate::{
     commands::{
         Failure,
-        input::bundled_table,
+        input::{bundled_table, shot_typed},
         output::{line, tell},
     },
-    drills::{Exercise, LONGEST_TITLE, bare_tag, check, decode, encode, store::StoreError},
+    drills::{Exercise, LONGEST_POINT, LONGEST_TITLE, bare_tag, check, decode, encode, store::StoreError},
     game::{Rule, scores},
-    physics::{CueInputs, has_room},
+    physics::has_room,
     table::Layout,
 };
 
@@ -79,24 +79,26 @@ pub struct RemoveArgs {
 pub fn tag(text: &str) -> Result<String, String> {
     let word = bare_tag(text.trim());
     if word.is_empty() || word.contains(char::is_whitespace) || word.len() > LONGEST_TITLE {
-        return Err("accepted is one word, with or without # before it".to_owned());
+        return Err(format!("accepted is one word of up to {LONGEST_TITLE} bytes, with or without # before it"));
     }
     Ok(word.to_owned())
 }
 
 pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     let table = bundled_table(&args.table)?;
-    let shot = args.shot.as_deref().map(CueInputs::parse).transpose().map_err(Failure::wrong_input)?;
+    let shot = args.shot.as_deref().map(shot_typed).transpose()?;
     shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
     let layout = Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?;
     let position = Exercise::own(&args.name, args.rule, &table.name, layout);
     let typed = args.title.as_deref().map(str::trim).filter(|title| !title.is_empty());
     let title = typed.map_or(position.title, str::to_owned);
-    if title.len() > LONGEST_TITLE {
-        return Err(Failure::wrong_input(format_args!(
-            "the title has {} bytes; accepted are up to {LONGEST_TITLE}",
-            title.len()
-        )));
+    for (words, text, longest) in [("title", &title, LONGEST_TITLE), ("point", &args.point, LONGEST_POINT)] {
+        if text.len() > longest {
+            return Err(Failure::wrong_input(format_args!(
+                "the {words} has {} bytes; accepted are up to {longest}",
+                text.len()
+            )));
+        }
     }
     keep(&Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position }, args.replace)?;
     if let Some(cue) = &shot {

@@ -8,6 +8,8 @@ mod spec;
 
 use std::{path::PathBuf, time::Duration};
 
+use clap::builder::NonEmptyStringValueParser;
+
 use self::{
     drawn_tables::DrawnTables,
     shots::Player,
@@ -49,7 +51,7 @@ pub struct Args {
     table: String,
     /// The policy: "bundled", the path of a file that `carom train` wrote, the folder of its run, or the name under which one was
     /// kept.
-    #[arg(long, value_name = "FILE", default_value = "bundled")]
+    #[arg(long, value_name = "FILE", default_value = "bundled", value_parser = NonEmptyStringValueParser::new())]
     policy: String,
     /// Play the networks' own shot: one pass, no simulator call. What they say of it is set against what comes of it.
     #[arg(long)]
@@ -97,7 +99,7 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
     no_jumps: bool,
     /// Time that the recommender has for a layout, ms.
-    #[arg(long, default_value_t = 500, conflicts_with = "policy_only", value_parser = whole_from(0_u64))]
+    #[arg(long, default_value_t = 500, conflicts_with = "policy_only", value_parser = whole(0..=3_600_000_u64))]
     budget_ms: u64,
     /// Simulations after which the recommender begins nothing new on a layout, in place of a time: the answer is then the same
     /// on any machine. As for `carom recommend`, what has to be done in any case comes on top.

@@ -160,14 +160,15 @@ fn print_text(out: &mut impl Write, report: &SelfPlayReport<'_>) -> std::io::Res
     let [low, high] = report.average_interval.map(end);
     writeln!(
         out,
-        "self-play on \"{}\", {}, skill \"{}\", doubt \"{}\": {} points and {} misses in {} innings ({} broken off)",
+        "self-play on \"{}\", {}, skill \"{}\", doubt \"{}\": {} and {} {} in {} ({} broken off)",
         report.table,
         report.rule,
         report.skill.unwrap_or(Skill::EXPERT),
         report.doubt,
-        report.points,
+        plural(report.points as usize, "point"),
         report.misses,
-        report.innings,
+        if report.misses == 1 { "miss" } else { "misses" },
+        plural(report.innings, "inning"),
         report.broken_off
     )?;
     writeln!(

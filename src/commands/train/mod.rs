@@ -95,7 +95,10 @@ pub struct Args {
     #[arg(long)]
     minutes: Option<f64>,
     /// List the runs in this folder, by default the user's, and train nothing.
-    #[arg(long, value_name = "DIR", num_args = 0..=1, conflicts_with_all = ["resume", "run", "from", "seeds", "minutes"])]
+    #[arg(long, value_name = "DIR", num_args = 0..=1, conflicts_with_all = [
+        "agent", "reward", "table", "seed", "steps", "config", "set", "from", "evaluate_every", "evaluation_layouts", "run",
+        "continue", "seeds", "resume", "jobs", "minutes",
+    ])]
     list: Option<Option<PathBuf>>,
     /// Print the metrics, or the list, as JSON Lines on standard output.
     #[arg(long)]
@@ -160,13 +163,18 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         }
         return multi_seed::start(&read, seeds, args.jobs, &options);
     }
-    if args.jobs > 1 {
-        let jobs = args.jobs;
-        return Err(Failure::wrong_input(format_args!("--jobs {jobs} is for several seeds; say how many by --seeds")));
-    }
+    for_one_run(args.jobs)?;
     let spec::Read { spec, weights, .. } = &read;
     let run = read.begin(|folder| spec.start(folder, spec.plan.seed, weights.as_ref())).map_err(failure)?;
     train(run, &options)
+}
+
+/// Refuses to train one run several at a time.
+fn for_one_run(jobs: u32) -> Result<(), Failure> {
+    if jobs == 1 {
+        return Ok(());
+    }
+    Err(Failure::wrong_input(format_args!("--jobs {jobs} is for several seeds; say how many by --seeds")))
 }
 
 /// Goes on with one run or several.
@@ -174,6 +182,7 @@ fn resume(folder: &Path, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fa
     if is_group(folder) {
         return multi_seed::resume(folder, jobs, options);
     }
+    for_one_run(jobs)?;
     let (run, notices) = Run::resume(folder).map_err(failure)?;
     for notice in notices {
         tell(format_args!("warning: {notice}"));

@@ -1,0 +1,152 @@
+//! What is refused, when, and in which words.
+
+use std::{
+    fs,
+    io::{BufRead, BufReader, Write},
+    process::Stdio,
+};
+
+use crate::program::{Kept, SAVE, carom, command, drill, fed, folder};
+
+#[test]
+fn what_a_session_at_the_table_would_end_with_is_refused_before_it_begins() {
+    let home = folder();
+    fs::write(home.path().join("notes.toml"), "not a table").unwrap();
+    for (args, code, named) in [
+        (["--out", "nowhere/mine.toml"], 1, "there is no folder nowhere"),
+        (["--out", "carom"], 1, "is no table"),
+        (["--out", "notes.toml"], 1, "is no table"),
+        (["--name", "match"], 2, "the name of a bundled table"),
+        (["--name", " "], 2, "not all of them blanks"),
+    ] {
+        let said = fed(command(home.path(), &[&["calibrate"], &args[..]].concat()), "9.6 5.4 4\ndone\n");
+        assert!(said.code == Some(code) && said.err.contains(named), "{args:?}: {}", said.err);
+        assert!(said.err.lines().count() == 1 && said.out.is_empty(), "{args:?}: {}", said.err);
+    }
+    assert!(!home.path().join("carom/calibration.toml").exists(), "nothing was asked for");
+}
+
+#[test]
+fn settings_of_an_agent_are_refused_in_plain_words() {
+    let home = folder();
+    let said = |text: &str| {
+        fs::write(home.path().join("own.toml"), text).unwrap();
+        let said = carom(home.path(), &["train", "--run", "run", "--steps", "192", "--config", "own.toml"]);
+        assert!(said.code == Some(2) && said.err.lines().count() == 1, "{text}: {}", said.err);
+        assert!(!home.path().join("run").exists(), "{text}");
+        said.err
+    };
+    for (text, words) in [
+        ("# mine\nheads = \n", "the settings in own.toml: line 2, heads: "),
+        (
+            "heads = 8\nheads = 9\n",
+            "the settings in own.toml: line 2, heads: duplicate key; accepted are lines like heads = 8",
+        ),
+        ("heads = 1979-05-27\n", "heads = \"1979-05-27\""),
+    ] {
+        assert!(said(text).contains(words), "{}", said(text));
+    }
+    // Only thesis-ddpg has it.
+    let unknown = said("memory = 1\n");
+    assert!(unknown.contains("expected one of `actions`") && !unknown.contains("hindsight"), "{unknown}");
+    let nameless = carom(home.path(), &["train", "--set", "=8"]);
+    assert!(nameless.code == Some(2) && nameless.err.contains("write NAME=VALUE"), "{}", nameless.err);
+    let missing = carom(home.path(), &["train", "--config", "nowhere.toml"]);
+    assert!(
+        missing.code == Some(1) && missing.err.contains("the settings in nowhere.toml cannot be read"),
+        "{}",
+        missing.err
+    );
+}
+
+#[test]
+fn options_that_would_mean_nothing_are_refused() {
+    let home = folder();
+    let list = ["train", "--list"];
+    for args in [
+        &[&list[..], &["--steps", "5"]].concat()[..],
+        &[&list[..], &["--agent", "dqn"]].concat(),
+        &[&list[..], &["--seed", "5"]].concat(),
+        &[&list[..], &["--set", "heads=8"]].concat(),
+        &[&list[..], &["--jobs", "2"]].concat(),
+        &["accuracy", "--filmed", "--seed", "5"],
+        &["recommend", "--policy-only", "--budget-ms", "5"],
+        &["recommend", "--policy-only", "--simulations", "5"],
+        &["recommend", "--policy-only", "--seed", "5"],
+        &["calibrate", "--tests", "--name", "mine"],
+        &["calibrate", "--template", "--table", "thesis"],
+    ] {
+        let said = carom(home.path(), args);
+        assert!(said.code == Some(2) && said.err.contains("cannot be used with"), "{args:?}: {}", said.err);
+    }
+}
+
+#[test]
+fn times_and_texts_have_bounds() {
+    let home = folder();
+    let said = carom(home.path(), &["evaluate", "--layouts", "1", "--budget-ms", "3600001"]);
+    assert!(said.code == Some(2) && said.err.contains("from 0 to 3600000"), "{}", said.err);
+    let long = "x".repeat(4001);
+    for (option, accepted) in [("--point", "up to 4000"), ("--title", "up to 400"), ("--tag", "up to 400")] {
+        let said = drill(home.path(), &[SAVE, &["--replace", option, &long]].concat());
+        assert!(said.code == Some(2) && said.err.contains(accepted), "{option}: {}", said.err);
+    }
+    assert_eq!(drill(home.path(), &[SAVE, &["--replace", "--point", &long[1..]]].concat()).code, Some(0));
+    for args in [
+        &["simulate", "--batch", ""][..],
+        &["recommend", "--batch", ""],
+        &["recommend", "--policy", ""],
+        &["evaluate", "--policy", ""],
+    ] {
+        let said = carom(home.path(), args);
+        assert!(said.code == Some(2) && said.err.contains("a value is required"), "{args:?}: {}", said.err);
+    }
+    for args in [&["bench", "--seconds", "1e300"][..], &["recommend", "--skill", "a=1e300,b=1,theta=1,phi=1,V=1"]] {
+        let said = carom(home.path(), args);
+        assert!(said.code == Some(2) && said.err.contains("1e300"), "{args:?}: {}", said.err);
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn what_is_in_a_folders_place_is_named() {
+    let home = folder();
+    fs::write(home.path().join("taken"), "").unwrap();
+    for args in [
+        &["drill", "export", "taken/mine.json"][..],
+        &["calibrate", "--out", "taken/mine.toml"],
+        &["train", "--run", "/dev/null", "--steps", "192"],
+        &["train", "--run", "taken/run", "--steps", "192"],
+    ] {
+        let said = carom(home.path(), args);
+        assert!(said.code == Some(1) && said.err.contains("folder"), "{args:?}: {}", said.err);
+        assert!(!said.err.contains("os error"), "{args:?}: {}", said.err);
+    }
+}
+
+#[test]
+fn one_run_is_trained_one_at_a_time_when_it_is_gone_on_with_too() {
+    let home = folder();
+    let train = ["train", "--run", "run", "--steps", "192", "--evaluation-layouts", "5"];
+    assert_eq!(carom(home.path(), &train).code, Some(0));
+    let said = carom(home.path(), &["train", "--resume", "run", "--jobs", "2"]);
+    assert!(said.code == Some(2) && said.err.contains("--jobs 2 is for several seeds"), "{}", said.err);
+}
+
+#[test]
+fn where_nothing_is_to_be_taken_back_other_programs_may_go_on() {
+    let home = folder();
+    let said = drill(home.path(), &["log", "mine", "undo"]);
+    assert!(said.code == Some(1) && said.err.contains("no attempt at mine to take back"), "{}", said.err);
+    let mut log = command(home.path(), &["drill", "log", "mine"]);
+    let mut log = Kept(log.stdin(Stdio::piped()).spawn().unwrap());
+    let mut words = log.stdin.take().unwrap();
+    words.write_all(b"undo\n").unwrap();
+    let mut answer = String::new();
+    BufReader::new(log.stderr.take().unwrap()).read_line(&mut answer).unwrap();
+    assert!(answer.contains("to take back"), "{answer}");
+    let other = drill(home.path(), &["log", "mine", "make"]);
+    assert_eq!(other.code, Some(0), "{}", other.err);
+    drop(words);
+    assert_eq!(log.wait().unwrap().code(), Some(0));
+}
