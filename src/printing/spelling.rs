@@ -3,9 +3,8 @@
 use std::{borrow::Cow, sync::OnceLock};
 
 /// What is spelt, and how. Other characters come from names that somebody gave; they stay as they are.
-const SPELT: [(&str, &str); 18] = [
+const SPELT: [(&str, &str); 17] = [
     ("\u{2013}", "-"),
-    ("\u{b0}", " degrees"),
     ("mass\u{e9}", "masse"),
     ("\u{b1}", "+-"),
     ("\u{d7}", "x"),
@@ -30,7 +29,23 @@ pub fn spelt(text: &str) -> Cow<'_, str> {
     if text.is_ascii() {
         return Cow::Borrowed(text);
     }
-    Cow::Owned(SPELT.iter().fold(text.to_owned(), |text, (character, word)| text.replace(character, word)))
+    Cow::Owned(SPELT.iter().fold(with_degrees(text), |text, (character, word)| text.replace(character, word)))
+}
+
+/// Angles in words: of one it is a degree, of all others degrees.
+fn with_degrees(text: &str) -> String {
+    let mut parts = text.split('\u{b0}').peekable();
+    let mut spelt = String::new();
+    while let Some(part) = parts.next() {
+        spelt += part;
+        if parts.peek().is_some() {
+            let is_one = part
+                .strip_suffix('1')
+                .is_some_and(|rest| !rest.ends_with(|last: char| last.is_ascii_digit() || last == '.'));
+            spelt += if is_one { " degree" } else { " degrees" };
+        }
+    }
+    spelt
 }
 
 /// Whether text may have characters beyond ASCII, by the environment's variables.
@@ -63,6 +78,8 @@ mod tests {
     #[test]
     fn what_the_program_writes_is_spelt_and_names_stay() {
         assert_eq!(spelt("red \u{2013} 3\u{b0}, 1.0 \u{b1} 0.2, a\u{b2}"), "red - 3 degrees, 1.0 +- 0.2, a^2");
+        assert_eq!(spelt("1\u{b0}, 11\u{b0}, 0.1\u{b0}, 1.0\u{b0}"), "1 degree, 11 degrees, 0.1 degrees, 1.0 degrees");
+        assert_eq!(spelt("cue raised 1\u{b0}."), "cue raised 1 degree.");
         assert_eq!(spelt("a mass\u{e9} by Andr\u{e9}"), "a masse by Andr\u{e9}");
         assert!(matches!(spelt("plain"), Cow::Borrowed("plain")));
     }

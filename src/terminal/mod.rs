@@ -15,6 +15,7 @@ mod seat;
 mod shot;
 mod shown;
 mod tasks;
+mod terms;
 mod ui;
 mod words;
 
@@ -77,6 +78,7 @@ pub use tasks::{
     reel::{Reel, Scene},
     training::{Failure, Keeping, Kept, Launch, Report, Slot, Subscriptions},
 };
+pub use terms::Terms;
 pub use ui::{
     geometry::Mapping,
     theme::{Palette, UnknownPalette},

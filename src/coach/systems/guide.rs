@@ -234,7 +234,7 @@ mod tests {
         let example = Applied::example(System::Corner5, &Table::preset("textbook").unwrap()).unwrap();
         let numbers = Numbers { start: 65.6, first: 30.3, third: 35.3 };
         let applied = Applied { numbers, table_first: None, table_third: None, ..example };
-        assert_eq!(applied.to_string(), "Corner-5: 66 - 35 = 31, aim at 31");
+        assert_eq!(applied.to_string(), "Corner-5: 66 - 35 = 31, aim at 31 on the wood");
     }
 
     #[test]

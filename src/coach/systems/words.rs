@@ -69,7 +69,7 @@ impl Applied {
 
 impl fmt::Display for Applied {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}: {}, aim at {}", self.system, self.arithmetic(), self.aim())?;
+        write!(formatter, "{}: {}, aim at {} on the wood", self.system, self.arithmetic(), self.aim())?;
         let correction = self.correction();
         if correction.is_empty() { Ok(()) } else { write!(formatter, "; {correction}") }
     }

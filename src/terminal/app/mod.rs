@@ -262,7 +262,12 @@ impl App {
             Action::Suspend => return Some(Effect::Suspend),
             Action::OpenHelp => self.lay_over(Overlay::Help),
             Action::OpenMessages => self.lay_over(Overlay::Messages),
-            Action::CloseHelp => self.help = None,
+            Action::CloseHelp => {
+                if self.help.take() == Some((Overlay::Messages, 0)) {
+                    // What has come meanwhile was the first line there.
+                    self.toasts.clear();
+                }
+            }
             Action::ScrollHelp(lines) => {
                 self.help = self.help.map(|(page, top)| {
                     let end = view::help_end(self, page, self.area);

@@ -10,6 +10,7 @@ use crate::{
     game::Rule,
     storage::{self, replace},
     table::{CueBall, Layout, Table},
+    terminal::Terms,
 };
 
 /// The version of the file that is written.
@@ -42,6 +43,10 @@ pub struct SavedSession<'a> {
     pub skill: Skill,
     /// Whether the next point counted too.
     pub plan: bool,
+    /// What the settings said of these three: what has been set otherwise since goes before what was left here. Older versions
+    /// did not keep it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub settings: Option<Terms>,
     /// What was practised, where that was on the screen and not over.
     #[serde(default)]
     pub practice: Option<Cow<'a, Session>>,
@@ -57,13 +62,23 @@ impl<'a> SavedSession<'a> {
         table: &'a Table,
         layout: Layout,
         cue_ball: CueBall,
-        rule: Rule,
-        skill: Skill,
-        plan: bool,
+        Terms { rule, skill, plan }: Terms,
         practice: Option<&'a Session>,
     ) -> Self {
         let (table, practice) = (Cow::Borrowed(table), practice.map(Cow::Borrowed));
-        Self { version: VERSION, table, layout, cue_ball, rule, skill, plan, practice, former: Cow::Borrowed(&[]) }
+        let (settings, former) = (None, Cow::Borrowed(&[][..]));
+        Self { version: VERSION, table, layout, cue_ball, rule, skill, plan, settings, practice, former }
+    }
+
+    /// The same where the settings said this.
+    #[must_use]
+    pub fn under(self, settings: Terms) -> Self {
+        Self { settings: Some(settings), ..self }
+    }
+
+    /// What was asked for.
+    pub const fn terms(&self) -> Terms {
+        Terms { rule: self.rule, skill: self.skill, plan: self.plan }
     }
 
     /// The same after former sessions that were not gone on with, the latest first.
@@ -75,10 +90,10 @@ impl<'a> SavedSession<'a> {
 
     /// The same with nothing borrowed.
     pub fn into_owned(self) -> SavedSession<'static> {
-        let Self { version, table, layout, cue_ball, rule, skill, plan, practice, former } = self;
+        let Self { version, table, layout, cue_ball, rule, skill, plan, settings, practice, former } = self;
         let practice = practice.map(|practice| Cow::Owned(practice.into_owned()));
         let (table, former) = (Cow::Owned(table.into_owned()), Cow::Owned(former.into_owned()));
-        SavedSession { version, table, layout, cue_ball, rule, skill, plan, practice, former }
+        SavedSession { version, table, layout, cue_ball, rule, skill, plan, settings, practice, former }
     }
 
     /// What the file says; nothing where there is none.
@@ -156,7 +171,8 @@ mod tests {
     use super::*;
 
     fn session(table: &Table) -> SavedSession<'_> {
-        SavedSession::new(table, Layout::opening(table), CueBall::White, Rule::OneCushion, Skill::CLUB, false, None)
+        let terms = Terms { rule: Rule::OneCushion, skill: Skill::CLUB, plan: false };
+        SavedSession::new(table, Layout::opening(table), CueBall::White, terms, None)
     }
 
     #[test]
@@ -194,6 +210,21 @@ mod tests {
         assert!(said.contains("last.json: it is damaged") && said.contains("last.unread.json"), "{said}");
         assert_eq!(std::fs::read(path.with_extension("unread.json")).unwrap(), b"{");
         assert_eq!(SavedSession::load_or_put_aside(&path), Ok(None));
+    }
+
+    #[test]
+    fn a_session_of_an_older_version_does_not_say_what_was_set_then() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("last.json");
+        let table = Table::default();
+        let last = session(&table);
+        last.save(&path).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(!text.contains("settings"), "as older versions wrote it: {text}");
+        assert_eq!(SavedSession::load(&path).unwrap().unwrap().settings, None);
+        let set = Terms { skill: Skill::EXPERT, ..last.terms() };
+        last.under(set).save(&path).unwrap();
+        assert_eq!(SavedSession::load(&path).unwrap().unwrap().settings, Some(set));
     }
 
     #[test]

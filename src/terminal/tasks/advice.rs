@@ -7,7 +7,7 @@ use crate::{
     game::Rule,
     learning::Policy,
     statistics::SuccessRate,
-    terminal::Shot,
+    terminal::{Shot, Terms},
 };
 
 /// Whose advice is asked, and for what. Two are equal if they ask the same.
@@ -41,6 +41,17 @@ impl PartialEq for CoachQuery {
 }
 
 impl CoachQuery {
+    /// What a key turns of it.
+    pub const fn terms(&self) -> Terms {
+        Terms { rule: self.rule, skill: self.skill, plan: self.plan }
+    }
+
+    /// The same on other terms.
+    #[must_use]
+    pub fn with(&self, Terms { rule, skill, plan }: Terms) -> Self {
+        Self { rule, skill, plan, ..self.clone() }
+    }
+
     /// Who plays, and what is in doubt.
     pub const fn shooter(&self) -> Shooter {
         Shooter { skill: self.skill, doubt: self.doubt }

@@ -14,9 +14,9 @@ use crate::{
     terminal::{Reel, tasks::onlooker::Seen},
 };
 
-/// Why a run's weights are of no use to the coach.
-pub const NO_POLICY: &str = "the run has no policy for the coach: it comes with the first measurement, and the thesis' \
-                             agents have none";
+/// Why a run's networks are of no use to the coach.
+pub const NO_POLICY: &str = "the run has no networks for the coach: they come with the first measurement, and the \
+                             thesis' agents have none";
 
 /// Which of the two runs that can be followed at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -18,7 +18,7 @@ fn a_stroke_that_was_entered_is_there_after_the_program_was_killed() {
         session
     };
     let mut first = start();
-    first.wait_for("bits)");
+    first.wait_for("1 halves a doubt)");
     first.send("\r9.6\r5.4\r725 mm\r\r");
     first.wait_for("1/2");
     first.wait_for("mu_r");

@@ -66,6 +66,15 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
 }
 
 #[test]
+fn beside_another_systems_example_the_line_below_names_no_system_of_the_shot() {
+    let player = taught(Player::with(ASCII), "corner-5-from-the-corner").press("y");
+    player.shows(&["System - Corner-5 for this shot", " Corner-5: ", " on the wood"]);
+    let player = player.press("y");
+    player.shows(&["System - Plus example", "Cue from "]);
+    player.is_silent_on("Corner-5: ");
+}
+
+#[test]
 fn a_parallel_shift_is_drawn_before_the_systems_and_is_of_its_shot_alone() {
     let player = advised(Player::with(ASCII), "-0.6035,-0.355 0.165,0.42 0,0.3", "0,0.2,2,75,4").press("Esc y");
     player.shows(&["- Parallel shift for this shot -", "Aimed at diamond 3 of the top rail", "as here, to 4.3"]);

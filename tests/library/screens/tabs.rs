@@ -14,7 +14,7 @@ fn every_screen_has_the_tabs_and_what_has_to_be_known_beside_them() {
     for (width, height) in [(80, 24), (100, 30), (120, 40), (200, 60)] {
         let coach = Player::new().press("S S").press("Enter");
         rows.push(first_row(&coach.text(width, height)));
-        rows.push(first_row(&coach.answer().press("R R R +").text(width, height)));
+        rows.push(first_row(&coach.answer().press("R R R Esc +").text(width, height)));
         rows.push(first_row(&Player::new().press("Enter").answer().press("+ Space").wait(1.0).text(width, height)));
         rows.push(first_row(&Player::new().press("R R S S S F5 F2").text(width, height)));
         rows.push(first_row(&Player::at_library(TRUE_COLOUR, &[], &[]).text(width, height)));

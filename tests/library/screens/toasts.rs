@@ -79,6 +79,26 @@ fn nothing_lies_over_the_page_of_messages() {
 }
 
 #[test]
+fn what_fails_while_the_page_of_messages_is_open_is_told_there_once() {
+    let count = |player: &Player, (width, height)| player.text(width, height).matches("the disk is full").count();
+    let fail = |player: &mut Player| {
+        let failure = Failure { process: None, sentence: "the disk is full".to_owned() };
+        player.app.receive_report(Report::TrainerFailed(Path::new(RUNS).join(NAME), failure));
+    };
+    let mut open = Player::new().press("F6");
+    fail(&mut open);
+    assert_eq!(SIZES.map(|size| count(&open, size)), [1, 1], "{}", open.text(80, 24));
+    assert!(!open.text(80, 24).contains('┌'), "{}", open.text(80, 24));
+    open.press("q").warns_nothing();
+    // Where the first lines are not in sight it is told over the others.
+    let many: Vec<usize> = (1..=40).collect();
+    let mut scrolled = refused(Player::new(), &many).press("F6 Down");
+    fail(&mut scrolled);
+    assert!(scrolled.text(80, 24).contains('┌'), "{}", scrolled.text(80, 24));
+    scrolled.press("q").warns("the disk is full");
+}
+
+#[test]
 fn questions_are_never_hidden() {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left a");
     player.app.paste(&"half a code ".repeat(40));
@@ -90,5 +110,5 @@ fn questions_are_never_hidden() {
     }
     let name = Player::watching(TRUE_COLOUR).press("k Backspace / Enter");
     let text = name.text(80, 24);
-    assert!(text.contains("keep the weights under the name") && name.is_toast("is no name"), "{text}");
+    assert!(text.contains("keep the networks under the name") && name.is_toast("is no name"), "{text}");
 }

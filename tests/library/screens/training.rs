@@ -135,7 +135,7 @@ fn every_condition_says_what_it_is_and_what_to_do() {
         (Condition::Died, ["died ", "r go on", "w use"]),
         (
             Condition::Is(Phase::Finished),
-            ["finished ", "w uses these weights in the coach", "k keeps them under a name"],
+            ["finished ", "w uses these networks in the coach", "k keeps them under a name"],
         ),
     ] {
         watching().condition(condition, None).shows(&parts);
@@ -266,15 +266,15 @@ fn a_second_process_that_is_refused_is_no_news_of_the_run() {
 #[test]
 fn weights_that_are_not_there_are_not_offered() {
     let finished = || Player::watching(TRUE_COLOUR).condition(Condition::Is(Phase::Finished), None);
-    finished().says("w uses these weights in the coach");
+    finished().says("w uses these networks in the coach");
     let without = finished().has_policy(false);
-    without.says("finished; it has left no policy for the coach");
+    without.says("finished; it has left no networks for the coach");
     let hints = without.text(120, 40).lines().nth(39).map(str::to_owned).unwrap();
     assert!(!hints.contains("w use") && !hints.contains("k keeps them under a name"), "{hints}");
     for key in ["w", "k"] {
         let player = finished().has_policy(false).press(key);
         assert!(player.effects.is_empty() && player.app.place() == KeyContext::Training(TrainingContext::Watch));
-        player.says("the run has no policy for the coach");
+        player.says("the run has no networks for the coach");
     }
 }
 
@@ -335,7 +335,7 @@ fn abandoning_asks_first_and_says_what_is_lost() {
 #[test]
 fn a_policy_is_kept_under_a_name() {
     let player = Player::watching(TRUE_COLOUR).press("k");
-    player.shows(&["keep the weights under the name: 20261120-091500-ddpg-match-r3-1", "Enter keep"]);
+    player.shows(&["keep the networks under the name: 20261120-091500-ddpg-match-r3-1", "Enter keep"]);
     let mut player = player;
     for _ in 0..60 {
         player = player.press("Backspace");
@@ -349,11 +349,11 @@ fn a_policy_is_kept_under_a_name() {
     assert_eq!((keeping.folder.as_path(), keeping.name.as_str()), (Path::new("/policies"), "aq"));
     assert_eq!(keeping.from, Path::new(RUNS).join(NAME).join("policy.safetensors"));
     let player = player.report(Report::Kept(*keeping, Ok(Kept::Taken)));
-    player.says("there is a policy called aq already; replace it?");
+    player.says("there are networks called aq already; replace them?");
     let mut player = player.press("y");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     assert!(keeping.replace);
-    player.report(Report::Kept(*keeping, Ok(Kept::Done))).says("kept; use it by: carom recommend --policy aq");
+    player.report(Report::Kept(*keeping, Ok(Kept::Done))).says("kept; use them by: carom recommend --policy aq");
 }
 
 #[test]

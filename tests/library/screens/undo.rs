@@ -1,10 +1,10 @@
 //! What is taken back and made again: strokes that are set, and balls that come from elsewhere, on another table too.
 
 use super::{
-    player::{Player, TRUE_COLOUR},
+    player::{OTHERS, Player, SHOT, TRUE_COLOUR},
     practice::exercise,
 };
-use carom::{drills::Exercise, game::Rule, table::Layout};
+use carom::{drills::Exercise, game::Rule, physics::CueInputs, table::Layout, terminal::Mode};
 
 #[test]
 fn changes_of_the_stroke_are_taken_back_input_by_input() {
@@ -51,6 +51,50 @@ fn the_rule_of_an_exercise_goes_with_its_balls_when_they_are_taken_back() {
     back.says("what counts: straight");
     let again = back.press("U");
     assert_eq!(rule(&again), Rule::OneCushion);
-    // A rule that was chosen since stays.
-    assert_eq!(rule(&again.press("R u")), Rule::ThreeCushion);
+    // A rule that was chosen since is the step after it.
+    let again = again.press("R u");
+    assert_eq!(rule(&again), Rule::OneCushion);
+    // One that was set since stays.
+    let set = again.press("F5 Home Down Down Down Down Right F2");
+    assert_eq!(rule(&set), Rule::ThreeCushion);
+    assert_eq!(rule(&set.press("u")), Rule::ThreeCushion);
+}
+
+#[test]
+fn another_player_rule_or_plan_is_a_step_and_the_shot_comes_back_with_the_one_before() {
+    let cue = |player: &Player| player.app.coach.shot().map(|shot| shot.cue);
+    let known = CueInputs::parse(SHOT).unwrap();
+    for (key, said) in [
+        ("S", "the player: expert; the shot for it is known"),
+        ("R", "what counts: straight; the shot for it is known"),
+        ("P", "the next point counts too; the shot for it is known"),
+    ] {
+        let changed = Player::new().press("Enter").answer().press(key);
+        assert_eq!(cue(&changed), None, "{key}");
+        changed.says("Enter asks the coach, u takes it back");
+        let back = changed.press("u");
+        assert_eq!(cue(&back), Some(known), "{key}");
+        assert_eq!(back.app.coach.mode, Mode::Watching, "{key}: told as it was");
+        back.says(said);
+        let again = back.press("U");
+        assert_eq!(cue(&again), None, "{key}");
+        again.press("u u").says("there is nothing to take back");
+    }
+}
+
+#[test]
+fn the_shots_for_several_players_are_all_kept_for_these_balls() {
+    let cue = |player: &Player| player.app.coach.shot().map(|shot| shot.cue);
+    let others = Player::new().press("Enter").answer().press("S Enter").better(OTHERS[0], 893).press("Esc");
+    let other = cue(&others);
+    assert_eq!(other, Some(CueInputs::parse(OTHERS[0]).unwrap()));
+    let back = others.press("u");
+    assert_eq!(cue(&back), Some(CueInputs::parse(SHOT).unwrap()), "the answer for another player has replaced nothing");
+    let again = back.press("U");
+    assert_eq!(cue(&again), other);
+    let round = again.press("S S S S S");
+    assert_eq!(cue(&round), Some(CueInputs::parse(SHOT).unwrap()), "the first player again");
+    let moved = round.press("1 Right");
+    assert_eq!(cue(&moved), None);
+    assert_eq!(cue(&moved.press("S")), None, "a shot is for the balls where they lay");
 }

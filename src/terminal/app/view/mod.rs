@@ -11,7 +11,7 @@ mod too_small;
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use self::{hints::draw_hints, tabs::draw_tabs, toasts::draw_toasts};
-use crate::terminal::{App, pages::PageArea, ui::Ui};
+use crate::terminal::{App, Overlay, pages::PageArea, ui::Ui};
 
 pub use self::{
     help::end as help_end,
@@ -49,6 +49,10 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     };
     if let Some(command_palette) = &app.command_palette {
         foot = palette::draw(app, command_palette, area, ui);
+    }
+    // The page of messages begins with what would be told over it.
+    if app.help == Some((Overlay::Messages, 0)) {
+        return;
     }
     // The first row is the header's.
     let room = Rect::new(area.x, area.y + 1, area.width, foot.saturating_sub(area.y + 1));

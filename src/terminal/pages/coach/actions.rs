@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::{
-    game::{Point, Rule},
+    game::Point,
     table::{BALLS, CueBall, Layout, LayoutError, Opening, Side},
     terminal::{
-        CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode,
+        CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode, Terms,
         pages::coach::{CoachPage, Position},
         shot::{
             OwnStroke,
@@ -222,28 +222,37 @@ impl CoachPage {
     pub(super) fn position(&self, layout: Layout) -> Position {
         let Position { table, policy, cue_ball, .. } = self.balls.present();
         let (table, policy) = (Arc::clone(table), policy.clone());
-        Position { table, policy, layout, cue_ball: *cue_ball, rules: None, advised: None }
+        Position { table, policy, layout, cue_ball: *cue_ball, terms: None, advised: Vec::new() }
     }
 
     fn undo(&mut self) {
-        let rules = self.balls.present().rules;
+        let left = self.balls.present().clone();
         self.balls.undo();
-        self.travelled(rules);
+        let terms = left.terms.map(|[before, after]| [after, before]);
+        self.travelled(left, terms);
     }
 
     fn redo(&mut self) {
+        let left = self.balls.present().clone();
         self.balls.redo();
-        self.travelled(self.balls.present().rules.map(|[before, after]| [after, before]));
+        self.travelled(left, self.balls.present().terms);
     }
 
-    /// A step was taken back or made again, which changes the second rule to the first. One that was chosen since stays.
-    fn travelled(&mut self, rules: Option<[Rule; 2]>) {
-        self.query.policy.clone_from(&self.balls.present().policy);
-        if let Some([rule, _]) = rules.filter(|[_, now]| *now == self.query.rule) {
-            self.query.rule = rule;
-            self.message = Some(Message::plain(format!("what counts: {rule}")));
+    /// A step was taken back or made again, which changes what is asked for from the first terms to the second. What has been
+    /// chosen since stays.
+    fn travelled(&mut self, left: Position, terms: Option<[Terms; 2]>) {
+        let present = self.balls.present_mut();
+        if (&left.table, left.layout, left.cue_ball) == (&present.table, present.layout, present.cue_ball) {
+            // The balls are the same, and so is all that was answered about them.
+            present.advised = left.advised;
+        }
+        self.query.policy.clone_from(&present.policy);
+        let before = self.query.terms();
+        if let Some(change) = terms {
+            self.query = self.query.with(before.after(change));
         }
         self.rest();
+        self.say_terms(before, false);
     }
 
     /// Another shot is on the table, or none.

@@ -33,7 +33,7 @@ use crate::{
     storage::Player,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        CoachQuery, Proposal, SavedSession, Settings, Shot,
+        CoachQuery, Proposal, SavedSession, Settings, Shot, Terms,
         pages::coach::{
             dragging::Drag,
             keys::QuestionContext,
@@ -63,16 +63,17 @@ const FIRST_STEP: usize = 2;
 /// Seconds a picture of the spinner stays.
 const SPINNER_INTERVAL: f64 = 0.1;
 
-/// Everything that a step back brings back: where the balls lie, on which table, who is asked, and the advice on them.
+/// Everything that a step back brings back: where the balls lie, on which table, who is asked, for what, and the advice on them.
 #[derive(Clone, Debug)]
 struct Position {
     table: Arc<Table>,
     policy: Option<(String, Arc<Policy>)>,
     layout: Layout,
     cue_ball: CueBall,
-    /// What counted as a point before this step and since, where the step itself has changed it.
-    rules: Option<[Rule; 2]>,
-    advised: Option<AdviceState>,
+    /// What was asked for before this step and since, where the step itself has changed it.
+    terms: Option<[Terms; 2]>,
+    /// The advice on these balls, for each question about them that was answered.
+    advised: Vec<AdviceState>,
 }
 
 /// What the panel beside the shot's tells; see the screen for what goes with it.
@@ -136,6 +137,8 @@ pub struct CoachPage {
     balls: History<Position>,
     /// The selected ball is held by the mouse.
     drag: Option<Drag>,
+    /// What the settings ask for, whatever keys have changed since.
+    of_settings: Terms,
     /// Where the last sessions ended that were not gone on with, the last one first.
     before: Vec<SavedSession<'static>>,
     /// Whether one of them was gone on with.
@@ -187,10 +190,11 @@ impl CoachPage {
                 policy: None,
                 layout,
                 cue_ball: CueBall::White,
-                rules: None,
-                advised: None,
+                terms: None,
+                advised: Vec::new(),
             }),
             drag: None,
+            of_settings: CoachQuery::default().terms(),
             before: Vec::new(),
             has_gone_back: false,
             left_exam: None,
@@ -213,9 +217,12 @@ impl CoachPage {
         self.typed.as_ref().map(|_| QuestionContext::Positions).or_else(|| self.saving.context())
     }
 
-    /// Offers to go on from where the last session ended, and those before it that were not gone on with, as far as that is
-    /// somewhere else.
+    /// Asks for what the last session asked for at its end, but for what has been set otherwise since; and offers to go on from
+    /// where it ended, and those before it that were not gone on with, as far as that is somewhere else.
     pub fn offer(&mut self, last: Option<SavedSession<'static>>) {
+        if let Some((last, set)) = last.as_ref().and_then(|last| Some((last, last.settings?))) {
+            self.query = self.query.with(self.of_settings.after([set, last.terms()]));
+        }
         let is_elsewhere = |last: &SavedSession| {
             last.layout != *self.layout() || *last.table != *self.table() || last.practice.is_some()
         };
@@ -235,19 +242,19 @@ impl CoachPage {
     /// What the next session may go on from, with what is practised or the exam that waits to be gone on with; `None` while
     /// nothing is and the balls lie as at the start.
     pub fn last<'a>(&'a self, practised: Option<&'a Session>) -> Option<SavedSession<'a>> {
-        let CoachQuery { rule, skill, plan, .. } = self.query;
         let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
         let of_before = || self.before.first()?.practice.as_deref().filter(|practice| practice.is_exam());
         let exam = self.left_exam.as_ref().or_else(of_before);
         let practice = if practised.is_some_and(Session::is_exam) { practised } else { exam.or(practised) };
-        let last = SavedSession::new(table, layout, cue_ball, rule, skill, plan, practice).after(&self.before);
+        let last = SavedSession::new(table, layout, cue_ball, self.query.terms(), practice);
+        let last = last.under(self.of_settings).after(&self.before);
         let is_begun = self.is_begun() || practised.is_some() || self.left_exam.is_some();
         (self.followed().is_none() && is_begun).then_some(last)
     }
 
     /// Whether anything has been done since the start.
     fn is_begun(&self) -> bool {
-        self.balls.can_undo() || self.balls.present().advised.is_some()
+        self.balls.can_undo() || !self.balls.present().advised.is_empty()
     }
 
     /// Goes on with the exam that was left, or from where the last session ended; gives what was practised there.
@@ -259,9 +266,9 @@ impl CoachPage {
             return None;
         }
         let last = self.before.remove(0);
-        self.take_position(&last.table, last.layout, last.rule);
+        let query = CoachQuery { policy: self.policy_on(&last.table), ..self.query.with(last.terms()) };
+        self.take(&last.table, last.layout, query);
         self.balls.present_mut().cue_ball = last.cue_ball;
-        self.query = CoachQuery { skill: last.skill, plan: last.plan, ..self.query.clone() };
         let which = if std::mem::replace(&mut self.has_gone_back, true) { "that earlier" } else { "the last" };
         let more = if self.before.is_empty() { "" } else { "; c goes back to the one before" };
         let said = format!("this is where {which} session ended; Enter asks the coach{more}");
@@ -278,7 +285,8 @@ impl CoachPage {
     /// Begins as the user wants it.
     pub fn take_settings(&mut self, settings: &Settings) {
         let Settings { rule, skill, doubt, plan, jumps, .. } = *settings;
-        self.query = CoachQuery { rule, skill, doubt, plan, jumps, ..self.query.clone() };
+        self.of_settings = Terms { rule, skill, plan };
+        self.query = CoachQuery { doubt, jumps, ..self.query.with(self.of_settings) };
         self.budget = Duration::from_millis(settings.think_ms).min(self.most);
         self.units = settings.units;
         self.set_step(settings.step_mm);
@@ -298,12 +306,17 @@ impl CoachPage {
         if before.speed != settings.speed {
             self.playback.set_speed(settings.speed);
         }
-        let mut query = self.query.clone();
-        take_other(&mut query.rule, before.rule, settings.rule);
-        take_other(&mut query.skill, before.skill, settings.skill);
-        take_other(&mut query.doubt, before.doubt, settings.doubt);
-        take_other(&mut query.plan, before.plan, settings.plan);
-        take_other(&mut query.jumps, before.jumps, settings.jumps);
+        let set = |terms: Terms| Terms {
+            rule: other(terms.rule, before.rule, settings.rule),
+            skill: other(terms.skill, before.skill, settings.skill),
+            plan: other(terms.plan, before.plan, settings.plan),
+        };
+        self.of_settings = set(self.of_settings);
+        let query = CoachQuery {
+            doubt: other(self.query.doubt, before.doubt, settings.doubt),
+            jumps: other(self.query.jumps, before.jumps, settings.jumps),
+            ..self.query.with(set(self.query.terms()))
+        };
         if query != self.query {
             self.cancel();
             self.query = query;
@@ -337,18 +350,22 @@ impl CoachPage {
     /// Plays for another player from now on; a shot for the one before is no longer shown.
     pub fn take_skill(&mut self, skill: Skill) {
         if self.query.skill != skill {
-            self.query.skill = skill;
-            self.rest();
+            self.change_terms(Terms { skill, ..self.query.terms() });
         }
     }
 
     /// Takes balls from elsewhere, and what counts as a point there; the same policy is asked if the table
     /// is the same.
     pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
-        let policy = self.query.policy.clone().filter(|_| self.table() == table);
+        let policy = self.policy_on(table);
         let its_rule = if rule == self.query.rule { String::new() } else { format!(" and its rule, {rule}") };
         self.take(table, layout, CoachQuery { policy, rule, ..self.query.clone() });
         self.message = Some(Message::plain(format!("the balls of the exercise{its_rule}; Enter asks the coach")));
+    }
+
+    /// The policy that is asked, where the table is the one that it was trained for.
+    fn policy_on(&self, table: &Table) -> Option<(String, Arc<Policy>)> {
+        self.query.policy.clone().filter(|_| self.table() == table)
     }
 
     /// Puts balls on a table, as a step that can be taken back, for `query` to be asked.
@@ -358,8 +375,8 @@ impl CoachPage {
         let known = &self.balls.present().table;
         let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
         let cue_ball = self.cue_ball();
-        let rules = Some([self.query.rule, query.rule]).filter(|[before, after]| before != after);
-        self.balls.push(Position { table, policy: query.policy.clone(), layout, cue_ball, rules, advised: None });
+        let terms = Some([self.query.terms(), query.terms()]).filter(|[before, after]| before != after);
+        self.balls.push(Position { table, policy: query.policy.clone(), layout, cue_ball, terms, advised: Vec::new() });
         self.query = query;
         self.rest();
     }
@@ -381,7 +398,7 @@ impl CoachPage {
 
     /// The advice on the layout, if it answers what is asked now.
     pub fn advised(&self) -> Option<&AdviceState> {
-        self.balls.present().advised.as_ref().filter(|advised| advised.query == self.query)
+        self.balls.present().advised.iter().find(|advised| advised.query == self.query)
     }
 
     /// The same as it is shown: nothing while the coach looks for something better.
@@ -391,7 +408,7 @@ impl CoachPage {
 
     fn advised_mut(&mut self) -> Option<&mut AdviceState> {
         let query = &self.query;
-        self.balls.present_mut().advised.as_mut().filter(|advised| advised.query == *query)
+        self.balls.present_mut().advised.iter_mut().find(|advised| advised.query == *query)
     }
 
     /// The shot that is shown: the best so far while the coach thinks, else the chosen one of its advice.
@@ -452,9 +469,7 @@ impl CoachPage {
     }
 }
 
-/// Takes a value that has been set otherwise.
-fn take_other<T: Copy + PartialEq>(now: &mut T, before: T, after: T) {
-    if before != after {
-        *now = after;
-    }
+/// The value of now, or the one that has been set otherwise.
+fn other<T: Copy + PartialEq>(now: T, before: T, after: T) -> T {
+    if before == after { now } else { after }
 }

@@ -10,8 +10,12 @@ use crate::{
     game::Rule,
     physics::CueInputs,
     terminal::{
-        Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot,
-        pages::{after, coach::CoachPage, next_skill},
+        Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot, Terms,
+        pages::{
+            after,
+            coach::{CoachPage, Position},
+            next_skill,
+        },
         ui::Message,
         words::{chance_words, skill_word},
     },
@@ -136,7 +140,9 @@ impl CoachPage {
     /// Keeps the advice on the layout that `query` gave, and shows it from its best shot on if that is what is asked now.
     fn show(&mut self, query: CoachQuery, advice: Advice) {
         let is_asked = query == self.query;
-        self.balls.present_mut().advised = AdviceState::new(query, advice);
+        let advised = &mut self.balls.present_mut().advised;
+        advised.retain(|known| known.query != query);
+        advised.extend(AdviceState::new(query, advice));
         if is_asked {
             self.watch_from_the_stroke();
         }
@@ -198,26 +204,50 @@ impl CoachPage {
 
     pub(super) fn next_rule(&mut self) {
         let rule = after(&Rule::ALL, &self.query.rule);
-        self.ask_for(CoachQuery { rule, ..self.query.clone() }, &format!("what counts: {rule}"));
+        self.ask_for(Terms { rule, ..self.query.terms() });
     }
 
     pub(super) fn next_skill(&mut self) {
         let skill = next_skill(self.query.skill, self.own);
-        let words = format!("the player: {}", skill_word(skill));
-        self.ask_for(CoachQuery { skill, ..self.query.clone() }, &words);
+        self.ask_for(Terms { skill, ..self.query.terms() });
     }
 
     pub(super) fn turn_plan(&mut self) {
         let plan = !self.query.plan;
-        let words = if plan { "the next point counts too" } else { "only this point counts" };
-        self.ask_for(CoachQuery { plan, ..self.query.clone() }, words);
+        self.ask_for(Terms { plan, ..self.query.terms() });
     }
 
-    /// Asks for something else from now on. A shot that answers another question is not shown, until that is asked again.
-    fn ask_for(&mut self, query: CoachQuery, words: &str) {
-        self.query = query;
+    /// Asks for something else from now on, and says so. A shot that answers another question is not shown, until that is asked
+    /// again or the step is taken back.
+    fn ask_for(&mut self, terms: Terms) {
+        let (before, had_shot) = (self.query.terms(), self.proposal().is_some());
+        self.change_terms(terms);
+        self.say_terms(before, had_shot);
+    }
+
+    /// Asks for something else from now on, as a step that can be taken back.
+    pub(super) fn change_terms(&mut self, terms: Terms) {
+        let terms = [self.query.terms(), terms];
+        self.balls.push(Position { terms: Some(terms), ..self.balls.present().clone() });
+        self.query = self.query.with(terms[1]);
         self.rest();
-        let hint = if self.advised().is_some() { "the shot for it is known" } else { "Enter asks the coach" };
+    }
+
+    /// Says what is asked for otherwise than `before`, where anything is, and shows the shot for it if that is known; else whether
+    /// the one that was shown can be had back.
+    pub(super) fn say_terms(&mut self, before: Terms, had_shot: bool) {
+        let words = self.query.terms().news_since(before);
+        if words.is_empty() {
+            return;
+        }
+        let hint = if self.shown().is_some() {
+            self.watch_from_the_stroke();
+            "the shot for it is known"
+        } else if had_shot {
+            "Enter asks the coach, u takes it back"
+        } else {
+            "Enter asks the coach"
+        };
         self.message = Some(Message::plain(format!("{words}; {hint}")));
     }
 }

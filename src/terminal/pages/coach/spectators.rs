@@ -168,8 +168,8 @@ impl CoachPage {
             policy: None,
             layout: shown.layout,
             cue_ball: shown.cue_ball,
-            rules: None,
-            advised: None,
+            terms: None,
+            advised: Vec::new(),
         };
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
@@ -185,9 +185,9 @@ impl CoachPage {
             let is_early = told.author == Author::Search;
             let proposal = Proposal { shot, made, risk: None, next: None, is_early };
             let advice = Advice { proposals: vec![proposal], seed: 1, effort: None, found: None };
-            position.advised = AdviceState::new(self.query.clone(), advice);
+            position.advised.extend(AdviceState::new(self.query.clone(), advice));
             // The closer look is the player's own.
-            if let Some(advised) = &mut position.advised {
+            if let Some(advised) = position.advised.first_mut() {
                 advised.choice_mut().is_studied = true;
             }
         }

@@ -176,7 +176,7 @@ pub const WATCH: &[Binding<A, W>] = &[
     bind(Run, W::Paused, &[letter('p', A::Pause)], Some(("go on", 1)), "let a paused run go on"),
     bind(Run, W::Working, &[letter('p', A::Pause)], Some(("pause", 1)), "pause the run and save it"),
     bind(Run, W::AtWork, &[letter('S', A::Stop)], Some(("stop", 1)), "stop the run and save it; asks first"),
-    bind(Run, W::HasPolicy, &[letter('w', A::Use)], Some(("use", 1)), "use these weights in the coach"),
+    bind(Run, W::HasPolicy, &[letter('w', A::Use)], Some(("use", 1)), "use these networks in the coach"),
     bind(Charts, W::Known, &[letter('c', A::Compare)], Some(("compare", 1)), "compare with another run; once more ends it"),
     bind(Charts, W::Charts, &[key(Enter, A::Enlarge), letter('z', A::Enlarge)], Some(("enlarge", 1)),
         "enlarge the selected chart, and back"),
@@ -193,7 +193,7 @@ pub const WATCH: &[Binding<A, W>] = &[
     bind(Charts, W::Zoomed, &[key(Left, A::Pan(-1)), key(Right, A::Pan(1))], Some(("pan", 2)), "show earlier shots, or later ones"),
     bind(Charts, W::Zoomed, &[letter('0', A::All)], None, "show all of the run"),
     bind(Charts, W::Zoomed, &[key(End, A::Follow)], None, "follow the end of the run"),
-    bind(Run, W::HasPolicy, &[letter('k', A::Keep)], Some(("keep", 1)), "keep these weights under a name"),
+    bind(Run, W::HasPolicy, &[letter('k', A::Keep)], Some(("keep", 1)), "keep these networks under a name"),
     bind(Run, W::AtWork, &[letter('A', A::Abandon)], None, "end a run at work and delete it; asks first"),
     bind(Replay, W::Shots, &[letter(' ', A::Play)], Some(("replay", 1)), "play and pause the latest shots on held-out layouts"),
     bind(Replay, W::Shots, &[letter(',', A::Shot(-1)), letter('.', A::Shot(1))], None, "the shot before, the next shot"),
@@ -210,7 +210,7 @@ pub const QUESTION: &[Binding<A, W>] = &[
 /// A name that is typed.
 #[rustfmt::skip]
 pub const NAME: &[Binding<A, W>] = &[
-    bind(Run, W::Here, &[key(Enter, A::Yes)], Some(("keep", 1)), "keep the weights under this name"),
+    bind(Run, W::Here, &[key(Enter, A::Yes)], Some(("keep", 1)), "keep the networks under this name"),
     bind(Run, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "do not keep them"),
 ];
 

@@ -251,7 +251,7 @@ impl TrainingPage {
         match outcome {
             Ok(Kept::Done) => {
                 let call = shell_word(&name);
-                self.message = Some(Message::good(format!("kept; use it by: carom recommend --policy {call}")));
+                self.message = Some(Message::good(format!("kept; use them by: carom recommend --policy {call}")));
             }
             // A player who has left the run meanwhile is not asked any more.
             Ok(Kept::Taken) if self.page() == TrainingContext::Watch && self.question.is_none() => {

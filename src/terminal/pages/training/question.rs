@@ -49,8 +49,8 @@ impl Question {
                 let best = best.map_or(String::new(), |best| format!(", with a best held-out reward of {best:.3}"));
                 format!("abandon {name}: end it now and delete its folder? {shots} shots are lost{best}. y/n")
             }
-            Self::Name(_) => "keep the weights under the name: ".to_owned(),
-            Self::Replace(name) => format!("there is a policy called {name} already; replace it? y/n"),
+            Self::Name(_) => "keep the networks under the name: ".to_owned(),
+            Self::Replace(name) => format!("there are networks called {name} already; replace them? y/n"),
         }
     }
 

@@ -72,7 +72,7 @@ impl RunList {
             None => Some("there is no run yet; n starts one"),
             Some(state) if state.is_at_work() => Some("this run is at work; Enter watches it"),
             Some(Condition::Is(Phase::Finished)) => {
-                Some("this run is finished; n starts a new one, with its weights if you like")
+                Some("this run is finished; n starts a new one, with its networks if you like")
             }
             Some(_) => None,
         }

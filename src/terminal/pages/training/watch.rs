@@ -128,7 +128,7 @@ impl Watch {
         match self.condition() {
             Condition::Is(Phase::Stopped | Phase::Failed) | Condition::Died | Condition::Interrupted => None,
             Condition::Is(Phase::Finished) => {
-                Some("the run is finished; n in the list starts a new one with its weights")
+                Some("the run is finished; n in the list starts a new one with its networks")
             }
             Condition::Is(Phase::Paused) => Some("the run is paused; p lets it go on"),
             Condition::Is(_) | Condition::Stalled(_) => Some("the run is at work"),
@@ -176,10 +176,10 @@ impl Watch {
                 (format!("it goes on without this screen: carom watch {}", shell_word(name)), false)
             }
             Condition::Is(Phase::Finished) if !self.has_policy => {
-                ("finished; it has left no policy for the coach".to_owned(), false)
+                ("finished; it has left no networks for the coach".to_owned(), false)
             }
             Condition::Is(Phase::Finished) => {
-                ("finished; w uses these weights in the coach, k keeps them under a name".to_owned(), false)
+                ("finished; w uses these networks in the coach, k keeps them under a name".to_owned(), false)
             }
         }
     }

@@ -1,6 +1,10 @@
 //! What the next start may go on from, as keys change it.
 
-use carom::{coach::Skill, game::Rule};
+use carom::{
+    coach::Skill,
+    game::Rule,
+    terminal::{SavedSession, Terms},
+};
 
 use crate::screens::player::{Player, TRUE_COLOUR};
 
@@ -29,4 +33,36 @@ fn what_is_practised_is_remembered_as_long_as_it_is_on_the_screen() {
     let noted = player.press("n");
     assert_ne!(noted.app.last(), Some(saved.clone()));
     assert!(noted.press("F2").app.last().is_none(), "the coach's table is as at the start");
+}
+
+/// The next start after `player` has left, with this text in the settings' file.
+fn next(player: &Player, settings: &str) -> Player {
+    let last = player.app.last().map(SavedSession::into_owned);
+    let mut next = Player::with_settings(TRUE_COLOUR, settings);
+    next.app = next.app.with_last(last);
+    next
+}
+
+#[test]
+fn rule_player_and_plan_are_at_the_next_start_as_they_were_left_but_for_what_was_set_since() {
+    let terms = |player: &Player| player.app.coach.query.terms();
+    let chosen = Player::new().press("R S P");
+    let left = terms(&chosen);
+    assert!(left.rule == Rule::OneCushion && left.skill != Skill::EXPERT && !left.plan);
+    let second = next(&chosen, "");
+    assert_eq!(terms(&second), left);
+    second.is_silent_on("c goes on");
+    assert_eq!(second.app.coach.layout(), Player::new().app.coach.layout());
+    assert!(second.app.last().is_none(), "the file stays as it is");
+    // The settings go before what was left, where they have changed since, and each by itself.
+    let set = next(&chosen, "skill = \"club\"");
+    assert_eq!(terms(&set), Terms { skill: Skill::CLUB, ..left });
+    // What was left on one start holds on the one after it.
+    let third = next(&second.press("r"), "");
+    assert_eq!(terms(&third), left);
+    // What is set on the screen of the settings is what holds then.
+    let fourth = third.press("F5 Home Down Down Down Down Right F2 r");
+    assert_eq!(terms(&fourth).rule, Rule::ThreeCushion);
+    assert_eq!(terms(&next(&fourth, "rule = \"three-cushion\"")), Terms { rule: Rule::ThreeCushion, ..left });
+    assert_eq!(terms(&next(&fourth, "rule = \"straight\"")).rule, Rule::StraightRail);
 }

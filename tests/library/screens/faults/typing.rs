@@ -69,7 +69,7 @@ fn a_name_for_the_weights_is_pasted() {
         player = player.press("Backspace");
     }
     player.app.paste("three-cushions\n");
-    player.says("keep the weights under the name: three-cushions");
+    player.says("keep the networks under the name: three-cushions");
     let player = player.press("Enter");
     let kept = player.effects.iter().find_map(|effect| match effect {
         Effect::Keep(keeping) => Some(keeping.name.clone()),

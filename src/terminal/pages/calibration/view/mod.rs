@@ -69,10 +69,10 @@ fn status_line(page: &CalibrationPage) -> Message {
     match sheet.best() {
         _ if sheet.is_asking() => Message::plain("working out what the marks say"),
         Some(best) if entered == 0 => {
-            Message::plain(format!("play a test, then Enter; {} tells most ({:.1} bits)", best.test, best.bits))
+            Message::plain(format!("play a test, then Enter; {} tells most ({})", best.test, bits_words(best.bits)))
         }
         Some(best) if entered < wanted => {
-            Message::plain(format!("one more stroke of {} would tell most ({:.1} bits)", best.test, best.bits))
+            Message::plain(format!("one more stroke of {} would tell most ({})", best.test, bits_words(best.bits)))
         }
         Some(best) => Message::good(format!(
             "all is entered: s saves the table; {} would still tell most ({:.1} bits)",
@@ -85,6 +85,11 @@ fn status_line(page: &CalibrationPage) -> Message {
         }
         None => Message::plain("choose a test, play it, and enter what was marked"),
     }
+}
+
+/// How much a stroke tells, and what that is.
+fn bits_words(bits: f64) -> String {
+    format!("{bits:.1} bits; 1 halves a doubt")
 }
 
 /// The first row behind the tabs: what is measured, from what on, and how much of it is entered.

@@ -33,7 +33,7 @@ const BESIDE: u16 = 46;
 const WORDS: u16 = 3;
 /// Columns of a mark's sign, letter and name with a blank behind it, and of what is typed: at least, and at most.
 const NAME: u16 = 11;
-const TYPED: [usize; 2] = [10, 18];
+const TYPED: [usize; 2] = [3, 18];
 /// The letters of the marks: the diamonds have the numbers.
 const LETTERS: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 /// Fewest rows of what the marks say.
@@ -96,7 +96,7 @@ fn draw_stroke(page: &CalibrationPage, sketch: &Sketch, area: Rect, ui: &mut Ui)
         words.push("centre ball".to_owned());
     }
     words.push(format!("at {}", speed_words(cue.speed, page.units.length, 1)));
-    for (text, y) in words.iter().zip(area.bottom().saturating_sub(WORDS)..area.bottom()) {
+    for (text, y) in words.iter().zip(area.y + height..area.bottom()) {
         // The longest begins at the table, and no word touches the page's edge.
         let x = (area.right() - 1).saturating_sub(columns(text) as u16).clamp(area.x, area.x + 1);
         ui.buffer.set_stringn(x, y, text, usize::from(area.width - 1), ui.theme.faint());
@@ -221,6 +221,32 @@ fn draw_mark(
         None => String::new(),
     };
     let x = NAME + room;
-    let words = shorten(&words, usize::from(area.width.saturating_sub(x)), ui.caps);
+    let words = brief(words, usize::from(area.width.saturating_sub(x)), ui);
     ui.buffer.set_string(area.x + x, area.y, words, ui.theme.faint());
+}
+
+/// What a mark is, in ever fewer words until `room` columns hold them; its name stands before them, and whoever types it reads them
+/// all.
+fn brief(words: String, room: usize, ui: &Ui) -> String {
+    let ever_shorter = [
+        ("where it ", ""),
+        ("how many ", ""),
+        (" it has met", " met"),
+        ("seconds ", "s "),
+        (" the stroke", " stroke"),
+        (" the ball ", " it "),
+        (" until it stops", " to its stop"),
+    ];
+    let mut said = words;
+    for (long, short) in ever_shorter {
+        if columns(&said) > room {
+            said = said.replacen(long, short, 1);
+        }
+    }
+    if columns(&said) > room
+        && let Some((main, _)) = said.split_once([',', '('])
+    {
+        said = main.trim_end().to_owned();
+    }
+    shorten(&said, room, ui.caps)
 }

@@ -19,11 +19,13 @@ use crate::{
                 told::{place_along, to_hundredths},
             },
         },
-        ui::{Ui, draw_title, spell},
-        words::{chance_words, fixed, percent, rail_word},
+        ui::{Ui, columns, draw_title, spell},
+        words::{chance_words, fixed, percent, rail_word, speed_words},
     },
 };
 
+/// Columns of a row's name with the blanks around it.
+const NAME: usize = 8;
 /// Parts of a ball in which thickness is told.
 const PARTS: u32 = 16;
 
@@ -36,11 +38,11 @@ pub fn draw_card(proposal: &Proposal, coach: &CoachPage, area: Rect, ui: &mut Ui
     }
     title.push(chance_span(proposal, is_wide, ui));
     let inner = draw_title(title, area, ui);
-    let rows = if is_wide { wide_rows(proposal, coach) } else { narrow_rows(proposal, coach) };
+    let rows = if is_wide { wide_rows(proposal, coach, usize::from(area.width)) } else { narrow_rows(proposal, coach) };
     for ((name, mut value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
         let mut line = Line::default();
         if is_wide {
-            line.push_span(Span::styled(format!(" {name:<7}"), ui.theme.faint()));
+            line.push_span(Span::styled(format!(" {name:<width$}", width = NAME - 1), ui.theme.faint()));
         } else {
             // The whole word has no room.
             value = value.replace('\u{b0}', ui.caps.pick("\u{b0}", " deg"));
@@ -102,7 +104,8 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     rows.into_iter().map(|row| ("", row)).collect()
 }
 
-fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
+/// Rows of so many columns.
+fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize) -> Vec<Row> {
     let words = &proposal.shot.words;
     let hit = words.first.map_or_else(
         || "no ball".to_owned(),
@@ -129,11 +132,14 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     };
     let mark =
         |mark: Mark| format!("{} rail {}", rail_word(mark.rail), place_along(coach, mark.diamond, to_hundredths));
+    let lengths = short(words.table_lengths, 1);
+    let speed = format!("{lengths} lengths, {}", speed_words(proposal.shot.cue.speed, coach.units.length, 2));
+    let whole_speed = format!("{}, {speed}", pace_word(words.table_lengths));
     vec![
         ("hit", hit),
         ("side", tip_side_words(proposal, coach) + english),
         ("height", tip_height_words(proposal, coach)),
-        ("speed", format!("{}, {} lengths", pace_word(words.table_lengths), short(words.table_lengths, 1))),
+        ("speed", if columns(&whole_speed) + NAME < width { whole_speed } else { speed }),
         ("cue", cue),
         ("from", mark(words.behind)),
         ("to", mark(words.ahead)),

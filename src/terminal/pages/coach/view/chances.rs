@@ -3,7 +3,10 @@
 use ratatui::{layout::Rect, text::Span};
 
 use crate::{
-    coach::words::{fullness_word, pace_word},
+    coach::{
+        Risk,
+        words::{fullness_word, pace_word},
+    },
     terminal::{
         AdviceState, Proposal,
         pages::coach::Choice,
@@ -57,15 +60,30 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
     // What would miss the first shot by itself.
     let mut row = inner.y + advised.choices.len() as u16;
     if let (Some(risk), true) = (advised.choices[0].proposal.risk, row < inner.bottom()) {
-        let [hand, table, placing] = [risk.hand, risk.table, risk.placing].map(percent);
-        let words = format!("misses %: hand {hand}, table {table}, places {placing}");
-        ui.buffer.set_stringn(inner.x + 1, row, words, usize::from(inner.width.saturating_sub(1)), ui.theme.faint());
-        row += 1;
+        let width = usize::from(inner.width.saturating_sub(1));
+        for line in risk_lines(&risk, width, usize::from(inner.bottom() - row)) {
+            ui.buffer.set_stringn(inner.x + 1, row, line, width, ui.theme.faint());
+            row += 1;
+        }
     }
     let rest = Rect { y: row, height: inner.bottom().saturating_sub(row), ..inner };
     if says_why {
         let why = if advised.chosen == 0 { "Why: " } else { "Why shot 1 leads: " };
         write_why(advised, why, rest, ui);
+    }
+}
+
+/// How often each of the three would miss the shot if it alone erred, in lines; in fewer words where `rows` ask for it.
+fn risk_lines(risk: &Risk, width: usize, rows: usize) -> Vec<String> {
+    let [hand, table, places] = [risk.hand, risk.table, risk.placing].map(percent);
+    let whole =
+        ["one of them alone would miss:".to_owned(), format!("hand {hand} %, table {table} %, places {places} %")];
+    if columns(&whole.join(" ")) <= width {
+        vec![whole.join(" ")]
+    } else if rows >= whole.len() {
+        whole.into()
+    } else {
+        vec![format!("alone miss: hand {hand} table {table} places {places}")]
     }
 }
 
@@ -150,4 +168,17 @@ pub fn sort_words(proposal: &Proposal, is_exact: bool, room: usize, ui: &Ui) -> 
         }
     }
     spell(&text, ui.caps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_said_that_each_risk_stands_alone_in_one_row_too() {
+        let risk = Risk { hand: 0.63, table: 0.24, placing: 0.112 };
+        assert_eq!(risk_lines(&risk, 38, 2), ["one of them alone would miss:", "hand 63 %, table 24 %, places 11 %"]);
+        assert_eq!(risk_lines(&risk, 38, 1), ["alone miss: hand 63 table 24 places 11"]);
+        assert_eq!(risk_lines(&risk, 70, 1), ["one of them alone would miss: hand 63 %, table 24 %, places 11 %"]);
+    }
 }

@@ -156,7 +156,7 @@ fn sentences(guide: &Guide) -> Vec<(String, bool)> {
     let side = if system.is_running() { "running side" } else { "no side" };
     let own = applied.shot_first.map(|first| format!("the shot itself, with its side, at {}", number(system, first)));
     vec![
-        (format!("{}: aim at {}", applied.arithmetic(), applied.aim()), true),
+        (format!("{}: aim at {} on the wood", applied.arithmetic(), applied.aim()), true),
         (applied.correction(), true),
         (own.unwrap_or_default(), true),
         (format!("{}; {side}", system.track()), false),

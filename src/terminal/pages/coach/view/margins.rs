@@ -12,7 +12,7 @@ use crate::{
         words::{LengthUnit, short},
     },
     terminal::{
-        Capabilities, ShotAnalysis,
+        Capabilities, Shot, ShotAnalysis,
         ui::{Theme, Ui, draw_nothing, draw_title, write_right},
         words::fixed,
     },
@@ -30,24 +30,24 @@ const UNIT: u16 = 29;
 /// Columns of an input where two share a row: at least, and where there is room.
 const HALF: (u16, u16) = (20, 24);
 
-/// Draws the panel, with distances in `unit`; the tightest input, the one that the player's errors leave first, is marked. Without
-/// a study it says `empty`.
-pub fn draw_margins(study: Option<&ShotAnalysis>, unit: LengthUnit, empty: &str, area: Rect, ui: &mut Ui) {
+/// Draws the panel of a shot that is studied, with distances in `unit`; the tightest input, the one that the player's errors leave
+/// first, is marked. Without a study it says `empty`.
+pub fn draw_margins(studied: Option<(&ShotAnalysis, &Shot)>, unit: LengthUnit, empty: &str, area: Rect, ui: &mut Ui) {
     let tall = area.height > TALL;
     let mut title = vec![Span::styled("Margins", ui.theme.text())];
-    if study.is_some() && !tall {
+    if studied.is_some() && !tall {
         let [small, speed] = [Input::Side, Input::Speed].map(|input| told_in(input, unit).1);
         let (yours, degree) = (ui.caps.pick("± yours", "yours"), ui.caps.pick("°", "deg"));
         let units = format!(" less, more, {yours} {small} {degree} {speed}");
         title.push(Span::styled(units, ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
-    let (margins, skill) = match study {
+    let (margins, skill, shot) = match studied {
         None => return draw_nothing(&[empty], inner, ui),
-        Some(ShotAnalysis { margins: None, .. }) => {
+        Some((ShotAnalysis { margins: None, .. }, _)) => {
             return draw_nothing(&["none: this shot makes no point"], inner, ui);
         }
-        Some(ShotAnalysis { margins: Some(margins), hand, .. }) => (margins, *hand),
+        Some((ShotAnalysis { margins: Some(margins), hand, .. }, shot)) => (margins, *hand, shot),
     };
     let tightest = tightest(margins, skill);
     let rows: Vec<Row> = margins
@@ -83,6 +83,14 @@ pub fn draw_margins(study: Option<&ShotAnalysis>, unit: LengthUnit, empty: &str,
         let half = (inner.width / 2).clamp(HALF.0, HALF.1);
         for (row, (column, y)) in rows.iter().zip(places) {
             row.draw_half(inner.x + half * column, y, ui);
+        }
+        // The other panels tell the speed in table lengths alone.
+        if 2 * usize::from(inner.height) > rows.len() {
+            let (speed, lengths) = (unit.speed().0 * shot.cue.speed, shot.words.table_lengths);
+            let words = format!("V {} = {} lengths", fixed(speed, 1), short(lengths, 1));
+            let x = inner.x + half + 1;
+            let room = usize::from(inner.right().saturating_sub(x));
+            ui.buffer.set_stringn(x, inner.bottom() - 1, words, room, ui.theme.faint());
         }
     }
 }

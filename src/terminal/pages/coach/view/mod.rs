@@ -242,7 +242,8 @@ fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut
         View::Chances => draw_chances(advised, empty, says_why, area, ui),
         View::Margins => {
             let study = choice.and_then(|choice| choice.study.as_deref());
-            draw_margins(study, coach.units.length, empty, area, ui);
+            let shot = choice.map(|choice| &*choice.proposal.shot);
+            draw_margins(study.zip(shot), coach.units.length, empty, area, ui);
         }
         View::Plan => draw_plan(choice, coach.units.length, empty, area, ui),
     }
@@ -280,10 +281,11 @@ fn status_line(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
 }
 
 /// The line of aim, and what a system counts for the shot: as much of it as a row has room for, what is counted before the line, which
-/// is told above as well.
+/// is told above as well. Beside another system's example it is the line alone.
 fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
     let aim = spell(&shot.words.aim(coach.units), ui.caps);
-    let Some(guide) = coach.guide().filter(|_| coach.what_if().is_none()) else { return aim };
+    let is_counted = coach.what_if().is_none() && coach.lesson.as_ref().is_none_or(|lesson| lesson.is_of_shot);
+    let Some(guide) = coach.guide().filter(|_| is_counted) else { return aim };
     let named = guide.to_string();
     let fits = [format!("{aim} {named}"), named].into_iter().find(|words| columns(words) <= room);
     fits.unwrap_or(aim)

@@ -3,7 +3,7 @@
 use ratatui::layout::Rect;
 
 use crate::{
-    coach::words::TipUnit,
+    coach::words::{TipUnit, short},
     terminal::{
         Shot,
         pages::coach::{
@@ -58,7 +58,11 @@ fn draw_set(shot: &Shot, coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let (indent, columns) = if area.width >= WIDE { (1, 7) } else { (0, 6) };
     let lines = rows.map(|(name, value)| {
         // The longest name has no blank of its own in a narrow column, and the whole word for an angle no room.
-        let value = if columns > 6 { value } else { value.replace(" deg", "") };
+        let value = match name {
+            "speed" if columns > 6 => format!("{value}, {} lengths", short(shot.words.table_lengths, 1)),
+            _ if columns > 6 => value,
+            _ => value.replace(" deg", ""),
+        };
         pair(name, columns.max(name.len() + 1), value, ui.theme)
     });
     draw_lines(lines, Rect { x: inner.x + indent, width: inner.width.saturating_sub(indent), ..inner }, ui);

@@ -84,14 +84,13 @@ pub fn to_hundredths(diamonds: f64) -> String {
 }
 
 /// The line of aim in few words, and in fewer: where the cue comes from and where it points, as diamonds or millimetres along
-/// the rails.
+/// the noses of the rails; systems count on the wood behind them.
 fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
     let words = &proposal.shot.words;
     let [behind, ahead] =
         [words.behind, words.ahead].map(|mark| (rail_word(mark.rail), place_along(coach, mark.diamond, to_hundredths)));
-    let unit = if coach.units.place == PlaceUnit::Mm { "" } else { "diamond " };
     [
-        format!("aim from {unit}{} {} to {} {}", behind.1, behind.0, ahead.1, ahead.0),
+        format!("aim from nose {} {} to {} {}", behind.1, behind.0, ahead.1, ahead.0),
         format!("aim {} {} {} {} {}", behind.0, behind.1, ui.caps.pick("→", ">"), ahead.0, ahead.1),
     ]
 }

@@ -93,11 +93,11 @@ fn words(form: &Form, field: Field) -> (String, String) {
             Err(_) => (form.shots.clone(), "type a number".to_owned()),
         },
         Field::Seed => {
-            let note = if form.seed.is_empty() { "type a number" } else { "the same seed gives the same weights" };
+            let note = if form.seed.is_empty() { "type a number" } else { "the same seed gives the same networks" };
             (form.seed.clone(), note.to_owned())
         }
         Field::From => match &form.from {
-            None => ("new weights".to_owned(), "or those of a run of this agent".to_owned()),
+            None => ("new networks".to_owned(), "or those of a run of this agent".to_owned()),
             Some((name, _)) => (name.clone(), String::new()),
         },
     }
