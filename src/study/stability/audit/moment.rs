@@ -1,7 +1,7 @@
 //! What changes at one moment: impacts, ends of slips, resting contacts that begin and end.
 
 use super::{
-    doubt::STOPPED_SPEED,
+    doubt::{RESTING_SPEED, STOPPED_SPEED},
     laws::{friction, impact_loss, impact_loss_by_models, restitution},
     least_squares::{Column, dot, fit},
     motion::{Contact, energy, motion, on_cloth},
@@ -155,11 +155,18 @@ impl Moment<'_> {
     /// once, as in an impact.
     fn begins_to_grip(&self, group: [bool; BALLS]) -> bool {
         self.closed.iter().any(|contact| {
-            let begins = |ball: usize| group[ball] && self.rests[ball];
-            let rested = |second: usize| self.rested[contact.first] && self.rested[second];
-            contact.second.is_some_and(|second| begins(contact.first) && begins(second) && !rested(second))
+            let rests = |ball: usize| group[ball] && self.rests[ball];
+            let gripped = |second: usize| self.rested[contact.first] && self.rested[second] && !self.slipped(contact);
+            contact.second.is_some_and(|second| rests(contact.first) && rests(second) && !gripped(second))
                 && friction(self.table, contact).is_none()
         })
+    }
+
+    /// Whether there was a slip in a contact before the moment.
+    fn slipped(&self, contact: &Contact) -> bool {
+        let before = motion(self.table.radius, &self.before);
+        let [_, along, up] = contact.directions().map(|direction| dot(&direction, &before));
+        along.hypot(up) > RESTING_SPEED
     }
 
     /// Whether two balls rest against each other that never slip where they touch: what an impact has left of their slip

@@ -215,7 +215,7 @@ impl Scene<'_> {
 
     /// The power of all frictions. Of each contact it is known whether it slips.
     fn power(&self, accelerations: &Column, contacts: &[(Contact, bool)]) -> Power {
-        let plain = self.explained(accelerations, contacts, [false; BALLS]);
+        let plain = self.explained(accelerations, contacts, [false; BALLS], false);
         if plain.defect <= EXPLAINED {
             return plain;
         }
@@ -227,46 +227,66 @@ impl Scene<'_> {
         let is_better = |at_edge: &Power| {
             at_edge.is_possible && 2.0 * at_edge.defect < plain.defect && (at_edge.is_unique || !plain.is_unique)
         };
-        at_edge.map(|balls| self.explained(accelerations, contacts, balls)).find(is_better).unwrap_or(plain)
+        // A slip that has hardly begun may have another direction than its friction, which acts against its rate; between its ends a
+        // course tells either less well.
+        let turns = if plain.defect > INTERPOLATED[1] { &[false, true][..] } else { &[false] };
+        let ways = turns.iter().flat_map(|turns| at_edge.clone().map(|balls| (balls, *turns)));
+        ways.map(|(balls, turns)| self.explained(accelerations, contacts, balls, turns))
+            .find(is_better)
+            .unwrap_or(plain)
     }
 
-    /// The same if all balls slide or roll, or if those that may be `at_edge` of both resist as much as keeps them there.
-    fn explained(&self, accelerations: &Column, contacts: &[(Contact, bool)], at_edge: [bool; BALLS]) -> Power {
+    /// The same if all balls slide or roll, or if those that may be `at_edge` of both resist as much as keeps them there, and the cloth's
+    /// friction on them `turns`, whatever the slip.
+    fn explained(
+        &self,
+        accelerations: &Column,
+        contacts: &[(Contact, bool)],
+        at_edge: [bool; BALLS],
+        turns: bool,
+    ) -> Power {
         let g = self.table.gravity;
         let numbers = Numbers::<f64>::of(self.table);
         let mut taken = 0.0;
         // What the known frictions leave of the accelerations, and what unknown forces there are.
         let mut rest = *accelerations;
         let mut unknown: Vec<Column> = Vec::with_capacity(24);
-        // Where something holds, it tells the place of its forces among the unknown ones.
-        let mut cloth = |directions: &[Column], force: f64| {
+        // Whether something holds: its forces are unknown then.
+        let mut cloth = |unknown: &mut Vec<Column>, directions: &[Column], force: f64| {
             let Some((along, speed)) = self.slip(directions) else {
                 unknown.extend_from_slice(directions);
-                return Some(unknown.len() - directions.len());
+                return true;
             };
             add(&mut rest, force / speed, &sum(directions, &along));
             taken += force * speed;
-            None
+            false
         };
         let sliding = self.table.sliding_friction * g;
-        // Places of frictions that hold, and have to do so with all that they can if the ball is at the edge of sliding.
-        let mut strained: Vec<usize> = Vec::new();
+        // Places of frictions on balls at the edge of sliding, which do all that they can, and the slips there.
+        let mut strained: Vec<(usize, Vec<f64>)> = Vec::new();
         // Resistances to rolling that are between none and all.
         let mut creeping: Vec<Resistance> = Vec::new();
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
-            let held = cloth(&on_cloth(ball), sliding);
+            let holds = if at_edge[ball] && turns {
+                unknown.extend(on_cloth(ball));
+                true
+            } else {
+                cloth(&mut unknown, &on_cloth(ball), sliding)
+            };
             let speed = size(&along(&centre(ball), &self.speeds));
             let rolling = 1.4 * numbers.band(speed).0;
             if at_edge[ball] {
-                strained.extend(held);
+                if holds {
+                    strained.push((unknown.len() - 2, along(&on_cloth(ball), &self.speeds)));
+                }
                 if let Some((velocity, speed)) = self.slip(&centre(ball)) {
                     let against: Vec<f64> = velocity.iter().map(|part| -part / speed).collect();
                     creeping.push(Resistance { column: sum(&centre(ball), &against), most: rolling, speed });
                 }
-            } else if held.is_some() {
-                cloth(&centre(ball), rolling);
+            } else if holds {
+                cloth(&mut unknown, &centre(ball), rolling);
             }
-            cloth(&[about_vertical(ball)], self.table.spinning_friction * g);
+            cloth(&mut unknown, &[about_vertical(ball)], self.table.spinning_friction * g);
         }
         let mut pushes: Vec<Push> = contacts.iter().map(|contact| self.push(contact)).collect();
         let size = |column: &Column| dot(column, column).sqrt();
@@ -303,10 +323,15 @@ impl Scene<'_> {
             let holding = &forces[pushes.len() + creeping.len()..];
             let possible = |(law, force): (&Resistance, &f64)| (-EDGE..=1.0 + EDGE).contains(&(force / law.most));
             let is_possible = creeping.iter().zip(resistances).all(possible)
-                && strained.iter().all(|&at| holding[at].hypot(holding[at + 1]) >= (1.0 - EDGE) * sliding);
+                && strained.iter().all(|(at, _)| {
+                    let share = holding[*at].hypot(holding[at + 1]) / sliding;
+                    (1.0 - EDGE..=1.0 + EDGE).contains(&share)
+                });
+            let crept: f64 =
+                strained.iter().map(|(at, slip)| -(holding[*at] * slip[0] + holding[at + 1] * slip[1])).sum();
             let rolls: f64 =
                 creeping.iter().zip(resistances).map(|(law, force)| force.clamp(0.0, law.most) * law.speed).sum();
-            let all = taken + rubbed + rolls;
+            let all = taken + rubbed + rolls + crept;
             return Power { least: all, most: all, defect, is_possible, is_unique: true };
         }
     }

@@ -32,6 +32,9 @@ pub const CASES: &[Case] = &[
 /// and chatter anew.
 const MOST_EVENTS: usize = 60;
 
+/// A flight that is so many times as long as the longest before begins another chatter.
+const LONGER: f64 = 2.0;
+
 /// Chatters of a shot.
 const MOST_CHATTERS: usize = 12;
 
@@ -73,6 +76,30 @@ fn at_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     Shot { layout, cue: masse(180.0 + turn.to_degrees(), rng) }
 }
 
+/// The events of each chatter, to the end of its contact or the first flight that is much longer than those before: those of a chatter
+/// are ever shorter.
+fn chatters(events: &[Event]) -> Vec<&[Event]> {
+    let (mut all, mut begin) = (Vec::new(), 0);
+    let (mut last, mut longest) = (f64::NAN, 0.0_f64);
+    for (index, event) in events.iter().enumerate() {
+        if event.kind == EventKind::ContactEnds(0) {
+            all.push(&events[begin..index]);
+            (begin, last, longest) = (index + 1, f64::NAN, 0.0);
+        } else if event.kind.is_contact() {
+            let flight = event.time - last;
+            if longest > 0.0 && flight > LONGER * longest {
+                all.push(&events[begin..index]);
+                (begin, longest) = (index, 0.0);
+            } else {
+                longest = longest.max(flight);
+            }
+            last = event.time;
+        }
+    }
+    all.push(&events[begin..]);
+    all
+}
+
 fn few_events(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
     let one = |chatter: &[Event]| {
         let begins = |event: &Event| event.kind == EventKind::ContactBegins(0);
@@ -80,8 +107,7 @@ fn few_events(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
         // The trace keeps bounces, too: impacts in the contact, which are no events.
         before.len() + after.iter().filter(|event| !event.kind.is_contact()).count()
     };
-    let ends = |event: &Event| event.kind == EventKind::ContactEnds(0);
-    let chatters: Vec<usize> = trace.events.split(ends).map(one).collect();
+    let chatters: Vec<usize> = chatters(&trace.events).into_iter().map(one).collect();
     if let Some(most) = chatters.iter().find(|events| **events > MOST_EVENTS) {
         return Err(format!("one chatter takes {most} events"));
     }
