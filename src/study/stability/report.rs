@@ -185,8 +185,9 @@ against something, if the change is the work of impulses in closed contacts that
 ball pressed against one cushion by integrating its equations; other resting contacts from the accelerations of the recorded \
 course, as far as contacts push: to a thousandth or, where the course obeys the laws at the ends of a piece but less well between them, to \
 the share of the accelerations that no forces explain, a hundredth at most. A ball at the edge of sliding, whose slip is below 2e-5 √(g R), \
-may resist rolling in part if that explains its course and the cloth holds it as well as it can. A chatter that becomes a resting contact takes the energy of its bounces only if the contact lasts as \
-long as they would. Balls that never slip lose their slip where they begin to rest against each other, and where an impact makes them slip while they do, as in an impact. Impacts slower than 1e-3 √(g R) may \
+may resist rolling in part if that explains its course and the cloth holds it as well as it can; \
+where more than a hundredth of its accelerations stays unexplained, too, that friction may have another direction than the slip. A chatter that becomes a resting contact takes the energy of its bounces only if the contact lasts as \
+long as they would. Balls that never slip lose their slip where they begin to press each other, and where an impact makes them slip while they do, as in an impact. Impacts slower than 1e-3 √(g R) may \
 lose nothing along their normal: those of shots that have taken so much work that nothing is let rest any more. \
 What counts as explained besides: rounding (32 ε of the energy, and frictions times the rounding of time), what parts balls that never \
 slip and that no forces hold together (8e-10 √(g R)), \

@@ -38,7 +38,7 @@ const LONGER: f64 = 2.0;
 /// Chatters of a shot.
 const MOST_CHATTERS: usize = 12;
 
-const HOLDS: &str = "at most 60 events a chatter, however many its bounces, and 12 chatters";
+const HOLDS: &str = "at most 60 events a chatter, however many its bounces, and 12 chatters; a flight twice as long as those before begins another";
 
 fn lively(e: f64) -> Vec<Table> {
     let change = move |table: &mut Table| (table.ball_restitution, table.rail_restitution) = (e, e);
