@@ -70,9 +70,6 @@ fn options_that_would_mean_nothing_are_refused() {
         &[&list[..], &["--set", "heads=8"]].concat(),
         &[&list[..], &["--jobs", "2"]].concat(),
         &["accuracy", "--filmed", "--seed", "5"],
-        &["recommend", "--policy-only", "--budget-ms", "5"],
-        &["recommend", "--policy-only", "--simulations", "5"],
-        &["recommend", "--policy-only", "--seed", "5"],
         &["calibrate", "--tests", "--name", "mine"],
         &["calibrate", "--template", "--table", "thesis"],
     ] {

@@ -68,13 +68,13 @@ pub struct Args {
     #[arg(long)]
     margins: bool,
     /// Time to look for a shot, ms.
-    #[arg(long, default_value_t = 500, conflicts_with = "policy_only", value_parser = whole(0..=3_600_000_u64))]
+    #[arg(long, default_value_t = 500, value_parser = whole(0..=3_600_000_u64))]
     budget_ms: u64,
     /// Simulations after which the search begins nothing new, if time has not ended it.
     ///
     /// The answer is the same on every machine then. It is no limit: a least search and judging the shots that were found come
     /// on top, thousands of simulations.
-    #[arg(long, conflicts_with = "policy_only", value_parser = whole_from(1_u64))]
+    #[arg(long, value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
     /// Give the networks' own shot, without any search.
     #[arg(long)]
@@ -84,7 +84,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", default_value = "bundled", value_parser = NonEmptyStringValueParser::new())]
     policy: String,
     /// Seed of the search: while time does not run out, the same seed finds the same shot.
-    #[arg(long, default_value_t = 0, conflicts_with = "policy_only", value_parser = seed)]
+    #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
     /// Print one JSON object.
     #[arg(long)]
