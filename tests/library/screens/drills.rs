@@ -3,11 +3,11 @@
 use super::{
     keys::key,
     player::{ASCII, NO_COLOUR, OTHERS, Player, TRUE_COLOUR, check_at, places},
-    practice::{exercise, session},
+    practice::{exercise, history, many, session},
 };
 use carom::{
     coach::Skill,
-    drills::{Exercise, Goal, Venue, decode, store::Store},
+    drills::{Goal, Venue, decode, store::Store},
     game::Rule,
     physics::CueInputs,
     table::Layout,
@@ -20,19 +20,6 @@ use proptest::prelude::*;
 fn check(name: &str, player: &Player) {
     assert_eq!(player.app.frame_interval(), None, "nothing moves by itself");
     super::player::check(name, player);
-}
-
-/// More positions than fit on a screen.
-fn many() -> Vec<Exercise> {
-    (1..=60).map(|n| exercise(&format!("position-{n:02}"), &format!("Position number {n} of a long list"))).collect()
-}
-
-fn history() -> Vec<carom::drills::Session> {
-    vec![
-        session(1, "opening", Goal::Free, "x-x--x-x--"),
-        session(2, "opening", Goal::Run(5), "xx-xxx-xxxxx"),
-        session(5, "opening", Goal::Free, "xxxx-xxxxxxx-xx"),
-    ]
 }
 
 fn played() -> Player {

@@ -37,3 +37,17 @@ pub fn session(number: u64, name: &str, goal: Goal, results: &str) -> Session {
         results.chars().map(|result| Attempt { at: session.started, ..Attempt::new(name, result == 'x') }).collect();
     session
 }
+
+/// More positions than fit on a screen.
+pub fn many() -> Vec<Exercise> {
+    (1..=60).map(|n| exercise(&format!("position-{n:02}"), &format!("Position number {n} of a long list"))).collect()
+}
+
+/// Three sessions at one position.
+pub fn history() -> Vec<Session> {
+    vec![
+        session(1, "opening", Goal::Free, "x-x--x-x--"),
+        session(2, "opening", Goal::Run(5), "xx-xxx-xxxxx"),
+        session(5, "opening", Goal::Free, "xxxx-xxxxxxx-xx"),
+    ]
+}
