@@ -113,3 +113,22 @@ fn few_events(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
     }
     if chatters.len() <= MOST_CHATTERS { Ok(()) } else { Err(format!("it chatters {} times", chatters.len())) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_much_longer_flight_begins_another_chatter() {
+        let mut time = 0.0;
+        let events = [0.0, 0.1, 0.09, 0.08, 0.3, 0.2, 0.19].map(|flight| {
+            time += flight;
+            Event { time, kind: EventKind::BallBall(0, 1) }
+        });
+        assert_eq!(chatters(&events).iter().map(|chatter| chatter.len()).collect::<Vec<_>>(), [4, 3]);
+        let (before, after) = events.split_at(2);
+        let ends = Event { time: before[1].time, kind: EventKind::ContactEnds(0) };
+        let events = [before, &[ends], after].concat();
+        assert_eq!(chatters(&events).iter().map(|chatter| chatter.len()).collect::<Vec<_>>(), [2, 2, 3]);
+    }
+}
