@@ -50,7 +50,7 @@ pub fn landings_loss(table: &Table, start: &SpatialState, landings: u32) -> f64 
 pub struct Impacts {
     /// The energy that they take, m²/s².
     pub lost: f64,
-    /// How far they take balls out of what these overlap, m.
+    /// How far balls overlap what they meet, or are taken out of it, m: the normals are known no better.
     pub moved: f64,
     /// The fastest of the bounces that are left out.
     pub bounces: Option<Bounces>,
@@ -131,6 +131,7 @@ pub fn impacts(
         let both = rests[first] && second.is_none_or(|second| rests[second]);
         both && contact.opening(&after) < STOPPED_SPEED
     };
+    let overlap = contacts.iter().fold(0.0_f64, |most, contact| most.max(-contact.gap(&numbers, &balls)));
     // Of the impacts of one contact it is the last after which it stays closed.
     let mut contacts = contacts
         .iter()
@@ -194,5 +195,5 @@ pub fn impacts(
         let Vector { x, y, z } = ball.position;
         before.position.distance(glam::DVec3::new(x, y, z))
     });
-    Impacts { lost, moved: moved.fold(0.0, f64::max), bounces }
+    Impacts { lost, moved: moved.fold(overlap, f64::max), bounces }
 }
