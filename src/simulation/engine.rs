@@ -25,10 +25,6 @@ use crate::{
 /// none meanwhile, at any speed on a table.
 pub(super) const MOMENT: f64 = 1e-15;
 
-/// A contact that closes again within so many times in which the cloth's friction takes the first bounce of balls that no forces hold
-/// together has not ended: where they hold as long as one of them slips, each bounce lets it slip anew for a billionth of a second.
-const SOONEST_END: f64 = 4.0;
-
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct End {
@@ -198,7 +194,6 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         }
         let mut turns = 0;
         let mut most_turns = MOST_TURNS;
-        let recloses = SOONEST_END * self.constants.tolerance.first_bounce / self.constants.sliding;
         while flow.is_continue() && turns < most_turns {
             turns += 1;
             if self.rests_in_vain() {
@@ -215,7 +210,9 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
                 }
             }
             // What follows so soon may close a contact again.
-            if next - now > recloses && self.balls.iter().any(|ball| ball.mode == ContactMode::Bouncing) {
+            if next - now > self.constants.tolerance.shortest_parting
+                && self.balls.iter().any(|ball| ball.mode == ContactMode::Bouncing)
+            {
                 let nothing = source == usize::MAX || self.only_rolls_out(source);
                 flow = self.tell_free(now, nothing);
             }

@@ -75,6 +75,10 @@ pub struct Tolerance {
     /// Balls that never slip and that no forces hold together begin to bounce at this speed, m/s: above the slowest bounce,
     /// so that the chatter does not end at once.
     pub first_bounce: f64,
+    /// A contact that closes again sooner than this has not ended, s: balls that never slip on each other may press only while one of
+    /// them slips on the cloth; when that ends they bounce, and the bounce makes it slip again. Four times as long as the friction of
+    /// sliding takes to undo the `first_bounce`. Larger: contacts end late. Smaller: each of these bounces is told as an end.
+    pub shortest_parting: f64,
     /// Error in speed that ending a chatter early may make, m/s: 1e-11 m after ten seconds.
     pub negligible: f64,
     /// The same where several contacts are coupled, whose bounces do not fade in order, m/s: 1e-9 m after ten seconds.
@@ -115,6 +119,7 @@ impl Tolerance {
             fastest_micro_collision: 1e-3 * speed,
             micro_room: 7e5 * f64::EPSILON * table.length.max(table.width),
             first_bounce: FIRST_BOUNCE * speed,
+            shortest_parting: 4.0 * FIRST_BOUNCE * speed / (table.sliding_friction * table.gravity),
             slowest_coupled_bounce: 2e-8 * speed,
             negligible: 2e-12 * speed,
             negligible_coupled: 2e-10 * speed,

@@ -197,8 +197,8 @@ of a hundred-thousandth of the work; where several impacts at once meet balls th
 at which chatters of several contacts end. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
 multiples of what is explained and in m²/s² (energy over a ball's mass). Where balls fly, \
 heights count, too: each landing takes what the cloth's restitution and friction say, worked out hop by hop, and impacts take what the \
-formulas of the second engine say, in the air one after another, on the cloth together where they happen at once; the direction of an impact is known to \
-so many radians as a ball overlaps what it meets, or is moved out of it, in diameters. A ball that leaves the table takes its energy along.";
+formulas of the second engine say, in the air one after another, on the cloth together where they happen at once; the direction of \
+an impact is uncertain by the overlap of the two bodies over a ball's diameter. A ball that leaves the table takes its energy along.";
 
 /// A page of Markdown around the table.
 pub fn page(plan: &Plan, rows: &[Row]) -> String {

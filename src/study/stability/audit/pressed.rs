@@ -227,8 +227,8 @@ impl Scene<'_> {
         let is_better = |at_edge: &Power| {
             at_edge.is_possible && 2.0 * at_edge.defect < plain.defect && (at_edge.is_unique || !plain.is_unique)
         };
-        // A slip that has hardly begun may have another direction than its friction, which acts against its rate; between its ends a
-        // course tells either less well.
+        // The friction of a slip that has hardly begun acts against the rate of the slip, which may have another direction. It is asked for
+        // only where no interpolation explains what is left.
         let turns = if plain.defect > INTERPOLATED[1] { &[false, true][..] } else { &[false] };
         let ways = turns.iter().flat_map(|turns| at_edge.clone().map(|balls| (balls, *turns)));
         ways.map(|(balls, turns)| self.explained(accelerations, contacts, balls, turns))
