@@ -31,7 +31,7 @@ pub fn draw(settings: &SettingsPage, area: Rect, words: Rect, ui: &mut Ui) -> &'
     });
     draw_words(settings, words, ui);
     if settings.is_writable {
-        "what is set holds at once and at every start"
+        "what is set holds at once and is kept"
     } else {
         "what is set holds until the program ends, while the file cannot be read or written"
     }
