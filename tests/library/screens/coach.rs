@@ -97,7 +97,7 @@ fn a_shot_is_recommended() {
     {
         assert!(text.contains(part), "{part}\n{text}");
     }
-    assert!(["aim top 1.5", "Cue from 1.5", "aim from nose 1.52 top"].iter().any(|aim| text.contains(aim)), "{text}");
+    assert!(["aim top 1.52 → bottom 2.82, at noses", "Cue from 1.5"].iter().any(|aim| text.contains(aim)), "{text}");
     // The thesis' numbers are one key away.
     let text = player.press("N").text(120, 40);
     for part in ["0.200 R, 6.2 mm left", "288.00° ", "V0", "ω0"] {
