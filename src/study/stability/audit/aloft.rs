@@ -1,5 +1,7 @@
 //! What is lost at landings, by formulas apart from the engine's, and at impacts one after another, by those of the reference engine.
 
+use glam::DVec2;
+
 use super::{
     doubt::{RESTING_SPEED, STOPPED_SPEED},
     moment::{Bounces, fastest_micro_collision},
@@ -87,6 +89,19 @@ fn meets_before_it_lands(told: &[Event], ball: usize) -> bool {
     told.iter().find_map(meets).unwrap_or(false)
 }
 
+/// Energy over mass of the slip between two balls on the cloth, m²/s²: if they never slip where they touch, it ends as soon as they rest
+/// against each other. Along the cloth that takes it from their motion and their spin, upright from their spin alone.
+fn slip_energy(table: &Table, contact: Contact, balls: &[Ball<f64>; BALLS]) -> f64 {
+    let Contact::Balls(first, second) = contact else { return 0.0 };
+    let [one, other] = [&balls[first], &balls[second]];
+    let seen = |v: Vector<f64>| DVec2::new(v.x, v.y);
+    let tangent = seen(one.position - other.position).normalize().perp();
+    let spin = one.spin + other.spin;
+    let along = seen(one.velocity - other.velocity).dot(tangent) - table.radius * spin.z;
+    let upright = table.radius * seen(spin).dot(tangent);
+    along * along / 14.0 + upright * upright / 10.0
+}
+
 /// What the impacts do that are told of a `group` of balls: in the air one after another, on the cloth together where they close at
 /// once. `flew` are those balls that have been in the air until now, of which those that have come down are thrown up by the cloth first,
 /// or lie on it, and others land last if that is told; between two that rest from now on, or one and a cushion, there is no restitution.
@@ -132,6 +147,12 @@ pub fn impacts(
         both && contact.opening(&after) < STOPPED_SPEED
     };
     let overlap = contacts.iter().fold(0.0_f64, |most, contact| most.max(-contact.gap(&numbers, &balls)));
+    let mut gripping: Vec<Contact> = Vec::new();
+    for contact in contacts.iter().filter(|contact| rests(contact)) {
+        if !gripping.contains(contact) {
+            gripping.push(*contact);
+        }
+    }
     // Of the impacts of one contact it is the last after which it stays closed.
     let mut contacts = contacts
         .iter()
@@ -190,6 +211,10 @@ pub fn impacts(
             balls[ball].position.z = 0.0;
             lost += settle(&numbers, &mut balls[ball]);
         }
+    }
+    if table.ball_friction.is_none() && table.ball_slip_friction.is_none() {
+        gripping.retain(|contact| !contact.is_aloft(&balls));
+        lost += gripping.iter().map(|contact| slip_energy(table, *contact, &balls)).sum::<f64>();
     }
     let moved = balls.iter().zip(before).map(|(ball, before)| {
         let Vector { x, y, z } = ball.position;
