@@ -15,10 +15,10 @@ use std::{
 
 use crossterm::{
     clipboard::CopyToClipboard,
-    cursor::{Hide, Show},
+    cursor::{Hide, MoveTo, Show},
     event::{DisableBracketedPaste, EnableBracketedPaste},
     execute, queue,
-    style::Print,
+    style::{Print, ResetColor},
     terminal::{
         EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, size,
     },
@@ -132,9 +132,11 @@ pub fn has_terminal() -> bool {
     io::stdin().is_terminal() && io::stdout().is_terminal() && !dumb
 }
 
-/// Writes what gives the terminal back, in one piece, so that no half of it is seen.
+/// Writes what gives the terminal back, in one piece, so that no half of it is seen. One without an alternate screen keeps the picture:
+/// there the shell goes on below it, in its own colours.
 fn give_back(output: &mut impl Write) -> io::Result<()> {
     let mut bytes = Vec::new();
+    queue!(bytes, ResetColor, MoveTo(0, u16::MAX - 1), Print("\r\n"))?;
     queue!(bytes, EndSynchronizedUpdate, Print(DISABLE_MOUSE), DisableBracketedPaste, Show, LeaveAlternateScreen)?;
     output.write_all(&bytes)?;
     output.flush()
