@@ -49,8 +49,9 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     let remembered = (None, Instant::now());
     let ticked = Instant::now();
     let showing = Showing::new(places.shown.clone());
+    let (has_come_back, forgotten, written) = (false, false, String::new());
     let mut runner =
-        Runner { app, session, tasks, places, ticked, remembered, forgotten: false, written: String::new(), showing };
+        Runner { app, session, tasks, places, ticked, has_come_back, remembered, forgotten, written, showing };
     let end = runner.until_the_end(&news);
     runner.showing.end();
     runner.remember(true);
@@ -86,6 +87,8 @@ struct Runner {
     places: Places,
     /// When the app last ticked, or the program came back from being stopped.
     ticked: Instant,
+    /// Whether the terminal is taken again already when the signal comes that tells of it.
+    has_come_back: bool,
     /// What was last remembered of the session, and when.
     remembered: (Option<SavedSession<'static>>, Instant),
     /// Whether that could not be done.
@@ -223,6 +226,7 @@ impl Runner {
             Event::InputEnded => return Ok(Next::Quit),
             Event::Signal(Signal::Stop) => Some(Effect::Suspend),
             // Somebody else may have had the terminal since.
+            Event::Signal(Signal::Continued) if std::mem::take(&mut self.has_come_back) => None,
             Event::Signal(Signal::Continued) => {
                 self.session.leave()?;
                 self.come_back()?;
@@ -264,6 +268,7 @@ impl Runner {
     fn suspend(&mut self) -> io::Result<()> {
         self.session.leave()?;
         platform::suspend()?;
+        self.has_come_back = true;
         self.come_back()
     }
 
