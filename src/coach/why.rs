@@ -239,20 +239,20 @@ impl Why {
         let mut parts = Vec::new();
         let second = self.second.as_ref();
         let other = second.and_then(|second| second.make_probability);
-        let plan = self.plan_words("the next shot");
+        let plan = self.plan_words("the second shot");
         parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
             let [own, its] = [rate, other].map(percent);
             if (rate - other).abs() > TOLD_APART {
                 let luck = if self.is_unsure() { ", which is not surely more" } else { "" };
-                format!("made {own} of the time, the next shot {its}{luck}")
+                format!("made {own} of the time, the second shot {its}{luck}")
             } else {
-                format!("made {own} of the time, about as often as the next shot ({its})")
+                format!("made {own} of the time, about as often as the second shot ({its})")
             }
         }));
         parts.extend(plan.clone().filter(|_| self.is_by_plan()));
         parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
             Some(other) => {
-                format!("its aim may be {} off in all, that of the next shot {}", degrees(width), degrees(other))
+                format!("its aim may be {} off in all, that of the second shot {}", degrees(width), degrees(other))
             }
             None => format!("its aim may be {} off in all", degrees(width)),
         }));
@@ -367,7 +367,7 @@ fn degrees(width: f64) -> String {
 
 impl Difference {
     fn words(&self, names: [&'static str; 3]) -> String {
-        format!("the next shot: {}", self.parts(names))
+        format!("the second shot: {}", self.parts(names))
     }
 
     fn parts(&self, names: [&'static str; 3]) -> String {
@@ -419,7 +419,7 @@ mod tests {
         assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
         assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("off in all"), "{least}");
         let said = why.words(CueBall::White, Units::default());
-        assert!(said.ends_with('.') && said.contains("the next shot"), "{said}");
+        assert!(said.ends_with('.') && said.contains("the second shot"), "{said}");
         // Where the next point counts too, a shot may lead that is made less often.
         let second = why.second.clone().map(|second| Difference {
             make_probability: Some(0.9),
@@ -430,7 +430,9 @@ mod tests {
             Why { make_probability: Some(0.8), next_probability: Some(0.62), second, is_planned: true, ..why.clone() };
         let reason = "the plan decides: it leaves the next point at 62 %";
         assert!(
-            planned.words(CueBall::White, Units::default()).contains(&format!("{reason} (after the next shot: 31 %)"))
+            planned
+                .words(CueBall::White, Units::default())
+                .contains(&format!("{reason} (after the second shot: 31 %)"))
         );
         for sentence in planned.brief(CueBall::White) {
             assert!(sentence.contains(&format!("{reason} (after shot 2: 31 %)")), "{sentence}");
@@ -445,14 +447,14 @@ mod tests {
             Why { make_probability: Some(0.48), second, is_planned: false, ..why.clone() }
         };
         let said = second(false).words(CueBall::White, Units::default());
-        assert!(said.starts_with("Made 48 % of the time, the next shot 54 %, which is not surely more;"), "{said}");
+        assert!(said.starts_with("Made 48 % of the time, the second shot 54 %, which is not surely more;"), "{said}");
         for sentence in second(false).brief(CueBall::White) {
             assert!(sentence.contains("%, not surely more"), "{sentence}");
         }
         let first = second(false).beside_the_list(CueBall::White).next().unwrap();
         assert!(first.starts_with("Shot 2 is not surely made more often"), "{first}");
         let said = second(true).words(CueBall::White, Units::default());
-        assert!(said.starts_with("Made 48 % of the time, the next shot 54 %; "), "{said}");
+        assert!(said.starts_with("Made 48 % of the time, the second shot 54 %; "), "{said}");
         let alone = Why { second: None, ..why }.words(CueBall::White, Units::default());
         assert!(alone.ends_with('.') && !alone.contains("next shot"), "{alone}");
     }
