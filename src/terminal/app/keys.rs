@@ -23,6 +23,14 @@ impl App {
         effect
     }
 
+    /// A key whose byte has come in one piece with that of an Esc pressed just before, which is how terminals send a key with Alt: where
+    /// Alt means nothing, these are two keys.
+    fn take_both(&mut self, key: &KeyEvent) -> Option<Effect> {
+        let bare = KeyEvent { modifiers: key.modifiers - KeyModifiers::ALT, ..*key };
+        let effect = self.take_key(&KeyEvent::from(KeyCode::Esc));
+        effect.or_else(|| self.take_key(&bare))
+    }
+
     fn take_key(&mut self, key: &KeyEvent) -> Option<Effect> {
         // Everywhere, whatever lies over the screen.
         if (key.code, key.modifiers) == (KeyCode::Char('c'), KeyModifiers::CONTROL) {
@@ -51,6 +59,9 @@ impl App {
             self.toasts.go_on();
             let effect = self.settings.pressed(key);
             return self.set(effect);
+        }
+        if found.is_none() && key.modifiers.contains(KeyModifiers::ALT) {
+            return self.take_both(key);
         }
         let found = found?;
         *self.page_mut().message_mut() = None;

@@ -21,7 +21,7 @@ use carom::{
     table::Table,
     terminal::{App, CoachWorker, Effect, Failure, Kept, KeyContext, Launch, Report, Slot, TrainingContext},
 };
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use proptest::prelude::*;
 use ratatui::layout::Size;
 
@@ -174,13 +174,21 @@ fn charts_are_chosen_and_enlarged() {
     let player = player.press("3 9");
     player.says("No chart is shown");
     player.press("z").says("no chart is shown; 1 to 9 show some");
+    // Esc leaves the chart, not the run. A key that comes in one piece with it is a key of its own, not one with Alt.
+    let player = Player::watching(TRUE_COLOUR).press("z");
+    player.is_silent_on("3 critic loss");
+    player.press("Esc").shows(&["1 mean reward", "3 critic loss"]);
+    let mut player = Player::watching(TRUE_COLOUR).press("z");
+    player.event(&KeyEvent::new(KeyCode::Char('c'), KeyModifiers::ALT));
+    player.shows(&["compare with"]);
 }
 
 #[test]
 fn a_run_is_compared_with_another() {
     let player = Player::watching(TRUE_COLOUR).press("c");
-    player.shows(&["compare with", NAME, OTHER, "Run 1 of 3", "Enter compare"]);
-    let player = player.press("Down Enter");
+    // The nearest other run is marked.
+    player.shows(&["compare with", NAME, OTHER, "Run 2 of 3", "Enter compare"]);
+    let player = player.press("Enter");
     assert_eq!(player.app.wanted().followed[1].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
     let mut other = known();
     other.records = (1..=250).map(record).collect();
@@ -189,8 +197,9 @@ fn a_run_is_compared_with_another() {
     player.says("success 0.874 after 5,000,000 shots");
     let player = player.press("c");
     assert_eq!(player.app.wanted().followed[1], None);
-    let same = Player::watching(TRUE_COLOUR).press("c Enter");
+    let same = Player::watching(TRUE_COLOUR).press("c Up Enter");
     same.says("a run cannot be compared with itself");
+    same.shows(&["compare with"]);
 }
 
 #[test]

@@ -99,6 +99,10 @@ impl TrainingPage {
     }
 
     fn back(&mut self) {
+        let is_watched = self.page() == TrainingContext::Watch;
+        if is_watched && self.watch.as_mut().is_some_and(|watch| watch.charts.leave_enlarged()) {
+            return;
+        }
         if self.pages.pop() == Some(TrainingContext::Watch) {
             self.watch = None;
         }
@@ -110,12 +114,12 @@ impl TrainingPage {
             self.show(&folder);
             return;
         }
-        self.pages.pop();
         let Some(watch) = &mut self.watch else { return };
         if watch.folder() == folder {
-            self.message = Some(Message::warning("a run cannot be compared with itself; c chooses another"));
+            self.message = Some(Message::warning("a run cannot be compared with itself; choose another one"));
         } else {
             watch.other = Some(Named::new(&folder, &self.places.runs));
+            self.pages.pop();
         }
     }
 
@@ -169,7 +173,10 @@ impl TrainingPage {
             Action::All => charts.show_all(),
             Action::Follow => charts.follow_end(),
             Action::Compare if watch.other.is_some() => watch.other = None,
-            Action::Compare => self.pages.push(TrainingContext::Compare),
+            Action::Compare => {
+                self.list.mark_beside(&watch.own.name);
+                self.pages.push(TrainingContext::Compare);
+            }
             Action::Pause => {
                 let request = if watch.is_paused() { Request::GoOn } else { Request::Pause };
                 return Some(Effect::Send(request, watch.folder().to_owned()));

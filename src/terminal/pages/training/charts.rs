@@ -139,6 +139,11 @@ impl Charts {
         self.enlarged = !self.enlarged;
     }
 
+    /// Shows the other charts again; tells whether one stood alone.
+    pub const fn leave_enlarged(&mut self) -> bool {
+        std::mem::replace(&mut self.enlarged, false)
+    }
+
     /// Draws the selected chart on a logarithmic scale, or not.
     pub const fn toggle_log(&mut self) {
         self.log[self.selected] = !self.log[self.selected];

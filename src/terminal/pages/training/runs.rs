@@ -66,6 +66,16 @@ impl RunList {
         self.marked = Some(name.to_owned());
     }
 
+    /// Marks the run below the one called `name`, or else the one above it.
+    pub fn mark_beside(&mut self, name: &str) {
+        self.mark_named(name);
+        let own = self.mark();
+        self.move_mark(1);
+        if self.mark() == own {
+            self.move_mark(-1);
+        }
+    }
+
     /// Why the marked run cannot go on; `None` where it can.
     pub fn refusal_to_go_on(&self) -> Option<&'static str> {
         match self.marked().map(|run| run.state) {

@@ -150,10 +150,13 @@ fn people(moment: &str) -> String {
 
 fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     let list = &training.list;
+    let nothing_in = format!("There is no run in {}.", training.folder.display());
     let lines: &[&str] = match list.trouble {
         Some(_) => &["The runs cannot be listed."],
         None if !list.is_known() => &["Looking for runs"],
         None if training.page() == TrainingContext::Compare => &["There is no run to compare with."],
+        // A run that was named lies in a folder of its own.
+        None if training.alone => &[&nothing_in],
         None => &[
             "No agent has been trained here yet.",
             "",
