@@ -69,18 +69,11 @@ pub fn all() -> Vec<Case> {
 
 impl Case {
     /// Plays `shots` shots on each of its tables and returns the worst that was measured. `watch` is that of [`Sweep::run`].
-    pub fn run(&self, shots: u64, seed: u64, mut watch: impl FnMut(Progress, Option<&Finding>) -> bool) -> Figures {
+    pub fn run(&self, shots: u64, seed: u64, mut watch: impl FnMut(Progress, Option<&Finding>)) -> Figures {
         let mut figures = Figures::default();
-        let mut goes_on = true;
         for table in (self.tables)() {
             let sweep = Sweep { table, generator: self.shot, check: self.check, shots, seed, limits: self.limits };
-            figures.merge(&sweep.run(|progress, finding| {
-                goes_on = watch(progress, finding);
-                goes_on
-            }));
-            if !goes_on {
-                break;
-            }
+            figures.merge(&sweep.run(&mut watch));
         }
         figures
     }
