@@ -93,7 +93,7 @@ fn row(file: &'static str, shots: &[Reference]) -> ReferenceRow {
 fn check(reference: &Reference) -> Checked {
     let table = reference.table();
     let known_end = table.as_ref().map_or(reference.end, |table| reference.end_on(table));
-    let truth = table.as_ref().and_then(|table| Truth::of_reference(table, reference).ok()).map(|(truth, _)| truth);
+    let truth = table.as_ref().and_then(|table| Truth::of_reference(table, reference).ok());
     let recording = table.and_then(|table| Recording::new(&table, &reference.layout, &reference.cue.into()).ok());
     let has_events = !reference.events.is_empty();
     let differs = |kinds: &mut dyn Iterator<Item = EventKind>| {
