@@ -2,7 +2,7 @@
 
 use super::{
     doubt::{RESTING_SPEED, STOPPED_SPEED},
-    laws::{friction, impact_loss, impact_loss_by_models, restitution},
+    laws::{friction, impact_loss, restitution},
     least_squares::{Column, dot, fit},
     motion::{Contact, energy, motion, on_cloth},
 };
@@ -190,19 +190,16 @@ impl Moment<'_> {
     }
 
     /// One impact of free balls takes what the formulas say: with the contact's restitution or, where the balls stay in
-    /// contact, with none.
+    /// contact, with none. Where there are no formulas, nothing is asked.
     fn one_impact(&self, contact: &Contact, before: &Column, lost: f64) -> Taken {
         let e = restitution(self.table, contact);
-        let left = |e: f64| {
-            let by_models = impact_loss_by_models(self.table, contact, &self.before, e > 0.0);
-            lost - by_models.unwrap_or_else(|| impact_loss(self.table, contact, before, e))
-        };
-        let unexplained = left(e);
+        let left = |is_elastic| Some(lost - impact_loss(self.table, contact, &self.before, is_elastic)?);
+        let Some(unexplained) = left(e > 0.0) else { return Taken::default() };
         let [opening, ..] = contact.directions();
         let speed = e * dot(&opening, before).abs();
         let stays = |ball: usize| self.rests[ball];
         let may_stay = speed <= STOPPED_SPEED || stays(contact.first) && contact.second.is_none_or(stays);
-        let dead = if may_stay { left(0.0) } else { unexplained };
+        let dead = if may_stay { left(false).unwrap_or(unexplained) } else { unexplained };
         if unexplained.abs() <= dead.abs() {
             return Taken { unexplained, bounces: None };
         }

@@ -9,7 +9,7 @@ use crate::{
     physics::{BallState, CueDegrees},
     simulation::{Course, Rail},
     study::stability::{Shot, cases, random},
-    table::{Flight, JUDGED, Layout},
+    table::{Flight, JUDGED, Layout, RailModel, Rails},
 };
 
 /// The largest that is unexplained in a shot, in multiples of what is explained, after somebody has tampered with it.
@@ -115,6 +115,15 @@ fn an_impact_that_takes_too_much_is_seen_and_one_that_takes_too_little() {
         let left = unexplained(&table, &shot, |trace| trace.pieces[0][1].segment.velocity *= share);
         assert!(left > 100.0, "{share}: {left}");
     }
+}
+
+/// What a rail takes whose law the reference engine has not is not asked for.
+#[test]
+fn impacts_on_rails_of_another_law_are_not_judged() {
+    let (table, shot) = lively();
+    let rail = Rails { model: RailModel::Mathavan, height: Some(0.036), ..Rails::default() };
+    let left = unexplained(&Table { rail, ..table }, &shot, |_| {});
+    assert!(left < 1.0, "{left}");
 }
 
 #[test]
