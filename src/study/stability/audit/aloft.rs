@@ -56,9 +56,9 @@ pub struct Impacts {
     pub bounces: Option<Bounces>,
 }
 
-/// What rounding may have decided at a moment.
+/// What is assumed of a moment where the recorded course does not tell: rounding may have decided it.
 #[derive(Clone, Copy, Debug)]
-pub struct Supposed {
+pub struct Assumptions {
     /// Whether what closes no faster than rounding counts as closing.
     pub grazes: bool,
     /// What closes so fast at most does so by rounding, m/s.
@@ -71,7 +71,7 @@ pub struct Supposed {
     pub is_micro: bool,
 }
 
-impl Supposed {
+impl Assumptions {
     /// Nothing.
     pub const NOTHING: Self = Self { grazes: false, none: 0.0, joins: u32::MAX, lies: false, is_micro: false };
 }
@@ -95,11 +95,11 @@ pub fn impacts(
     [before, after]: [&[SpatialState; BALLS]; 2],
     [flew, group, rested, rests]: [[bool; BALLS]; 4],
     told: &[Event],
-    supposed: Supposed,
+    assumed: Assumptions,
 ) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
     let lossless = numbers.with_restitution(1.0);
-    let slowest = numbers.flight.filter(|_| supposed.lies).map_or(0.0, |flight| flight.slowest);
+    let slowest = numbers.flight.filter(|_| assumed.lies).map_or(0.0, |flight| flight.slowest);
     let mut lost = 0.0;
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let SpatialState { position, velocity, spin } = before[ball];
@@ -108,7 +108,7 @@ pub fn impacts(
         state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
         if group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= slowest {
             lost += settle(&numbers, &mut state);
-            if supposed.lies && meets_before_it_lands(told, ball) {
+            if assumed.lies && meets_before_it_lands(told, ball) {
                 state.motion = Motion::Flying;
             }
         }
@@ -138,7 +138,7 @@ pub fn impacts(
         .enumerate()
         .map(|(index, contact)| {
             let stays = rests(contact) && !contacts[index + 1..].contains(contact);
-            (*contact, stays, supposed.joins.checked_shr(index as u32).is_none_or(|joins| joins & 1 == 1))
+            (*contact, stays, assumed.joins.checked_shr(index as u32).is_none_or(|joins| joins & 1 == 1))
         })
         .peekable();
     let mut bounces: Option<Bounces> = None;
@@ -146,18 +146,18 @@ pub fn impacts(
         let (first, second) = contact.balls();
         let speed = |ball: usize| balls[ball].velocity.length();
         let held = if rested[first] && second.is_none_or(|second| rested[second]) { RESTING_SPEED } else { 0.0 };
-        held.max(supposed.none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
+        held.max(assumed.none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
     };
     while let Some((contact, stays, _)) = contacts.next() {
         if contact.is_aloft(&balls) {
             let rounding = rounding(&contact, &balls);
-            if opening_aloft(&numbers, contact, &balls) > if supposed.grazes { -rounding } else { rounding } {
+            if opening_aloft(&numbers, contact, &balls) > if assumed.grazes { -rounding } else { rounding } {
                 continue;
             }
             lost += collide_aloft(&numbers, contact, &mut balls).work;
         } else {
             let closes = |contact: &Contact| {
-                let least = if supposed.grazes { 0.0 } else { rounding(contact, &balls) };
+                let least = if assumed.grazes { 0.0 } else { rounding(contact, &balls) };
                 !contact.is_aloft(&balls) && contact.opening(&balls) < -least
             };
             let (mut round, mut staying) = (vec![contact], Vec::from_iter(stays.then_some(contact)));
@@ -174,7 +174,7 @@ pub fn impacts(
                     bounces.into_iter().chain([left_out]).max_by(|one, other| one.energy.total_cmp(&other.energy));
             }
             let is_slow = |contact: &Contact| -contact.opening(&balls) < fastest_micro_collision(table);
-            let law = if supposed.is_micro && round.iter().all(is_slow) { &lossless } else { &numbers };
+            let law = if assumed.is_micro && round.iter().all(is_slow) { &lossless } else { &numbers };
             // Where no pushes are found, nothing is explained.
             lost += collide_at_once(law, &mut balls, &round, &staying, &mut Vec::new()).unwrap_or(0.0);
         }

@@ -55,8 +55,8 @@ pub fn free_loss(table: &Table, state: &BallState, motion: Motion, time: f64) ->
         let time = if rate * time < speed { time } else { speed / rate };
         force * time * (speed - 0.5 * rate * time)
     };
-    let boring = table.spinning_friction * g;
-    let spin = if boring > 0.0 { work(boring, radius * state.spin.z.abs(), 2.5 * boring) } else { 0.0 };
+    let spinning = table.spinning_friction * g;
+    let spin = if spinning > 0.0 { work(spinning, radius * state.spin.z.abs(), 2.5 * spinning) } else { 0.0 };
     let v = state.velocity;
     spin + match motion {
         Motion::Sliding => {

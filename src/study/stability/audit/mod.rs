@@ -24,7 +24,7 @@ use super::{
     figures::{Figures, Limits},
     trace::{Piece, Trace},
 };
-use aloft::Supposed;
+use aloft::Assumptions;
 use course::Course;
 use doubt::Doubt;
 use laws::free_loss;
@@ -202,12 +202,12 @@ impl Audit<'_> {
             (0..BALLS).filter(|&ball| group[ball]).map(|ball| aloft::energy(self.table, &balls[ball])).sum()
         };
         let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &before[ball]));
-        let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], supposed| {
-            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], told, supposed);
+        let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], assumed| {
+            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], told, assumed);
             impacts.lost += energy(&at_impact) - energy(balls);
             impacts
         };
-        let mut nearest = explained(&at_impact, [false; BALLS], Supposed::NOTHING);
+        let mut nearest = explained(&at_impact, [false; BALLS], Assumptions::NOTHING);
         // A ball that is moved on to what it hits turns the normals of its other contacts.
         let moved = |ball: usize| before[ball].position.distance(after[ball].position) / (2.0 * self.table.radius);
         let turned = (0..BALLS).filter(|&ball| group[ball]).map(|ball| moved(ball) * before[ball].velocity.length());
@@ -217,7 +217,7 @@ impl Audit<'_> {
         let ways = (0..1_u32 << several).step_by(2).flat_map(|apart| {
             let joins = !apart;
             [(false, 0.0), (true, 0.0), (false, none)].into_iter().flat_map(move |(grazes, none)| {
-                [(false, false), (true, false), (false, true)].map(|(lies, is_micro)| Supposed {
+                [(false, false), (true, false), (false, true)].map(|(lies, is_micro)| Assumptions {
                     grazes,
                     none,
                     joins,
@@ -229,8 +229,8 @@ impl Audit<'_> {
         for by in [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now] {
             let balls = std::array::from_fn(|ball| here(ball, &earlier[ball].beside(&self.trace.constants, by)));
             for rests in [[false; BALLS], rests] {
-                for supposed in ways.clone() {
-                    let other = explained(&balls, rests, supposed);
+                for assumed in ways.clone() {
+                    let other = explained(&balls, rests, assumed);
                     if (lost - other.lost).abs() < (lost - nearest.lost).abs() {
                         nearest = other;
                     }
