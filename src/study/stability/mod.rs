@@ -1,13 +1,13 @@
 //! Stability: what must hold in every shot, and shots made to break it.
 
 pub mod adversarial;
-mod aloft;
 mod audit;
 mod cases;
 mod draw;
 mod figures;
 mod finding;
 mod invariants;
+mod places;
 mod polynomial;
 pub mod random;
 mod report;
