@@ -116,21 +116,14 @@ pub fn impacts(
     });
     let contacts: Vec<Contact> = told
         .iter()
-        .filter_map(|event| match event.kind {
-            EventKind::BallBall(first, second) if group[first] => Some(Contact::Balls(first, second)),
-            EventKind::BallRail(ball, rail) if group[ball] => Some(Contact::Rail(ball, rail)),
-            _ => None,
-        })
+        .filter_map(|event| Contact::of_event(event.kind))
+        .filter(|contact| group[contact.balls().0])
         .collect();
     let after: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let [position, velocity] = [after[ball].position, after[ball].velocity].map(|v| Vector::new(v.x, v.y, v.z));
         Ball { velocity, ..Ball::still(position) }
     });
-    let rests = |contact: &Contact| {
-        let (first, second) = contact.balls();
-        let both = rests[first] && second.is_none_or(|second| rests[second]);
-        both && contact.opening(&after) < STOPPED_SPEED
-    };
+    let rests = |contact: &Contact| contact.is_among(rests) && contact.opening(&after) < STOPPED_SPEED;
     let overlap = contacts.iter().fold(0.0_f64, |most, contact| most.max(-contact.gap(&numbers, &balls)));
     // Of the impacts of one contact it is the last after which it stays closed.
     let mut contacts = contacts
@@ -145,7 +138,7 @@ pub fn impacts(
     let rounding = |contact: &Contact, balls: &[Ball<f64>; BALLS]| {
         let (first, second) = contact.balls();
         let speed = |ball: usize| balls[ball].velocity.length();
-        let held = if rested[first] && second.is_none_or(|second| rested[second]) { RESTING_SPEED } else { 0.0 };
+        let held = if contact.is_among(rested) { RESTING_SPEED } else { 0.0 };
         held.max(assumed.none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
     };
     while let Some((contact, stays, _)) = contacts.next() {

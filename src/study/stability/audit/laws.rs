@@ -1,46 +1,26 @@
 //! What the laws of impact and of free motion take of the energy, by formulas written apart from the engine's: impacts by those of
 //! the reference engine.
 
-use super::motion::Contact;
 use crate::{
     physics::{BallState, Motion},
-    simulation::Rail,
-    study::reference_engine::{Ball, Numbers, Vector, balls_collide, rail_collides},
-    table::{BALLS, RailModel, Table},
+    study::reference_engine::{Ball, Contact, Meeting, Numbers, balls_collide, rail_collides, rail_normal},
+    table::{BALLS, Table},
 };
 
-/// The restitution of a contact.
-pub const fn restitution(table: &Table, contact: &Contact) -> f64 {
-    if contact.second.is_some() { table.ball_restitution } else { table.rail_restitution }
-}
-
-/// Coulomb's coefficient of a contact; `None` for one that never slips.
-pub const fn friction(table: &Table, contact: &Contact) -> Option<f64> {
-    if contact.second.is_some() { table.ball_friction } else { Some(table.rail_friction) }
-}
-
 /// What an impact in one contact takes by the reference engine's formulas, m²/s² (thesis equations 17 to 23, and other models of a
-/// table's parts): with the contact's restitution or, where it is not elastic, with none. `None` for Mathavan's rails, which that
-/// engine has not.
-pub fn impact_loss(table: &Table, contact: &Contact, balls: &[BallState; BALLS], is_elastic: bool) -> Option<f64> {
-    if contact.second.is_none() && table.rail.model == RailModel::Mathavan {
-        return None;
+/// table's parts). `None` for Mathavan's rails, which that engine has not.
+pub fn impact_loss(numbers: &Numbers<f64>, contact: Contact, balls: &[Ball<f64>; BALLS]) -> Option<f64> {
+    if contact.opening(balls) >= 0.0 {
+        return Some(0.0);
     }
-    let numbers = Numbers::<f64>::of(table);
-    let numbers = if is_elastic { numbers } else { numbers.inelastic() };
-    let vector = |v: glam::DVec2, z: f64| Vector::new(v.x, v.y, z);
-    let plain = |ball: usize| {
-        let BallState { position, velocity, spin } = balls[ball];
-        let still = Ball::still(vector(position, 0.0));
-        Ball { velocity: vector(velocity, 0.0), spin: vector(spin.truncate(), spin.z), ..still }
-    };
-    let (mut first, second, normal) = (plain(contact.first), contact.second.map(plain), vector(contact.normal, 0.0));
-    let relative = second.map_or(first.velocity, |second| first.velocity - second.velocity);
-    Some(match second {
-        _ if relative.dot(normal) >= 0.0 => 0.0,
-        Some(mut second) => balls_collide(&numbers, &mut first, &mut second),
-        None => rail_collides(&numbers, numbers.cushion(Rail::with_normal(contact.normal)), normal, &mut first),
-    })
+    match contact {
+        Contact::Balls(first, second) => Some(balls_collide(numbers, &mut { balls[first] }, &mut { balls[second] })),
+        Contact::Rail(ball, rail) => {
+            let cushion = numbers.cushion(rail);
+            let is_known = !matches!(cushion.meeting, Meeting::Integrated);
+            is_known.then(|| rail_collides(numbers, cushion, rail_normal(rail), &mut { balls[ball] }))
+        }
+    }
 }
 
 /// The work of the cloth on a ball that moves freely for `time` seconds from `state` on, m²/s² (thesis equations 1 to 8).

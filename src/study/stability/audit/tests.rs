@@ -214,11 +214,12 @@ fn in_the_air_impacts_and_landings_that_take_what_their_laws_do_not_are_seen() {
 fn dead_impact(table: &Table, rests: bool) -> Taken {
     let mut before = [BallState::at_rest(DVec2::ZERO); BALLS];
     before[0].velocity = DVec2::new(0.0, -1e-3);
-    let contact = Contact::with_rail(0, Rail::Bottom);
+    let (contact, numbers) = (Contact::Rail(0, Rail::Bottom), &Numbers::of(table));
     let impacts = vec![contact];
     let after = [BallState::at_rest(DVec2::ZERO); BALLS];
     let rests = [rests, false, false];
-    let moment = Moment { table, before, after, rested: [false; BALLS], rests, impacts, closed: vec![contact] };
+    let moment =
+        Moment { table, numbers, before, after, rested: [false; BALLS], rests, impacts, closed: vec![contact] };
     moment.taken([true, false, false])
 }
 
