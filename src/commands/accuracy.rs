@@ -3,7 +3,6 @@
 use std::{
     io::Write,
     path::{Path, PathBuf},
-    sync::atomic::AtomicBool,
 };
 
 use super::{
@@ -193,7 +192,7 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
 /// The stability table, which tells of each stiff or extreme case how many shots fail and why.
 fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     let plan = stability::Plan { seed: args.seed.unwrap_or(plan.seed), ..*plan };
-    let rows = stability::rows_with_progress(&plan, &AtomicBool::new(false));
+    let rows = stability::rows(&plan);
     if let Some(folder) = &args.out {
         write_file(folder, STABILITY, &stability::page(&plan, &rows))?;
     }

@@ -71,7 +71,7 @@ struct Stopped {
 /// Friction without limit leaves states in which no forces obey all laws (Painlevé's paradox): what would hold the slip of two
 /// balls parts them, and once they have parted, and nothing holds, they come back. They begin to bounce then, each time
 /// higher, and each bounce takes their slip as every impact of theirs does (17).
-pub fn lawful(
+pub fn find_active_set(
     table: &Table,
     constants: &Constants,
     balls: &mut State,

@@ -196,7 +196,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         let mut most_turns = MOST_TURNS;
         while flow.is_continue() && turns < most_turns {
             turns += 1;
-            if self.rests_in_vain() {
+            if self.resting_budget_spent() {
                 flow = self.begin_micro_collisions(now);
                 most_turns = MOST_TURNS_BOUNCING;
                 if flow.is_break() {
@@ -299,7 +299,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     }
 
     /// Whether resting contacts have taken more work than any should.
-    pub(super) fn rests_in_vain(&self) -> bool {
+    pub(super) fn resting_budget_spent(&self) -> bool {
         self.micro_collisions.is_none() && self.effort.spent() > MOST_RESTING
     }
 

@@ -16,7 +16,7 @@ use glam::{DVec2, DVec3};
 
 use super::{
     Constants, Rail,
-    active_set::{Ended, lawful, remove_rounding, transient_pressing, without_ending_slips},
+    active_set::{Ended, find_active_set, remove_rounding, transient_pressing, without_ending_slips},
     contacts::{close_gaps, touching},
     extrapolation::{Phase, State, Step, extrapolate},
     guards::{HELD, MOST_RESTING, MOST_STEP, STEP},
@@ -152,7 +152,7 @@ impl Resting {
         effort.add(STEP);
         let least_push = slack + transient_pressing(constants, balls, &contacts);
         let Some((begin, resolved)) =
-            lawful(table, constants, &mut free, &mut contacts, least_push, previous.map(Self::ended), &effort)
+            find_active_set(table, constants, &mut free, &mut contacts, least_push, previous.map(Self::ended), &effort)
         else {
             let ended = without_ending_slips(table, constants, &free, &contacts);
             return Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]), effort);

@@ -101,8 +101,8 @@ pub struct Study {
     pub rows: Vec<Row>,
     /// Each method's shots.
     pub points: Vec<Vec<Point>>,
-    /// Shots whose truth is not known, and why.
-    pub unjudged: Vec<(usize, Unjudged)>,
+    /// Why the truth of a shot is not known, for each such shot.
+    pub unjudged: Vec<Unjudged>,
 }
 
 /// The shots of one table and their truth.
@@ -206,11 +206,7 @@ impl Plan {
             summary,
             rows: methods.map(|(&method, gathered)| self.row(method, truths, gathered)).collect(),
             points: gathered.iter().map(points).collect(),
-            unjudged: truths
-                .iter()
-                .enumerate()
-                .filter_map(|(i, truth)| truth.as_ref().err().map(|e| (i, *e)))
-                .collect(),
+            unjudged: truths.iter().filter_map(|truth| truth.as_ref().err().copied()).collect(),
         }
     }
 

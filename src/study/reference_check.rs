@@ -19,6 +19,9 @@ pub const GOAL_MEDIAN: f64 = 2.0;
 /// The same for 99 in a hundred shots.
 pub const GOAL_P99: f64 = 64.0;
 
+/// Below this condition, m, times are told to a billionth of a second.
+const STEADY: f64 = 1e6;
+
 /// One reference file.
 #[derive(Clone, Debug, Serialize)]
 pub struct ReferenceRow {
@@ -40,6 +43,11 @@ pub struct ReferenceRow {
     pub engine_units: Option<Spread>,
     /// Shots in which the engine has another sequence of events.
     pub engine_wrong: Share,
+    /// The largest error of an event's time in each shot that the engine plays in the right sequence, s. Shots whose condition is a
+    /// million or more do not count.
+    pub engine_time_s: Option<Spread>,
+    /// The error of the time at which all balls rest, s, in all shots but these.
+    pub engine_duration_s: Option<Spread>,
     /// Distance of the engine's balls at rest from the truth's, m.
     pub engine_to_truth_m: Option<Spread>,
 }
@@ -56,6 +64,8 @@ struct Checked {
     truth_wrong: Option<bool>,
     engine: f64,
     engine_wrong: Option<bool>,
+    engine_time: Option<f64>,
+    engine_duration: Option<f64>,
     engine_to_truth: Option<f64>,
 }
 
@@ -74,6 +84,8 @@ fn row(file: &'static str, shots: &[Reference]) -> ReferenceRow {
         engine_m: Spread::of(checked.iter().map(|shot| shot.engine)),
         engine_units: in_units(|shot| Some(shot.engine)),
         engine_wrong: Share::of(checked.iter().filter_map(|shot| shot.engine_wrong)),
+        engine_time_s: Spread::of(checked.iter().filter_map(|shot| shot.engine_time)),
+        engine_duration_s: Spread::of(checked.iter().filter_map(|shot| shot.engine_duration)),
         engine_to_truth_m: Spread::of(checked.iter().filter_map(|shot| shot.engine_to_truth)),
     }
 }
@@ -81,7 +93,7 @@ fn row(file: &'static str, shots: &[Reference]) -> ReferenceRow {
 fn check(reference: &Reference) -> Checked {
     let table = reference.table();
     let known_end = table.as_ref().map_or(reference.end, |table| reference.end_on(table));
-    let truth = table.as_ref().and_then(|table| Truth::of_reference(table, reference).ok()).map(|(truth, _)| truth);
+    let truth = table.as_ref().and_then(|table| Truth::of_reference(table, reference).ok());
     let recording = table.and_then(|table| Recording::new(&table, &reference.layout, &reference.cue.into()).ok());
     let has_events = !reference.events.is_empty();
     let differs = |kinds: &mut dyn Iterator<Item = EventKind>| {
@@ -89,6 +101,13 @@ fn check(reference: &Reference) -> Checked {
         kinds.len() != reference.events.len() || !kinds.iter().zip(&reference.events).all(|(kind, it)| is(*kind, it))
     };
     let end = recording.as_ref().map(Recording::final_layout);
+    let engine_wrong = has_events
+        .then(|| recording.as_ref().is_none_or(|it| differs(&mut it.events().iter().map(|event| event.kind))));
+    let steady = recording.as_ref().filter(|_| reference.condition.is_none_or(|condition| condition < STEADY));
+    let time_error = |recording: &Recording| {
+        let pairs = recording.events().iter().zip(&reference.events);
+        pairs.map(|(ours, theirs)| (ours.time - theirs.t).abs()).fold(0.0, f64::max)
+    };
     Checked {
         unit: reference.condition.map(|condition| (1.0 + condition) * f64::ROUNDING),
         truth: truth.as_ref().map(|truth| truth.distance(&known_end)),
@@ -96,9 +115,13 @@ fn check(reference: &Reference) -> Checked {
             .as_ref()
             .filter(|_| has_events)
             .map(|truth| differs(&mut truth.events.iter().map(|event| event.1))),
-        engine: end.as_ref().map_or(f64::INFINITY, |end| distance(end, &known_end)),
-        engine_wrong: has_events
-            .then(|| recording.as_ref().is_none_or(|it| differs(&mut it.events().iter().map(|event| event.kind)))),
+        // A ball that left the table counts where it ended, not on its spot.
+        engine: recording
+            .as_ref()
+            .map_or(f64::INFINITY, |it| distance(&Layout::new(it.positions(it.duration())), &reference.end)),
+        engine_wrong,
+        engine_time: steady.filter(|_| engine_wrong == Some(false)).map(time_error),
+        engine_duration: steady.map(|it| (it.duration() - reference.duration).abs()),
         engine_to_truth: truth.zip(end).map(|(truth, end)| truth.distance(&end)),
     }
 }

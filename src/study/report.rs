@@ -123,7 +123,7 @@ const THREE: &str = "median    p99     worst";
 
 fn reasons(study: &Study) -> String {
     let mut reasons: Vec<String> = Vec::new();
-    for (_, why) in &study.unjudged {
+    for why in &study.unjudged {
         let why = why.to_string();
         if !reasons.contains(&why) {
             reasons.push(why);

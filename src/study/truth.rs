@@ -59,7 +59,7 @@ impl Truth {
     ///
     /// # Errors
     /// [`Unjudged`], where the truth is not known.
-    pub fn of_reference(table: &Table, reference: &Reference) -> Result<(Self, DoubleDouble), Unjudged> {
+    pub fn of_reference(table: &Table, reference: &Reference) -> Result<Self, Unjudged> {
         let numbers = Numbers::of(table);
         let of = DoubleDouble::of;
         let turn = |degrees: f64| (of(degrees) * DoubleDouble::PI / of(180.0)).sin_cos();
@@ -68,7 +68,7 @@ impl Truth {
         let (velocity, spin) =
             strike(&numbers, &Stroke { a: of(cue.a), b: of(cue.b), theta, phi, speed: of(cue.speed) });
         let shot = play(&numbers, places(&reference.layout), velocity, spin, by_extrema)?;
-        Ok((Self::from_shot(table, &shot, reference.condition.unwrap_or(0.0)), shot.duration))
+        Ok(Self::from_shot(table, &shot, reference.condition.unwrap_or(0.0)))
     }
 
     fn from_shot(table: &Table, shot: &Shot<DoubleDouble>, condition: f64) -> Self {

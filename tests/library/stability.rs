@@ -1,12 +1,9 @@
 //! The stability table, row by row: stiff and extreme cases, random and adversarial shots.
 
-use std::{fs::File, io::Write};
-
 use carom::{
     physics::{CueDegrees, CueInputs},
-    printing::ProgressLine,
     simulation::Recording,
-    study::stability::{Case, Limits, Plan, Row, Shot, Trace, cases, examine, markdown, rows},
+    study::stability::{Case, Limits, Plan, Row, Shot, Trace, cases, examine},
     table::{Layout, Table, TableError},
 };
 use glam::DVec2;
@@ -17,18 +14,14 @@ const PLAN: Plan = Plan { random: 1_000, adversarial: 1_000, each_case: 100, see
 /// Plays a row and fails with its first failing shot, as JSON that `carom simulate --batch` reads.
 fn hold(name: &str) {
     let case: Case = cases().into_iter().find(|case| case.name == name).expect("the row is in the table");
-    let mut first = None;
-    let row = Row::of(&case, &PLAN, |_, finding| {
-        first = first.take().or_else(|| finding.cloned());
-        true
-    });
-    if let Some(first) = first {
+    let row = Row::of(&case, &PLAN, |_| {});
+    if let Some(first) = &row.finding {
         panic!(
             "{} of {} fail: {}\n{}",
             row.failed,
             row.figures.shots,
             first.what,
-            serde_json::to_string(&first).unwrap()
+            serde_json::to_string(first).unwrap()
         );
     }
     let tables = (case.tables)().len() as u64;
@@ -100,21 +93,17 @@ fn every_row_of_the_table_is_a_test() {
     assert_eq!(cases().iter().map(|case| case.name).collect::<Vec<_>>(), NAMES);
 }
 
-/// Rows with a shot that fails at the document's counts.
-const KNOWN: [&str; 0] = [];
-
-/// What is excused is what the document says, row by row.
 #[test]
-fn every_row_is_in_the_document_and_holds_there_but_for_those_that_are_known() {
+fn every_row_is_in_the_document_and_holds_there() {
     let page = include_str!("../../docs/stability.md");
-    let fails = |name: &&str| {
+    for name in NAMES {
         let line = page.lines().find(|line| line.starts_with(&format!("| {name} |"))).expect(name);
-        !line.contains("| holds |")
-    };
-    assert_eq!(NAMES.iter().copied().filter(fails).collect::<Vec<_>>(), KNOWN);
+        assert!(line.contains("| holds |"), "{line}");
+    }
 }
 
-/// Shots of the table that failed once, each for the cause that it names.
+/// Shots of the table that failed once, each for the cause that it names. Some took far too many steps of resting contacts and
+/// bounces of chatters: they tell how many are enough.
 #[test]
 fn shots_that_failed_hold() {
     let tables: Vec<Table> = cases().iter().flat_map(|case| (case.tables)()).collect();
@@ -125,10 +114,13 @@ fn shots_that_failed_hold() {
             layout: serde_json::from_value(line["layout"].clone()).unwrap(),
             cue: serde_json::from_value(line["cue"].clone()).unwrap(),
         };
-        let figures = examine(table, &shot, &mut Trace::new(table));
+        let mut trace = Trace::new(table);
+        let figures = examine(table, &shot, &mut trace);
         // How long it takes is for the table to tell.
         let violations = figures.violations(&Limits { seconds: f64::INFINITY, ..Limits::STRICT.on(table) });
         assert!(violations.is_empty(), "{}: {violations:?}", line["cause"]);
+        let enough = line["contact_steps"].as_u64().map_or(usize::MAX, |steps| steps as usize);
+        assert!(trace.contact_steps < enough, "{}: {} steps", line["cause"], trace.contact_steps);
     }
 }
 
@@ -158,60 +150,6 @@ fn a_cloth_without_friction_is_refused_with_a_sentence() {
     }
 }
 
-/// Plays a shot, given as JSON, and asks for all invariants but its time; returns how many steps of resting contacts and
-/// bounces of chatters it takes.
-fn breaks_nothing_on(table: &Table, layout: &str, cue: &str) -> usize {
-    let limits = Limits { seconds: f64::INFINITY, ..Limits::STRICT };
-    let shot = Shot { layout: serde_json::from_str(layout).unwrap(), cue: serde_json::from_str(cue).unwrap() };
-    let mut trace = Trace::new(table);
-    assert_eq!(examine(table, &shot, &mut trace).violations(&limits), []);
-    trace.contact_steps
-}
-
-/// A ball slid ever more slowly on the cloth that all but held it, and its direction followed the forces within microseconds: the
-/// steps were as short, 1477 of them, and the guard stopped the balls before they came to rest.
-#[test]
-fn a_slip_that_is_all_but_held_takes_few_steps() {
-    let layout = "[[0.4679919420879143,-0.06510276762176109],[0.41973215645790923,-0.027793344000563748],[-0.0038324174855273174,-0.49029597370624284]]";
-    let cue = r#"{"a":0.16045871384113414,"b":0.7644449453900307,"phi_deg":-142.00538190855255,"speed":4.974682388964157,"theta_deg":14.433357332328608}"#;
-    let steps = breaks_nothing_on(&Table::preset("thesis").unwrap(), layout, cue);
-    assert!(steps < 300, "{steps}");
-}
-
-/// On a slippery cloth a ball turned about another in one step of a resting contact, on a course that no polynomial follows.
-#[test]
-fn balls_that_turn_about_each_other_for_long_stay_apart() {
-    let table = Table {
-        sliding_friction: 1e-4,
-        rolling_friction: 1e-4,
-        spinning_friction: 0.0,
-        rail_friction: 0.0,
-        ball_friction: Some(0.0),
-        ..Table::preset("textbook").unwrap()
-    };
-    let layout = "[[-0.19221718732807025,-0.6792494206279786],[1.0523693351089813,-0.0967678208069781],[-1.3892499999748784,-0.6792499952577966]]";
-    let cue = r#"{"a":8.537342685793858e-16,"b":0.4,"phi_deg":-115.77677047584524,"speed":7.359101772411925,"theta_deg":0.0}"#;
-    breaks_nothing_on(&table, layout, cue);
-}
-
-/// On a rough cloth the shortest step was long enough for a spin that ends to turn round, again and again.
-#[test]
-fn a_spin_ends_on_a_rough_cloth() {
-    let table = Table {
-        sliding_friction: 1000.0,
-        rolling_friction: 1000.0,
-        spinning_friction: 1000.0,
-        rail_friction: 0.99,
-        ball_friction: Some(0.99),
-        ..Table::preset("thesis").unwrap()
-    };
-    let layout = "[[-1.1784999999999932,0.60449999999983],[-1.2394999999999932,0.6044999998705876],[-1.1569317863052406,0.5474402754214751]]";
-    let cue =
-        r#"{"a":0.0,"b":0.3999999999999965,"phi_deg":-179.99999987860585,"speed":7.675780029969738,"theta_deg":0.0}"#;
-    let steps = breaks_nothing_on(&table, layout, cue);
-    assert!(steps < 1000, "{steps}");
-}
-
 /// The checks themselves: a shot on a table that is smaller than the checker believes leaves it, balls that are placed
 /// inside each other overlap.
 #[test]
@@ -228,29 +166,4 @@ fn the_checks_see_what_is_wrong() {
     let shot = Shot { layout, cue: CueDegrees::centre(90.0, 2.0) };
     let outside = examine(&table, &shot, &mut trace).outside.value;
     assert!((outside - (table.half_width() - small.half_width())).abs() < 1e-12, "{outside:e}");
-}
-
-/// The table of the report with a hundred times as many shots: ten million random and a million adversarial shots on each
-/// bundled table, and a hundred thousand of every case. Hours; findings go to the file in `CAROM_STABILITY_FINDINGS`, one
-/// JSON object a line. `CAROM_STABILITY_QUICK=1` takes as many as the report.
-///
-/// `cargo test --profile quick --test library stability::the_long_run -- --ignored --nocapture`
-#[test]
-#[ignore = "takes hours"]
-fn the_long_run() {
-    let Plan { random, adversarial, each_case, seed } = Plan::REPORT;
-    let times = if std::env::var_os("CAROM_STABILITY_QUICK").is_some() { 1 } else { 100 };
-    let plan = Plan { random: times * random, adversarial: times * adversarial, each_case: times * each_case, seed };
-    let mut file = std::env::var_os("CAROM_STABILITY_FINDINGS").map(|path| File::create(path).unwrap());
-    let mut line = ProgressLine::default();
-    let rows = rows(&plan, |name, progress, finding| {
-        line.show(format_args!("{name}: {progress}"));
-        if let (Some(file), Some(finding)) = (&mut file, finding) {
-            writeln!(file, "{}", serde_json::to_string(finding).unwrap()).unwrap();
-        }
-        true
-    });
-    line.clear();
-    println!("{}", markdown(&rows));
-    assert!(rows.iter().all(Row::passed));
 }

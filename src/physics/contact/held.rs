@@ -45,7 +45,7 @@ const SINGULAR: f64 = 1e-6;
 const MAX_REFINEMENTS: usize = 8;
 
 /// A residual of which a round of refinement leaves so much or more is no effect of [`PROXIMITY`]: not everything can be held.
-const TORN: f64 = 0.95;
+const INCONSISTENT: f64 = 0.95;
 
 /// Residuals below this share of the largest number are rounding.
 const ROUNDING: f64 = 4096.0 * f64::EPSILON;
@@ -61,8 +61,8 @@ struct Held<const ROOM: usize> {
     sizes: [Triple; ROOM],
     /// Whether they are known not to be unique: something is held more often than needed.
     redundant: bool,
-    /// The rate at which a contact opens, m/s², where the bends of the courses tear apart what is held more often than needed; else zero.
-    torn: f64,
+    /// The rate at which a contact opens, m/s², where the bends of the courses part what is held more often than needed; else zero.
+    inconsistent: f64,
 }
 
 /// How the balls move under each unknown of each contact alone.
@@ -99,7 +99,7 @@ impl<const ROOM: usize> Held<ROOM> {
             members: std::array::from_fn(|ball| contacts.iter().any(|contact| contact.has(ball))),
             sizes: [[0.0; 3]; ROOM],
             redundant: false,
-            torn: 0.0,
+            inconsistent: 0.0,
         }
     }
 
@@ -303,8 +303,9 @@ impl<const ROOM: usize> Held<ROOM> {
             if residual <= 16.0 * f64::EPSILON * scale || stays && residual <= ROUNDING * scale {
                 return Some(moved);
             }
-            if bends && round > 0 && !unique && residual >= TORN * smallest && opens >= TORN * residual {
-                self.torn = opens;
+            if bends && round > 0 && !unique && residual >= INCONSISTENT * smallest && opens >= INCONSISTENT * residual
+            {
+                self.inconsistent = opens;
                 return Some(moved);
             }
             smallest = smallest.min(residual);
@@ -316,7 +317,7 @@ impl<const ROOM: usize> Held<ROOM> {
 
     /// Takes the friction upwards out of the unknowns at a cushion that holds one of these balls, which rolls: the cloth holds the same.
     /// Returns which contact that is.
-    fn prescribe(&mut self, is_meant: impl Fn(usize) -> bool) -> Option<usize> {
+    fn fix_redundant_friction(&mut self, is_meant: impl Fn(usize) -> bool) -> Option<usize> {
         let holds = |joint: &Joint| {
             let rolls = self.sticking[joint.first].cloth == Cloth::Rolls;
             rolls && joint.second.is_none() && joint.unknowns == 3 && is_meant(joint.first)
@@ -386,7 +387,7 @@ pub fn accelerations(
             Solved::easing(table, balls, contacts, system, &free, ball)?.moved
         } else {
             // However the forces that hold a ball are divided, it moves alike.
-            system.redundant = system.redundant && system.prescribe(|_| true).is_none();
+            system.redundant = system.redundant && system.fix_redundant_friction(|_| true).is_none();
             system.solve(&free, true)?
         }
     });
@@ -424,9 +425,9 @@ impl<const ROOM: usize> Solved<ROOM> {
     fn forces(&self, table: &Table, balls: &[BallState; BALLS], contacts: &[Contact], set: &ActiveSet) -> Forces {
         let Self { system, free, moved, within } = self;
         let unheld = system.unheld(free);
-        let [sliding, rolling, boring] = frictions(table);
+        let [sliding, rolling, spinning] = frictions(table);
         let mut forces = Forces::NONE;
-        forces.slack = if system.torn > 0.0 { -system.torn } else { *within };
+        forces.slack = if system.inconsistent > 0.0 { -system.inconsistent } else { *within };
         forces.redundant = system.redundant;
         let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
         for ball in (0..BALLS).filter(|&ball| system.members[ball]) {
@@ -440,7 +441,7 @@ impl<const ROOM: usize> Solved<ROOM> {
                 limit(rolling, roll.length());
             }
             if sticking.spin {
-                limit(boring, spin.abs());
+                limit(spinning, spin.abs());
             }
             // A spin that has turned round has ended before.
             if let Friction::Slips(sign) = set.spin[ball]
@@ -466,7 +467,7 @@ impl<const ROOM: usize> Solved<ROOM> {
 /// How the `members` would move without their contacts.
 #[inline(always)]
 fn free(table: &Table, balls: &[BallState; BALLS], set: &ActiveSet, members: [bool; BALLS]) -> Movement {
-    let [sliding, _, boring] = frictions(table);
+    let [sliding, _, spinning] = frictions(table);
     let mut free = Movement::NONE;
     for ball in (0..BALLS).filter(|&ball| members[ball]) {
         let state = &balls[ball];
@@ -479,7 +480,7 @@ fn free(table: &Table, balls: &[BallState; BALLS], set: &ActiveSet, members: [bo
         }
         *linear += table.tilt;
         if let Friction::Slips(sign) = set.spin[ball] {
-            angular.z = -2.5 * boring * sign.x;
+            angular.z = -2.5 * spinning * sign.x;
         }
     }
     free

@@ -204,11 +204,11 @@ impl Problem {
             }
         }
         let about_vertical = Row::ZERO.with(ball, DVec2::ZERO, DVec3::Z);
-        let boring = table.spinning_friction * gravity;
+        let spinning = table.spinning_friction * gravity;
         match set.spin[ball] {
-            Friction::Slips(sign) => self.known.add(-boring * sign.x, &about_vertical),
+            Friction::Slips(sign) => self.known.add(-spinning * sign.x, &about_vertical),
             Friction::Sticks | Friction::Yields | Friction::Eases => {
-                self.push(Place::Spin(ball), Limit::Fixed(boring), &[about_vertical], [0.0; 2]);
+                self.push(Place::Spin(ball), Limit::Fixed(spinning), &[about_vertical], [0.0; 2]);
             }
         }
     }

@@ -51,6 +51,20 @@ impl Contact {
         is_off(first) || second.is_some_and(is_off)
     }
 
+    /// Whether all of its balls are among these.
+    pub fn is_among(self, balls: [bool; BALLS]) -> bool {
+        (0..BALLS).all(|ball| balls[ball] || !self.has(ball))
+    }
+
+    /// The contact of an impact, if this is one.
+    pub fn of_event(kind: EventKind) -> Option<Self> {
+        match kind {
+            EventKind::BallBall(first, second) => Some(Self::Balls(first, second)),
+            EventKind::BallRail(ball, rail) => Some(Self::Rail(ball, rail)),
+            _ => None,
+        }
+    }
+
     /// The event of an impact.
     pub fn event(self) -> EventKind {
         match self {

@@ -49,10 +49,8 @@ pub fn collide<R: Real>(
         }
         work = work
             + if is_last {
-                {
-                    let pushes = pushes(numbers, balls, &closing, |_| R::zero())?;
-                    one_round(numbers, balls, &closing, &pushes, &mut met)
-                }
+                let pushes = pushes(numbers, balls, &closing, |_| R::zero())?;
+                one_round(numbers, balls, &closing, &pushes, &mut met)
             } else {
                 at_once(numbers, balls, &closing, inelastic, &mut met)?
             };

@@ -106,13 +106,13 @@ impl<R: Real> System<R> {
             self.unknown(Law::Hold(numbers.roll), &axes.map(|axis| (Row::centre(ball, axis), zero)));
         }
         let row = Row::turning(numbers, ball);
-        let boring = R::ratio(2.0, 5.0) * numbers.radius * numbers.twist;
+        let spinning = R::ratio(2.0, 5.0) * numbers.radius * numbers.twist;
         if turning == zero {
-            self.unknown(Law::Hold(boring), &[(row, zero)]);
+            self.unknown(Law::Hold(spinning), &[(row, zero)]);
         } else {
             let speed = numbers.radius * state.spin.z;
-            row.push(numbers, -boring * turning, &mut self.known);
-            self.power.0 = self.power.0 + boring * turning * speed;
+            row.push(numbers, -spinning * turning, &mut self.known);
+            self.power.0 = self.power.0 + spinning * turning * speed;
         }
     }
 

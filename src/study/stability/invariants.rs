@@ -1,27 +1,16 @@
-//! What must hold in every shot, checked on its whole course and not on samples of it.
-//!
-//! Between two changes a ball's centre follows a polynomial of the time, and so does the square of the distance of two
-//! balls: its least value on the interval is bounded by its Bernstein coefficients ([`super::polynomial`]).
+//! What must hold in every shot: its numbers, its times, its places and its energy.
 
 use glam::DVec2;
 
-use crate::{
-    physics::Motion,
-    simulation::{Constants, EventKind, Segment},
-    table::{BALLS, PAIRS, Table},
-};
+use crate::table::Table;
 
 use super::{
-    aloft,
     audit::audit,
     figures::Figures,
-    polynomial::{MAX_DEGREE, least},
+    places,
     shot::Shot,
     trace::{Piece, Trace},
 };
-
-/// To which the least distance is worked out, m: a thousandth of what counts.
-pub(super) const PRECISION: f64 = 1e-12;
 
 /// Plays `shot` and measures everything that must hold.
 pub fn examine(table: &Table, shot: &Shot, trace: &mut Trace) -> Figures {
@@ -44,21 +33,7 @@ fn measure(table: &Table, shot: &Shot, trace: &Trace) -> Figures {
         return figures;
     }
     order(trace, &mut figures);
-    if trace.has_flights() {
-        aloft::measure(table, shot, trace, &mut figures);
-        audit(table, trace, &mut figures);
-        return figures;
-    }
-    jumps(shot, trace, &mut figures);
-    for pieces in &trace.pieces {
-        for piece in pieces {
-            outside(&trace.constants, piece, &mut figures);
-        }
-    }
-    for (first, second) in PAIRS {
-        overlaps(&trace.constants, &trace.pieces[first], &trace.pieces[second], &mut figures);
-    }
-    contacts(trace, &mut figures);
+    places::measure(table, shot, trace, &mut figures);
     audit(table, trace, &mut figures);
     figures
 }
@@ -90,134 +65,11 @@ fn order(trace: &Trace, figures: &mut Figures) {
     }
 }
 
-/// Every piece begins where the last one ended.
-fn jumps(shot: &Shot, trace: &Trace, figures: &mut Figures) {
-    for (ball, pieces) in trace.pieces.iter().enumerate() {
-        let mut last = shot.layout.balls[ball];
-        for Piece { segment, end } in pieces {
-            figures.jump.note(last.distance(segment.position), segment.start);
-            last = segment.position_after(end - segment.start);
-        }
-        if trace.kept_until == f64::INFINITY {
-            figures.jump.note(last.distance(trace.end.balls[ball].position), trace.end.time);
-        }
-    }
-}
-
-/// How far a piece leads beyond the cushions.
-fn outside(constants: &Constants, piece: &Piece, figures: &mut Figures) {
-    let Piece { segment, end } = piece;
-    let course = segment.coefficients();
-    let count = if segment.curve().is_some() { 6 } else { 3 };
-    let time = end - segment.start;
-    for axis in 0..2 {
-        let reach = constants.reach[axis];
-        for side in [1.0, -1.0] {
-            let mut room = [0.0; 6];
-            for (room, c) in room.iter_mut().zip(course) {
-                *room = side * c[axis];
-            }
-            room[0] += reach;
-            if room[0] > time * (room[1].abs() + time * room[2].abs()) && segment.curve().is_none() {
-                continue;
-            }
-            let found = least(&room[..count], time, PRECISION);
-            figures.outside.note(-found.value, segment.start + found.at);
-        }
-    }
-}
-
-/// How deep two balls overlap on their courses, which share every moment.
-fn overlaps(constants: &Constants, first: &[Piece], second: &[Piece], figures: &mut Figures) {
-    let diameter = 2.0 * constants.radius;
-    let (mut i, mut j) = (0, 0);
-    while let (Some(one), Some(other)) = (first.get(i), second.get(j)) {
-        let from = one.segment.start.max(other.segment.start);
-        let until = one.end.min(other.end);
-        if until > from
-            && !(one.segment.motion == Motion::Stationary && other.segment.motion == Motion::Stationary && from > 0.0)
-        {
-            let (c1, c2) = (shifted(&one.segment, from), shifted(&other.segment, from));
-            let mut d = [DVec2::ZERO; 6];
-            for (d, (c1, c2)) in d.iter_mut().zip(c1.iter().zip(c2)) {
-                *d = *c1 - c2;
-            }
-            let time = until - from;
-            let curved = one.segment.curve().is_some() || other.segment.curve().is_some();
-            if curved || d[0].length() - diameter <= time * (d[1].length() + time * d[2].length()) {
-                let terms = if curved { 6 } else { 3 };
-                let mut gap = [0.0; MAX_DEGREE + 1];
-                for (i, a) in d[..terms].iter().enumerate() {
-                    for (j, b) in d[..terms].iter().enumerate() {
-                        gap[i + j] += a.dot(*b);
-                    }
-                }
-                // (|d| - 2R)(|d| + 2R), whose first factor is the gap and whose rounding stays small.
-                gap[0] = (d[0].length() - diameter) * (d[0].length() + diameter);
-                let found = least(&gap[..2 * terms - 1], time, 2.0 * diameter * PRECISION);
-                let depth = -found.value / (diameter + (found.value + diameter * diameter).max(0.0).sqrt());
-                figures.overlap.note(depth, from + found.at);
-            }
-        }
-        if one.end <= other.end {
-            i += 1;
-        }
-        if other.end <= one.end {
-            j += 1;
-        }
-    }
-}
-
-/// What is told to collide touches.
-fn contacts(trace: &Trace, figures: &mut Figures) {
-    let mut cursor = [0; BALLS];
-    let mut place = |ball: usize, time: f64| {
-        let pieces = &trace.pieces[ball];
-        while pieces.get(cursor[ball]).is_some_and(|piece| piece.end < time) {
-            cursor[ball] += 1;
-        }
-        match pieces.get(cursor[ball]) {
-            Some(piece) => piece.segment.position_after(time - piece.segment.start),
-            None => trace.end.balls[ball].position,
-        }
-    };
-    for event in trace.events.iter().filter(|event| event.time < trace.kept_until) {
-        let apart = match event.kind {
-            EventKind::BallBall(first, second) => {
-                place(first, event.time).distance(place(second, event.time)) - 2.0 * trace.constants.radius
-            }
-            EventKind::BallRail(ball, rail) => {
-                let n = rail.normal();
-                n.abs().dot(trace.constants.reach) + place(ball, event.time).dot(n)
-            }
-            _ => continue,
-        };
-        figures.apart.note(apart.abs(), event.time);
-    }
-}
-
-/// A course's coefficients about the time `now`.
-fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
-    let mut c = segment.coefficients();
-    let shift = now - segment.start;
-    let highest = if segment.curve().is_some() { 5 } else { 2 };
-    if shift != 0.0 {
-        // Repeated synthetic division.
-        for low in 0..highest {
-            for power in (low..highest).rev() {
-                let above = c[power + 1];
-                c[power] += shift * above;
-            }
-        }
-    }
-    c
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{
-        physics::CueDegrees,
+        physics::{CueDegrees, Motion},
         study::stability::{Limits, Violation},
         table::Layout,
     };

@@ -1,15 +1,14 @@
 //! Stability: what must hold in every shot, and shots made to break it.
 
 pub mod adversarial;
-mod aloft;
 mod audit;
 mod cases;
 mod draw;
 mod figures;
 mod finding;
 mod invariants;
+mod places;
 mod polynomial;
-mod progress;
 pub mod random;
 mod report;
 mod shot;
@@ -21,7 +20,6 @@ pub use cases::{Case, Size, all as cases};
 pub use figures::{Figures, Limits, Violation, Worst};
 pub use finding::Finding;
 pub use invariants::examine;
-pub use progress::rows_with_progress;
 pub use report::{Plan, Row, markdown, page, rows, text};
 pub use shot::Shot;
 pub use sweep::{Check, Generator, Progress, Sweep};

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::{Case, Figures, Finding, Progress, cases};
+use crate::printing::ProgressLine;
 
 /// How many shots to play, on each of a case's tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,25 +52,23 @@ pub struct Row {
     pub example: Option<String>,
     /// That shot, on its table.
     pub finding: Option<Finding>,
-    /// Whether all shots were played: the run was not interrupted.
+    /// Whether all shots were played. They always are; readers of the JSON may ask.
     pub complete: bool,
 }
 
 impl Row {
-    /// Plays a case. `watch` is that of [`super::Sweep::run`].
-    pub fn of(case: &Case, plan: &Plan, mut watch: impl FnMut(Progress, Option<&Finding>) -> bool) -> Self {
+    /// Plays a case; `watch` hears how far it is.
+    pub fn of(case: &Case, plan: &Plan, mut watch: impl FnMut(Progress)) -> Self {
         let (mut failed, mut first) = (0, None);
-        let mut complete = true;
         let figures = case.run(plan.shots(case), plan.seed, |progress, finding| {
             if let Some(finding) = finding {
                 failed += 1;
                 first.get_or_insert_with(|| finding.clone());
             }
-            complete = watch(progress, finding);
-            complete
+            watch(progress);
         });
         let example = first.as_ref().and_then(|finding| finding.violations.first()).map(ToString::to_string);
-        Self { name: case.name, checked: case.holds, figures, failed, example, finding: first, complete }
+        Self { name: case.name, checked: case.holds, figures, failed, example, finding: first, complete: true }
     }
 
     /// Whether nothing failed.
@@ -85,11 +84,10 @@ impl Row {
     }
 
     fn verdict(&self) -> String {
-        let verdict = match &self.example {
+        match &self.example {
             None => "holds".to_owned(),
             Some(example) => format!("{} fail: {example}", self.failed),
-        };
-        if self.complete { verdict } else { format!("{verdict} (interrupted)") }
+        }
     }
 
     fn cells(&self) -> [String; COLUMNS] {
@@ -127,17 +125,12 @@ const HEADS: [&str; COLUMNS] = [
     "verdict",
 ];
 
-/// All rows, in order. `watch` hears the row's name with the progress, and ends the run by returning `false`.
-pub fn rows(plan: &Plan, mut watch: impl FnMut(&str, Progress, Option<&Finding>) -> bool) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for case in cases() {
-        let row = Row::of(&case, plan, |progress, finding| watch(case.name, progress, finding));
-        let complete = row.complete;
-        rows.push(row);
-        if !complete {
-            break;
-        }
-    }
+/// All rows, in order, with a line that tells how far they are.
+pub fn rows(plan: &Plan) -> Vec<Row> {
+    let mut line = ProgressLine::default();
+    let row = |case: &Case| Row::of(case, plan, |progress| line.show(format_args!("{}: {progress}", case.name)));
+    let rows = cases().iter().map(row).collect();
+    line.clear();
     rows
 }
 

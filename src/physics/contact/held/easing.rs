@@ -93,7 +93,7 @@ impl<const ROOM: usize> Solved<ROOM> {
         let cushion = if system.is_unique() {
             None
         } else {
-            Some(system.prescribe(|held| held == ball).filter(|_| system.is_unique())?)
+            Some(system.fix_redundant_friction(|held| held == ball).filter(|_| system.is_unique())?)
         };
         let (whole, none) = (system.solution(free, ball)?, system.solution(&without, ball)?);
         let held = Force { whole: whole.cloth, by_share: none.cloth - whole.cloth, by_up: DVec2::ZERO };

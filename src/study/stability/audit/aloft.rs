@@ -58,9 +58,9 @@ pub struct Impacts {
     pub bounces: Option<Bounces>,
 }
 
-/// What rounding may have decided at a moment.
+/// What is assumed of a moment where the recorded course does not tell: rounding may have decided it.
 #[derive(Clone, Copy, Debug)]
-pub struct Supposed {
+pub struct Assumptions {
     /// Whether what closes no faster than rounding counts as closing.
     pub grazes: bool,
     /// What closes so fast at most does so by rounding, m/s.
@@ -73,7 +73,7 @@ pub struct Supposed {
     pub is_micro: bool,
 }
 
-impl Supposed {
+impl Assumptions {
     /// Nothing.
     pub const NOTHING: Self = Self { grazes: false, none: 0.0, joins: u32::MAX, lies: false, is_micro: false };
 }
@@ -110,11 +110,11 @@ pub fn impacts(
     [before, after]: [&[SpatialState; BALLS]; 2],
     [flew, group, rested, rests]: [[bool; BALLS]; 4],
     told: &[Event],
-    supposed: Supposed,
+    assumed: Assumptions,
 ) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
     let lossless = numbers.with_restitution(1.0);
-    let slowest = numbers.flight.filter(|_| supposed.lies).map_or(0.0, |flight| flight.slowest);
+    let slowest = numbers.flight.filter(|_| assumed.lies).map_or(0.0, |flight| flight.slowest);
     let mut lost = 0.0;
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let SpatialState { position, velocity, spin } = before[ball];
@@ -123,7 +123,7 @@ pub fn impacts(
         state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
         if group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= slowest {
             lost += settle(&numbers, &mut state);
-            if supposed.lies && meets_before_it_lands(told, ball) {
+            if assumed.lies && meets_before_it_lands(told, ball) {
                 state.motion = Motion::Flying;
             }
         }
@@ -131,21 +131,14 @@ pub fn impacts(
     });
     let contacts: Vec<Contact> = told
         .iter()
-        .filter_map(|event| match event.kind {
-            EventKind::BallBall(first, second) if group[first] => Some(Contact::Balls(first, second)),
-            EventKind::BallRail(ball, rail) if group[ball] => Some(Contact::Rail(ball, rail)),
-            _ => None,
-        })
+        .filter_map(|event| Contact::of_event(event.kind))
+        .filter(|contact| group[contact.balls().0])
         .collect();
     let after: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let [position, velocity] = [after[ball].position, after[ball].velocity].map(|v| Vector::new(v.x, v.y, v.z));
         Ball { velocity, ..Ball::still(position) }
     });
-    let rests = |contact: &Contact| {
-        let (first, second) = contact.balls();
-        let both = rests[first] && second.is_none_or(|second| rests[second]);
-        both && contact.opening(&after) < STOPPED_SPEED
-    };
+    let rests = |contact: &Contact| contact.is_among(rests) && contact.opening(&after) < STOPPED_SPEED;
     let overlap = contacts.iter().fold(0.0_f64, |most, contact| most.max(-contact.gap(&numbers, &balls)));
     let mut gripping: Vec<Contact> = Vec::new();
     for contact in contacts.iter().filter(|contact| rests(contact)) {
@@ -159,26 +152,26 @@ pub fn impacts(
         .enumerate()
         .map(|(index, contact)| {
             let stays = rests(contact) && !contacts[index + 1..].contains(contact);
-            (*contact, stays, supposed.joins.checked_shr(index as u32).is_none_or(|joins| joins & 1 == 1))
+            (*contact, stays, assumed.joins.checked_shr(index as u32).is_none_or(|joins| joins & 1 == 1))
         })
         .peekable();
     let mut bounces: Option<Bounces> = None;
     let rounding = |contact: &Contact, balls: &[Ball<f64>; BALLS]| {
         let (first, second) = contact.balls();
         let speed = |ball: usize| balls[ball].velocity.length();
-        let held = if rested[first] && second.is_none_or(|second| rested[second]) { RESTING_SPEED } else { 0.0 };
-        held.max(supposed.none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
+        let held = if contact.is_among(rested) { RESTING_SPEED } else { 0.0 };
+        held.max(assumed.none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
     };
     while let Some((contact, stays, _)) = contacts.next() {
         if contact.is_aloft(&balls) {
             let rounding = rounding(&contact, &balls);
-            if opening_aloft(&numbers, contact, &balls) > if supposed.grazes { -rounding } else { rounding } {
+            if opening_aloft(&numbers, contact, &balls) > if assumed.grazes { -rounding } else { rounding } {
                 continue;
             }
             lost += collide_aloft(&numbers, contact, &mut balls).work;
         } else {
             let closes = |contact: &Contact| {
-                let least = if supposed.grazes { 0.0 } else { rounding(contact, &balls) };
+                let least = if assumed.grazes { 0.0 } else { rounding(contact, &balls) };
                 !contact.is_aloft(&balls) && contact.opening(&balls) < -least
             };
             let (mut round, mut staying) = (vec![contact], Vec::from_iter(stays.then_some(contact)));
@@ -195,7 +188,7 @@ pub fn impacts(
                     bounces.into_iter().chain([left_out]).max_by(|one, other| one.energy.total_cmp(&other.energy));
             }
             let is_slow = |contact: &Contact| -contact.opening(&balls) < fastest_micro_collision(table);
-            let law = if supposed.is_micro && round.iter().all(is_slow) { &lossless } else { &numbers };
+            let law = if assumed.is_micro && round.iter().all(is_slow) { &lossless } else { &numbers };
             // Where no pushes are found, nothing is explained.
             lost += collide_at_once(law, &mut balls, &round, &staying, &mut Vec::new()).unwrap_or(0.0);
         }

@@ -17,6 +17,7 @@ mod pressed;
 use crate::{
     physics::{Motion, SpatialState},
     simulation::{Event, EventKind},
+    study::reference_engine::{Contact, Numbers},
     table::{BALLS, Table},
 };
 
@@ -24,12 +25,12 @@ use super::{
     figures::{Figures, Limits},
     trace::{Piece, Trace},
 };
-use aloft::Supposed;
+use aloft::Assumptions;
 use course::Course;
 use doubt::Doubt;
 use laws::free_loss;
 use moment::{Moment, Taken};
-use motion::Contact;
+use motion::{closed_contacts, plain};
 
 /// Balls and cushions are in contact where their gap is less than this share of the table's length: what a billionth of a
 /// metre is on the shortest bundled table.
@@ -55,6 +56,7 @@ const MOST_JOINING: usize = 8;
 struct Audit<'a> {
     table: &'a Table,
     trace: &'a Trace,
+    numbers: &'a Numbers<f64>,
     courses: [Course<'a>; BALLS],
     account: Account,
     /// Gap below which a contact is closed, m.
@@ -74,7 +76,8 @@ pub(super) fn audit(table: &Table, trace: &Trace, figures: &mut Figures) -> Acco
     let start = courses.iter().map(|course: &Course| course.energy).sum();
     let account = Account { start, ..Account::default() };
     let farthest = Limits::STRICT.on(table).distance;
-    let mut audit = Audit { table, trace, courses, account, gap: CLOSED * table.length, farthest };
+    let numbers = &Numbers::of(table);
+    let mut audit = Audit { table, trace, numbers, courses, account, gap: CLOSED * table.length, farthest };
     let mut events = trace.events.as_slice();
     loop {
         let now = audit.next_change();
@@ -116,15 +119,12 @@ impl Audit<'_> {
         let flies = self.courses.map(|course| course.flies());
         let is_off = self.courses.map(|course| course.is_off(self.trace));
         let [before, after] = [&in_space, &after_in_space].map(|balls| balls.map(|ball| ball.seen_from_above()));
-        let mut closed = Contact::all(self.table.radius, self.trace.constants.reach, &after, self.gap);
-        let can_touch = |ball: usize| changed[ball] && !flies[ball] && !is_off[ball];
-        closed.retain(|contact| can_touch(contact.first) && contact.second.is_none_or(can_touch));
-        let impacts = told.iter().filter_map(|event| match event.kind {
-            EventKind::BallBall(first, second) => Some(Contact::of_balls(first, second, &after)),
-            EventKind::BallRail(ball, rail) => Some(Contact::with_rail(ball, rail)),
-            _ => None,
-        });
-        let moment = Moment { table: self.table, before, after, rested, rests, impacts: impacts.collect(), closed };
+        let mut closed = closed_contacts(self.numbers, &plain(&after), self.gap);
+        let can_touch = std::array::from_fn(|ball| changed[ball] && !flies[ball] && !is_off[ball]);
+        closed.retain(|contact| contact.is_among(can_touch));
+        let impacts = told.iter().filter_map(|event| Contact::of_event(event.kind)).collect();
+        let (table, numbers) = (self.table, self.numbers);
+        let moment = Moment { table, numbers, before, after, rested, rests, impacts, closed };
         let mut seen = [false; BALLS];
         for ball in 0..BALLS {
             if !changed[ball] || seen[ball] {
@@ -145,7 +145,7 @@ impl Audit<'_> {
                     || moment.ends_a_chatter(group)
                     || moment.touches_without_impact(group),
                 is_struck: !moment.impacts.is_empty() || members().any(|member| rests[member] && !rested[member]),
-                impacts: moment.impacts.iter().filter(|contact| group[contact.first]).count(),
+                impacts: moment.impacts.iter().filter(|contact| group[contact.balls().0]).count(),
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
                 moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.farthest) },
             };
@@ -202,12 +202,12 @@ impl Audit<'_> {
             (0..BALLS).filter(|&ball| group[ball]).map(|ball| aloft::energy(self.table, &balls[ball])).sum()
         };
         let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &before[ball]));
-        let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], supposed| {
-            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], told, supposed);
+        let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], assumed| {
+            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], told, assumed);
             impacts.lost += energy(&at_impact) - energy(balls);
             impacts
         };
-        let mut nearest = explained(&at_impact, [false; BALLS], Supposed::NOTHING);
+        let mut nearest = explained(&at_impact, [false; BALLS], Assumptions::NOTHING);
         // A ball that is moved on to what it hits turns the normals of its other contacts.
         let moved = |ball: usize| before[ball].position.distance(after[ball].position) / (2.0 * self.table.radius);
         let turned = (0..BALLS).filter(|&ball| group[ball]).map(|ball| moved(ball) * before[ball].velocity.length());
@@ -217,7 +217,7 @@ impl Audit<'_> {
         let ways = (0..1_u32 << several).step_by(2).flat_map(|apart| {
             let joins = !apart;
             [(false, 0.0), (true, 0.0), (false, none)].into_iter().flat_map(move |(grazes, none)| {
-                [(false, false), (true, false), (false, true)].map(|(lies, is_micro)| Supposed {
+                [(false, false), (true, false), (false, true)].map(|(lies, is_micro)| Assumptions {
                     grazes,
                     none,
                     joins,
@@ -229,8 +229,8 @@ impl Audit<'_> {
         for by in [0.0, -TIME_ROUNDING * now, TIME_ROUNDING * now] {
             let balls = std::array::from_fn(|ball| here(ball, &earlier[ball].beside(&self.trace.constants, by)));
             for rests in [[false; BALLS], rests] {
-                for supposed in ways.clone() {
-                    let other = explained(&balls, rests, supposed);
+                for assumed in ways.clone() {
+                    let other = explained(&balls, rests, assumed);
                     if (lost - other.lost).abs() < (lost - nearest.lost).abs() {
                         nearest = other;
                     }
@@ -270,7 +270,7 @@ impl Audit<'_> {
             let lost: f64 = members().map(|course| course.first_energy - course.energy).sum();
             let energy = members().map(|course| course.largest).sum();
             let courses = together.map(|piece| piece.map(|piece| &piece.segment));
-            let work = pressed::work(self.table, &self.trace.constants, &courses, (now, until), self.gap);
+            let work = pressed::work(self.table, self.numbers, &self.trace.constants, &courses, (now, until), self.gap);
             let doubt = Doubt { energy, time: until, rests: true, ..Doubt::default() };
             let unexplained = lost - lost.clamp(work.least, work.most);
             self.note(figures, lost, unexplained, &doubt, doubt.on_the_way(self.table, work.least));

@@ -2,18 +2,20 @@
 
 use super::{
     doubt::{RESTING_SPEED, STOPPED_SPEED},
-    laws::{friction, impact_loss, impact_loss_by_models, restitution},
+    laws::impact_loss,
     least_squares::{Column, dot, fit},
-    motion::{Contact, energy, motion, on_cloth},
+    motion::{directions, energy, motion, on_cloth, plain},
 };
 use crate::{
     physics::{BallState, slip},
+    study::reference_engine::{Contact, Numbers},
     table::{BALLS, Table},
 };
 
 /// The balls just before and just after a moment.
 pub struct Moment<'a> {
     pub table: &'a Table,
+    pub numbers: &'a Numbers<f64>,
     pub before: [BallState; BALLS],
     pub after: [BallState; BALLS],
     /// Whether each ball was in resting contact, and whether it is.
@@ -66,16 +68,13 @@ pub fn fastest_micro_collision(table: &Table) -> f64 {
 impl Moment<'_> {
     /// Whether a group's impact is so slow that it may end a chatter.
     pub fn ends_a_chatter(&self, group: [bool; BALLS]) -> bool {
-        self.impacts
-            .iter()
-            .filter(|contact| group[contact.first])
-            .any(|contact| self.closing_speed(contact).abs() < LAST_BOUNCE)
+        let mut inside = self.impacts.iter().filter(|contact| group[contact.balls().0]);
+        inside.any(|contact| self.closing_speed(*contact).abs() < LAST_BOUNCE)
     }
 
     /// Whether a contact in a group is closed without an impact: the engine asks whether it rests, and stops what it closes by.
     pub fn touches_without_impact(&self, group: [bool; BALLS]) -> bool {
-        let inside = |contact: &&Contact| group[contact.first] && contact.second.is_none_or(|second| group[second]);
-        self.closed.iter().filter(inside).any(|contact| !self.impacts.contains(contact))
+        self.closed.iter().any(|contact| contact.is_among(group) && !self.impacts.contains(contact))
     }
 
     /// The balls that are joined to `ball` by impacts or closed contacts, itself among them.
@@ -84,12 +83,11 @@ impl Moment<'_> {
         // Three balls are reached in two rounds.
         for _ in 1..BALLS {
             for contact in self.impacts.iter().chain(&self.closed) {
-                if let Some(second) = contact.second
-                    && changed[contact.first]
-                    && changed[second]
-                    && (group[contact.first] || group[second])
+                if let Contact::Balls(first, second) = *contact
+                    && contact.is_among(changed)
+                    && (group[first] || group[second])
                 {
-                    (group[contact.first], group[second]) = (true, true);
+                    (group[first], group[second]) = (true, true);
                 }
             }
         }
@@ -109,7 +107,7 @@ impl Moment<'_> {
         };
         let (before, after) = (of_group(&self.before), of_group(&self.after));
         let lost = energy(&before) - energy(&after);
-        let impacts: Vec<&Contact> = self.impacts.iter().filter(|contact| group[contact.first]).collect();
+        let impacts: Vec<Contact> = self.impacts.iter().copied().filter(|contact| group[contact.balls().0]).collect();
         let was_free = (0..BALLS).all(|ball| !(group[ball] && self.rested[ball]));
         let several = || Taken { unexplained: self.several(group, &impacts, &before, &after), bounces: None };
         let nearer =
@@ -123,7 +121,7 @@ impl Moment<'_> {
                 let alone = self.one_impact(contact, &before, lost);
                 let speed = self.closing_speed(contact);
                 // A slip on the cloth that ends with it presses, too.
-                let ends_a_slip = self.creeps(contact.first) && speed < STOPPED_SPEED;
+                let ends_a_slip = self.creeps(contact.balls().0) && speed < STOPPED_SPEED;
                 // Such an impact may lose nothing along the normal.
                 let may_be_micro = speed < fastest_micro_collision(self.table);
                 nearer(alone, if ends_a_slip || may_be_micro { several() } else { alone })
@@ -134,9 +132,9 @@ impl Moment<'_> {
 
     /// Whether something in a closed contact closes so softly that it is stopped untold: an impulse does that, and rubs.
     fn stops_softly(&self, group: [bool; BALLS]) -> bool {
-        let inside = |contact: &&Contact| group[contact.first] && contact.second.is_none_or(|second| group[second]);
-        self.closed.iter().filter(inside).any(|contact| self.closing_speed(contact) > 0.0)
-            && self.closed.iter().filter(inside).all(|contact| self.closing_speed(contact) < STOPPED_SPEED)
+        let inside = || self.closed.iter().filter(|contact| contact.is_among(group));
+        inside().any(|contact| self.closing_speed(*contact) > 0.0)
+            && inside().all(|contact| self.closing_speed(*contact) < STOPPED_SPEED)
     }
 
     /// Whether a ball slips so little on the cloth that it may be stopped at once.
@@ -146,67 +144,59 @@ impl Moment<'_> {
     }
 
     /// Speed at which a contact closes before the moment, m/s.
-    fn closing_speed(&self, contact: &Contact) -> f64 {
-        let others = contact.second.map_or(glam::DVec2::ZERO, |second| self.before[second].velocity);
-        -(self.before[contact.first].velocity - others).dot(contact.normal)
+    fn closing_speed(&self, contact: Contact) -> f64 {
+        -contact.relative(&plain(&self.before)).dot(contact.normal(&plain(&self.after)))
+    }
+
+    /// The directions of a contact, where the balls are after the moment.
+    fn directions(&self, contact: Contact) -> [Column; 3] {
+        directions(self.numbers, contact, &plain(&self.after))
     }
 
     /// Whether balls that never slip where they touch begin to rest against each other: what is left of their slip ends at
     /// once, as in an impact.
     fn begins_to_grip(&self, group: [bool; BALLS]) -> bool {
         self.closed.iter().any(|contact| {
-            let rests = |ball: usize| group[ball] && self.rests[ball];
-            let gripped = |second: usize| self.rested[contact.first] && self.rested[second] && !self.slipped(contact);
-            contact.second.is_some_and(|second| rests(contact.first) && rests(second) && !gripped(second))
-                && friction(self.table, contact).is_none()
+            let gripped = || contact.is_among(self.rested) && !self.slipped(*contact);
+            self.grips(*contact) && contact.is_among(group) && !gripped()
         })
     }
 
     /// Whether there was a slip in a contact before the moment.
-    fn slipped(&self, contact: &Contact) -> bool {
+    fn slipped(&self, contact: Contact) -> bool {
         let before = motion(self.table.radius, &self.before);
-        let [_, along, up] = contact.directions().map(|direction| dot(&direction, &before));
+        let [_, along, up] = self.directions(contact).map(|direction| dot(&direction, &before));
         along.hypot(up) > RESTING_SPEED
     }
 
     /// Whether two balls rest against each other that never slip where they touch: what an impact has left of their slip
     /// ends at once, too.
-    fn grips(&self, contact: &Contact) -> bool {
-        let rests = |second: usize| self.rests[contact.first] && self.rests[second];
-        contact.second.is_some_and(rests) && friction(self.table, contact).is_none()
+    fn grips(&self, contact: Contact) -> bool {
+        contact.is_among(self.rests) && contact.friction(self.numbers).is_none()
     }
 
     /// Whether other contacts take part in an impact: those of a third ball that changes with it, and those in which balls begin to
     /// rest.
-    fn joins_others(&self, impact: &Contact, group: [bool; BALLS]) -> bool {
-        let takes_part = |ball: usize| ball == impact.first || impact.second == Some(ball);
-        let rests = |ball: usize| group[ball] && self.rests[ball];
-        (0..BALLS).any(|ball| group[ball] && !takes_part(ball))
-            || self.closed.iter().any(|contact| {
-                (contact.first, contact.second) != (impact.first, impact.second)
-                    && rests(contact.first)
-                    && contact.second.is_none_or(rests)
-            })
+    fn joins_others(&self, impact: Contact, group: [bool; BALLS]) -> bool {
+        let rests = |contact: &Contact| contact.is_among(group) && contact.is_among(self.rests);
+        (0..BALLS).any(|ball| group[ball] && !impact.has(ball))
+            || self.closed.iter().any(|contact| contact.balls() != impact.balls() && rests(contact))
     }
 
     /// One impact of free balls takes what the formulas say: with the contact's restitution or, where the balls stay in
-    /// contact, with none.
-    fn one_impact(&self, contact: &Contact, before: &Column, lost: f64) -> Taken {
-        let e = restitution(self.table, contact);
-        let left = |e: f64| {
-            let by_models = impact_loss_by_models(self.table, contact, &self.before, e > 0.0);
-            lost - by_models.unwrap_or_else(|| impact_loss(self.table, contact, before, e))
-        };
-        let unexplained = left(e);
-        let [opening, ..] = contact.directions();
+    /// contact, with none. Where there are no formulas, nothing is asked.
+    fn one_impact(&self, contact: Contact, before: &Column, lost: f64) -> Taken {
+        let e = contact.restitution(self.numbers);
+        let left = |numbers: &Numbers<f64>| Some(lost - impact_loss(numbers, contact, &plain(&self.before))?);
+        let Some(unexplained) = left(self.numbers) else { return Taken::default() };
+        let [opening, ..] = self.directions(contact);
         let speed = e * dot(&opening, before).abs();
-        let stays = |ball: usize| self.rests[ball];
-        let may_stay = speed <= STOPPED_SPEED || stays(contact.first) && contact.second.is_none_or(stays);
-        let dead = if may_stay { left(0.0) } else { unexplained };
+        let may_stay = speed <= STOPPED_SPEED || contact.is_among(self.rests);
+        let dead = left(&self.numbers.inelastic()).filter(|_| may_stay).unwrap_or(unexplained);
         if unexplained.abs() <= dead.abs() {
             return Taken { unexplained, bounces: None };
         }
-        let bounces = Bounces::of(self.table, contact.first, dot(&opening, before).abs(), e);
+        let bounces = Bounces::of(self.table, contact.balls().0, dot(&opening, before).abs(), e);
         let energy = bounces.energy / dot(&opening, &opening);
         Taken { unexplained: dead, bounces: Some(Bounces { energy, ..bounces }) }
     }
@@ -214,31 +204,31 @@ impl Moment<'_> {
     /// Several impacts, or some on balls that rest against something: whatever changes must be the work of impulses in
     /// closed contacts, none of which pulls or rubs more than Coulomb allows. So no more is lost than the energy of the
     /// relative motion in these contacts; how much of it their order and restitutions decide.
-    fn several(&self, group: [bool; BALLS], impacts: &[&Contact], before: &Column, after: &Column) -> f64 {
+    fn several(&self, group: [bool; BALLS], impacts: &[Contact], before: &Column, after: &Column) -> f64 {
         let mut contacts: Vec<Contact> = Vec::new();
-        let inside = |contact: &&Contact| group[contact.first] && contact.second.is_none_or(|second| group[second]);
-        for contact in impacts.iter().copied().chain(self.closed.iter().filter(inside)) {
+        for contact in impacts.iter().chain(self.closed.iter().filter(|contact| contact.is_among(group))) {
             if !contacts.contains(contact) {
                 contacts.push(*contact);
             }
         }
         let change = std::array::from_fn(|place| after[place] - before[place]);
         let mean = std::array::from_fn(|place| 0.5 * (after[place] + before[place]));
-        let directions: Vec<_> = contacts.iter().flat_map(Contact::directions).collect();
+        let directions: Vec<_> = contacts.iter().flat_map(|contact| self.directions(*contact)).collect();
         let unexplained_by = |directions: &[Column]| {
             let found = fit(directions, &change);
             let mut unexplained = -dot(&mean, &found.residual);
             for (index, contact) in contacts.iter().enumerate() {
-                let (Some(impulses), Some(mu)) = (&found.factors, friction(self.table, contact)) else { continue };
+                let (Some(impulses), Some(mu)) = (&found.factors, contact.friction(self.numbers)) else { continue };
                 let [push, along, up] = [0, 1, 2].map(|axis| impulses[3 * index + axis]);
                 let excess = (along.hypot(up) - mu * push.max(0.0)).max(0.0);
-                let [opening, slip, rise] = contact.directions().map(|direction| dot(&direction, &mean));
+                let [opening, slip, rise] = self.directions(*contact).map(|direction| dot(&direction, &mean));
                 unexplained += excess * slip.hypot(rise) + (-push).max(0.0) * opening.abs();
             }
             unexplained
         };
         // What slips next to nothing on the cloth may stop there.
-        let stops = (0..BALLS).filter(|&ball| group[ball] && self.creeps(ball)).flat_map(on_cloth);
+        let creeping = (0..BALLS).filter(|&ball| group[ball] && self.creeps(ball));
+        let stops = creeping.flat_map(|ball| on_cloth(self.numbers, ball));
         let with_cloth: Vec<_> = directions.iter().copied().chain(stops).collect();
         let (alone, together) = (unexplained_by(&directions), unexplained_by(&with_cloth));
         if together.abs() < alone.abs() { together } else { alone }

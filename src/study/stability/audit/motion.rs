@@ -4,13 +4,11 @@
 //! With `c² = 2/5` a ball's part is `(v, c R w)`. A force per mass `f` along a direction `d` changes the vector by `f d`, and
 //! the speed that the force works against is the scalar product with `d`: power, impulse and energy need no masses.
 
-use glam::DVec2;
-
 use super::least_squares::{Column, SIZE, dot};
 use crate::{
     physics::BallState,
-    simulation::Rail,
-    table::{BALLS, PAIRS},
+    study::reference_engine::{Ball, Contact, Numbers, Row, Vector},
+    table::BALLS,
 };
 
 /// `√(2/5)`.
@@ -31,92 +29,54 @@ pub fn energy(motion: &Column) -> f64 {
     0.5 * dot(motion, motion)
 }
 
-fn add(direction: &mut Column, ball: usize, linear: DVec2, twist: [f64; 3]) {
-    let parts = [linear.x, linear.y, twist[0] / LEVER, twist[1] / LEVER, twist[2] / LEVER];
-    direction[5 * ball..5 * ball + 5].copy_from_slice(&parts);
+/// The balls as the reference engine has them.
+pub fn plain(balls: &[BallState; BALLS]) -> [Ball<f64>; BALLS] {
+    balls.map(|BallState { position, velocity, spin }| {
+        let [position, velocity] = [position, velocity].map(|v| Vector::new(v.x, v.y, 0.0));
+        Ball { velocity, spin: Vector::new(spin.x, spin.y, spin.z), ..Ball::still(position) }
+    })
 }
 
-fn one(ball: usize, linear: DVec2, twist: [f64; 3]) -> Column {
-    let mut direction = [0.0; SIZE];
-    add(&mut direction, ball, linear, twist);
-    direction
+/// The direction of a row: what a unit of its force does.
+fn column(numbers: &Numbers<f64>, row: &Row<f64>) -> Column {
+    let mut balls = [(Vector::zero(), Vector::zero()); BALLS];
+    row.push(numbers, 1.0, &mut balls);
+    let lever = LEVER * numbers.radius;
+    let mut vector = [0.0; SIZE];
+    for (place, (v, w)) in vector.chunks_exact_mut(5).zip(balls) {
+        place.copy_from_slice(&[v.x, v.y, lever * w.x, lever * w.y, lever * w.z]);
+    }
+    vector
+}
+
+/// Along x and y.
+fn axes() -> [Vector<f64>; 2] {
+    [Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0)]
 }
 
 /// The velocity of a ball's centre along x and y.
-pub fn centre(ball: usize) -> [Column; 2] {
-    [one(ball, DVec2::X, [0.0; 3]), one(ball, DVec2::Y, [0.0; 3])]
+pub fn centre(numbers: &Numbers<f64>, ball: usize) -> [Column; 2] {
+    axes().map(|axis| column(numbers, &Row::centre(ball, axis)))
 }
 
 /// The slip of a ball on the cloth along x and y (thesis equation 1).
-pub fn on_cloth(ball: usize) -> [Column; 2] {
-    [one(ball, DVec2::X, [0.0, -1.0, 0.0]), one(ball, DVec2::Y, [1.0, 0.0, 0.0])]
+pub fn on_cloth(numbers: &Numbers<f64>, ball: usize) -> [Column; 2] {
+    axes().map(|axis| column(numbers, &Row::cloth(numbers, ball, axis)))
 }
 
 /// `R w_z`.
-pub fn about_vertical(ball: usize) -> Column {
-    one(ball, DVec2::ZERO, [0.0, 0.0, 1.0])
+pub fn about_vertical(numbers: &Numbers<f64>, ball: usize) -> Column {
+    column(numbers, &Row::turning(numbers, ball))
 }
 
-/// A ball's contact with a cushion or another ball.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
-    /// The ball towards which the normal points.
-    pub first: usize,
-    /// The other ball, or `None` for a cushion.
-    pub second: Option<usize>,
-    /// Unit normal towards the first ball.
-    pub normal: DVec2,
+/// The opening speed of a contact where the balls are, and its slip along `t = z×n` and along z (thesis equation 21).
+pub fn directions(numbers: &Numbers<f64>, contact: Contact, balls: &[Ball<f64>; BALLS]) -> [Column; 3] {
+    let n = contact.normal(balls);
+    let slip = |along| Row::slip(numbers, contact, n, along);
+    [Row::opening(contact, n), slip(Vector::up().cross(n)), slip(Vector::up())].map(|row| column(numbers, &row))
 }
 
-impl Contact {
-    /// That of two balls.
-    pub fn of_balls(first: usize, second: usize, balls: &[BallState; BALLS]) -> Self {
-        let normal = (balls[first].position - balls[second].position).normalize_or(DVec2::X);
-        Self { first, second: Some(second), normal }
-    }
-
-    /// That of a ball and a cushion.
-    pub const fn with_rail(first: usize, rail: Rail) -> Self {
-        Self { first, second: None, normal: rail.normal() }
-    }
-
-    /// All contacts whose gap is less than `gap`, m.
-    pub fn all(radius: f64, reach: DVec2, balls: &[BallState; BALLS], gap: f64) -> Vec<Self> {
-        let mut contacts = Vec::new();
-        for (ball, state) in balls.iter().enumerate() {
-            for rail in Rail::ALL {
-                let n = rail.normal();
-                if n.abs().dot(reach) + state.position.dot(n) < gap {
-                    contacts.push(Self::with_rail(ball, rail));
-                }
-            }
-        }
-        for (first, second) in PAIRS {
-            if balls[first].position.distance(balls[second].position) - 2.0 * radius < gap {
-                contacts.push(Self::of_balls(first, second, balls));
-            }
-        }
-        contacts
-    }
-
-    /// The same contact where the balls are now.
-    pub fn at(&self, balls: &[BallState; BALLS]) -> Self {
-        self.second.map_or(*self, |second| Self::of_balls(self.first, second, balls))
-    }
-
-    /// The opening speed, and the slip along `t = z×n` and along z (thesis equation 21).
-    pub fn directions(&self) -> [Column; 3] {
-        let (n, t) = (self.normal, self.normal.perp());
-        let mut all = [
-            one(self.first, n, [0.0; 3]),
-            one(self.first, t, [0.0, 0.0, -1.0]),
-            one(self.first, DVec2::ZERO, [t.x, t.y, 0.0]),
-        ];
-        if let Some(second) = self.second {
-            add(&mut all[0], second, -n, [0.0; 3]);
-            add(&mut all[1], second, -t, [0.0, 0.0, -1.0]);
-            add(&mut all[2], second, DVec2::ZERO, [t.x, t.y, 0.0]);
-        }
-        all
-    }
+/// All contacts whose gap is less than `gap`, m.
+pub fn closed_contacts(numbers: &Numbers<f64>, balls: &[Ball<f64>; BALLS], gap: f64) -> Vec<Contact> {
+    Contact::all().filter(|contact| contact.gap(numbers, balls) < gap).collect()
 }

@@ -63,9 +63,9 @@ impl OnCushion<'_> {
         let table = self.table;
         let (n, t, twist) = (self.normal, self.normal.perp(), 2.5 / table.radius);
         let cloth = -table.sliding_friction * table.gravity * self.cloth_slip(now).normalize_or_zero();
-        let boring = -twist * table.spinning_friction * table.gravity * self.turning;
+        let spinning = -twist * table.spinning_friction * table.gravity * self.turning;
         // The force at the lowest point turns the ball about a horizontal axis, that at the cushion about the others.
-        let turn = (twist * DVec2::new(cloth.y, -cloth.x)).extend(boring);
+        let turn = (twist * DVec2::new(cloth.y, -cloth.x)).extend(spinning);
         let push = (-cloth.dot(n)).max(0.0);
         let rub = if self.slips {
             -table.rail_friction * push * self.rail_slip(now).normalize_or_zero()

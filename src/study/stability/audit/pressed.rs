@@ -5,15 +5,14 @@
 
 use super::{
     doubt::RESTING_SPEED,
-    laws::friction,
     least_squares::{Column, Fit, SIZE, dot, fit},
-    motion::{Contact, about_vertical, centre, motion, on_cloth},
+    motion::{about_vertical, centre, closed_contacts, directions, motion, on_cloth, plain},
     on_cushion::OnCushion,
 };
 use crate::{
     physics::BallState,
     simulation::{Constants, Segment},
-    study::reference_engine::Numbers,
+    study::reference_engine::{Ball, Contact, Numbers},
     table::{BALLS, Table},
 };
 
@@ -59,6 +58,7 @@ pub struct Work {
 /// less than `gap`, m.
 pub fn work(
     table: &Table,
+    numbers: &Numbers<f64>,
     constants: &Constants,
     courses: &[Option<&Segment>; BALLS],
     (from, until): (f64, f64),
@@ -75,20 +75,16 @@ pub fn work(
     let ends = at_ends.map(|balls| motion(table.radius, &balls));
     let half = 0.5 * (until - from);
     // Between the ends a polynomial may stray by as much as counts as a gap.
-    let mut contacts = Contact::all(table.radius, constants.reach, &at_ends[0], gap);
-    let stay = Contact::all(table.radius, constants.reach, &at_ends[1], gap);
-    contacts.retain(|contact| {
-        members[contact.first]
-            && contact.second.is_none_or(|second| members[second])
-            && stay.contains(&contact.at(&at_ends[1]))
-    });
+    let at_ends = at_ends.map(|balls| plain(&balls));
+    let [mut contacts, stay] = at_ends.map(|balls| closed_contacts(numbers, &balls, gap));
+    contacts.retain(|contact| contact.is_among(members) && stay.contains(contact));
     let mut sum = Work::default();
     for (ball, (member, state)) in members.iter_mut().zip(states(from)).enumerate() {
-        let loss = member.then(|| on_one_cushion(table, ball, &contacts, &state, &ends, until - from));
+        let loss = member.then(|| on_one_cushion(table, numbers, ball, &contacts, &state, &ends, until - from));
         if let Some(loss) = loss.flatten() {
             (sum.least, sum.most) = (sum.least + loss, sum.most + loss);
             *member = false;
-            contacts.retain(|contact| contact.first != ball);
+            contacts.retain(|contact| !contact.has(ball));
         }
     }
     if members == [false; BALLS] {
@@ -96,10 +92,11 @@ pub fn work(
     }
     // Two balls turn about each other: what their slip was at an end is told by the normal there.
     let slip_at = |contact: &Contact, end: usize| {
-        let [_, along_t, up] = contact.at(&at_ends[end]).directions();
+        let [_, along_t, up] = directions(numbers, *contact, &at_ends[end]);
         size(&along(&[along_t, up], &ends[end]))
     };
-    let rubs: Vec<bool> = contacts.iter().map(|contact| is_slip(slip_at(contact, 0), slip_at(contact, 1))).collect();
+    let slips = |contact: &Contact| (*contact, is_slip(slip_at(contact, 0), slip_at(contact, 1)));
+    let contacts: Vec<(Contact, bool)> = contacts.iter().map(slips).collect();
     let power_at = |place: f64| {
         let now = from + half * (1.0 + place);
         let states = states(now);
@@ -107,9 +104,8 @@ pub fn work(
             Some(course) => rate(course, now - course.start),
             None => BallState::at_rest(glam::DVec2::ZERO),
         });
-        let contacts: Vec<(Contact, bool)> =
-            contacts.iter().zip(&rubs).map(|(contact, rubs)| (contact.at(&states), *rubs)).collect();
-        let scene = Scene { table, members, speeds: motion(table.radius, &states), ends };
+        let scene =
+            Scene { table, numbers, members, balls: plain(&states), speeds: motion(table.radius, &states), ends };
         scene.power(&motion(table.radius, &rates), &contacts)
     };
     // Polynomials meet the accelerations at the ends of a piece: forces that are wrong are wrong there, too.
@@ -127,20 +123,21 @@ pub fn work(
 /// The work on a ball that slips on the cloth and is pressed against one cushion and nothing else.
 fn on_one_cushion(
     table: &Table,
+    numbers: &Numbers<f64>,
     ball: usize,
     contacts: &[Contact],
     state: &BallState,
     ends: &[Column; 2],
     time: f64,
 ) -> Option<f64> {
-    let mut own = contacts.iter().filter(|contact| contact.first == ball || contact.second == Some(ball));
-    let (Some(contact @ Contact { second: None, normal, .. }), None) = (own.next(), own.next()) else { return None };
-    let [_, along, up] = contact.directions();
-    let (slides, rubs) = (slips(ends, &on_cloth(ball)), slips(ends, &[along, up]));
+    let mut own = contacts.iter().filter(|contact| contact.has(ball));
+    let (Some(contact @ Contact::Rail(_, rail)), None) = (own.next(), own.next()) else { return None };
+    let [_, along, up] = directions(numbers, *contact, &plain(&[*state; BALLS]));
+    let (slides, rubs) = (slips(ends, &on_cloth(numbers, ball)), slips(ends, &[along, up]));
     // Where a spin ends, rounding leaves the other sign; where it begins, it has none yet.
-    let spin = about_vertical(ball);
+    let spin = about_vertical(numbers, ball);
     let turning = if slips(ends, &[spin]) { (dot(&spin, &ends[0]) + dot(&spin, &ends[1])).signum() } else { 0.0 };
-    let course = OnCushion { table, normal: *normal, slips: rubs, turning };
+    let course = OnCushion { table, normal: rail.normal(), slips: rubs, turning };
     (slides && (rubs || turning != 0.0)).then(|| course.loss(state, time))
 }
 
@@ -190,7 +187,9 @@ struct Power {
 /// The balls at one moment of a stretch.
 struct Scene<'a> {
     table: &'a Table,
+    numbers: &'a Numbers<f64>,
     members: [bool; BALLS],
+    balls: [Ball<f64>; BALLS],
     speeds: Column,
     /// Speeds at the stretch's start and end.
     ends: [Column; 2],
@@ -246,7 +245,7 @@ impl Scene<'_> {
         turns: bool,
     ) -> Power {
         let g = self.table.gravity;
-        let numbers = Numbers::<f64>::of(self.table);
+        let numbers = self.numbers;
         let mut taken = 0.0;
         // What the known frictions leave of the accelerations, and what unknown forces there are.
         let mut rest = *accelerations;
@@ -268,25 +267,26 @@ impl Scene<'_> {
         let mut creeping: Vec<Resistance> = Vec::new();
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
             let holds = if at_edge[ball] && turns {
-                unknown.extend(on_cloth(ball));
+                unknown.extend(on_cloth(numbers, ball));
                 true
             } else {
-                cloth(&mut unknown, &on_cloth(ball), sliding)
+                cloth(&mut unknown, &on_cloth(numbers, ball), sliding)
             };
-            let speed = size(&along(&centre(ball), &self.speeds));
+            let centre = centre(numbers, ball);
+            let speed = size(&along(&centre, &self.speeds));
             let rolling = 1.4 * numbers.band(speed).0;
             if at_edge[ball] {
                 if holds {
-                    strained.push((unknown.len() - 2, along(&on_cloth(ball), &self.speeds)));
+                    strained.push((unknown.len() - 2, along(&on_cloth(numbers, ball), &self.speeds)));
                 }
-                if let Some((velocity, speed)) = self.slip(&centre(ball)) {
+                if let Some((velocity, speed)) = self.slip(&centre) {
                     let against: Vec<f64> = velocity.iter().map(|part| -part / speed).collect();
-                    creeping.push(Resistance { column: sum(&centre(ball), &against), most: rolling, speed });
+                    creeping.push(Resistance { column: sum(&centre, &against), most: rolling, speed });
                 }
             } else if holds {
-                cloth(&mut unknown, &centre(ball), rolling);
+                cloth(&mut unknown, &centre, rolling);
             }
-            cloth(&mut unknown, &[about_vertical(ball)], self.table.spinning_friction * g);
+            cloth(&mut unknown, &[about_vertical(numbers, ball)], self.table.spinning_friction * g);
         }
         let mut pushes: Vec<Push> = contacts.iter().map(|contact| self.push(contact)).collect();
         let size = |column: &Column| dot(column, column).sqrt();
@@ -341,15 +341,15 @@ impl Scene<'_> {
     /// as keeps the ball there (Filippov).
     fn creeps(&self, ball: usize) -> bool {
         let most = CREEPING * (self.table.gravity * self.table.radius).sqrt();
-        self.ends.iter().all(|end| size(&along(&on_cloth(ball), end)) <= most)
+        self.ends.iter().all(|end| size(&along(&on_cloth(self.numbers, ball), end)) <= most)
     }
 
     /// What a unit of a contact's normal force does and takes.
     fn push(&self, (contact, slips): &(Contact, bool)) -> Push {
-        let [mut column, along_t, up] = contact.directions();
+        let [mut column, along_t, up] = directions(self.numbers, *contact, &self.balls);
         let slip = along(&[along_t, up], &self.speeds);
         let speed = size(&slip);
-        match friction(self.table, contact) {
+        match contact.friction(self.numbers) {
             Some(mu) if *slips && speed > 0.0 => {
                 add(&mut column, -mu / speed, &sum(&[along_t, up], &slip));
                 Push { column, price: mu * speed, sticks: Vec::new() }

@@ -9,7 +9,7 @@ use crate::{
     physics::{BallState, CueDegrees},
     simulation::{Course, Rail},
     study::stability::{Shot, cases, random},
-    table::{Flight, JUDGED, Layout},
+    table::{Flight, JUDGED, Layout, RailModel, Rails},
 };
 
 /// The largest that is unexplained in a shot, in multiples of what is explained, after somebody has tampered with it.
@@ -117,6 +117,15 @@ fn an_impact_that_takes_too_much_is_seen_and_one_that_takes_too_little() {
     }
 }
 
+/// What a rail takes whose law the reference engine has not is not asked for.
+#[test]
+fn impacts_on_rails_of_another_law_are_not_judged() {
+    let (table, shot) = lively();
+    let rail = Rails { model: RailModel::Mathavan, height: Some(0.036), ..Rails::default() };
+    let left = unexplained(&Table { rail, ..table }, &shot, |_| {});
+    assert!(left < 1.0, "{left}");
+}
+
 #[test]
 fn friction_that_takes_too_much_on_the_way_is_seen() {
     let (table, shot) = lively();
@@ -205,11 +214,12 @@ fn in_the_air_impacts_and_landings_that_take_what_their_laws_do_not_are_seen() {
 fn dead_impact(table: &Table, rests: bool) -> Taken {
     let mut before = [BallState::at_rest(DVec2::ZERO); BALLS];
     before[0].velocity = DVec2::new(0.0, -1e-3);
-    let contact = Contact::with_rail(0, Rail::Bottom);
+    let (contact, numbers) = (Contact::Rail(0, Rail::Bottom), &Numbers::of(table));
     let impacts = vec![contact];
     let after = [BallState::at_rest(DVec2::ZERO); BALLS];
     let rests = [rests, false, false];
-    let moment = Moment { table, before, after, rested: [false; BALLS], rests, impacts, closed: vec![contact] };
+    let moment =
+        Moment { table, numbers, before, after, rested: [false; BALLS], rests, impacts, closed: vec![contact] };
     moment.taken([true, false, false])
 }
 

@@ -5,27 +5,19 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, Size, variant};
+use super::{Case, variant};
 use crate::{
     physics::CueDegrees,
     simulation::{Event, EventKind, Rail},
-    study::stability::{Limits, Shot, Trace, draw},
+    study::stability::{Shot, Trace, draw},
     table::{JUDGED, Layout, Table},
 };
 
-const fn case(
-    name: &'static str,
-    tables: fn() -> Vec<Table>,
-    shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
-) -> Case {
-    Case { name, holds: HOLDS, tables, shot, check: Some(few_events), limits: Limits::STRICT, size: Size::Case }
-}
-
 pub const CASES: &[Case] = &[
-    case("a ball spinning against a cushion, e = 0.95", || lively(0.95), at_cushion),
-    case("a ball spinning against a cushion, e = 0.99", || lively(0.99), at_cushion),
-    case("a ball spinning against another, e = 0.95", || lively(0.95), at_ball),
-    case("a ball spinning against another, e = 0.99", || lively(0.99), at_ball),
+    Case::new("a ball spinning against a cushion, e = 0.95", || lively(0.95), at_cushion).checked(HOLDS, few_events),
+    Case::new("a ball spinning against a cushion, e = 0.99", || lively(0.99), at_cushion).checked(HOLDS, few_events),
+    Case::new("a ball spinning against another, e = 0.95", || lively(0.95), at_ball).checked(HOLDS, few_events),
+    Case::new("a ball spinning against another, e = 0.99", || lively(0.99), at_ball).checked(HOLDS, few_events),
 ];
 
 /// Events of one chatter, from the first meeting to the end of the contact that it becomes. After that the balls may meet again,

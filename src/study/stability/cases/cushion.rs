@@ -6,7 +6,7 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, on_presets};
+use super::{Case, presets};
 use crate::{
     physics::CueDegrees,
     simulation::{EventKind, Rail},
@@ -15,25 +15,14 @@ use crate::{
 };
 
 pub const CASES: &[Case] = &[
-    on_presets(
-        "object ball exactly on a cushion",
-        "what is driven into the cushion comes back from it at once",
-        object_ball,
-        returns,
-    ),
-    on_presets(
-        "cue ball exactly on a cushion",
-        "struck into the cushion it comes back, away from it it leaves",
-        cue_ball,
-        leaves,
-    ),
-    on_presets("object ball exactly in a corner", "both cushions are hit at the same moment", corner_ball, returns),
-    on_presets(
-        "a shot exactly into a corner at 45°",
-        "both cushions are hit at the same moment",
-        into_corner,
-        hits_both,
-    ),
+    Case::new("object ball exactly on a cushion", presets, object_ball)
+        .checked("what is driven into the cushion comes back from it at once", returns),
+    Case::new("cue ball exactly on a cushion", presets, cue_ball)
+        .checked("struck into the cushion it comes back, away from it it leaves", leaves),
+    Case::new("object ball exactly in a corner", presets, corner_ball)
+        .checked("both cushions are hit at the same moment", returns),
+    Case::new("a shot exactly into a corner at 45°", presets, into_corner)
+        .checked("both cushions are hit at the same moment", hits_both),
 ];
 
 /// Times that differ by less are the same moment, s: a ball moves 1e-12 m meanwhile, the rounding of a table's length many

@@ -8,44 +8,21 @@ use super::{Case, Size, variant};
 use crate::{
     physics::{CueDegrees, Cushions, strike},
     simulation::{EventKind, Rail},
-    study::stability::{Limits, Shot, Trace, adversarial, draw},
+    study::stability::{Shot, Trace, adversarial, draw},
     table::{Flight, Layout, Rails, Table},
 };
 
-const fn case(
-    name: &'static str,
-    holds: &'static str,
-    tables: fn() -> Vec<Table>,
-    shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
-) -> Case {
-    Case { name, holds, tables, shot, check: None, limits: Limits::STRICT, size: Size::Case }
-}
-
 pub const CASES: &[Case] = &[
-    Case {
-        check: Some(hit_or_missed),
-        ..case(
-            "grazing a ball from above, relative depth 1e-12 to 1e-3",
-            "hit or missed as the exact numbers say",
-            flying,
-            graze,
-        )
-    },
-    Case { size: Size::Adversarial, ..case("random shots with the cue raised by up to 60°", "", flying, raised) },
-    Case {
-        size: Size::Adversarial,
-        ..case(
-            "balls that touch or almost touch, the cue raised by up to 60°",
-            "",
-            flying_by_thesis,
-            raised_at_touching,
-        )
-    },
-    case("landing on the nose of a cushion", "", flying, on_the_nose),
-    case("landing exactly on a ball's top", "", flying, on_top),
-    case("endless hops, e_c = 0.99", "", lively, hops),
-    case("into the corner from the air", "", flying, corner),
-    case("massé at 89° and 8 m/s where balls can fly", "", flying, masse),
+    Case::new("grazing a ball from above, relative depth 1e-12 to 1e-3", flying, graze)
+        .checked("hit or missed as the exact numbers say", hit_or_missed),
+    Case::new("random shots with the cue raised by up to 60°", flying, raised).of_size(Size::Adversarial),
+    Case::new("balls that touch or almost touch, the cue raised by up to 60°", flying_by_thesis, raised_at_touching)
+        .of_size(Size::Adversarial),
+    Case::new("landing on the nose of a cushion", flying, on_the_nose),
+    Case::new("landing exactly on a ball's top", flying, on_top),
+    Case::new("endless hops, e_c = 0.99", lively, hops),
+    Case::new("into the corner from the air", flying, corner),
+    Case::new("massé at 89° and 8 m/s where balls can fly", flying, masse),
 ];
 
 fn with(restitution: f64) -> Vec<Table> {

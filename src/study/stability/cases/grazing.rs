@@ -4,23 +4,16 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, Size, presets};
+use super::{Case, presets};
 use crate::{
     physics::CueDegrees,
     simulation::EventKind,
-    study::stability::{Limits, Shot, Trace, draw},
+    study::stability::{Shot, Trace, draw},
     table::{Layout, Table},
 };
 
-pub const CASES: &[Case] = &[Case {
-    name: "grazing contact, relative depth 1e-15 to 1e-3",
-    holds: "hit or missed as the exact numbers say",
-    tables: presets,
-    shot,
-    check: Some(check),
-    limits: Limits::STRICT,
-    size: Size::Case,
-}];
+pub const CASES: &[Case] = &[Case::new("grazing contact, relative depth 1e-15 to 1e-3", presets, shot)
+    .checked("hit or missed as the exact numbers say", check)];
 
 /// Depths below this share of the diameter are not told apart from none: the diameter's square and the distance's are rounded
 /// to half an ε each, and so is their difference's root.

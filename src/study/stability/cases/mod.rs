@@ -14,9 +14,7 @@ mod sweeps;
 mod tables;
 mod touching;
 
-use rand_xoshiro::Xoshiro256PlusPlus;
-
-use super::{Check, Figures, Finding, Limits, Progress, Shot, Sweep};
+use super::{Check, Figures, Finding, Generator, Limits, Progress, Sweep};
 use crate::table::{JUDGED, Table};
 
 /// One row of the stability table.
@@ -29,7 +27,7 @@ pub struct Case {
     /// The tables on which it is played.
     pub tables: fn() -> Vec<Table>,
     /// Draws a shot.
-    pub shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
+    pub shot: Generator,
     /// Checks what must hold besides, if anything.
     pub check: Option<Check>,
     /// Limits of the invariants.
@@ -68,19 +66,36 @@ pub fn all() -> Vec<Case> {
 }
 
 impl Case {
+    /// A stiff or extreme case in which the invariants must hold.
+    const fn new(name: &'static str, tables: fn() -> Vec<Table>, shot: Generator) -> Self {
+        Self { name, holds: "", tables, shot, check: None, limits: Limits::STRICT, size: Size::Case }
+    }
+
+    /// With words for what holds besides.
+    const fn holding(self, holds: &'static str) -> Self {
+        Self { holds, ..self }
+    }
+
+    /// With something to check besides.
+    const fn checked(self, holds: &'static str, check: Check) -> Self {
+        Self { check: Some(check), ..self.holding(holds) }
+    }
+
+    const fn of_size(self, size: Size) -> Self {
+        Self { size, ..self }
+    }
+
+    /// On tables where a shot has more events by nature.
+    const fn any_events(self) -> Self {
+        Self { limits: Limits::ANY_EVENTS, ..self }
+    }
+
     /// Plays `shots` shots on each of its tables and returns the worst that was measured. `watch` is that of [`Sweep::run`].
-    pub fn run(&self, shots: u64, seed: u64, mut watch: impl FnMut(Progress, Option<&Finding>) -> bool) -> Figures {
+    pub fn run(&self, shots: u64, seed: u64, mut watch: impl FnMut(Progress, Option<&Finding>)) -> Figures {
         let mut figures = Figures::default();
-        let mut goes_on = true;
         for table in (self.tables)() {
             let sweep = Sweep { table, generator: self.shot, check: self.check, shots, seed, limits: self.limits };
-            figures.merge(&sweep.run(|progress, finding| {
-                goes_on = watch(progress, finding);
-                goes_on
-            }));
-            if !goes_on {
-                break;
-            }
+            figures.merge(&sweep.run(&mut watch));
         }
         figures
     }
@@ -89,16 +104,6 @@ impl Case {
 /// The bundled tables.
 fn presets() -> Vec<Table> {
     JUDGED.iter().filter_map(|name| Table::preset(name).ok()).collect()
-}
-
-/// A case on the bundled tables with something to check.
-const fn on_presets(
-    name: &'static str,
-    holds: &'static str,
-    shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
-    check: Check,
-) -> Case {
-    Case { name, holds, tables: presets, shot, check: Some(check), limits: Limits::STRICT, size: Size::Case }
 }
 
 /// A bundled table with other numbers, of which its name tells; none if they are refused.

@@ -6,32 +6,21 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, Size, presets, rail_course, variant};
+use super::{Case, presets, rail_course, variant};
 use crate::{
     physics::CueDegrees,
     simulation::Rail,
-    study::stability::{Limits, Shot, draw},
+    study::stability::{Shot, draw},
     table::{JUDGED, Layout, Table},
 };
 
-const fn case(name: &'static str, shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot) -> Case {
-    Case { name, holds: "", tables: lively_and_dead, shot, check: None, limits: Limits::STRICT, size: Size::Case }
-}
-
 pub const CASES: &[Case] = &[
-    case("a ball resting on a cushion", on_cushion),
-    case("a ball resting on two cushions", on_two_cushions),
-    case("a ball resting on another", on_ball),
-    case("a ball pressed between ball and cushion", between),
-    Case {
-        name: "a ball resting on a smooth cushion",
-        holds: "leaves it when, and stops where, quadrature says, to 1e-9 s and m",
-        tables: smooth,
-        shot: against_smooth_cushion,
-        check: Some(rail_course::follows_quadrature),
-        limits: Limits::STRICT,
-        size: Size::Case,
-    },
+    Case::new("a ball resting on a cushion", lively_and_dead, on_cushion),
+    Case::new("a ball resting on two cushions", lively_and_dead, on_two_cushions),
+    Case::new("a ball resting on another", lively_and_dead, on_ball),
+    Case::new("a ball pressed between ball and cushion", lively_and_dead, between),
+    Case::new("a ball resting on a smooth cushion", smooth, against_smooth_cushion)
+        .checked("leaves it when, and stops where, quadrature says, to 1e-9 s and m", rail_course::follows_quadrature),
 ];
 
 /// The bundled tables, and the thesis' with contacts that do not bounce at all.

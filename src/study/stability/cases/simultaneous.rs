@@ -4,33 +4,19 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, Size, presets};
+use super::{Case, presets};
 use crate::{
     physics::CueDegrees,
     simulation::{EventKind, Rail},
-    study::stability::{Limits, Shot, Trace, draw},
+    study::stability::{Shot, Trace, draw},
     table::{Layout, Table},
 };
 
 pub const CASES: &[Case] = &[
-    Case {
-        name: "two object balls hit at the same moment",
-        holds: "both are hit, at the same moment",
-        tables: presets,
-        shot: fork,
-        check: Some(hits_both),
-        limits: Limits::STRICT,
-        size: Size::Case,
-    },
-    Case {
-        name: "ball and cushion hit at the same moment",
-        holds: "both are hit, at the same moment",
-        tables: presets,
-        shot: ball_at_cushion,
-        check: Some(hits_ball_and_cushion),
-        limits: Limits::STRICT,
-        size: Size::Case,
-    },
+    Case::new("two object balls hit at the same moment", presets, fork)
+        .checked("both are hit, at the same moment", hits_both),
+    Case::new("ball and cushion hit at the same moment", presets, ball_at_cushion)
+        .checked("both are hit, at the same moment", hits_ball_and_cushion),
 ];
 
 /// Times that differ by less are the same moment, s: a ball moves 1e-12 m meanwhile.

@@ -4,32 +4,18 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, Size, variant};
+use super::{Case, variant};
 use crate::{
     physics::CueDegrees,
-    study::stability::{Limits, Shot, Trace, draw},
+    study::stability::{Shot, Trace, draw},
     table::{JUDGED, Layout, Table},
 };
 
 pub const CASES: &[Case] = &[
-    Case {
-        name: "a ball resting on another, smooth ball",
-        holds: "both go on at the speed that they share until one of them rolls, to 1e-9 m",
-        tables: smooth,
-        shot: behind,
-        check: Some(both_go_on),
-        limits: Limits::STRICT,
-        size: Size::Case,
-    },
-    Case {
-        name: "a ball pressed between a smooth ball and cushion",
-        holds: "nothing moves until the pressing ball's spin has died down, to 1e-6 s and 1e-9 m",
-        tables: smooth,
-        shot: squeezing,
-        check: Some(nothing_moves),
-        limits: Limits::STRICT,
-        size: Size::Case,
-    },
+    Case::new("a ball resting on another, smooth ball", smooth, behind)
+        .checked("both go on at the speed that they share until one of them rolls, to 1e-9 m", both_go_on),
+    Case::new("a ball pressed between a smooth ball and cushion", smooth, squeezing)
+        .checked("nothing moves until the pressing ball's spin has died down, to 1e-6 s and 1e-9 m", nothing_moves),
 ];
 
 /// Error in place that the engine's resting contacts may have, m.

@@ -3,25 +3,16 @@
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, Size, lone, presets};
+use super::{Case, lone, presets};
 use crate::{
     physics::CueDegrees,
-    study::stability::{Limits, Shot, draw},
+    study::stability::{Generator, Shot, draw},
     table::{Layout, Table},
 };
 
-const CLOSED_FORM: &str = "a ball that meets nothing stops where the closed form says";
-
-const fn case(name: &'static str, shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot) -> Case {
-    Case {
-        name,
-        holds: CLOSED_FORM,
-        tables: presets,
-        shot,
-        check: Some(lone::stops_where_the_closed_form_says),
-        limits: Limits::STRICT,
-        size: Size::Case,
-    }
+const fn case(name: &'static str, shot: Generator) -> Case {
+    Case::new(name, presets, shot)
+        .checked("a ball that meets nothing stops where the closed form says", lone::stops_where_the_closed_form_says)
 }
 
 pub const CASES: &[Case] = &[

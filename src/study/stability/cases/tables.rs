@@ -3,39 +3,28 @@
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, Size, variant};
+use super::{Case, variant};
 use crate::{
     physics::{CueDegrees, Motion},
-    study::stability::{Limits, Shot, Trace, adversarial, draw, random},
+    study::stability::{Shot, Trace, adversarial, draw, random},
     table::{BALLS, JUDGED, Table},
 };
 
-const fn case(name: &'static str, holds: &'static str, tables: fn() -> Vec<Table>, limits: Limits) -> Case {
-    Case { name, holds, tables, shot, check: None, limits, size: Size::Case }
-}
-
-const ENDS: &str = "every shot ends; no friction on the cloth at all is refused";
-
-const UNIQUE: &str = "friction of 1 and more in contacts, whose forces would not be unique, is refused";
-
 pub const CASES: &[Case] = &[
-    case("next to no friction", ENDS, next_to_no_friction, Limits::ANY_EVENTS),
-    case("friction of 10 and 1000 on the cloth, 0.99 in contacts", UNIQUE, large_friction, Limits::STRICT),
-    case("no restitution, e = 0", "", || restitution(0.0), Limits::STRICT),
-    case("restitution e = 0.3", "", || restitution(0.3), Limits::STRICT),
-    case("full restitution, e = 1", "", || restitution(1.0), Limits::ANY_EVENTS),
-    Case {
-        name: "full restitution without friction in contacts",
-        holds: "no collision changes the energy",
-        tables: lossless,
-        shot,
-        check: Some(keeps_energy),
-        limits: Limits::ANY_EVENTS,
-        size: Size::Case,
-    },
-    case("the smallest table, six ball radii wide", "", smallest, Limits::ANY_EVENTS),
-    case("a table of one kilometre", "", huge, Limits::STRICT),
-    case("balls of one millimetre and of one metre", "", all_balls, Limits::STRICT),
+    Case::new("next to no friction", next_to_no_friction, shot)
+        .holding("every shot ends; no friction on the cloth at all is refused")
+        .any_events(),
+    Case::new("friction of 10 and 1000 on the cloth, 0.99 in contacts", large_friction, shot)
+        .holding("friction of 1 and more in contacts, whose forces would not be unique, is refused"),
+    Case::new("no restitution, e = 0", || restitution(0.0), shot),
+    Case::new("restitution e = 0.3", || restitution(0.3), shot),
+    Case::new("full restitution, e = 1", || restitution(1.0), shot).any_events(),
+    Case::new("full restitution without friction in contacts", lossless, shot)
+        .checked("no collision changes the energy", keeps_energy)
+        .any_events(),
+    Case::new("the smallest table, six ball radii wide", smallest, shot).any_events(),
+    Case::new("a table of one kilometre", huge, shot),
+    Case::new("balls of one millimetre and of one metre", all_balls, shot),
 ];
 
 fn of_presets(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {

@@ -6,7 +6,7 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, on_presets};
+use super::{Case, presets};
 use crate::{
     physics::CueDegrees,
     simulation::EventKind,
@@ -15,10 +15,13 @@ use crate::{
 };
 
 pub const CASES: &[Case] = &[
-    on_presets("two balls exactly touching", "momentum is kept and goes along the line of centres", two, passes_on),
-    on_presets("three balls exactly touching", "momentum is kept", three, keeps_momentum),
-    on_presets("three balls in line, touching or 1e-16 to 1e-6 m apart", "momentum is kept", line, keeps_momentum),
-    on_presets("two balls 1e-16 to 1e-6 m apart", "they meet after just that distance", gap, meets_after_the_gap),
+    Case::new("two balls exactly touching", presets, two)
+        .checked("momentum is kept and goes along the line of centres", passes_on),
+    Case::new("three balls exactly touching", presets, three).checked("momentum is kept", keeps_momentum),
+    Case::new("three balls in line, touching or 1e-16 to 1e-6 m apart", presets, line)
+        .checked("momentum is kept", keeps_momentum),
+    Case::new("two balls 1e-16 to 1e-6 m apart", presets, gap)
+        .checked("they meet after just that distance", meets_after_the_gap),
 ];
 
 /// Rounding of sums of velocities, in ε of the fastest.

@@ -1,12 +1,12 @@
-//! What must hold in a shot in which balls fly: the same as on the cloth, in space.
+//! Where balls may be, checked on their whole courses and not on samples of them.
 //!
-//! Between two landings a centre's course is a parabola in space, so that the least distances are bounded as on the cloth.
+//! Between two changes, and between two landings, a ball's centre follows a polynomial of the time, and so does the square of the
+//! distance of two balls: its least value on the interval is bounded by its Bernstein coefficients ([`super::polynomial`]).
 
 use glam::DVec3;
 
 use super::{
     figures::Figures,
-    invariants::PRECISION,
     polynomial::{MAX_DEGREE, least},
     shot::Shot,
     trace::{Piece, Trace},
@@ -17,6 +17,9 @@ use crate::{
     table::{BALLS, PAIRS, Table},
 };
 
+/// To which the least distance is worked out, m: a thousandth of what counts.
+const PRECISION: f64 = 1e-12;
+
 /// Landings of one course that are looked at: after so many the hops of the liveliest cloth are lower than an atom.
 const MOST_LANDINGS: u32 = 4000;
 
@@ -26,6 +29,8 @@ struct Stretch {
     end: f64,
     /// Coefficients of the place about the beginning, m.
     place: [DVec3; 6],
+    /// How many of them are not zero.
+    terms: usize,
     motion: Motion,
 }
 
@@ -38,10 +43,13 @@ impl Stretch {
     /// Coefficients about another time.
     fn about(&self, time: f64) -> [DVec3; 6] {
         let (mut c, shift) = (self.place, time - self.begin);
-        for low in 0..5 {
-            for power in (low..5).rev() {
-                let above = c[power + 1];
-                c[power] += shift * above;
+        if shift != 0.0 {
+            // Repeated synthetic division.
+            for low in 0..self.terms - 1 {
+                for power in (low..self.terms - 1).rev() {
+                    let above = c[power + 1];
+                    c[power] += shift * above;
+                }
             }
         }
         c
@@ -54,7 +62,8 @@ fn stretches(table: &Table, pieces: &[Piece]) -> Vec<Stretch> {
         let motion = segment.motion;
         let Some(hops) = segment.hops() else {
             let place = segment.coefficients().map(|c| c.extend(0.0));
-            found.push(Stretch { begin: segment.start, end: *end, place, motion });
+            let terms = if segment.curve().is_some() { 6 } else { 3 };
+            found.push(Stretch { begin: segment.start, end: *end, place, terms, motion });
             continue;
         };
         for landings in 0..MOST_LANDINGS {
@@ -66,14 +75,15 @@ fn stretches(table: &Table, pieces: &[Piece]) -> Vec<Stretch> {
             let end = end.min(segment.start + arc.end);
             let fall = DVec3::new(0.0, 0.0, -0.5 * table.gravity);
             let place = [arc.position, arc.velocity, fall, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO];
-            found.push(Stretch { begin, end, place, motion });
+            found.push(Stretch { begin, end, place, terms: 3, motion });
         }
     }
     found
 }
 
-/// Measures a shot in which a ball has flown; what needs no space has been measured.
+/// Measures where the balls of a shot are: jumps, and how far they get into each other and into cushions.
 pub(super) fn measure(table: &Table, shot: &Shot, trace: &Trace, figures: &mut Figures) {
+    let cushions = Cushions::of(table);
     let balls: [Vec<Stretch>; BALLS] = std::array::from_fn(|ball| stretches(table, &trace.pieces[ball]));
     for (ball, stretches) in balls.iter().enumerate() {
         let mut last = shot.layout.balls[ball].extend(0.0);
@@ -83,29 +93,35 @@ pub(super) fn measure(table: &Table, shot: &Shot, trace: &Trace, figures: &mut F
             let begins = if off { stretch.place[0].with_z(last.z) } else { stretch.place[0] };
             figures.jump.note(last.distance(begins), stretch.begin);
             last = stretch.at(stretch.end);
-            outside(table, &trace.constants, stretch, figures);
+            outside(&cushions, &trace.constants, stretch, figures);
+        }
+        if trace.kept_until == f64::INFINITY {
+            figures.jump.note(last.truncate().distance(trace.end.balls[ball].position), trace.end.time);
         }
     }
     for (first, second) in PAIRS {
-        overlaps(table, &balls[first], &balls[second], figures);
+        overlaps(&trace.constants, &balls[first], &balls[second], figures);
     }
-    contacts(table, trace, &balls, figures);
+    contacts(&cushions, trace, &balls, figures);
 }
 
 /// How far a stretch leads into a cushion: on the cloth beyond the ball's reach, in the air nearer to the nose than a radius.
-fn outside(table: &Table, constants: &Constants, stretch: &Stretch, figures: &mut Figures) {
+fn outside(cushions: &Cushions, constants: &Constants, stretch: &Stretch, figures: &mut Figures) {
     if stretch.motion == Motion::OffTable {
         return;
     }
-    let cushions = Cushions::of(table);
     for rail in Rail::ALL {
         let n = rail.normal();
-        let [sine, cosine] = cushions.at(rail).nose().map(|share| share * table.radius);
+        let [sine, cosine] = cushions.at(rail).nose().map(|share| share * constants.radius);
         let mut inwards = stretch.place.map(|c| c.truncate().dot(n));
         inwards[0] += n.abs().dot(constants.reach);
         let lasts = stretch.end - stretch.begin;
         if stretch.motion != Motion::Flying {
-            let found = least(&inwards, lasts, PRECISION);
+            // Most stretches are too far from a cushion to get there.
+            if inwards[0] > farthest(&inwards.map(f64::abs), stretch.terms, lasts) {
+                continue;
+            }
+            let found = least(&inwards[..stretch.terms], lasts, PRECISION);
             figures.outside.note(-found.value, stretch.begin + found.at);
             continue;
         }
@@ -114,22 +130,27 @@ fn outside(table: &Table, constants: &Constants, stretch: &Stretch, figures: &mu
         let [z, w, k, ..] = stretch.place.map(|c| c.z);
         let (x, z) = (x + cosine, z - sine);
         let gap = [
-            x * x + z * z - table.radius * table.radius,
+            x * x + z * z - constants.radius * constants.radius,
             2.0 * (x * v + z * w),
             v * v + w * w + 2.0 * z * k,
             2.0 * w * k,
             k * k,
         ];
-        let found = least(&gap, lasts, 2.0 * table.radius * PRECISION);
+        let found = least(&gap, lasts, 2.0 * constants.radius * PRECISION);
         if x + v * found.at > 0.0 {
-            figures.outside.note(-found.value / (2.0 * table.radius), stretch.begin + found.at);
+            figures.outside.note(-found.value / (2.0 * constants.radius), stretch.begin + found.at);
         }
     }
 }
 
-/// How deep two balls overlap.
-fn overlaps(table: &Table, first: &[Stretch], second: &[Stretch], figures: &mut Figures) {
-    let diameter = 2.0 * table.radius;
+/// How far a course whose coefficients have these sizes can lead within `time`.
+fn farthest(sizes: &[f64; 6], terms: usize, time: f64) -> f64 {
+    sizes[1..terms].iter().rev().fold(0.0, |sum, size| (sum + size) * time)
+}
+
+/// How deep two balls overlap on their courses, which share every moment.
+fn overlaps(constants: &Constants, first: &[Stretch], second: &[Stretch], figures: &mut Figures) {
+    let diameter = 2.0 * constants.radius;
     let (mut i, mut j) = (0, 0);
     while let (Some(one), Some(other)) = (first.get(i), second.get(j)) {
         let (from, until) = (one.begin.max(other.begin), one.end.min(other.end));
@@ -139,17 +160,19 @@ fn overlaps(table: &Table, first: &[Stretch], second: &[Stretch], figures: &mut 
             let (c1, c2) = (one.about(from), other.about(from));
             let d: [DVec3; 6] = std::array::from_fn(|power| c1[power] - c2[power]);
             let time = until - from;
-            let reach = d[1..].iter().rev().fold(0.0, |sum, c| (sum + c.length()) * time);
-            if d[0].length() - diameter <= reach {
+            let terms = one.terms.max(other.terms);
+            if d[0].length() - diameter <= farthest(&d.map(DVec3::length), terms, time) {
                 let mut gap = [0.0; MAX_DEGREE + 1];
-                for (i, a) in d.iter().enumerate() {
-                    for (j, b) in d.iter().enumerate() {
+                for (i, a) in d[..terms].iter().enumerate() {
+                    for (j, b) in d[..terms].iter().enumerate() {
                         gap[i + j] += a.dot(*b);
                     }
                 }
+                // (|d| - 2R)(|d| + 2R), whose first factor is the gap and whose rounding stays small.
                 gap[0] = (d[0].length() - diameter) * (d[0].length() + diameter);
-                let found = least(&gap, time, 2.0 * diameter * PRECISION);
-                figures.overlap.note(-found.value / (2.0 * diameter), from + found.at);
+                let found = least(&gap[..2 * terms - 1], time, 2.0 * diameter * PRECISION);
+                let depth = -found.value / (diameter + (found.value + diameter * diameter).max(0.0).sqrt());
+                figures.overlap.note(depth, from + found.at);
             }
         }
         if one.end <= other.end {
@@ -162,8 +185,8 @@ fn overlaps(table: &Table, first: &[Stretch], second: &[Stretch], figures: &mut 
 }
 
 /// What is told to collide touches.
-fn contacts(table: &Table, trace: &Trace, balls: &[Vec<Stretch>; BALLS], figures: &mut Figures) {
-    let cushions = Cushions::of(table);
+fn contacts(cushions: &Cushions, trace: &Trace, balls: &[Vec<Stretch>; BALLS], figures: &mut Figures) {
+    let constants = &trace.constants;
     let place = |ball: usize, time: f64| {
         let list = &balls[ball];
         let index = list.partition_point(|stretch| stretch.end < time);
@@ -172,13 +195,13 @@ fn contacts(table: &Table, trace: &Trace, balls: &[Vec<Stretch>; BALLS], figures
     for event in trace.events.iter().filter(|event| event.time < trace.kept_until) {
         let apart = match event.kind {
             EventKind::BallBall(first, second) => {
-                place(first, event.time).distance(place(second, event.time)) - 2.0 * table.radius
+                place(first, event.time).distance(place(second, event.time)) - 2.0 * constants.radius
             }
             EventKind::BallRail(ball, rail) => {
-                let [sine, cosine] = cushions.at(rail).nose().map(|share| share * table.radius);
+                let [sine, cosine] = cushions.at(rail).nose().map(|share| share * constants.radius);
                 let (n, centre) = (rail.normal(), place(ball, event.time));
-                let inwards = n.abs().dot(trace.constants.reach) + centre.truncate().dot(n) + cosine;
-                inwards.hypot(centre.z - sine) - table.radius
+                let inwards = n.abs().dot(constants.reach) + centre.truncate().dot(n);
+                if centre.z == 0.0 { inwards } else { (inwards + cosine).hypot(centre.z - sine) - constants.radius }
             }
             _ => continue,
         };
