@@ -1,8 +1,10 @@
 #!/bin/sh
-# Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about thirty-eight hours of a shared core. The bundled files for match began from networks that a
-# version before this one had trained; their first rounds were played without the cue's room, and those up to match-r3-third,
-# match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth.
+# Trains policies like the bundled ones: models/train.sh [FOLDER] [PROGRAM]. Started again, it goes on where it was. The same seed gives the
+# same weights on the same machine with the same version. The weights that are bundled come from rounds that older versions played: the first
+# ones for match began from networks of a version before this file, were played without the cue's room, and those up to match-r3-third,
+# match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth. Some rounds were stopped by hand, as is said where
+# they stand; here they are played to their end, along which their learning rates fall. As they were played all took thirty-eight hours of a
+# shared core; to their ends they take longer.
 set -eu
 folder=${1:-runs}
 carom=${2:-carom}
@@ -10,7 +12,7 @@ carom=${2:-carom}
 train() {
     name=$1
     shift
-    "$carom" train --run "$folder/$name" --evaluate-every 384000 "$@"
+    "$carom" train --continue --run "$folder/$name" --evaluate-every 384000 "$@"
 }
 
 train textbook-r3-first --table textbook --reward r3 --seed 1 --steps 5000000

@@ -219,7 +219,7 @@ fn thesis_updates(
     updates_a_second(time, || agent.update(&batch, &Guidance::NONE))
 }
 
-/// Updates of the networks that coach, with the settings that trained them, from a batch that is at hand.
+/// Updates of the networks that coach, with the default settings, from a batch that is at hand.
 fn coach_updates(time: Duration, table: &Table, operations: Operations) -> candle_core::Result<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
     let settings =
