@@ -21,7 +21,8 @@ use crate::{
 /// Measure how exact the simulator is and what that costs.
 ///
 /// The engine, other root finders, single precision and fixed time steps are set against the same shots in double-double, and
-/// all against reference shots of 50 digits. It takes minutes; with --quick it takes seconds.
+/// all against reference shots of 50 digits. It takes minutes; with --quick it takes seconds. Where neither --quick nor --shots
+/// nor --table is given, the stability table follows.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
@@ -132,10 +133,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     out.flush()?;
     drop(out);
-    if args.quick {
-        tell(
-            "The stability table takes minutes: leave --quick out, or use --stability, with --quick for a tenth of it.",
-        );
+    // The stability table has tables and numbers of shots of its own.
+    if args.quick || args.shots.is_some() || args.table.is_some() {
+        tell("The stability table was not played: --stability plays it, in minutes; with --quick a tenth of it.");
         return Ok(());
     }
     play_stability(args, &stability::Plan::REPORT)
