@@ -23,3 +23,16 @@ fn a_study_of_one_table_or_of_some_shots_ends_with_it() {
     assert!(told(&output).contains("steps, dt 1e-6 s") && !told(&output).contains("verdict"), "{}", told(&output));
     assert!(said(&output).contains("--stability"), "{}", said(&output));
 }
+
+#[test]
+fn the_time_step_that_a_refusal_names_is_accepted() {
+    let step = |shot: &str, dt: &str| carom(&["simulate", "--shot", shot, "--method", "steps", "--dt", dt]);
+    let said_of = |dt: &str| said(&step("0,0,0,0,3", dt));
+    let refused = said_of("0.00003");
+    let named = refused.split("accepted is ").nth(1).and_then(|rest| rest.split(" s or more").next()).expect(&refused);
+    // Which takes seconds where nothing is optimised; all that matters is that it is not refused.
+    assert!(!said_of(named).contains("steps; accepted"), "{named}: {}", said_of(named));
+    let least = said_of("1e-320");
+    assert!(least.contains("dt = 1e-320 s") && least.contains("accepted is 3e-7 to 1 s"), "{least}");
+    assert!(step("0,0,0,0,0.001", "3e-7").status.success(), "{}", said(&step("0,0,0,0,0.001", "3e-7")));
+}
