@@ -43,7 +43,8 @@ pub struct Args {
     /// stiff or extreme case on each table, or a tenth of them with --quick. --shots sets the random ones.
     #[arg(long, conflicts_with = "table")]
     stability: bool,
-    /// Replay filmed shots of real balls instead, on several models of the table: how far each is from the film.
+    /// Replay filmed shots of real balls instead, on several models of the table: how far each is from the film. A --table must have
+    /// the filmed one's length, width and balls.
     #[arg(long, conflicts_with_all = ["stability", "shots", "seed", "quick"])]
     filmed: bool,
     /// With --filmed, fit the constants of cloth and rails to the film, and to each half of it to judge them on the other.
@@ -141,11 +142,18 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     play_stability(args, &stability::Plan::REPORT)
 }
 
+/// A table of the size of the filmed one.
+fn filmed_table(name: &str) -> Result<Table, Failure> {
+    let table = table_named(name)?;
+    filmed::check_size(&table).map_err(Failure::wrong_input)?;
+    Ok(table)
+}
+
 /// What models of the table reach on the film.
 fn replay_film(args: &Args) -> Result<(), Failure> {
     let film = filmed::bundled();
     let models = match &args.table {
-        Some(name) => table_named(name).map(|table| vec![(table.name.clone(), table)])?,
+        Some(name) => filmed_table(name).map(|table| vec![(table.name.clone(), table)])?,
         None => filmed::models(),
     };
     let rows = filmed::rows(&models, &film, |name| tell(format_args!("playing the film on {name} ...")));
@@ -167,7 +175,7 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
 /// Constants that come nearest to the film: all of it, and each half judged on the other.
 fn fit_film(args: &Args) -> Result<(), Failure> {
     let film = filmed::bundled();
-    let table = args.table.as_deref().map_or_else(|| Ok(Table::default()), table_named)?;
+    let table = args.table.as_deref().map_or_else(|| Ok(Table::default()), filmed_table)?;
     let model = table.rail.model;
     let half =
         |rest: usize| film.iter().enumerate().filter(move |(index, _)| index % 2 == rest).map(|(_, shot)| shot.clone());

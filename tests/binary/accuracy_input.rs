@@ -1,6 +1,8 @@
 //! What `carom accuracy` and the ways to simulate accept, refuse, and call by name.
 
-use std::{process::Output, time::Duration};
+use std::{fs, path::PathBuf, process::Output, time::Duration};
+
+use carom::table::Table;
 
 use crate::program::asked;
 
@@ -14,6 +16,19 @@ fn said(output: &Output) -> String {
 
 fn told(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+/// A folder with a file of the `match` table with these words exchanged, and its path.
+fn own_table(file: &str, exchanged: &[(&str, &str)]) -> (tempfile::TempDir, PathBuf) {
+    let mut text = toml::to_string(&Table::default()).unwrap();
+    for (from, to) in exchanged {
+        assert!(text.contains(from), "{from} in {text}");
+        text = text.replacen(from, to, 1);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(file);
+    fs::write(&path, text).unwrap();
+    (folder, path)
 }
 
 #[test]
@@ -35,4 +50,16 @@ fn the_time_step_that_a_refusal_names_is_accepted() {
     let least = said_of("1e-320");
     assert!(least.contains("dt = 1e-320 s") && least.contains("accepted is 3e-7 to 1 s"), "{least}");
     assert!(step("0,0,0,0,0.001", "3e-7").status.success(), "{}", said(&step("0,0,0,0,0.001", "3e-7")));
+}
+
+#[test]
+fn a_table_that_is_not_the_films_is_refused() {
+    let (_folder, small) = own_table("small.toml", &[("L = 2.84", "L = 2.54")]);
+    for more in [&["--table", "thesis"][..], &["--table", "thesis", "--fit"], &["--table", small.to_str().unwrap()]] {
+        let output = carom(&[&["accuracy", "--filmed"], more].concat());
+        assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{more:?}");
+        let said = said(&output);
+        assert!(said.contains("L = 2.54 m") && said.contains("2.84 m"), "{said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+    }
 }
