@@ -112,8 +112,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let tables = args.table.as_ref().map_or_else(judged, |name| table_named(name).map(with_flights))?;
     let references = study::check_references();
     let (size, seed) = (Size::of(args), args.seed.unwrap_or(SEED));
-    let studies: Vec<Study> =
-        tables.into_iter().map(|(table, steepest)| measure(table, steepest, &size, seed)).collect();
+    let studies =
+        tables.into_iter().map(|(table, steepest)| measure(table, steepest, &size, seed)).collect::<Result<Vec<_>, _>>()?;
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
     }
@@ -228,14 +228,25 @@ fn with_flights(table: Table) -> Vec<(Table, Steepest)> {
     [(table, Steepest::USUAL)].into_iter().chain(flying).collect()
 }
 
-fn measure(table: Table, steepest: Steepest, size: &Size, seed: u64) -> Study {
+/// Every method on one table.
+///
+/// # Errors
+/// Where the truth of no shot is known, by which methods could be judged.
+fn measure(table: Table, steepest: Steepest, size: &Size, seed: u64) -> Result<Study, Failure> {
     let shots = random_shots(&table, size.shots, seed, steepest);
     let (name, all, mut line) = (table.name.clone(), shots.len(), ProgressLine::default());
     let plan =
         Plan { table, steepest, shots, methods: Method::all(size.finest), rounds: size.rounds, steps: size.steps };
     let study = plan.run(|done| line.show(format_args!("every method on {name}: {done} of {all} shots")));
     line.clear();
-    study
+    if study.summary.judged.count == 0 {
+        return Err(Failure::failed(format_args!(
+            "none of the {all} shots on \"{}\" can be judged: {}; a level table whose rails have another model than \"mathavan\" would do",
+            study.summary.table,
+            study.why_unjudged()
+        )));
+    }
+    Ok(study)
 }
 
 /// Whole files or none, at the very end: an interruption before leaves nothing half written.

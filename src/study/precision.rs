@@ -105,6 +105,20 @@ pub struct Study {
     pub unjudged: Vec<(usize, Unjudged)>,
 }
 
+impl Study {
+    /// Why shots are not judged: each reason once.
+    pub fn why_unjudged(&self) -> String {
+        let mut reasons: Vec<String> = Vec::new();
+        for (_, why) in &self.unjudged {
+            let why = why.to_string();
+            if !reasons.contains(&why) {
+                reasons.push(why);
+            }
+        }
+        reasons.join("; ")
+    }
+}
+
 /// The shots of one table and their truth.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {

@@ -64,10 +64,11 @@ fn study_text(out: &mut String, study: &Study) {
     }
     let _ = writeln!(
         out,
-        "Not judged and not timed, since the truth does not cover them: {} ({:.1} %){}",
+        "Not judged and not timed, since the truth does not cover them: {} ({:.1} %){}{}",
         judged.of - judged.count,
         100.0 - percent(*judged),
-        reasons(study)
+        if study.unjudged.is_empty() { "" } else { ": " },
+        study.why_unjudged()
     );
     let _ = writeln!(
         out,
@@ -120,17 +121,6 @@ fn study_text(out: &mut String, study: &Study) {
 }
 
 const THREE: &str = "median    p99     worst";
-
-fn reasons(study: &Study) -> String {
-    let mut reasons: Vec<String> = Vec::new();
-    for (_, why) in &study.unjudged {
-        let why = why.to_string();
-        if !reasons.contains(&why) {
-            reasons.push(why);
-        }
-    }
-    if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join("; ")) }
-}
 
 /// A method's name with its time step.
 pub fn name(row: &Row) -> String {

@@ -63,3 +63,19 @@ fn a_table_that_is_not_the_films_is_refused() {
         assert_eq!(said.lines().count(), 1, "{said}");
     }
 }
+
+#[test]
+fn a_table_that_the_truth_cannot_judge_ends_with_the_reason() {
+    for (exchanged, reason) in [
+        (("name = \"match\"", "name = \"leaning\"\ntilt = [0.001, 0.0]"), "is not level"),
+        (("model = \"smooth\"", "model = \"mathavan\""), "integrated"),
+    ] {
+        let (folder, path) = own_table("own.toml", &[exchanged]);
+        let out = folder.path().join("report");
+        let at = [path.to_str().unwrap(), out.to_str().unwrap()];
+        let output = carom(&["accuracy", "--quick", "--shots", "3", "--table", at[0], "--out", at[1]]);
+        assert!(output.status.code() == Some(1) && output.stdout.is_empty(), "{}", told(&output));
+        assert!(said(&output).contains(reason) && said(&output).contains("none of the 3 shots"), "{}", said(&output));
+        assert!(!out.join("accuracy.csv").exists());
+    }
+}
