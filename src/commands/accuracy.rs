@@ -112,8 +112,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let tables = args.table.as_ref().map_or_else(judged, |name| table_named(name).map(with_flights))?;
     let references = study::check_references();
     let (size, seed) = (Size::of(args), args.seed.unwrap_or(SEED));
-    let studies =
-        tables.into_iter().map(|(table, steepest)| measure(table, steepest, &size, seed)).collect::<Result<Vec<_>, _>>()?;
+    let measured = |(table, steepest): (Table, Steepest)| {
+        let found_by = args.table.clone().unwrap_or_else(|| table.name.clone());
+        measure(table, found_by, steepest, &size, seed)
+    };
+    let studies = tables.into_iter().map(measured).collect::<Result<Vec<_>, _>>()?;
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
     }
@@ -232,11 +235,18 @@ fn with_flights(table: Table) -> Vec<(Table, Steepest)> {
 ///
 /// # Errors
 /// Where the truth of no shot is known, by which methods could be judged.
-fn measure(table: Table, steepest: Steepest, size: &Size, seed: u64) -> Result<Study, Failure> {
+fn measure(table: Table, found_by: String, steepest: Steepest, size: &Size, seed: u64) -> Result<Study, Failure> {
     let shots = random_shots(&table, size.shots, seed, steepest);
     let (name, all, mut line) = (table.name.clone(), shots.len(), ProgressLine::default());
-    let plan =
-        Plan { table, steepest, shots, methods: Method::all(size.finest), rounds: size.rounds, steps: size.steps };
+    let plan = Plan {
+        table,
+        found_by,
+        steepest,
+        shots,
+        methods: Method::all(size.finest),
+        rounds: size.rounds,
+        steps: size.steps,
+    };
     let study = plan.run(|done| line.show(format_args!("every method on {name}: {done} of {all} shots")));
     line.clear();
     if study.summary.judged.count == 0 {

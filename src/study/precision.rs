@@ -28,6 +28,8 @@ const SHOT_SECONDS: f64 = 8.0;
 pub struct Plan {
     /// The table.
     pub table: Table,
+    /// The name or the path by which `--table` finds it.
+    pub found_by: String,
     /// How far the cue is raised in its shots.
     pub steepest: Steepest,
     /// The shots.
@@ -256,7 +258,7 @@ impl Plan {
             energy: Spread::of(gathered.shots.iter().filter_map(|(_, _, energy)| *energy)),
             flips_straight: Share::of(errors().map(|errors| errors.flips[0])),
             flips_three_cushion: Share::of(errors().map(|errors| errors.flips[1])),
-            worst_shot: worst.map_or_else(String::new, |(shot, ..)| self.shots[*shot].command_line(&self.table)),
+            worst_shot: worst.map_or_else(String::new, |(shot, ..)| self.shots[*shot].command_line(&self.found_by)),
         }
     }
 }

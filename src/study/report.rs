@@ -153,6 +153,11 @@ fn flips(share: Share) -> String {
     format!("{} ({:.2} % to {:.2} %)", wrong(share), 100.0 * share.low, 100.0 * share.high)
 }
 
+/// A text as a field of CSV, whatever it holds.
+pub fn csv_text(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "\"\""))
+}
+
 /// One line a table and method.
 pub fn csv(studies: &[Study]) -> String {
     let spreads = ["cost_us", "rest_m", "rest_units", "time_s", "time_units", "energy"];
@@ -168,7 +173,8 @@ pub fn csv(studies: &[Study]) -> String {
     for row in studies.iter().flat_map(|study| &study.rows) {
         let dt = row.dt.map_or_else(String::new, |dt| format!("{dt:e}"));
         let Row { table, steepest_deg, method, shots, failed, cost_us, .. } = row;
-        let _ = write!(out, "{table},{steepest_deg:.0},\"{method}\",{dt},{shots},{failed},{cost_us:.3}");
+        let [table, method] = [table.as_str(), *method].map(csv_text);
+        let _ = write!(out, "{table},{steepest_deg:.0},{method},{dt},{shots},{failed},{cost_us:.3}");
         let spreads = [row.cost_spread_us, row.rest_m, row.rest_units, row.time_s, row.time_units, row.energy];
         for spread in spreads {
             let _ = match spread {

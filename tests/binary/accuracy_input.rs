@@ -79,3 +79,25 @@ fn a_table_that_the_truth_cannot_judge_ends_with_the_reason() {
         assert!(!out.join("accuracy.csv").exists());
     }
 }
+
+#[test]
+fn a_table_with_a_comma_in_its_name_stays_one_name() {
+    let (folder, path) = own_table("a table.toml", &[("name = \"match\"", "name = \"my \\\"big\\\", table\"")]);
+    let out = folder.path().join("report");
+    let at = [path.to_str().unwrap(), out.to_str().unwrap()];
+    let output = carom(&["accuracy", "--quick", "--shots", "3", "--table", at[0], "--out", at[1]]);
+    assert!(output.status.success(), "{}", said(&output));
+    let csv = fs::read_to_string(out.join("accuracy.csv")).unwrap();
+    let mut columns: Vec<usize> = csv.lines().map(columns_of).collect();
+    columns.dedup();
+    assert_eq!(columns.len(), 1, "{csv}");
+    assert!(csv.contains("\"my \"\"big\"\", table\","), "{csv}");
+    let text = told(&output);
+    let again = text.lines().find(|line| line.starts_with("carom simulate")).unwrap();
+    assert!(again.starts_with(&format!("carom simulate --table '{}' --layout=", at[0])), "{again}");
+}
+
+/// Columns of a line of CSV; commas in quotes part none.
+fn columns_of(line: &str) -> usize {
+    line.split('"').step_by(2).map(|outside| outside.matches(',').count()).sum()
+}

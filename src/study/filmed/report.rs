@@ -7,7 +7,10 @@ use super::{
     film::FilmedShot,
     judged::{Judged, judge},
 };
-use crate::table::{RailModel, Table};
+use crate::{
+    study::report::csv_text,
+    table::{RailModel, Table},
+};
 
 /// Rail models beside that of the `match` table, with their own best constants on the whole film by `--fit`: model, `e_rail`,
 /// `mu_rail`, (height - R)/R.
@@ -99,7 +102,8 @@ pub fn csv(rows: &[Judged]) -> String {
         let Judged { model, next_rail, rail_after, late_s, impact_ns, .. } = row;
         let _ = writeln!(
             out,
-            "\"{model}\",{},{},{},{},{},{},{count},{},{},{impact_ns:.1}",
+            "{},{},{},{},{},{},{},{count},{},{},{impact_ns:.1}",
+            csv_text(model),
             next_rail.0,
             field(next_rail.1),
             rail_after.0,
