@@ -101,3 +101,13 @@ fn a_table_with_a_comma_in_its_name_stays_one_name() {
 fn columns_of(line: &str) -> usize {
     line.split('"').step_by(2).map(|outside| outside.matches(',').count()).sum()
 }
+
+#[test]
+fn no_number_is_a_line_of_digits() {
+    let late = carom(&["simulate", "--shot", "0,0,0,0,3", "--at", "1e308"]);
+    assert!(late.status.success() && told(&late).contains("after 1e308 s:"), "{}", told(&late));
+    let line =
+        r#"{"preset":"textbook","layout":[[0,0],[0.5,0],[0,0.4]],"impulse":{"velocity":[1,0,1e-320],"spin":[0,0,0]}}"#;
+    let output = asked(&["simulate", "--batch", "-"]).write_stdin(line).output().unwrap();
+    assert!(told(&output).contains("impulse.velocity has 1e-320 m/s upwards"), "{}", told(&output));
+}
