@@ -21,8 +21,9 @@ use crate::{
     table::{BALLS, Layout, PAIRS, Table},
 };
 
-/// Impacts that follow each other within this time are at the same moment, s: a ball moves by less than a gap that counts as
-/// none meanwhile, at any speed on a table.
+/// Impacts that follow each other within this time are at the same moment, s: two roundings of a time of two seconds. Their gaps tell
+/// which of them collide together: up to 10 m/s a ball on `match` moves by less than one that counts as none meanwhile. What
+/// a faster ball meets may be found apart, and then collides in turn.
 pub(super) const MOMENT: f64 = 1e-15;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
