@@ -20,8 +20,8 @@ use crate::{
 
 /// Measure how exact the simulator is and what that costs.
 ///
-/// The engine, other root finders, single precision and fixed time steps are set against the same shots in double-double, and
-/// all against reference shots of 50 digits. It takes minutes; with --quick it takes seconds. Where neither --quick nor --shots
+/// The engine, other root finders, single precision and fixed time steps are set against what the reference engine makes of the same
+/// shots with 32 digits, the truth, and all against reference shots of 50 digits. It takes minutes; with --quick it takes seconds. Where neither --quick nor --shots
 /// nor --table is given, the stability table follows.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]

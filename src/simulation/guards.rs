@@ -16,8 +16,8 @@ pub const MOST_STEP: u64 = 6_000_000;
 /// Multiplications after which nothing rests any more: see [`super::micro_collisions`].
 pub const MOST_RESTING: u64 = 36_000_000;
 
-/// Multiplications after nothing has rested any more, those of impacts in the air among them, after which a shot is brought to its end: what
-/// takes part in another contact stands still from then on. It is not physics, and the audit of the stability table misses the energy.
+/// Budget, in multiplications, once nothing rests (impacts in the air included); when it is spent the shot is ended, which is not physics:
+/// what takes part in another contact stands still from then on, and the audit of the stability table misses the energy.
 pub const MOST_BOUNCING: u64 = 64_000_000;
 
 /// The same for impacts in the air alone, which micro-collisions would not spare.

@@ -51,6 +51,9 @@ pub struct Row {
     pub steepest_deg: f64,
     /// The method's family.
     pub method: &'static str,
+    /// What people are told of it.
+    #[serde(skip)]
+    pub words: &'static str,
     /// Its time step, s.
     pub dt: Option<f64>,
     /// Shots that it played.
@@ -242,6 +245,7 @@ impl Plan {
             table: self.table.name.clone(),
             steepest_deg: self.steepest.degrees(),
             method: method.family(),
+            words: method.words(),
             dt: method.time_step(),
             shots: gathered.shots.len(),
             failed: gathered.shots.iter().filter(|(_, errors, _)| errors.is_none()).count(),

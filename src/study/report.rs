@@ -78,15 +78,19 @@ fn study_text(out: &mut String, study: &Study) {
     let _ = writeln!(out, "Condition, m: {} (median, p99, worst).", spread(*condition_m));
     let _ = writeln!(
         out,
-        "Truth: double-double, {truth_cost_us:.0} µs a shot with its two neighbours; its energy balance is off by {}.\n",
+        "Truth: the reference engine (32 digits), {truth_cost_us:.0} µs a shot with its two neighbours; its energy balance is off by {}.\n",
         spread(*truth_energy)
     );
-    let _ = writeln!(out, "{:<36}{:>6}{:>11}  {:<27}{:<27}off by", "", "", "µs a shot", "error at rest, m", "in units");
-    let _ = writeln!(out, "{:<36}{:>6}{:>11}  {THREE:<27}{THREE:<27}> 1e-9 m", "method", "shots", "mean");
+    let _ = writeln!(
+        out,
+        "{:<METHOD$}{:>6}{:>11}  {:<27}{:<27}off by",
+        "", "", "µs a shot", "error at rest, m", "in units"
+    );
+    let _ = writeln!(out, "{:<METHOD$}{:>6}{:>11}  {THREE:<27}{THREE:<27}> 1e-9 m", "method", "shots", "mean");
     for row in &study.rows {
         let _ = writeln!(
             out,
-            "{:<36}{:>6}{:>11.2}  {:<27}{:<27}{}",
+            "{:<METHOD$}{:>6}{:>11.2}  {:<27}{:<27}{}",
             name(row),
             row.shots,
             row.cost_us,
@@ -95,12 +99,16 @@ fn study_text(out: &mut String, study: &Study) {
             wrong(row.beyond_1e_9_m)
         );
     }
-    let _ = writeln!(out, "\n{:<36}{:<27}{:>9}{:>7}  {:<27}", "", "event times, s", "wrong", "first", "energy balance");
-    let _ = writeln!(out, "{:<36}{THREE:<27}{:>9}{:>7}  {THREE:<27}gave up", "method", "sequence", "wrong");
+    let _ = writeln!(
+        out,
+        "\n{:<METHOD$}{:<27}{:>9}{:>7}  {:<27}",
+        "", "event times, s", "wrong", "first", "energy balance"
+    );
+    let _ = writeln!(out, "{:<METHOD$}{THREE:<27}{:>9}{:>7}  {THREE:<27}gave up", "method", "sequence", "wrong");
     for row in &study.rows {
         let _ = writeln!(
             out,
-            "{:<36}{:<27}{:>9}{:>7}  {:<27}{}",
+            "{:<METHOD$}{:<27}{:>9}{:>7}  {:<27}{}",
             name(row),
             spread(row.time_s),
             wrong(row.wrong_sequence),
@@ -109,10 +117,16 @@ fn study_text(out: &mut String, study: &Study) {
             row.failed
         );
     }
-    let _ = writeln!(out, "\n{:<36}{:<33}{:<33}", "wrong outcome, 95 % interval", "straight rail", "three-cushion");
+    let _ =
+        writeln!(out, "\n{:<METHOD$}{:<33}{:<33}", "wrong outcome, 95 % interval", "straight rail", "three-cushion");
     for row in &study.rows {
-        let _ =
-            writeln!(out, "{:<36}{:<33}{:<33}", name(row), flips(row.flips_straight), flips(row.flips_three_cushion));
+        let _ = writeln!(
+            out,
+            "{:<METHOD$}{:<33}{:<33}",
+            name(row),
+            flips(row.flips_straight),
+            flips(row.flips_three_cushion)
+        );
     }
     if let Some(engine) = study.rows.first() {
         let _ = writeln!(out, "\nThe engine's worst shot by units:\n{}\n", engine.worst_shot);
@@ -120,11 +134,14 @@ fn study_text(out: &mut String, study: &Study) {
     let _ = writeln!(out, "Cost is {CLOCK}, the least of the rounds; the methods take turns every 16 shots.\n");
 }
 
+/// Width of the column of methods.
+const METHOD: usize = 44;
+
 const THREE: &str = "median    p99     worst";
 
 /// A method's name with its time step.
 pub fn name(row: &Row) -> String {
-    row.dt.map_or_else(|| row.method.to_owned(), |dt| format!("{}, dt {dt:.0e} s", row.method))
+    row.dt.map_or_else(|| row.words.to_owned(), |dt| format!("{}, dt {dt:.0e} s", row.words))
 }
 
 fn spread(spread: Option<Spread>) -> String {
