@@ -50,8 +50,8 @@ pub struct Args {
     /// With --filmed, fit the constants of cloth and rails to the film, and to each half of it to judge them on the other.
     #[arg(long, requires = "filmed", conflicts_with_all = ["stability", "shots", "quick", "out"])]
     fit: bool,
-    /// Write files into this folder: accuracy.csv, error-vs-time.svg, error-vs-condition.svg and stability.md; with --filmed
-    /// filmed.csv and filmed.svg.
+    /// Write files into this folder: accuracy.csv, error-vs-time.svg and error-vs-condition.svg, and stability.md where that table is
+    /// played; with --filmed filmed.csv and filmed.svg.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print one JSON object for each reference file, each table and each method instead of the text.
