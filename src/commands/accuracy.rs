@@ -19,8 +19,9 @@ use crate::{
 
 /// Measure how exact the simulator is and what that costs.
 ///
-/// The engine, other root finders, single precision and fixed time steps are set against the same shots in double-double, and
-/// all against reference shots of 50 digits. It takes minutes; with --quick it takes seconds.
+/// The engine, other root finders, single precision and fixed time steps are set against what the reference engine makes of the same
+/// shots with 32 digits, the truth, and all against reference shots of 50 digits. It takes minutes; with --quick it takes seconds. Where neither --quick nor --shots
+/// nor --table is given, the stability table follows.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
@@ -41,14 +42,15 @@ pub struct Args {
     /// stiff or extreme case on each table, or a tenth of them with --quick. --shots sets the random ones.
     #[arg(long, conflicts_with = "table")]
     stability: bool,
-    /// Replay filmed shots of real balls instead, on several models of the table: how far each is from the film.
+    /// Replay filmed shots of real balls instead, on several models of the table: how far each is from the film. A --table must have
+    /// the filmed one's length, width and balls.
     #[arg(long, conflicts_with_all = ["stability", "shots", "seed", "quick"])]
     filmed: bool,
     /// With --filmed, fit the constants of cloth and rails to the film, and to each half of it to judge them on the other.
     #[arg(long, requires = "filmed", conflicts_with_all = ["stability", "shots", "quick", "out"])]
     fit: bool,
-    /// Write files into this folder: accuracy.csv, error-vs-time.svg, error-vs-condition.svg and stability.md; with --filmed
-    /// filmed.csv and filmed.svg.
+    /// Write files into this folder: accuracy.csv, error-vs-time.svg and error-vs-condition.svg, and stability.md where that table is
+    /// played; with --filmed filmed.csv and filmed.svg.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print one JSON object for each reference file, each table and each method instead of the text.
@@ -109,8 +111,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let tables = args.table.as_ref().map_or_else(judged, |name| table_named(name).map(with_flights))?;
     let references = study::check_references();
     let (size, seed) = (Size::of(args), args.seed.unwrap_or(SEED));
-    let studies: Vec<Study> =
-        tables.into_iter().map(|(table, steepest)| measure(table, steepest, &size, seed)).collect();
+    let measured = |(table, steepest): (Table, Steepest)| {
+        let found_by = args.table.clone().unwrap_or_else(|| table.name.clone());
+        measure(table, found_by, steepest, &size, seed)
+    };
+    let studies = tables.into_iter().map(measured).collect::<Result<Vec<_>, _>>()?;
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
     }
@@ -131,20 +136,26 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     out.flush()?;
     drop(out);
-    if args.quick {
-        tell(
-            "The stability table takes minutes: leave --quick out, or use --stability, with --quick for a tenth of it.",
-        );
+    // The stability table has tables and numbers of shots of its own.
+    if args.quick || args.shots.is_some() || args.table.is_some() {
+        tell("The stability table was not played: --stability plays it, in minutes; with --quick a tenth of it.");
         return Ok(());
     }
     play_stability(args, &stability::Plan::REPORT)
+}
+
+/// A table of the size of the filmed one.
+fn filmed_table(name: &str) -> Result<Table, Failure> {
+    let table = table_named(name)?;
+    filmed::check_size(&table).map_err(Failure::wrong_input)?;
+    Ok(table)
 }
 
 /// What models of the table reach on the film.
 fn replay_film(args: &Args) -> Result<(), Failure> {
     let film = filmed::bundled();
     let models = match &args.table {
-        Some(name) => table_named(name).map(|table| vec![(table.name.clone(), table)])?,
+        Some(name) => filmed_table(name).map(|table| vec![(table.name.clone(), table)])?,
         None => filmed::models(),
     };
     let rows = filmed::rows(&models, &film, |name| tell(format_args!("playing the film on {name} ...")));
@@ -166,7 +177,7 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
 /// Constants that come nearest to the film: all of it, and each half judged on the other.
 fn fit_film(args: &Args) -> Result<(), Failure> {
     let film = filmed::bundled();
-    let table = args.table.as_deref().map_or_else(|| Ok(Table::default()), table_named)?;
+    let table = args.table.as_deref().map_or_else(|| Ok(Table::default()), filmed_table)?;
     let model = table.rail.model;
     let half =
         |rest: usize| film.iter().enumerate().filter(move |(index, _)| index % 2 == rest).map(|(_, shot)| shot.clone());
@@ -219,14 +230,32 @@ fn with_flights(table: Table) -> Vec<(Table, Steepest)> {
     [(table, Steepest::USUAL)].into_iter().chain(flying).collect()
 }
 
-fn measure(table: Table, steepest: Steepest, size: &Size, seed: u64) -> Study {
+/// Every method on one table.
+///
+/// # Errors
+/// Where the truth of no shot is known, by which methods could be judged.
+fn measure(table: Table, found_by: String, steepest: Steepest, size: &Size, seed: u64) -> Result<Study, Failure> {
     let shots = random_shots(&table, size.shots, seed, steepest);
     let (name, all, mut line) = (table.name.clone(), shots.len(), ProgressLine::default());
-    let plan =
-        Plan { table, steepest, shots, methods: Method::all(size.finest), rounds: size.rounds, steps: size.steps };
+    let plan = Plan {
+        table,
+        found_by,
+        steepest,
+        shots,
+        methods: Method::all(size.finest),
+        rounds: size.rounds,
+        steps: size.steps,
+    };
     let study = plan.run(|done| line.show(format_args!("every method on {name}: {done} of {all} shots")));
     line.clear();
-    study
+    if study.summary.judged.count == 0 {
+        return Err(Failure::failed(format_args!(
+            "none of the {all} shots on \"{}\" can be judged: {}; a level table whose rails have another model than \"mathavan\" would do",
+            study.summary.table,
+            study.why_unjudged()
+        )));
+    }
+    Ok(study)
 }
 
 /// Whole files or none, at the very end: an interruption before leaves nothing half written.

@@ -5,6 +5,7 @@ use std::time::Duration;
 use super::Failure;
 use crate::{
     physics::{CueInputs, Impulse, strike},
+    printing::number,
     simulation::{Bounded, End, Recorder, Recording, within_bounds},
     study::{Stepped, Steps},
     table::{Layout, Table},
@@ -52,8 +53,10 @@ pub fn play_in_steps(
     let finest = Steps::finest(table, &strike(table, cue), MOST_STEPS);
     if steps.dt < finest {
         return Err(Failure::wrong_input(format_args!(
-            "dt = {} s might take more than {MOST_STEPS} steps; accepted is {finest:.0e} s or more for this shot on \"{}\"",
-            steps.dt, table.name
+            "dt = {} s might take more than {MOST_STEPS} steps; accepted is {} s or more for this shot on \"{}\"",
+            number(steps.dt),
+            number(rounded_up(finest)),
+            table.name
         )));
     }
     let play = |impulse: &Impulse, recorder: &mut Recorder| -> (End, (Stepped, bool)) {
@@ -64,6 +67,15 @@ pub fn play_in_steps(
     let (recording, (stepped, is_over)) =
         Recording::played_by(table, layout, cue, play).map_err(Failure::wrong_input)?;
     Ok((finite(table, recording, is_over, "larger time steps or ")?, stepped))
+}
+
+/// The number of two digits that is nearest above a positive `value`.
+fn rounded_up(value: f64) -> f64 {
+    let unit = 10.0_f64.powf(value.log10().floor() - 1.0);
+    let two_digits = |times: f64| format!("{:.1e}", times * unit).parse().unwrap_or(f64::INFINITY);
+    let times = (value / unit).ceil();
+    let nearest: f64 = two_digits(times);
+    if nearest < value { two_digits(times + 1.0) } else { nearest }
 }
 
 /// The recording, if it is a whole one with finite numbers; `else_would` names what else but a table that is less stiff would help.
@@ -82,4 +94,19 @@ fn finite(table: &Table, recording: Recording, is_over: bool, else_would: &str) 
     Err(Failure::failed(format_args!(
         "the shot's numbers do not stay finite on \"{name}\"; a table with less friction between balls or on cushions would do"
     )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_refusal_names_is_never_less_than_what_is_accepted() {
+        for (value, said) in
+            [(3.04e-5, 3.1e-5), (9.91e-5, 1e-4), (3e-7, 3e-7), (1.0, 1.0), (99.5, 100.0), (0.123, 0.13)]
+        {
+            assert_eq!(rounded_up(value), said, "{value}");
+        }
+        assert!((1..2000).all(|n| rounded_up(f64::from(n) / 7e6) >= f64::from(n) / 7e6));
+    }
 }

@@ -16,7 +16,7 @@ use crate::{
     coach::{Verdict, jump_words, words::LengthUnit},
     game::Rule,
     physics::{CueInputs, Impulse, LeastElevation, NoRoom, SpatialState, has_room, least_elevation},
-    printing,
+    printing::{self, number},
     simulation::{Event, Rail, Recording},
     study::{Stepped, Steps},
     table::{BALL_NAMES, BALLS, CueBall, Layout, Table},
@@ -124,8 +124,9 @@ impl GivenImpulse {
             [x, y] | [x, y, 0.0] => Ok(Impulse::on_cloth(DVec2::new(x, y), spin)),
             [x, y, lift] if table.flight.is_some() => Ok(Impulse { velocity: DVec2::new(x, y), spin, lift }),
             [_, _, up] => Err(Failure::wrong_input(format_args!(
-                "impulse.velocity has {up} m/s upwards; accepted is 0, for balls stay on the cloth of \"{}\": a section \
+                "impulse.velocity has {} m/s upwards; accepted is 0, for balls stay on the cloth of \"{}\": a section \
                  [flight] in a table's file lets them leave it",
+                number(up),
                 table.name
             ))),
             _ => Err(Failure::wrong_input(format_args!(
@@ -205,7 +206,7 @@ impl Moment {
 
     fn describe(&self, out: &mut impl Write, unit: LengthUnit) -> io::Result<()> {
         let (in_a_metre, per_second) = unit.speed();
-        writeln!(out, "after {} s:", self.t)?;
+        writeln!(out, "after {} s:", number(self.t))?;
         for (name, SpatialState { position, velocity, spin }) in BALL_NAMES.iter().zip(&self.balls) {
             let [place, speed, turn] =
                 [*position, in_a_metre * *velocity, *spin].map(|v| format!("({:.6}, {:.6}, {:.6})", v.x, v.y, v.z));
@@ -344,7 +345,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             "note: a real tip slips off here: a² + b² is {:.3}, on \"{}\" it holds up to {}",
             cue.tip_offset_squared(),
             table.name,
-            table.miscue_limit
+            number(table.miscue_limit)
         ));
     }
     let cue_room = CueRoom::of(&table, &layout, &cue);

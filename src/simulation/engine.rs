@@ -11,7 +11,8 @@ use super::{
     contact_mode::ContactMode,
     contacts::PAIRS_OF,
     guards::{
-        BOUNCE, IMPACT_IN_THE_AIR, MOST_BOUNCING, MOST_IN_THE_AIR, MOST_RESTING, MOST_TURNS, MOST_TURNS_BOUNCING,
+        BOUNCE, IMPACT_IN_THE_AIR, MOST_IN_THE_AIR, MOST_RESTING, MOST_TURNS, MOST_TURNS_WITHOUT_REST,
+        MOST_WITHOUT_REST,
     },
     resting::Resting,
     savings::{All, Savings},
@@ -21,8 +22,9 @@ use crate::{
     table::{BALLS, Layout, PAIRS, Table},
 };
 
-/// Impacts that follow each other within this time are at the same moment, s: a ball moves by less than a gap that counts as
-/// none meanwhile, at any speed on a table.
+/// Impacts that follow each other within this time are at the same moment, s: two roundings of a time of two seconds. Their gaps tell
+/// which of them collide together: up to 10 m/s a ball on `match` moves by less than one that counts as none meanwhile. What
+/// a faster ball meets may be found apart, and then collides in turn.
 pub(super) const MOMENT: f64 = 1e-15;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
@@ -170,7 +172,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     }
 
     /// Plays the shot; returns the time of the last event.
-    fn run(&mut self, impulse: &Impulse) -> f64 {
+    pub(super) fn run(&mut self, impulse: &Impulse) -> f64 {
         let cue_ball =
             BallState { position: self.balls[0].segment.position, velocity: impulse.velocity, spin: impulse.spin };
         let mut flow = ControlFlow::Continue(());
@@ -198,7 +200,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             turns += 1;
             if self.resting_budget_spent() {
                 flow = self.begin_micro_collisions(now);
-                most_turns = MOST_TURNS_BOUNCING;
+                most_turns = MOST_TURNS_WITHOUT_REST;
                 if flow.is_break() {
                     break;
                 }
@@ -306,7 +308,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     /// Whether the shot has taken more work than any should.
     pub(super) fn is_exhausted(&self) -> bool {
         let in_air = self.effort_in_air.spent();
-        self.micro_collisions.is_some() && self.effort.spent() + in_air > MOST_BOUNCING || in_air > MOST_IN_THE_AIR
+        self.micro_collisions.is_some() && self.effort.spent() + in_air > MOST_WITHOUT_REST || in_air > MOST_IN_THE_AIR
     }
 
     /// As if the shot had taken more work than any should.

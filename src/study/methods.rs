@@ -42,7 +42,18 @@ impl Method {
         methods
     }
 
-    /// The family that it belongs to: what differs by the time step alone is one.
+    /// What people are told of its family.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Plain => "reference engine (64 bits), extrema",
+            Self::ClosedForm => "reference engine (64 bits), Ferrari",
+            Self::Algorithm1010 => "reference engine (64 bits), Algorithm 1010",
+            Self::Single => "reference engine (32 bits), extrema",
+            Self::Engine | Self::Steps(_) => self.family(),
+        }
+    }
+
+    /// The family that it belongs to, as JSON and CSV name it: what differs by the time step alone is one.
     pub const fn family(self) -> &'static str {
         match self {
             Self::Engine => "engine",

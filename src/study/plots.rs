@@ -38,9 +38,10 @@ const LOOKS: [(&str, RGBColor, Mark); 7] = [
 pub fn error_against_time(studies: &[Study]) -> io::Result<String> {
     let panels = studies.iter().map(|study| {
         let series = LOOKS.iter().filter_map(|&(family, color, mark)| {
-            let rows = study.rows.iter().filter(|row| row.method == family);
-            let points: Vec<_> = rows.filter_map(point_of).collect();
-            (!points.is_empty()).then(|| Series { name: family.to_owned(), color, mark, points })
+            let rows = || study.rows.iter().filter(|row| row.method == family);
+            let points: Vec<_> = rows().filter_map(point_of).collect();
+            let name = rows().next()?.words.to_owned();
+            (!points.is_empty()).then_some(Series { name, color, mark, points })
         });
         Panel { title: title(study), series: series.collect() }
     });
@@ -95,6 +96,7 @@ fn dots(study: &Study, family: &str, dt: Option<f64>) -> Option<Series> {
     let color = LOOKS.iter().find(|look| look.0 == family)?.1;
     let points = study.points[index].iter().take(MOST_DOTS);
     let points = points.map(|point| Spot { x: point.condition, y: point.rest.max(LEAST), ..Spot::default() }).collect();
-    let name = dt.map_or_else(|| family.to_owned(), |dt| format!("{family}, dt {dt:e} s"));
+    let words = study.rows[index].words;
+    let name = dt.map_or_else(|| words.to_owned(), |dt| format!("{words}, dt {dt:e} s"));
     Some(Series { name, color, mark: Mark::Dots, points })
 }

@@ -28,6 +28,8 @@ const SHOT_SECONDS: f64 = 8.0;
 pub struct Plan {
     /// The table.
     pub table: Table,
+    /// The name or the path by which `--table` finds it.
+    pub found_by: String,
     /// How far the cue is raised in its shots.
     pub steepest: Steepest,
     /// The shots.
@@ -49,6 +51,9 @@ pub struct Row {
     pub steepest_deg: f64,
     /// The method's family.
     pub method: &'static str,
+    /// What people are told of it.
+    #[serde(skip)]
+    pub words: &'static str,
     /// Its time step, s.
     pub dt: Option<f64>,
     /// Shots that it played.
@@ -103,6 +108,20 @@ pub struct Study {
     pub points: Vec<Vec<Point>>,
     /// Why the truth of a shot is not known, for each such shot.
     pub unjudged: Vec<Unjudged>,
+}
+
+impl Study {
+    /// Why shots are not judged: each reason once.
+    pub fn why_unjudged(&self) -> String {
+        let mut reasons: Vec<String> = Vec::new();
+        for why in &self.unjudged {
+            let why = why.to_string();
+            if !reasons.contains(&why) {
+                reasons.push(why);
+            }
+        }
+        reasons.join("; ")
+    }
 }
 
 /// The shots of one table and their truth.
@@ -222,6 +241,7 @@ impl Plan {
             table: self.table.name.clone(),
             steepest_deg: self.steepest.degrees(),
             method: method.family(),
+            words: method.words(),
             dt: method.time_step(),
             shots: gathered.shots.len(),
             failed: gathered.shots.iter().filter(|(_, errors, _)| errors.is_none()).count(),
@@ -238,7 +258,7 @@ impl Plan {
             energy: Spread::of(gathered.shots.iter().filter_map(|(_, _, energy)| *energy)),
             flips_straight: Share::of(errors().map(|errors| errors.flips[0])),
             flips_three_cushion: Share::of(errors().map(|errors| errors.flips[1])),
-            worst_shot: worst.map_or_else(String::new, |(shot, ..)| self.shots[*shot].command_line(&self.table)),
+            worst_shot: worst.map_or_else(String::new, |(shot, ..)| self.shots[*shot].command_line(&self.found_by)),
         }
     }
 }

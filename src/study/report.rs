@@ -64,10 +64,11 @@ fn study_text(out: &mut String, study: &Study) {
     }
     let _ = writeln!(
         out,
-        "Not judged and not timed, since the truth does not cover them: {} ({:.1} %){}",
+        "Not judged and not timed, since the truth does not cover them: {} ({:.1} %){}{}",
         judged.of - judged.count,
         100.0 - percent(*judged),
-        reasons(study)
+        if study.unjudged.is_empty() { "" } else { ": " },
+        study.why_unjudged()
     );
     let _ = writeln!(
         out,
@@ -77,15 +78,19 @@ fn study_text(out: &mut String, study: &Study) {
     let _ = writeln!(out, "Condition, m: {} (median, p99, worst).", spread(*condition_m));
     let _ = writeln!(
         out,
-        "Truth: double-double, {truth_cost_us:.0} µs a shot with its two neighbours; its energy balance is off by {}.\n",
+        "Truth: the reference engine (32 digits), {truth_cost_us:.0} µs a shot with its two neighbours; its energy balance is off by {}.\n",
         spread(*truth_energy)
     );
-    let _ = writeln!(out, "{:<36}{:>6}{:>11}  {:<27}{:<27}off by", "", "", "µs a shot", "error at rest, m", "in units");
-    let _ = writeln!(out, "{:<36}{:>6}{:>11}  {THREE:<27}{THREE:<27}> 1e-9 m", "method", "shots", "mean");
+    let _ = writeln!(
+        out,
+        "{:<METHOD$}{:>6}{:>11}  {:<27}{:<27}off by",
+        "", "", "µs a shot", "error at rest, m", "in units"
+    );
+    let _ = writeln!(out, "{:<METHOD$}{:>6}{:>11}  {THREE:<27}{THREE:<27}> 1e-9 m", "method", "shots", "mean");
     for row in &study.rows {
         let _ = writeln!(
             out,
-            "{:<36}{:>6}{:>11.2}  {:<27}{:<27}{}",
+            "{:<METHOD$}{:>6}{:>11.2}  {:<27}{:<27}{}",
             name(row),
             row.shots,
             row.cost_us,
@@ -94,12 +99,16 @@ fn study_text(out: &mut String, study: &Study) {
             wrong(row.beyond_1e_9_m)
         );
     }
-    let _ = writeln!(out, "\n{:<36}{:<27}{:>9}{:>7}  {:<27}", "", "event times, s", "wrong", "first", "energy balance");
-    let _ = writeln!(out, "{:<36}{THREE:<27}{:>9}{:>7}  {THREE:<27}gave up", "method", "sequence", "wrong");
+    let _ = writeln!(
+        out,
+        "\n{:<METHOD$}{:<27}{:>9}{:>7}  {:<27}",
+        "", "event times, s", "wrong", "first", "energy balance"
+    );
+    let _ = writeln!(out, "{:<METHOD$}{THREE:<27}{:>9}{:>7}  {THREE:<27}gave up", "method", "sequence", "wrong");
     for row in &study.rows {
         let _ = writeln!(
             out,
-            "{:<36}{:<27}{:>9}{:>7}  {:<27}{}",
+            "{:<METHOD$}{:<27}{:>9}{:>7}  {:<27}{}",
             name(row),
             spread(row.time_s),
             wrong(row.wrong_sequence),
@@ -108,10 +117,16 @@ fn study_text(out: &mut String, study: &Study) {
             row.failed
         );
     }
-    let _ = writeln!(out, "\n{:<36}{:<33}{:<33}", "wrong outcome, 95 % interval", "straight rail", "three-cushion");
+    let _ =
+        writeln!(out, "\n{:<METHOD$}{:<33}{:<33}", "wrong outcome, 95 % interval", "straight rail", "three-cushion");
     for row in &study.rows {
-        let _ =
-            writeln!(out, "{:<36}{:<33}{:<33}", name(row), flips(row.flips_straight), flips(row.flips_three_cushion));
+        let _ = writeln!(
+            out,
+            "{:<METHOD$}{:<33}{:<33}",
+            name(row),
+            flips(row.flips_straight),
+            flips(row.flips_three_cushion)
+        );
     }
     if let Some(engine) = study.rows.first() {
         let _ = writeln!(out, "\nThe engine's worst shot by units:\n{}\n", engine.worst_shot);
@@ -119,22 +134,14 @@ fn study_text(out: &mut String, study: &Study) {
     let _ = writeln!(out, "Cost is {CLOCK}, the least of the rounds; the methods take turns every 16 shots.\n");
 }
 
-const THREE: &str = "median    p99     worst";
+/// Width of the column of methods.
+const METHOD: usize = 44;
 
-fn reasons(study: &Study) -> String {
-    let mut reasons: Vec<String> = Vec::new();
-    for why in &study.unjudged {
-        let why = why.to_string();
-        if !reasons.contains(&why) {
-            reasons.push(why);
-        }
-    }
-    if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join("; ")) }
-}
+const THREE: &str = "median    p99     worst";
 
 /// A method's name with its time step.
 pub fn name(row: &Row) -> String {
-    row.dt.map_or_else(|| row.method.to_owned(), |dt| format!("{}, dt {dt:.0e} s", row.method))
+    row.dt.map_or_else(|| row.words.to_owned(), |dt| format!("{}, dt {dt:.0e} s", row.words))
 }
 
 fn spread(spread: Option<Spread>) -> String {
@@ -163,6 +170,11 @@ fn flips(share: Share) -> String {
     format!("{} ({:.2} % to {:.2} %)", wrong(share), 100.0 * share.low, 100.0 * share.high)
 }
 
+/// A text as a field of CSV, whatever it holds.
+pub fn csv_text(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "\"\""))
+}
+
 /// One line a table and method.
 pub fn csv(studies: &[Study]) -> String {
     let spreads = ["cost_us", "rest_m", "rest_units", "time_s", "time_units", "energy"];
@@ -178,7 +190,8 @@ pub fn csv(studies: &[Study]) -> String {
     for row in studies.iter().flat_map(|study| &study.rows) {
         let dt = row.dt.map_or_else(String::new, |dt| format!("{dt:e}"));
         let Row { table, steepest_deg, method, shots, failed, cost_us, .. } = row;
-        let _ = write!(out, "{table},{steepest_deg:.0},\"{method}\",{dt},{shots},{failed},{cost_us:.3}");
+        let [table, method] = [table.as_str(), *method].map(csv_text);
+        let _ = write!(out, "{table},{steepest_deg:.0},{method},{dt},{shots},{failed},{cost_us:.3}");
         let spreads = [row.cost_spread_us, row.rest_m, row.rest_units, row.time_s, row.time_units, row.energy];
         for spread in spreads {
             let _ = match spread {

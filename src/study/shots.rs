@@ -8,6 +8,7 @@ use serde::Deserialize;
 
 use crate::{
     physics::{CueDegrees, CueInputs, Impulse, strike},
+    printing::shell_word,
     simulation::EventKind,
     table::{Flight, Layout, Table},
 };
@@ -48,13 +49,13 @@ impl StudyShot {
         Self { layout, cue, impulse: strike(table, &cue) }
     }
 
-    /// The command line that plays it.
-    pub fn command_line(&self, table: &Table) -> String {
+    /// The command line that plays it on the table that `--table` finds by this name or path.
+    pub fn command_line(&self, table: &str) -> String {
         let [p, q, r] = self.layout.balls;
         let CueInputs { a, b, theta, phi, speed } = self.cue;
         format!(
             "carom simulate --table {} --layout=\"{},{} {},{} {},{}\" --shot=\"{a},{b},{},{},{speed}\"",
-            table.name,
+            shell_word(table),
             p.x,
             p.y,
             q.x,
@@ -174,7 +175,7 @@ mod tests {
         for shot in random_shots(&table, 200, 5, Steepest::USUAL) {
             shot.cue.validate().unwrap();
             shot.cue.validate_tip(table.miscue_limit + 1e-6).unwrap();
-            let line = shot.command_line(&table);
+            let line = shot.command_line(&table.name);
             let part = |option: &str| line.split_once(option).unwrap().1.split('"').next().unwrap();
             assert_eq!(Layout::parse(part("--layout=\""), &table).unwrap(), shot.layout);
             let cue = CueInputs::parse(part("--shot=\"")).unwrap();

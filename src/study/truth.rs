@@ -1,4 +1,4 @@
-//! What really becomes of a shot: the reference engine in double-double, and how much the shot amplifies a change.
+//! What really becomes of a shot: the reference engine with 32 digits, and how much the shot amplifies a change.
 
 use super::{
     reference_engine::{DoubleDouble, Motion, Numbers, Real, Shot, Stroke, Unjudged, Vector, by_extrema, play, strike},

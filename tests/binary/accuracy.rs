@@ -98,7 +98,7 @@ fn wrong_input_ends_with_two_and_says_what_would_do() {
     for (arguments, words) in [
         (vec!["accuracy", "--shots", "0"], "from 1 to 1000000000"),
         (vec!["simulate", "--shot", "0,0,0,0,3", "--dt", "0.1"], "--method steps"),
-        (vec!["simulate", "--shot", "0,0,0,0,3", "--method", "steps", "--dt", "7"], "0.00000001 to 1"),
+        (vec!["simulate", "--shot", "0,0,0,0,3", "--method", "steps", "--dt", "7"], "accepted is 3e-7 to 1 s"),
     ] {
         let output = carom(&arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");

@@ -1,6 +1,7 @@
 //! What goes through the real binary: the command line, runs that train, practice, trouble, and a screen in a pseudo-terminal.
 
 mod accuracy;
+mod accuracy_input;
 mod bench;
 mod calibrate;
 mod club;

@@ -1,5 +1,7 @@
 //! The stability table, row by row: stiff and extreme cases, random and adversarial shots.
 
+use std::path::Path;
+
 use carom::{
     physics::{CueDegrees, CueInputs},
     simulation::Recording,
@@ -76,7 +78,7 @@ rows_as_tests! {
     full_restitution => "full restitution, e = 1",
     lossless_contacts => "full restitution without friction in contacts",
     smallest_table => "the smallest table, six ball radii wide",
-    huge_table => "a table of one kilometre",
+    longest_table => "the longest table, ten metres",
     tiny_and_huge_balls => "balls of one millimetre and of one metre",
     grazing_from_above => "grazing a ball from above, relative depth 1e-12 to 1e-3",
     raised_cue => "random shots with the cue raised by up to 60°",
@@ -106,7 +108,10 @@ fn every_row_is_in_the_document_and_holds_there() {
 /// bounces of chatters: they tell how many are enough.
 #[test]
 fn shots_that_failed_hold() {
-    let tables: Vec<Table> = cases().iter().flat_map(|case| (case.tables)()).collect();
+    // One is longer than a file may say.
+    let name = "thesis, 1 km".to_owned();
+    let kilometre = Table { name, length: 1000.0, width: 500.0, ..Table::preset("thesis").unwrap() };
+    let tables: Vec<Table> = cases().iter().flat_map(|case| (case.tables)()).chain([kilometre]).collect();
     for line in include_str!("../data/mended.jsonl").lines() {
         let line: serde_json::Value = serde_json::from_str(line).unwrap();
         let table = tables.iter().find(|table| line["table"] == table.name).expect("a table of the cases");
@@ -131,6 +136,18 @@ fn a_contact_that_another_ball_ends_holds_nobody() {
     let layout = Layout::parse(layout, &table).unwrap();
     let cue = CueInputs::parse("0,0.4,0,159.88175151009634,4.042894454326235").unwrap();
     assert!(Recording::new(&table, &layout, &cue).unwrap().duration() > 1.0);
+}
+
+/// The ends of what is accepted are those of a table's file.
+#[test]
+fn the_longest_table_is_the_longest_that_a_file_may_have() {
+    let case: Case = cases().into_iter().find(|case| case.name == "the longest table, ten metres").unwrap();
+    for table in (case.tables)() {
+        let file = |table: &Table| Table::from_file(Path::new("own.toml"), &toml::to_string(table).unwrap());
+        assert_eq!(file(&table).as_ref(), Ok(&table));
+        let longer = Table { length: table.length + 1e-9, ..table };
+        assert!(file(&longer).unwrap_err().to_string().contains("at most 10 m"));
+    }
 }
 
 #[test]

@@ -16,7 +16,9 @@ use crate::{
 /// What begins to slip more slowly than this share of g holds: in a second it would come to 1e-9 m/s.
 pub(super) const DEPARTING: f64 = 1e-10;
 
-/// The speed that gives a direction to what begins to slip, m/s: far below every slip that counts.
+/// The speed that gives a direction to what begins to slip, m/s: on `match` ninety times what counts as no slip, so that rounding does not
+/// turn it. What gains a third of its friction's acceleration outgrows it in 2e-8 s and 1e-16 m on a cloth of `mu_s = 0.2`, and in a
+/// few hundredths of a millisecond and 1e-13 m on one of 0.0001.
 const STARTING: f64 = 1e-8;
 
 /// A slip that begins with less than this share of its friction's acceleration begins slowly: its direction would follow the

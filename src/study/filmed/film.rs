@@ -3,13 +3,16 @@
 use glam::DVec2;
 use serde::Deserialize;
 
-use crate::table::BALLS;
+use crate::table::{BALLS, Table};
 
 /// The bundled half of the film.
 const FILM: &str = include_str!("../../../tests/data/filmed/shots.jsonl");
 
 /// A ball moves once it is farther than this from where it lay, m: ten times the noise.
 const MOVED: f64 = 0.003;
+
+/// How far a place on the film is from the ball's, m.
+const NOISE: f64 = MOVED / 10.0;
 
 /// Where a ball was at some moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +50,35 @@ pub enum FilmError {
         /// What is wrong with it.
         reason: String,
     },
+}
+
+/// A table of another size than the filmed one: its places are other places.
+#[derive(Clone, Debug, thiserror::Error, PartialEq)]
+#[error(
+    "the table \"{table}\" has {key} = {value} m, but the filmed one {key} = {filmed} m; accepted is that, to 0.3 mm"
+)]
+pub struct NotFilmed {
+    table: String,
+    key: &'static str,
+    value: f64,
+    filmed: f64,
+}
+
+/// Whether balls of this table could lie and run where the bundled film shows them.
+///
+/// # Errors
+/// [`NotFilmed`] for other sides or balls than those of the filmed table.
+pub fn check_size(table: &Table) -> Result<(), NotFilmed> {
+    // `match` is fitted to the film.
+    let filmed = Table::default();
+    let sizes = |table: &Table| [("L", table.length), ("l", table.width), ("R", table.radius)];
+    let pairs = sizes(table).into_iter().zip(sizes(&filmed));
+    for ((key, value), (_, filmed)) in pairs {
+        if (value - filmed).abs() > NOISE {
+            return Err(NotFilmed { table: table.name.clone(), key, value, filmed });
+        }
+    }
+    Ok(())
 }
 
 #[derive(Deserialize)]
@@ -168,6 +200,16 @@ mod tests {
             assert!(moved > 0.02, "shot {}: {moved}", shot.number);
             assert_eq!(shot.order[2], 2, "shot {}: nobody strikes the red", shot.number);
         }
+    }
+
+    #[test]
+    fn a_table_has_the_films_sides_and_balls() {
+        let filmed = Table::default();
+        assert_eq!(check_size(&Table { length: 2.8401, ..filmed.clone() }), Ok(()));
+        let narrow = check_size(&Table { width: 1.41, ..filmed.clone() }).unwrap_err().to_string();
+        assert!(narrow.contains("l = 1.41 m") && narrow.contains("l = 1.42 m"), "{narrow}");
+        assert!(check_size(&Table { radius: 0.0301, ..filmed }).is_err());
+        assert!(check_size(&Table::preset("textbook").unwrap()).is_ok());
     }
 
     #[test]

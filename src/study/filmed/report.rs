@@ -7,7 +7,10 @@ use super::{
     film::FilmedShot,
     judged::{Judged, judge},
 };
-use crate::table::{RailModel, Table};
+use crate::{
+    study::report::csv_text,
+    table::{RailModel, Table},
+};
 
 /// Rail models beside that of the `match` table, with their own best constants on the whole film by `--fit`: model, `e_rail`,
 /// `mu_rail`, (height - R)/R.
@@ -42,6 +45,16 @@ pub fn rows(models: &[(String, Table)], film: &[FilmedShot], mut tell: impl FnMu
         .collect()
 }
 
+/// A median, where there is a case to take it of.
+fn known(median: f64) -> Option<f64> {
+    Some(median).filter(|median| !median.is_nan())
+}
+
+/// The same for people.
+fn shown(median: f64, format: fn(f64) -> String) -> String {
+    known(median).map_or_else(|| "-".to_owned(), format)
+}
+
 /// The report for people.
 pub fn text(rows: &[Judged]) -> String {
     let mut out = String::from(
@@ -54,16 +67,19 @@ pub fn text(rows: &[Judged]) -> String {
         "model", "next, diamonds", "after, diamonds", "late, s", "at 3, 4, 5 s, cm", "systems, diamonds", "impact"
     );
     for row in rows {
-        let (count, [a, b, c]) = row.whole_cm;
         let systems: Vec<_> = row.systems.iter().map(|system| format!("{:.2}", system.rms)).collect();
+        let [next, after] = [row.next_rail, row.rail_after]
+            .map(|(count, median)| format!("{} ({count})", shown(median, |median| format!("{median:.3}"))));
+        let [next_late, after_late] = row.late_s.map(|late| shown(late, |late| format!("{late:+.3}")));
+        let [a, b, c] = row.whole_cm.1.map(|cm| shown(cm, |cm| format!("{cm:.1}")));
         let _ = writeln!(
             out,
             "{:<28} {:>16} {:>16} {:>15} {:>22} {:>20} {:>9}",
             row.model,
-            format!("{:.3} ({})", row.next_rail.1, row.next_rail.0),
-            format!("{:.3} ({})", row.rail_after.1, row.rail_after.0),
-            format!("{:+.3} {:+.3}", row.late_s[0], row.late_s[1]),
-            format!("{a:.1} {b:.1} {c:.1} ({count})"),
+            next,
+            after,
+            format!("{next_late} {after_late}"),
+            format!("{a} {b} {c} ({})", row.whole_cm.0),
             systems.join(" "),
             format!("{:.0} ns", row.impact_ns),
         );
@@ -80,18 +96,20 @@ pub fn csv(rows: &[Judged]) -> String {
     );
     for row in rows {
         let (count, cm) = row.whole_cm;
-        let cm = cm.map(|value| value.to_string());
+        let field = |value: f64| known(value).map_or_else(String::new, |value| value.to_string());
+        let cm = cm.map(field);
         let systems: Vec<_> = row.systems.iter().map(|system| system.rms.to_string()).collect();
         let Judged { model, next_rail, rail_after, late_s, impact_ns, .. } = row;
         let _ = writeln!(
             out,
-            "\"{model}\",{},{},{},{},{},{},{count},{},{},{impact_ns:.1}",
+            "{},{},{},{},{},{},{},{count},{},{},{impact_ns:.1}",
+            csv_text(model),
             next_rail.0,
-            next_rail.1,
+            field(next_rail.1),
             rail_after.0,
-            rail_after.1,
-            late_s[0],
-            late_s[1],
+            field(rail_after.1),
+            field(late_s[0]),
+            field(late_s[1]),
             cm.join(","),
             systems.join(","),
         );
@@ -111,4 +129,18 @@ pub fn fit_text(fitted: &Fitted, used: &str) -> String {
         let _ = writeln!(out, "  {:<15} {:>9.5} ± {:.5}{with}", constant.name, constant.value, constant.deviation);
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_no_case_shows_is_no_number() {
+        let row = judge("match", &Table::default(), &[]);
+        assert!(row.next_rail.0 == 0 && row.whole_cm.0 == 0);
+        let (text, csv) = (text(std::slice::from_ref(&row)), csv(&[row]));
+        assert!(text.contains("- (0)") && text.contains("- - - (0)") && !text.contains("NaN"), "{text}");
+        assert!(csv.contains("\"match\",0,,0,,,,0,,,,") && !csv.contains("NaN"), "{csv}");
+    }
 }

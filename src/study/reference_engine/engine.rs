@@ -59,10 +59,10 @@ pub enum Unjudged {
     #[error("no forces are found that obey all laws of resting contact")]
     Unsolved,
     /// A cushion's impacts are integrated, by a model that this engine has not.
-    #[error("the model of the table's rails is integrated over the impulse, which this engine does not do")]
+    #[error("the model of the table's rails is integrated over the impulse, which the reference engine does not do")]
     IntegratedRail,
     /// The table is not level.
-    #[error("the table is not level, and rolling on a slope is not part of this engine")]
+    #[error("the table is not level, and the reference engine knows no slope")]
     Slope,
     /// The events do not end.
     #[error("more than {0} steps from event to event")]

@@ -1,7 +1,8 @@
 //! The reference engine: event-driven, in any precision, with any root finder: written straight from the equations, with no
 //! savings at all, and apart from `physics` and `simulation`, so that a slip in one is not in the other.
 //!
-//! In double-double it is the truth that everything else is measured by. Only names are shared: of events and cushions.
+//! With 32 digits it computes the truth, by which everything else is measured. What is shared: the names of events and cushions, and the
+//! one law that is chosen and not derived, the speed at which balls begin to bounce where no forces hold them together.
 //!
 //! Free balls go along parabolas from event to event (`motion`, `meeting`), those in the air from landing to landing
 //! (`flight`). Contacts that close at one moment collide together (`rounds`); tables give the laws of their parts (`table`,

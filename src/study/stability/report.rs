@@ -171,27 +171,26 @@ pub fn markdown(rows: &[Row]) -> String {
 
 /// What the page says about energy.
 const AUDIT: &str = "\
-Energy is audited both ways. It never grows, at an event or on the way, beyond rounding. And whatever is lost has been taken by \
-a friction or an impact, which take no less: sliding, rolling and spinning by their closed forms; a single impact by the \
-formulas of restitution and Coulomb's friction, worked out apart from the engine; several at once, or on balls that rest \
-against something, if the change is the work of impulses in closed contacts that push and rub no more than Coulomb allows; a \
-ball pressed against one cushion by integrating its equations; other resting contacts from the accelerations of the recorded \
-course, as far as contacts push: to a thousandth or, where the course obeys the laws at the ends of a piece but less well between them, to \
-the share of the accelerations that no forces explain, a hundredth at most. A ball at the edge of sliding, whose slip is below 2e-5 √(g R), \
-may resist rolling in part if that explains its course and the cloth holds it as well as it can; \
-where more than a hundredth of its accelerations stays unexplained, too, that friction may have another direction than the slip. A chatter that becomes a resting contact takes the energy of its bounces only if the contact lasts as \
-long as they would. Balls that never slip lose their slip where they begin to press each other, and where an impact makes them slip while they do, as in an impact. Impacts slower than 1e-3 √(g R) may \
-lose nothing along their normal: those of shots that have taken so much work that nothing is let rest any more. \
-What counts as explained besides: rounding (32 ε of the energy, and frictions times the rounding of time), what parts balls that never \
-slip and that no forces hold together (8e-10 √(g R)), \
-speeds below 1e-7 m/s that are stopped (1e-14 m²/s² a ball, and what the impulses in closed contacts that stop them rub), and in resting \
-contacts, and where something touches that does not collide, errors of 1e-10 m/s, in impacts also times the slip, of 1e-10 m and \
-of a hundred-thousandth of the work; where several impacts at once meet balls that rest or touch, the friction of an impulse of 2e-8 √(g R), the speed \
-at which chatters of several contacts end. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
-multiples of what is explained and in m²/s² (energy over a ball's mass). Where balls fly, \
-heights count, too: each landing takes what the cloth's restitution and friction say, worked out hop by hop, and impacts take what the \
-formulas of the second engine say, in the air one after another, on the cloth together where they happen at once; the direction of \
-an impact is uncertain by the overlap of the two bodies over a ball's diameter. A ball that leaves the table takes its energy along.";
+Energy is audited both ways. It never grows, at an event or on the way, beyond rounding (32 ε of the energy, and frictions times the rounding of time). And whatever is lost has been taken by a friction or an impact, which take no less:
+
+| what takes energy | by which law | what it may be off by |
+|---|---|---|
+| sliding, rolling and spinning | their closed forms | rounding |
+| a single impact | the formulas of restitution and Coulomb's friction, worked out apart from the engine | rounding |
+| several impacts at once, or on balls that rest against something | the change is the work of impulses in closed contacts that push and rub no more than Coulomb allows | errors of 1e-10 m/s, also times the slip; on balls that rest or touch also the friction of an impulse of 2e-8 √(g R), the speed at which chatters of several contacts end |
+| a ball pressed against one cushion | its equations, integrated | errors of 1e-10 m/s, of 1e-10 m and of a hundred-thousandth of the work |
+| other resting contacts | the accelerations of the recorded course, as far as contacts push | the same, and a thousandth of the accelerations or, where the course obeys the laws at the ends of a piece but less well between them, the share that no forces explain, a hundredth at most |
+| a ball at the edge of sliding, its slip below 2e-5 √(g R) | it may resist rolling in part if that explains its course and the cloth holds it as well as it can | where more than a hundredth of its accelerations stays unexplained, that friction may have another direction than the slip |
+| a chatter that becomes a resting contact | the energy of its bounces, if the contact lasts as long as they would | |
+| balls that never slip | they lose their slip where they begin to press each other, and where an impact makes them slip while they do, as in an impact | what parts those that no forces hold together, 8e-10 √(g R) |
+| impacts slower than 1e-3 √(g R) | they may lose nothing along their normal, in shots that have taken so much work that nothing is let rest any more | |
+| what is stopped | speeds below 1e-7 m/s | 1e-14 m²/s² a ball, and what the impulses in closed contacts that stop them rub |
+| what touches and does not collide | nothing | errors of 1e-10 m/s, of 1e-10 m and of a hundred-thousandth of the work |
+| a landing; heights count, too | the cloth's restitution and friction, worked out hop by hop | rounding |
+| an impact where balls fly | the formulas of the reference engine: in the air one impact after another, on the cloth together where they happen at once | the overlap of the two bodies over a ball's diameter, by which the direction is uncertain |
+| a ball that leaves the table | it takes its energy along | |
+
+The columns below give the largest that was left in an event, on the way to the next or in a whole shot, in multiples of what is explained and in m²/s² (energy over a ball's mass).";
 
 /// A page of Markdown around the table.
 pub fn page(plan: &Plan, rows: &[Row]) -> String {
@@ -224,6 +223,8 @@ mod tests {
     fn the_page_says_what_is_checked() {
         let page = page(&Plan::REPORT, &[row()]);
         assert!(page.contains("100000 random shots") && page.contains("1 of 1 rows hold") && page.contains("50 ms"));
+        let columns = |line: &str| line.matches('|').count();
+        assert!(AUDIT.lines().all(|line| matches!(columns(line), 0 | 4)), "{AUDIT}");
     }
 
     #[test]

@@ -12,6 +12,7 @@ use crate::{
     physics::{
         BallState, Cloth, CueInputs, ImpactLaw, Impulse, Motion, SpatialState, rolling_deceleration, rolling_spin,
     },
+    printing::number,
     simulation::{Constants, End, Event, EventKind, Observer, Rail, Recording, Segment, ShotError},
     table::{BALLS, Layout, PAIRS, Table},
 };
@@ -30,7 +31,7 @@ pub struct Steps {
 
 /// A time step that cannot be used.
 #[derive(Debug, thiserror::Error, PartialEq)]
-#[error("dt = {0} s is no usable time step; accepted is 0.00000001 to 1 s")]
+#[error("dt = {} s is no usable time step; accepted is {} to 1 s", number(*.0), number(Steps::SHORTEST))]
 pub struct StepError(f64);
 
 /// What the steps have made of a shot.
@@ -47,12 +48,15 @@ pub struct Stepped {
 }
 
 impl Steps {
+    /// The shortest time step, s: a shot is given a second and more, of which millions of such steps are some seconds of computing.
+    const SHORTEST: f64 = 3e-7;
+
     /// Steps of `dt` seconds.
     ///
     /// # Errors
-    /// [`StepError`] where `dt` is not from 1e-8 to 1.
+    /// [`StepError`] where `dt` is not from 3e-7 to 1.
     pub fn new(dt: f64, locate: bool) -> Result<Self, StepError> {
-        if (1e-8..=1.0).contains(&dt) { Ok(Self { dt, locate }) } else { Err(StepError(dt)) }
+        if (Self::SHORTEST..=1.0).contains(&dt) { Ok(Self { dt, locate }) } else { Err(StepError(dt)) }
     }
 
     /// The shortest time step, s, with which a shot takes no more than so many steps.

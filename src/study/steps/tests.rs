@@ -92,6 +92,6 @@ fn a_ball_shot_over_the_rail_leaves_the_table_in_steps_too() {
 #[test]
 fn an_unusable_step_is_named() {
     for dt in [0.0, -1.0, f64::NAN, 1e-12, 3.0] {
-        assert!(Steps::new(dt, false).unwrap_err().to_string().contains(&dt.to_string()));
+        assert!(Steps::new(dt, false).unwrap_err().to_string().contains(&number(dt)));
     }
 }

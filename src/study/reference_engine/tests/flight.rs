@@ -41,9 +41,9 @@ fn both_engines_agree_on_flights() {
         for shot in &random_shots(table, 80, 5, Steepest::FLIGHTS) {
             let truth = Truth::of(table, shot).unwrap();
             let errors = Errors::of(&truth, &Method::Engine.play(table, shot).unwrap());
-            assert_eq!(errors.differs_at, None, "table {index}: {}", shot.command_line(table));
-            assert!(errors.rest_units < 1e3, "table {index}, {errors:?}: {}", shot.command_line(table));
-            assert!(truth.unaccounted.abs() < 1e-28, "table {index}: {}", shot.command_line(table));
+            assert_eq!(errors.differs_at, None, "table {index}: {}", shot.command_line(&table.name));
+            assert!(errors.rest_units < 1e3, "table {index}, {errors:?}: {}", shot.command_line(&table.name));
+            assert!(truth.unaccounted.abs() < 1e-28, "table {index}: {}", shot.command_line(&table.name));
             jumps += truth.events.iter().filter(|event| matches!(event.1, EventKind::Jumps(_))).count();
             units.push(errors.rest_units);
         }
