@@ -203,17 +203,23 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
 /// The stability table, which tells of each stiff or extreme case how many shots fail and why.
 fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     let plan = stability::Plan { seed: args.seed.unwrap_or(plan.seed), ..*plan };
-    let rows = stability::rows(&plan);
+    let mut out = printing::stdout().exact(args.json);
+    if !args.json {
+        writeln!(out, "{}", stability::heads())?;
+    }
+    let mut rows = Vec::new();
+    for row in stability::rows(&plan) {
+        if args.json {
+            printing::json_line(&mut out, &row)?;
+        } else {
+            writeln!(out, "{}", row.line())?;
+        }
+        // What is interrupted has told what it found.
+        out.flush()?;
+        rows.push(row);
+    }
     if let Some(folder) = &args.out {
         write_file(folder, STABILITY, &stability::page(&plan, &rows))?;
-    }
-    let mut out = printing::stdout().exact(args.json);
-    if args.json {
-        for row in &rows {
-            printing::json_line(&mut out, row)?;
-        }
-    } else {
-        out.write_all(stability::text(&rows).as_bytes())?;
     }
     Ok(())
 }

@@ -20,7 +20,7 @@ pub use cases::{Case, Size, all as cases};
 pub use figures::{Figures, Limits, Violation, Worst};
 pub use finding::Finding;
 pub use invariants::examine;
-pub use report::{Plan, Row, markdown, page, rows, text};
+pub use report::{Plan, Row, heads, markdown, page, rows};
 pub use shot::Shot;
 pub use sweep::{Check, Generator, Progress, Sweep};
 pub use trace::Trace;

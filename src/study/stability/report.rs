@@ -90,6 +90,11 @@ impl Row {
         }
     }
 
+    /// The row in the table for a terminal.
+    pub fn line(&self) -> String {
+        line(&self.cells())
+    }
+
     fn cells(&self) -> [String; COLUMNS] {
         [
             self.name.to_owned(),
@@ -113,6 +118,9 @@ fn multiple(value: f64) -> String {
 /// Columns of the table.
 const COLUMNS: usize = 9;
 
+/// Least width of a column of numbers: that of ten million shots.
+const SHOTS: usize = 8;
+
 const HEADS: [&str; COLUMNS] = [
     "case",
     "shots",
@@ -125,37 +133,34 @@ const HEADS: [&str; COLUMNS] = [
     "verdict",
 ];
 
-/// All rows, in order, with a line that tells how far they are.
-pub fn rows(plan: &Plan) -> Vec<Row> {
-    let mut line = ProgressLine::default();
-    let row = |case: &Case| Row::of(case, plan, |progress| line.show(format_args!("{}: {progress}", case.name)));
-    let rows = cases().iter().map(row).collect();
-    line.clear();
-    rows
+/// All rows, in order, each as soon as it is played, with a line that tells how far it is.
+pub fn rows(plan: &Plan) -> impl Iterator<Item = Row> {
+    cases().into_iter().map(|case| {
+        let mut line = ProgressLine::default();
+        let row = Row::of(&case, plan, |progress| line.show(format_args!("{}: {progress}", case.name)));
+        line.clear();
+        row
+    })
 }
 
-/// The table for a terminal.
-pub fn text(rows: &[Row]) -> String {
-    let cells: Vec<[String; COLUMNS]> =
-        std::iter::once(HEADS.map(str::to_owned)).chain(rows.iter().map(Row::cells)).collect();
-    let width = |column: usize| cells.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: [usize; COLUMNS] = std::array::from_fn(width);
-    let mut text = String::new();
-    for row in &cells {
-        let mut line = String::new();
-        for (column, cell) in row.iter().enumerate() {
-            let width = widths[column];
-            // Writing to a string cannot fail. Words stand left, numbers right.
-            let _ = match column {
-                0 => write!(line, "{cell:<width$}"),
-                _ if column + 1 == COLUMNS => write!(line, "  {cell}"),
-                _ => write!(line, "  {cell:>width$}"),
-            };
-        }
-        text.push_str(line.trim_end());
-        text.push('\n');
+/// The heads of the table for a terminal.
+pub fn heads() -> String {
+    line(&HEADS.map(str::to_owned))
+}
+
+/// One line of that table: words stand left, numbers right.
+fn line(cells: &[String; COLUMNS]) -> String {
+    let longest = cases().iter().map(|case| case.name.chars().count()).max().unwrap_or(0);
+    let mut line = String::new();
+    for (column, (cell, head)) in cells.iter().zip(HEADS).enumerate() {
+        // Writing to a string cannot fail.
+        let _ = match column {
+            0 => write!(line, "{cell:<longest$}"),
+            _ if column + 1 == COLUMNS => write!(line, "  {cell}"),
+            _ => write!(line, "  {cell:>width$}", width = head.chars().count().max(SHOTS)),
+        };
     }
-    text
+    line
 }
 
 /// The table in Markdown, with what each row checks.
@@ -231,8 +236,12 @@ mod tests {
     fn a_row_says_what_it_is_and_whether_it_holds() {
         let good = row();
         let bad = Row { failed: 2, example: Some("a ball is outside".to_owned()), ..row() };
-        let table = text(&[good.clone(), bad.clone()]);
-        assert_eq!(table.lines().count(), 3);
+        let lines = [heads(), good.line(), bad.line()];
+        assert!(lines.iter().all(|line| line.lines().count() == 1), "{lines:?}");
+        let verdict = |line: &str| ["verdict", "holds", "2 fail"].iter().find_map(|word| line.find(word));
+        let places = lines.each_ref().map(|line| verdict(line).map(|place| line[..place].chars().count()));
+        assert!(places.iter().all(|place| *place == places[0]), "{lines:?}");
+        let table = lines.concat();
         assert!(table.contains("a case") && table.contains("holds") && table.contains("2 fail: a ball is outside"));
         let table = markdown(&[good, bad]);
         assert!(table.lines().all(|line| line.matches('|').count() == COLUMNS + 2), "{table}");
