@@ -60,9 +60,9 @@ pub struct Args {
     /// One such setting, after those of the file: --set actions=full, --set ranking=0.5, --set heads=8. May be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Start with the weights of another run (its folder, or its name) or of a policy or checkpoint file: same
-    /// networks, new optimiser, new memory, new schedule.
-    #[arg(long, value_name = "RUN|FILE")]
+    /// Start with the weights of another run (its folder, or its name), of a checkpoint or policy file, or of a policy that was kept
+    /// or is bundled, by its name: same networks, new optimiser, new memory, new schedule.
+    #[arg(long, value_name = "RUN|FILE|NAME")]
     from: Option<PathBuf>,
     /// Shots between two measurements on held-out layouts; by default a fiftieth of the shots, or 10,000 where that is more.
     #[arg(long, value_name = "SHOTS", value_parser = whole_from(1_u64))]

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{Args, failure};
 use crate::{
-    commands::{Failure, input::table_named, lookup::weights_named},
+    commands::{Failure, input::table_named, lookup::{Source, weights_named}},
     learning::{
         learner::{AgentKind, TrainingPlan, lay_over},
         run::{
@@ -53,8 +53,12 @@ fn begin_in_free<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>)
 
 /// What the command line orders. Whatever it leaves open is as in the run that the weights come from, or the default.
 pub fn read(args: &Args) -> Result<Read, Failure> {
-    let from = args.from.as_deref().map(weights_named).transpose()?;
-    let weights = from.as_deref().map(Weights::load).transpose().map_err(failure)?;
+    let weights = match source(args)? {
+        None => None,
+        Some(Source::Path(path)) => Some(Weights::load(&path)),
+        Some(Source::Bundled(name)) => Weights::bundled(&name),
+    };
+    let weights = weights.transpose().map_err(failure)?;
     let start = weights.as_ref().map(|weights| &weights.start);
     let agent = args.agent.clone().or_else(|| start.map(|start| start.agent.clone()));
     let agent = agent.unwrap_or_else(|| "ddpg".to_owned());
@@ -84,6 +88,13 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     let plan = TrainingPlan { reward, seed: args.seed, shots: args.steps };
     let spec = TrainingSpec { agent, plan, settings, schedule: Schedule::new(every, layouts), table };
     Ok(Read { spec, weights, folder, is_named: args.run.is_some() })
+}
+
+/// What `--from` names, if it is there.
+fn source(args: &Args) -> Result<Option<Source>, Failure> {
+    let Some(name) = &args.from else { return Ok(None) };
+    let table = table_named(args.table.as_deref().unwrap_or("match"))?;
+    weights_named(name, &table, args.reward.unwrap_or_default().rule().unwrap_or_default()).map(Some)
 }
 
 /// Whether the run, or the group of seeds, in the folder was started with the same specification.

@@ -52,6 +52,39 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
 }
 
 #[test]
+fn weights_are_found_by_the_names_that_policies_have() {
+    let folder = folder();
+    let here = folder.path();
+    let models = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    fs::create_dir_all(here.join("carom/policies")).unwrap();
+    fs::copy(models.join("match-one-cushion.safetensors"), here.join("carom/policies/mine.safetensors")).unwrap();
+    let short = "--steps 1 --evaluation-layouts 5 --set calibrated=0 --continue";
+    for (from, run, reward, path) in [
+        ("mine", "a", "one-cushion", "mine.safetensors"),
+        ("match-one-cushion", "b", "one-cushion", "match-one-cushion"),
+        ("bundled", "c", "r3", "match-r3"),
+        ("bundled --reward three-cushion --table thesis", "d", "three-cushion", "thesis-three-cushion"),
+    ] {
+        let line = format!("train --from {from} {short} --run {run}");
+        done(here, &line);
+        done(here, &line);
+        let config: Value = serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap();
+        assert!(config["from"]["path"].as_str().unwrap().ends_with(path), "{from}: {}", config["from"]);
+        assert_eq!(config["reward"], reward, "{from}");
+    }
+    let report: Value = serde_json::from_str(
+        &done(here, "evaluate --policy match-one-cushion --policy-only --rule one-cushion --layouts 5 --json").out,
+    )
+    .unwrap();
+    assert_eq!((&report["policy"], &report["networks"]), (&"match-one-cushion".into(), &"match-one-cushion".into()));
+    for line in ["train --from match-r9", "evaluate --policy match-r9"] {
+        let refused = carom(here, line);
+        let words = ["match-r9", "the name of one that was kept, bundled, or one of match-r3, "];
+        assert!(refused.code == Some(1) && words.iter().all(|words| refused.err.contains(words)), "{}", refused.err);
+    }
+}
+
+#[test]
 fn runs_that_begin_in_the_same_second_have_folders_of_their_own() {
     let folder = folder();
     let here = folder.path();

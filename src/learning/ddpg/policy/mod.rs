@@ -7,6 +7,8 @@ pub mod kept;
 use std::sync::Arc;
 
 use self::file::Origin;
+pub(in crate::learning) use self::file::bundled_bytes;
+pub use self::file::bundled_names;
 use crate::{
     game::Reward,
     learning::{
