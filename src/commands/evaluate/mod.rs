@@ -26,6 +26,7 @@ use crate::{
     coach::{Doubt, Request, Skill},
     game::{Reward, Rule},
     learning::{Policy, evaluation::EVALUATION_SEED, policy::kept::BUNDLED},
+    printing::{SOURCE, VERSION},
     table::Table,
 };
 
@@ -162,6 +163,8 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     let spec = Spec {
         player: player.name().to_owned(),
         policy: args.random_search.is_none().then(|| args.policy.clone()),
+        checksum: player.checksum().map_err(Failure::failed)?,
+        version: Some(SOURCE.map_or_else(|| VERSION.to_owned(), |source| format!("{VERSION} ({source})"))),
         networks: player.networks(),
         table,
         measure: args.reward.map_or(args.rule.name(), Reward::name).to_owned(),

@@ -8,7 +8,7 @@ use super::{Policy, calibration::Calibration};
 use crate::{
     game::{Reward, Rule},
     learning::{
-        checksum::{NO_CHECKSUM, OF_POLICY, is_whole, write_checksum},
+        checksum::{NO_CHECKSUM, OF_POLICY, checksum, is_whole, write_checksum},
         ddpg::{context::knows, hyperparameters::Hyperparameters, networks::Networks},
         nn::weights::{Reader, WeightsError, Writer},
     },
@@ -176,6 +176,14 @@ impl Policy {
             Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin))
         };
         BUNDLED.iter().position(is_this).and_then(|index| bundled_names().nth(index))
+    }
+
+    /// A checksum of the networks and of what their file says of them: equal ones play equally.
+    ///
+    /// # Errors
+    /// As [`Writer::finish`].
+    pub fn checksum(&self) -> Result<String, WeightsError> {
+        Ok(checksum(&self.to_bytes()?))
     }
 
     /// Reads a policy from a file.
