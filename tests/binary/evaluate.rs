@@ -85,6 +85,24 @@ fn parts_by_other_networks_or_another_version_are_not_put_together() {
 }
 
 #[test]
+fn innings_that_were_not_begun_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = "evaluate --self-play --layouts 5 --simulations 1 --most-points 1";
+    let short = format!("{line} --minutes 0.000000000001");
+    let parts = ["1/2", "2/2"].map(|shard| part(folder.path(), &short, shard)).join(" ");
+    for line in [short, format!("evaluate --merge {parts}")] {
+        let report = json(&line);
+        assert_eq!((&report["layouts"], &report["innings"]), (&5.into(), &0.into()), "{line}");
+        let text = asked(&words(&line)).assert().success().get_output().stdout.clone();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.contains("; on 5 of 5 layouts none was begun, for the time was up)"), "{text}");
+    }
+    let text = asked(&words(line)).assert().success().get_output().stdout.clone();
+    let text = String::from_utf8(text).unwrap();
+    assert!(text.contains("in 5 innings (") && !text.contains("none was begun"), "{text}");
+}
+
+#[test]
 fn the_bundled_networks_that_play_alone_are_named() {
     let line = "evaluate --policy-only --rule three-cushion --layouts 5";
     for (rest, networks) in [("", "match-three-cushion"), (" --skill club", "context-three-cushion")] {
