@@ -148,11 +148,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(name) = &args.resume {
         return resume(&existing_run(name)?, args.jobs, &options);
     }
-    let read = spec::read(args)?;
-    if args.r#continue && (is_group(&read.folder) || holds_checkpoints(&read.folder)) {
-        spec::same_spec(&read, args.seeds)?;
-        return resume(&read.folder, args.jobs, &options);
+    let folder = args.run.as_deref().filter(|folder| is_group(folder) || holds_checkpoints(folder));
+    if let Some(folder) = folder.filter(|_| args.r#continue) {
+        spec::same_spec(args, folder)?;
+        return resume(folder, args.jobs, &options);
     }
+    let read = spec::read(args)?;
     if let Some(seeds) = args.seeds {
         let last = u64::MAX - (seeds - 1);
         if args.seed > last {

@@ -35,20 +35,63 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     assert!(states.iter().all(|run| run["state"] == "finished" && run["best_reward"].is_number()), "{listed}");
     assert!(listed.contains("whole/seed-5"), "{listed}");
 
-    // Another order is refused in words, by its number of seeds too; the same one finds it finished.
+    // Other settings are refused in words, the number of seeds too; with the same ones it is finished.
     let continued = |rest: &str| carom(here, &format!("{SHORT} --run whole --continue {rest}"));
     let [fewer, single] = ["--seeds 2", ""].map(continued);
-    assert!(fewer.code == Some(1) && fewer.err.contains("has seeds 3, not 2"), "{}", fewer.err);
-    assert!(single.code == Some(1) && single.err.contains("has seeds 3, not none"), "{}", single.err);
-    for (other, words) in [("--set ranking=0.35", "settings"), ("--from four", "has from none")] {
+    assert!(
+        fewer.code == Some(1) && fewer.err.contains("was started with 3 seeds, not 2: --continue resumes a run that"),
+        "{}",
+        fewer.err
+    );
+    assert!(
+        single.code == Some(1) && single.err.contains("was started with 3 seeds, not as a single run"),
+        "{}",
+        single.err
+    );
+    for (other, words) in [
+        ("--set ranking=0.35", "was started with ranking = 0.0, not 0.35:"),
+        ("--set exploration={uniform=0.25}", "was started with exploration.uniform = "),
+        ("--from four", "was started without --from, not from four"),
+    ] {
         let refused = continued(&format!("--seeds 3 {other}"));
         assert!(refused.code == Some(1) && refused.err.contains(words), "{other}: {}", refused.err);
+        assert!(refused.err.len() < 250, "nothing is told but what differs: {}", refused.err);
     }
+    let single = carom(here, &format!("{} --run four --continue --seeds 2", SHORT.replace("--seed 3", "--seed 4")));
+    assert!(single.err.contains("was started as a single run, not with 2 seeds"), "{}", single.err);
     assert_eq!(continued("--seeds 3").code, Some(0));
     // A single run would hide the seeds.
     let single = carom(here, &format!("{SHORT} --run whole"));
     assert_eq!(single.code, Some(1));
     assert!(single.err.contains("--resume"), "{}", single.err);
+}
+
+/// A scheduler asks with the same command again, days later: by then the run that the weights came from may be gone.
+#[test]
+fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
+    let folder = folder();
+    let here = folder.path();
+    done(here, &format!("{SHORT} --run one"));
+    done(here, &format!("{SHORT} --run two"));
+    for (run, seeds) in [("single", ""), ("group", " --seeds 2")] {
+        let line = |from: &str| {
+            format!(
+                "train --from {from} --steps 320 --evaluate-every 64 --evaluation-layouts 5 --set replay=4000 --run {run} --continue{seeds}"
+            )
+        };
+        unfinished(here, &format!("{} --minutes 0.00001", line("one")));
+        let absolute = here.join("one").display().to_string();
+        unfinished(here, &format!("{} --minutes 0.00001", line(&absolute)));
+        let other = carom(here, &line("two"));
+        assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
+        fs::rename(here.join("one"), here.join("away")).unwrap();
+        let other = carom(here, &line("two"));
+        assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
+        let other = carom(here, &line("one").replace("replay=4000", "replay=3000"));
+        assert!(other.err.contains("was started with replay = 4000, not 3000:"), "{}", other.err);
+        done(here, &line("one"));
+        fs::rename(here.join("away"), here.join("one")).unwrap();
+    }
 }
 
 #[test]
