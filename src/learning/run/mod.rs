@@ -92,7 +92,7 @@ impl Run {
     ) -> Result<Self, RunError> {
         make_folder(folder)?;
         let lock = lock(folder)?;
-        refuse_taken(folder)?;
+        refuse_taken(folder, None)?;
         let config = Config::of(learner.as_ref(), schedule, from.clone());
         let state = State { schedule, from, accumulator: Accumulator::default() };
         let checkpoints = Checkpoints::new(folder);
@@ -216,8 +216,8 @@ fn make_folder(folder: &Path) -> Result<(), RunError> {
     std::fs::create_dir_all(folder).map_err(file(folder))
 }
 
-/// Refuses a folder in which anything is: a run, or files that no run has written. A run would write over some of them.
-fn refuse_taken(folder: &Path) -> Result<(), RunError> {
+/// Refuses a folder in which anything but `own` is: a run, or files that no run has written. A run would write over some of them.
+fn refuse_taken(folder: &Path, own: Option<&str>) -> Result<(), RunError> {
     let name = || folder.display().to_string();
     let holds = |file: &&str| folder.join(file).exists();
     if [config::FILE, checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(holds) || seeds::is_group(folder) {
@@ -225,7 +225,7 @@ fn refuse_taken(folder: &Path) -> Result<(), RunError> {
     }
     for entry in std::fs::read_dir(folder).map_err(file(folder))? {
         let entry = entry.map_err(file(folder))?.file_name();
-        if entry != Lock::FILE {
+        if entry != Lock::FILE && own.is_none_or(|own| entry != *own) {
             return Err(RunError::Foreign { folder: name(), entry: entry.to_string_lossy().into_owned() });
         }
     }

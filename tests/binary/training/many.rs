@@ -92,6 +92,16 @@ fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
         done(here, &line("one"));
         fs::rename(here.join("away"), here.join("one")).unwrap();
     }
+    // Killed after its first file was written.
+    fs::remove_file(here.join("group/seeds.json")).unwrap();
+    fs::remove_file(here.join("group/seeds.csv")).unwrap();
+    for seed in ["seed-1", "seed-2"] {
+        fs::remove_dir_all(here.join("group").join(seed)).unwrap();
+    }
+    let line = "--steps 64 --evaluation-layouts 5 --seeds 2 --run group --continue";
+    let mixed = carom(here, &format!("train {line}"));
+    assert!(mixed.code == Some(1) && mixed.err.contains("\"from.safetensors\" is in it"), "{}", mixed.err);
+    done(here, &format!("train --from one {line}"));
 }
 
 #[test]
