@@ -103,8 +103,8 @@ pub struct Args {
     /// Print the metrics, or the list, as JSON Lines on standard output.
     #[arg(long)]
     json: bool,
-    /// Print nothing on standard output but, at the end, what the run is to make large: the mean reward on the held-out
-    /// layouts, over the seeds where there are several.
+    /// Print nothing on standard output but, at the end, the objective to maximise: the mean reward on the held-out layouts; of several
+    /// seeds their mean, once all of them have played their last shot.
     #[arg(long, conflicts_with_all = ["json", "list"])]
     objective: bool,
 }

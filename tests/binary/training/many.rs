@@ -22,6 +22,13 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     done(here, &SHORT.replace("--seed 3", "--seed 4 --run four"));
     Files::of(&here.join("four")).assert_same(&Files::of(&here.join("whole/seed-4")), "alone and among others");
 
+    // The seeds have one objective, once all have played their last shot.
+    let line = format!("{SHORT} --run large --seeds 3 --continue --objective");
+    assert_eq!(unfinished(here, &format!("{line} --minutes 0.0001")).out, "");
+    let objective: f64 = done(here, &line).out.trim().parse().unwrap();
+    assert_eq!(objective, rows[9][2]);
+    fs::remove_dir_all(here.join("large")).unwrap();
+
     // Stopped before the first seed is through, then again.
     let parts = unfinished(here, &format!("{SHORT} --run parts --seeds 3 --minutes 0.0001"));
     assert!(parts.err.contains("--resume"), "{}", parts.err);
