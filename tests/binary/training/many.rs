@@ -196,5 +196,13 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
     assert_eq!(large.code, Some(2));
     assert!(large.err.contains("critic") && large.err.contains("-24-1"), "{}", large.err);
     assert!(large.err.contains("leave out the settings"), "{}", large.err);
+
+    done(here, "train --agent thesis-ddpg --table thesis --steps 100 --evaluation-layouts 5 --run thesis");
+    let mut large = command(here, "train --from thesis --set actor_layers=[8] --run large");
+    let large = outcome(large.env("RUST_BACKTRACE", "1").spawn().unwrap());
+    assert!(large.code == Some(2) && large.err.lines().count() == 1, "{}", large.err);
+    for words in ["actor with layers of 6-8-2 units", "leave out the settings"] {
+        assert!(large.err.contains(words), "{}", large.err);
+    }
     assert!(!here.join("large").exists());
 }
