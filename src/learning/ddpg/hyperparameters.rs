@@ -157,9 +157,9 @@ impl Hyperparameters {
         check_layers("critic_layers", &self.critic_layers)?;
         check("heads", self.heads as f64, (1..=256).contains(&self.heads), "1 to 256")?;
         for [low, high] in &self.head_speeds {
-            let [least, most] = SPEEDS;
-            check("head_speeds", *low, *low >= least && *low < *high, "0.3 to 6 m/s, the lower one first")?;
-            check("head_speeds", *high, *high <= most, "0.3 to 6 m/s, the lower one first")?;
+            let ([least, most], shown) = (SPEEDS, format_args!("[{low}, {high}]"));
+            let accept = least <= *low && low < high && *high <= most;
+            check("head_speeds", shown, accept, "[low, high] with 0.3 <= low < high <= 6 m/s")?;
         }
         check_batch("batch", self.batch)?;
         check_batch("actor_batch", self.actor_batch)?;
@@ -201,6 +201,11 @@ mod tests {
         };
         assert!(refuse(&|hyper| hyper.heads = 0).contains("heads = 0"));
         assert!(refuse(&|hyper| hyper.critic_layers[1] = 0).contains("critic_layers"));
+        assert!(refuse(&|hyper| hyper.actor_layers.clear()).contains("actor_layers = [] is outside its range"));
+        for wrong in [[5.0, 1.0], [0.1, 2.0], [3.0, 7.0], [f64::NAN, 2.0]] {
+            let refused = refuse(&|hyper| hyper.head_speeds = vec![[1.0, 2.0], wrong]);
+            assert!(refused.starts_with(&format!("head_speeds = [{}, {}] is", wrong[0], wrong[1])), "{refused}");
+        }
         assert!(refuse(&|hyper| hyper.critic_learning_rate = f64::NAN).contains("NaN"));
         assert!(refuse(&|hyper| hyper.exploration.noise.push(-1.0)).contains("-1"));
     }

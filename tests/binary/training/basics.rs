@@ -160,6 +160,12 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
         ("train --run new --config none.toml", 1, "none.toml"),
         ("train --run new --set heads", 2, "heads"),
         ("train --run new --set heads=0", 2, "heads = 0"),
+        ("train --run new --set actor_layers=[]", 2, "actor_layers = [] is outside its range; accepted is a list of 1"),
+        (
+            "train --run new --set head_speeds=[[5,1]]",
+            2,
+            "head_speeds = [5, 1] is outside its range; accepted is [low, h",
+        ),
         ("train --run new --set heads=2.5", 2, "expected a whole number; accepted is 1 to 256"),
         ("train --run new --agent thesis-ddpg --table thesis --set noise.simga=1", 2, "simga"),
         ("train --run new --set batch=16777216", 2, "65536"),
