@@ -31,7 +31,8 @@ pub struct Hyperparameters {
     /// Actions that the actor proposes for an observation. One alone averages between success windows and misses all; several,
     /// started apart, each climb their own window, and the critic chooses.
     pub heads: usize,
-    /// Between which cue speeds the strokes of the heads lie, m/s, one after the other and again from the first; none for 0.3 to 6.
+    /// Between which cue speeds the strokes of the heads lie, m/s, one after the other and again from the first; empty: every
+    /// head may use 0.3 to 6 m/s.
     /// Left to themselves all climb to where they strike with all force: there a bad aim makes most points by luck.
     pub head_speeds: Vec<[f64; 2]>,
     /// Units of the actor's hidden layers.
@@ -55,8 +56,7 @@ pub struct Hyperparameters {
     /// Share of them that are played near the critic's favourite among all heads in all observations of a layout; the others
     /// near any head's action in any observation.
     pub critic_chooses: f64,
-    /// Share of them that are the averaged networks' own best proposals for a layout, several of each, played as they are: these
-    /// are the shots between which they will have to choose.
+    /// Share of shots that are the eight best proposals, played without noise, so that the critic learns to rank them.
     pub ranking: f64,
     /// Attempts of whose success a remembered shot is the mean, where the player errs: one attempt tells little of a stroke that is
     /// made one time in six.
