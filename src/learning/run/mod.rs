@@ -120,10 +120,7 @@ impl Run {
             let (name, shots) = (checkpoint::PREVIOUS, learner.shots());
             notices.push(format!("{damage}; going on from {name}, after {shots} shots"));
         }
-        if metrics::is_torn(&folder.join(METRICS)) {
-            notices.push(format!("the last line of {METRICS} is cut off and is left out"));
-        }
-        notices.extend(metrics::gap(&folder.join(METRICS), learner.shots(), state.schedule.log_every));
+        notices.extend(metrics::notices(&folder.join(METRICS), learner.shots(), state.schedule.log_every));
         let config = Config::read(folder).or_else(|_| {
             // It was killed before it had one, or it was removed: the checkpoint has the same values.
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
