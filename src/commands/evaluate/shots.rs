@@ -110,7 +110,7 @@ pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: R
         let cue = decision.cue;
         ShotRecord {
             layout: index,
-            earned: reward.of(table, layout, &cue),
+            earned: reward.with_room(table, layout, &cue, u32::MAX),
             speed: cue.speed,
             seconds,
             simulations: decision.simulations,
