@@ -6,33 +6,49 @@ use super::Failure;
 use crate::{
     coach::{Skill, SkillError},
     drills::Store,
+    game::Rule,
     learning::{
         Policy,
-        policy::kept::{self, BUNDLED},
+        policy::{
+            bundled_names,
+            kept::{self, BUNDLED},
+        },
         run::{Config, POLICY, agent_of_checkpoint, list::latest_in},
     },
     storage::Places,
+    table::Table,
 };
 
 /// The word for the run that was last at work.
 const LATEST: &str = "latest";
 
-/// The folder `name`, or the one called so among the user's runs.
-pub fn run_named(name: &Path) -> PathBuf {
-    if name.exists() {
-        return name.to_owned();
-    }
-    let known = Places::of_this_user().runs.join(name);
-    if known.exists() { known } else { name.to_owned() }
+/// The file or folder `name`, or the folder called so among the user's runs.
+fn run_named(name: &Path) -> Option<PathBuf> {
+    [name.to_owned(), Places::of_this_user().runs.join(name)].into_iter().find(|path| path.exists())
 }
 
-/// The folder of a run that is there: as [`run_named`], or the user's latest for `latest`.
+/// The policy that the user has kept under this name.
+fn kept_policy(name: &Path) -> Option<PathBuf> {
+    kept::find(&Places::of_this_user().policies, name.to_str()?)
+}
+
+/// That there is nothing of this name, and what would be accepted.
+fn nothing(what: &str, accepted: &str) -> Failure {
+    let bundled: Vec<_> = bundled_names().collect();
+    Failure::failed(format_args!(
+        "there is {what}, neither here nor among the runs in {}; accepted are a run (its folder or its name), {accepted} a policy (its \
+         file, the name of one that was kept, {BUNDLED}, or one of {})",
+        Places::of_this_user().runs.display(),
+        bundled.join(", ")
+    ))
+}
+
+/// The folder of a run that is there: here, or among the user's runs, or the user's latest for `latest`.
 ///
 /// # Errors
 /// Where there is no such folder.
 pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
-    let folder = run_named(name);
-    if folder.exists() {
+    if let Some(folder) = run_named(name) {
         return Ok(folder);
     }
     let runs = Places::of_this_user().runs;
@@ -48,36 +64,58 @@ pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
     )))
 }
 
-/// What `--from` names: a folder or a file that is there, as [`run_named`] finds it.
+/// What weights to start from are read from.
+pub enum Source {
+    /// A file, or a run's folder.
+    Path(PathBuf),
+    /// A bundled policy.
+    Bundled(String),
+}
+
+/// What `--from` names: a file or folder, a run of the user's, a kept policy or a bundled one, for a run on `table` under `rule` where
+/// it is just `bundled`.
 ///
 /// # Errors
 /// Where there is none.
-pub fn weights_named(name: &Path) -> Result<PathBuf, Failure> {
-    let found = run_named(name);
-    if found.exists() {
-        return Ok(found);
+pub fn weights_named(name: &Path, table: &Table, rule: Rule) -> Result<Source, Failure> {
+    if name == Path::new(BUNDLED) {
+        let found = bundled_policy(table, rule, false)?.bundled_name();
+        return Ok(Source::Bundled(found.unwrap_or_else(|| BUNDLED.to_owned())));
     }
-    Err(Failure::failed(format_args!(
-        "there is nothing called {} to start from, neither here nor among the runs in {}; accepted are a run (its folder or its \
-         name), a checkpoint file and a policy file",
-        name.display(),
-        Places::of_this_user().runs.display()
-    )))
+    if let Some(path) = run_named(name).or_else(|| kept_policy(name)) {
+        return Ok(Source::Path(path));
+    }
+    let bundled = bundled_names().find(|bundled| name == Path::new(bundled)).map(Source::Bundled);
+    bundled.ok_or_else(|| nothing(&format!("nothing called {} to start from", name.display()), "a checkpoint file and"))
 }
 
-/// The policy in the file `name`, that of the run in the folder `name`, or the one that the user has kept under this name.
+/// The bundled policy for `rule` on `table` and a player who `errs` or does not.
+///
+/// # Errors
+/// Where none is bundled for this table.
+pub fn bundled_policy(table: &Table, rule: Rule, errs: bool) -> Result<Policy, Failure> {
+    let bundled = Policy::bundled_for(table, rule, errs).ok_or_else(|| {
+        Failure::wrong_input(format_args!(
+            "no policy is bundled for this table \"{}\"; use --table match, textbook or thesis, or a policy from `carom train`",
+            table.name
+        ))
+    })?;
+    Ok(bundled?)
+}
+
+/// The policy in the file `name`, the one that the user has kept under this name, that of the run in the folder `name`, or the bundled
+/// one of this name.
 ///
 /// # Errors
 /// Where there is none, or none that can be used.
 pub fn policy_called(name: &str) -> Result<Policy, Failure> {
-    let found = kept::find(&Places::of_this_user().policies, name);
-    let found = if found.exists() { found } else { run_named(Path::new(name)) };
-    if !found.exists() {
-        return Err(Failure::failed(format_args!(
-            "there is no policy {name}; accepted are {BUNDLED}, a file that carom train wrote, a run's folder, and the name of \
-             one that was kept"
-        )));
-    }
+    let path = Path::new(name);
+    // A run's folder may be called as a kept policy is.
+    let file = Some(path.to_owned()).filter(|path| path.is_file());
+    let Some(found) = file.or_else(|| kept_policy(path)).or_else(|| run_named(path)) else {
+        let bundled = Policy::bundled_called(name).ok_or_else(|| nothing(&format!("no policy {name}"), "and"))?;
+        return Ok(bundled?);
+    };
     if found.is_dir() {
         return policy_of_run(&found);
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Referee, Rule, Tally};
 use crate::{
-    physics::{CueInputs, strike},
+    physics::{CueInputs, has_room, strike},
     simulation::{All, Observer, simulate_with, watch_with},
     table::{Layout, Table},
 };
@@ -114,6 +114,11 @@ impl Reward {
         }
     }
 
+    /// As [`Reward::within`], but a stroke for which the cue has no room is not played, and earns nothing.
+    pub fn with_room(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
+        if has_room(table, layout, cue) { self.within(table, layout, cue, steps) } else { 0.0 }
+    }
+
     /// The reward of a shot that did what `tally` says and left the balls at `end`.
     pub fn value(self, table: &Table, tally: &Tally, end: &Layout) -> f64 {
         let apart = match self {
@@ -182,6 +187,19 @@ mod tests {
         assert_eq!([Reward::R1, Reward::R1Difficulty, Reward::R3].map(earned), [1.0; 3]);
         assert!([Reward::R2, Reward::R4].map(earned).iter().all(|reward| *reward > 1.0));
         assert_eq!([Reward::OneCushion, Reward::ThreeCushion].map(earned), [0.0; 2]);
+    }
+
+    #[test]
+    fn a_stroke_for_which_the_cue_has_no_room_earns_nothing() {
+        let table = Table::default();
+        // The second object ball lies where the cue would be.
+        let layout = |behind| Layout::parse(&format!("-0.4,0 0,0 {behind},0"), &table).unwrap();
+        let cue = CueInputs::parse("0,0,10,0,2").unwrap();
+        for reward in Reward::ALL {
+            let earned = |behind| reward.with_room(&table, &layout(behind), &cue, u32::MAX);
+            assert_eq!(earned("0.5"), reward.of(&table, &layout("0.5"), &cue), "{reward}");
+            assert_eq!(earned("-0.48"), 0.0, "{reward}");
+        }
     }
 
     #[test]

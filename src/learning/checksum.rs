@@ -16,9 +16,14 @@ pub const NO_CHECKSUM: &str = "0000000000000000";
 pub fn write_checksum(name: &str, bytes: &mut [u8]) -> bool {
     let Some(place) = place(name, bytes) else { return false };
     bytes[place..place + DIGITS].copy_from_slice(NO_CHECKSUM.as_bytes());
-    let digits = format!("{:016x}", hash([&*bytes].into_iter()));
+    let digits = checksum(bytes);
     bytes[place..place + DIGITS].copy_from_slice(digits.as_bytes());
     true
+}
+
+/// The checksum of a file's bytes, in [`DIGITS`] digits.
+pub fn checksum(bytes: &[u8]) -> String {
+    format!("{:016x}", hash([bytes].into_iter()))
 }
 
 /// Whether the content fits its checksum of this name; `None` where there is none.

@@ -9,7 +9,10 @@ use crate::{
     game::Reward,
     learning::{
         evaluation::Score,
-        nn::weights::{Reader, WeightsError, Writer},
+        nn::{
+            first_line,
+            weights::{Reader, WeightsError, Writer},
+        },
         settings::SettingError,
     },
     physics::CueInputs,
@@ -49,7 +52,7 @@ pub enum StartError {
     #[error("the agent's settings: {0}")]
     Settings(String),
     /// candle refuses.
-    #[error("the agent cannot start: {0}")]
+    #[error("the agent cannot start: {}", first_line(.0))]
     Network(#[from] candle_core::Error),
 }
 

@@ -1,11 +1,13 @@
 //! What the agents' settings are checked by.
 
+use std::fmt::Display;
+
 /// A setting outside its range.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("{name} = {value} is outside its range; accepted is {accepted}")]
 pub struct SettingError {
     name: &'static str,
-    value: f64,
+    value: String,
     accepted: &'static str,
 }
 
@@ -17,8 +19,13 @@ impl SettingError {
 }
 
 /// Fails where `accept` is false.
-pub fn check(name: &'static str, value: f64, accept: bool, accepted: &'static str) -> Result<(), SettingError> {
-    if accept { Ok(()) } else { Err(SettingError { name, value, accepted }) }
+pub fn check(
+    name: &'static str,
+    value: impl Display,
+    accept: bool,
+    accepted: &'static str,
+) -> Result<(), SettingError> {
+    if accept { Ok(()) } else { Err(SettingError { name, value: value.to_string(), accepted }) }
 }
 
 /// Checks that a share is one.
@@ -43,7 +50,7 @@ pub fn check_batch(name: &'static str, value: usize) -> Result<(), SettingError>
 
 /// Checks hidden layers.
 pub fn check_layers(name: &'static str, layers: &[usize]) -> Result<(), SettingError> {
-    check(name, layers.len() as f64, (1..=16).contains(&layers.len()), "1 to 16 layers")?;
+    check(name, format_args!("{layers:?}"), (1..=16).contains(&layers.len()), "a list of 1 to 16 layers")?;
     let check_units = |units: &usize| check(name, *units as f64, (1..=8192).contains(units), "1 to 8192 units a layer");
     layers.iter().try_for_each(check_units)
 }

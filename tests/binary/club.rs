@@ -51,9 +51,7 @@ impl Club {
         // What is no player's name is no key.
         fs::copy(path("stranger.pub"), path("keys").join("a b")).unwrap();
         let page = include_str!("../../docs/club.md");
-        let script = page.split("```sh\n").find(|block| block.starts_with("#!/bin/sh")).unwrap();
-        let script = script.split("```").next().unwrap().replace("/etc/carom/keys", path("keys").to_str().unwrap());
-        let script = script.replace("/usr/local/bin/carom", cargo_bin!("carom").to_str().unwrap());
+        let script = script(&path("keys")).replace("/usr/local/bin/carom", cargo_bin!("carom").to_str().unwrap());
         fs::write(path("carom-keys"), script).unwrap();
         fs::set_permissions(path("carom-keys"), PermissionsExt::from_mode(0o755)).unwrap();
         let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
@@ -104,6 +102,29 @@ impl Club {
     fn players_folder(&self) -> PathBuf {
         self.folder.path().join("home/DATA/carom/players")
     }
+}
+
+/// The page's script, which looks for keys in the folder `keys`.
+fn script(keys: &Path) -> String {
+    let page = include_str!("../../docs/club.md");
+    let script = page.split("```sh\n").find(|block| block.starts_with("#!/bin/sh")).unwrap();
+    script.split("```").next().unwrap().replace("/etc/carom/keys", keys.to_str().unwrap())
+}
+
+#[test]
+fn every_key_of_a_player_is_answered_with_a_line_whether_or_not_its_file_ends_in_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("anna", "ssh-ed25519 AAAA anna\n\n# old\nssh-ed25519 BBBB anna");
+    write("ben", "ssh-ed25519 CCCC ben\n");
+    write("-c", "ssh-ed25519 DDDD c");
+    let answer = Command::new("sh").args(["-c", &script(folder.path())]).output().unwrap();
+    let answer = String::from_utf8(answer.stdout).unwrap();
+    let line = |name, key| {
+        let command = format!("restrict,pty,command=\"exec /usr/local/bin/carom --guest --player {name}\"");
+        format!("{command} ssh-ed25519 {key} {name}\n")
+    };
+    assert_eq!(answer, [line("anna", "AAAA"), line("anna", "BBBB"), line("ben", "CCCC")].concat());
 }
 
 /// The process that serves a player.

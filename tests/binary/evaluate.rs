@@ -4,7 +4,7 @@ use std::{fs, path::Path, time::Duration};
 
 use serde_json::Value;
 
-use crate::program::asked;
+use crate::program::{asked, command, outcome};
 
 const WHOLE: &str = "evaluate --rule three-cushion --layouts 7 --simulations 800";
 
@@ -47,6 +47,59 @@ fn merged_parts_are_the_whole() {
         let merged = json(&format!("evaluate --merge {}", parts.join(" ")));
         assert_eq!(timeless(merged), timeless(json(&line)), "{kind}");
     }
+}
+
+/// The name of a policy is no policy: what it stands for may have changed between two parts.
+#[test]
+fn parts_by_other_networks_or_another_version_are_not_put_together() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    let measured = |networks: &str, shard: &str| -> Value {
+        fs::copy(models.join(networks), here.join("mine.safetensors")).unwrap();
+        let line = format!("evaluate --policy mine.safetensors --layouts 2 --simulations 1 --shard {shard}");
+        let part = outcome(command(here, &words(&line)).spawn().unwrap());
+        assert_eq!(part.code, Some(0), "{}", part.err);
+        serde_json::from_str(&part.out).unwrap()
+    };
+    let merged = |one: &Value, other: &Value| {
+        for (name, part) in [("one.json", one), ("other.json", other)] {
+            fs::write(here.join(name), part.to_string()).unwrap();
+        }
+        outcome(command(here, &["evaluate", "--merge", "one.json", "other.json"]).spawn().unwrap())
+    };
+    let one = measured("match-r3.safetensors", "1/2");
+    let stranger = merged(&one, &measured("match-one-cushion.safetensors", "2/2"));
+    assert!(stranger.code == Some(2) && stranger.err.contains("not by the same networks"), "{}", stranger.err);
+    let mut other = measured("match-r3.safetensors", "2/2");
+    assert_eq!(merged(&one, &other).code, Some(0));
+    other["order"]["version"] = "0.0.1".into();
+    let newer = merged(&one, &other);
+    assert!(newer.code == Some(2) && newer.err.contains("by different versions of carom"), "{}", newer.err);
+    // Earlier versions wrote neither.
+    for name in ["version", "checksum"] {
+        assert!(other["order"].as_object_mut().unwrap().remove(name).is_some_and(|value| value.is_string()), "{name}");
+    }
+    assert_eq!(merged(&one, &other).code, Some(0));
+    assert_eq!(merged(&other, &one).code, Some(0));
+}
+
+#[test]
+fn innings_that_were_not_begun_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = "evaluate --self-play --layouts 5 --simulations 1 --most-points 1";
+    let short = format!("{line} --minutes 0.000000000001");
+    let parts = ["1/2", "2/2"].map(|shard| part(folder.path(), &short, shard)).join(" ");
+    for line in [short, format!("evaluate --merge {parts}")] {
+        let report = json(&line);
+        assert_eq!((&report["layouts"], &report["innings"]), (&5.into(), &0.into()), "{line}");
+        let text = asked(&words(&line)).assert().success().get_output().stdout.clone();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.contains("; on 5 of 5 layouts none was begun, for the time was up)"), "{text}");
+    }
+    let text = asked(&words(line)).assert().success().get_output().stdout.clone();
+    let text = String::from_utf8(text).unwrap();
+    assert!(text.contains("in 5 innings (") && !text.contains("none was begun"), "{text}");
 }
 
 #[test]

@@ -18,7 +18,7 @@ use self::{
 use super::{
     Failure,
     input::{minutes, note_doubts, seed, table_named, whole, whole_from},
-    lookup::{policy_called, skill_called},
+    lookup::{bundled_policy, policy_called, skill_called},
     output::json_line,
     recommend::coach_for,
 };
@@ -26,6 +26,7 @@ use crate::{
     coach::{Doubt, Request, Skill},
     game::{Reward, Rule},
     learning::{Policy, evaluation::EVALUATION_SEED, policy::kept::BUNDLED},
+    printing::{SOURCE, VERSION},
     table::Table,
 };
 
@@ -49,8 +50,8 @@ pub struct Args {
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "match")]
     table: String,
-    /// The policy: "bundled", the path of a file that `carom train` wrote, the folder of its run, or the name under which one was
-    /// kept.
+    /// The policy: "bundled", the path of a file that `carom train` wrote, its run (the folder, or the name), the name under which one
+    /// was kept, or the name of a bundled one like "match-r3".
     #[arg(long, value_name = "FILE", default_value = "bundled", value_parser = NonEmptyStringValueParser::new())]
     policy: String,
     /// Play the networks' own shot: one pass, no simulator call. What they say of it is set against what comes of it.
@@ -162,6 +163,8 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     let spec = Spec {
         player: player.name().to_owned(),
         policy: args.random_search.is_none().then(|| args.policy.clone()),
+        checksum: player.checksum().map_err(Failure::failed)?,
+        version: Some(SOURCE.map_or_else(|| VERSION.to_owned(), |source| format!("{VERSION} ({source})"))),
         networks: player.networks(),
         table,
         measure: args.reward.map_or(args.rule.name(), Reward::name).to_owned(),
@@ -203,17 +206,7 @@ fn request(args: &Args, skill: Skill) -> Request {
 
 /// The bundled policy for `rule` on `table` and a player who `errs` or does not, or the one in the file.
 fn policy_named(name: &str, table: &Table, rule: Rule, errs: bool) -> Result<Policy, Failure> {
-    if name != BUNDLED {
-        return policy_called(name);
-    }
-    let bundled = Policy::bundled_for(table, rule, errs).ok_or_else(|| {
-        Failure::wrong_input(format_args!(
-            "no policy is bundled for this table \"{}\"; use --table match, textbook or thesis, or --policy FILE with one from \
-             `carom train`",
-            table.name
-        ))
-    })?;
-    Ok(bundled?)
+    if name == BUNDLED { bundled_policy(table, rule, errs) } else { policy_called(name) }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::{
     coach::{Doubt, Shooter, Skill, make_probability},
     commands::output::plural,
     game::Rule,
-    physics::CueInputs,
+    physics::{CueInputs, has_room},
     table::{Layout, Table},
 };
 
@@ -90,8 +90,11 @@ struct Tenth {
     made: f64,
 }
 
-/// The make probability of a shot.
+/// The make probability of a shot; 0 where the cue has no room for it.
 pub fn chance(spec: &Spec, rule: Rule, table: &Table, layout: &Layout, skill: Skill, cue: &CueInputs) -> f64 {
+    if !has_room(table, layout, cue) {
+        return 0.0;
+    }
     // Another stream than the recommender's, which has this seed too.
     let shooter = Shooter { skill, doubt: spec.doubt };
     make_probability(shooter, rule, table, layout, cue, ATTEMPTS, !spec.seed).rate

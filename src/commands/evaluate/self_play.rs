@@ -57,6 +57,8 @@ struct SelfPlayReport<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     simulations: Option<u64>,
     plan: bool,
+    /// Layouts from which an inning was to be played.
+    layouts: u32,
     /// Innings begun, and among them those that were broken off, by the limit of points or of time.
     innings: usize,
     broken_off: usize,
@@ -140,6 +142,7 @@ fn report<'a>(spec: &'a Spec, records: &[InningRecord]) -> SelfPlayReport<'a> {
         budget_ms: spec.budget_ms,
         simulations: spec.simulations,
         plan: spec.plan,
+        layouts: spec.layouts,
         innings: records.len(),
         broken_off: records.len() - misses as usize,
         points,
@@ -158,9 +161,13 @@ fn report<'a>(spec: &'a Spec, records: &[InningRecord]) -> SelfPlayReport<'a> {
 fn print_text(out: &mut impl Write, report: &SelfPlayReport<'_>) -> std::io::Result<()> {
     let end = |end: Option<f64>| end.map_or_else(|| "no limit".to_owned(), |end| format!("{end:.1}"));
     let [low, high] = report.average_interval.map(end);
+    let not_begun = match (report.layouts as usize).saturating_sub(report.innings) {
+        0 => String::new(),
+        missing => format!("; on {missing} of {} layouts none was begun, for the time was up", report.layouts),
+    };
     writeln!(
         out,
-        "self-play on \"{}\", {}, skill \"{}\", doubt \"{}\": {} and {} {} in {} ({} broken off)",
+        "self-play on \"{}\", {}, skill \"{}\", doubt \"{}\": {} and {} {} in {} ({} broken off{not_begun})",
         report.table,
         report.rule,
         report.skill.unwrap_or(Skill::EXPERT),

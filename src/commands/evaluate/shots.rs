@@ -15,7 +15,7 @@ use crate::{
     coach::{Coach, Request, Skill},
     commands::output::{json_line, plural},
     game::{Reward, Rule, scores},
-    learning::{Policy, Proposal, evaluation::held_out_layouts},
+    learning::{Policy, Proposal, evaluation::held_out_layouts, weights::WeightsError},
     physics::{CueInputs, has_room},
     printing,
     statistics::SuccessRate,
@@ -46,6 +46,19 @@ impl Player {
             Self::Policy(_) => "policy",
             Self::RandomSearch(_) => "random search",
         }
+    }
+
+    /// The checksum of its networks, if it has any.
+    ///
+    /// # Errors
+    /// As [`Policy::checksum`].
+    pub fn checksum(&self) -> Result<Option<String>, WeightsError> {
+        let policy = match self {
+            Self::Recommender(coach, request) => coach.policy(request.rule, &request.skill),
+            Self::Policy(policy) => Some(&**policy),
+            Self::RandomSearch(_) => None,
+        };
+        policy.map(Policy::checksum).transpose()
     }
 
     /// Which of the bundled networks play alone, if any do.
@@ -97,7 +110,7 @@ pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: R
         let cue = decision.cue;
         ShotRecord {
             layout: index,
-            earned: reward.of(table, layout, &cue),
+            earned: reward.with_room(table, layout, &cue, u32::MAX),
             speed: cue.speed,
             seconds,
             simulations: decision.simulations,
@@ -257,6 +270,8 @@ mod tests {
         Spec {
             player: "random search".to_owned(),
             policy: None,
+            checksum: None,
+            version: None,
             networks: None,
             table: Table::default(),
             measure: "straight".to_owned(),

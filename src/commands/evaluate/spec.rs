@@ -24,6 +24,12 @@ pub struct Spec {
     pub player: String,
     /// The policy, of players that have one.
     pub policy: Option<String>,
+    /// Checksum of its networks, whatever it is called; parts of earlier versions have none.
+    #[serde(default)]
+    pub checksum: Option<String>,
+    /// Version and source of the program that measured; parts of earlier versions have none.
+    #[serde(default)]
+    pub version: Option<String>,
     /// Which of the bundled networks they are, where these play alone.
     pub networks: Option<String>,
     pub table: Table,
@@ -49,6 +55,14 @@ pub struct Spec {
     pub random_search: Option<u32>,
     /// Points after which an inning of self-play is broken off.
     pub most_points: Option<u32>,
+}
+
+impl Spec {
+    /// Takes from the specification of another part what this one, of an earlier version, does not say.
+    fn learn_from(&mut self, other: &Self) {
+        self.checksum = self.checksum.take().or_else(|| other.checksum.clone());
+        self.version = self.version.take().or_else(|| other.version.clone());
+    }
 }
 
 /// A part of the layouts: `k/n` is every n-th layout from the k-th on.
@@ -123,16 +137,26 @@ pub struct Part {
 impl Part {
     /// What another part has measured otherwise, or in how many parts; `None` where both are of one evaluation.
     fn difference(&self, other: &Self) -> Option<String> {
-        if self.spec == other.spec {
+        let [mut own, mut others] = [self, other].map(|part| part.spec.clone());
+        own.learn_from(&others);
+        others.learn_from(&own);
+        if own == others {
             let (own, others) = (self.shard.of, other.shard.of);
             return (own != others).then(|| format!("of {own} and of {others} parts"));
         }
-        let [one, two] = [self, other].map(|part| serde_json::to_value(&part.spec).unwrap_or_default());
+        let [one, two] = [own, others].map(|spec| serde_json::to_value(spec).unwrap_or_default());
         let mut fields = one.as_object().into_iter().flatten();
         let differs = fields.find(|(name, value)| two[name.as_str()] != **value);
         Some(differs.map_or_else(
             || "other settings".to_owned(),
-            |(name, value)| format!("{name} {value} and {}", two[name.as_str()]),
+            |(name, value)| {
+                let values = format!("{value} and {}", two[name.as_str()]);
+                match name.as_str() {
+                    "checksum" => format!("not by the same networks, whatever they are called (checksums {values})"),
+                    "version" => format!("by different versions of carom, {values}"),
+                    name => format!("{name} {values}"),
+                }
+            },
         ))
     }
 }
@@ -182,6 +206,7 @@ pub fn merged(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
         match &mut whole {
             None => whole = Some(part),
             Some(whole) => {
+                whole.spec.learn_from(&part.spec);
                 if !whole.records.append(part.records) {
                     return Err(different("other records".to_owned()));
                 }

@@ -60,9 +60,9 @@ pub struct Args {
     /// One such setting, after those of the file: --set actions=full, --set ranking=0.5, --set heads=8. May be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Start with the weights of another run (its folder, or its name) or of a policy or checkpoint file: same
-    /// networks, new optimiser, new memory, new schedule.
-    #[arg(long, value_name = "RUN|FILE")]
+    /// Start with the weights of another run (its folder, or its name), of a checkpoint or policy file, or of a policy that was kept
+    /// or is bundled, by its name: same networks, new optimiser, new memory, new schedule.
+    #[arg(long, value_name = "RUN|FILE|NAME")]
     from: Option<PathBuf>,
     /// Shots between two measurements on held-out layouts; by default a fiftieth of the shots, or 10,000 where that is more.
     #[arg(long, value_name = "SHOTS", value_parser = whole_from(1_u64))]
@@ -103,8 +103,8 @@ pub struct Args {
     /// Print the metrics, or the list, as JSON Lines on standard output.
     #[arg(long)]
     json: bool,
-    /// Print nothing on standard output but, at the end, what the run is to make large: the mean reward on the held-out
-    /// layouts, over the seeds where there are several.
+    /// Print nothing on standard output but, at the end, the objective to maximise: the mean reward on the held-out layouts; of several
+    /// seeds their mean, once all of them have played their last shot.
     #[arg(long, conflicts_with_all = ["json", "list"])]
     objective: bool,
 }
@@ -148,11 +148,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(name) = &args.resume {
         return resume(&existing_run(name)?, args.jobs, &options);
     }
-    let read = spec::read(args)?;
-    if args.r#continue && (is_group(&read.folder) || holds_checkpoints(&read.folder)) {
-        spec::same_spec(&read, args.seeds)?;
-        return resume(&read.folder, args.jobs, &options);
+    let folder = args.run.as_deref().filter(|folder| is_group(folder) || holds_checkpoints(folder));
+    if let Some(folder) = folder.filter(|_| args.r#continue) {
+        spec::same_spec(args, folder)?;
+        return resume(folder, args.jobs, &options);
     }
+    let read = spec::read(args)?;
     if let Some(seeds) = args.seeds {
         let last = u64::MAX - (seeds - 1);
         if args.seed > last {

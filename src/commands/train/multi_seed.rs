@@ -38,8 +38,15 @@ fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fai
         train_one(group, *seed, left, options).map_err(|error| format!("seed {seed}: {error}"))
     });
     let spread = group.write_spread().map_err(failure)?;
-    if let Some(spread) = spread.filter(|_| options.objective) {
-        writeln!(printing::stdout(), "{}", spread.mean)?;
+    let finished = outcomes.iter().all(|outcome| *outcome == Ok(true));
+    if options.objective {
+        // Seeds that stand at other shots are not to be compared with those of another run.
+        let last = spread.filter(|spread| finished && spread.seeds == seeds.len());
+        if let Some(spread) = last {
+            writeln!(printing::stdout(), "{}", spread.mean)?;
+        } else if finished {
+            return Err(Failure::failed("there is no objective: the metrics of some seeds lack the last measurement"));
+        }
     } else if let Some(spread) = spread.filter(|_| !options.json) {
         let sd = spread.sd.map(|sd| format!(", standard deviation {sd:.4}")).unwrap_or_default();
         writeln!(
@@ -53,7 +60,6 @@ fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fai
             spread.shots
         )?;
     }
-    let finished = outcomes.iter().all(|outcome| *outcome == Ok(true));
     let errors: Vec<String> = outcomes.into_iter().filter_map(Result::err).collect();
     if !errors.is_empty() {
         return Err(Failure::failed(errors.join("; ")));

@@ -74,12 +74,12 @@ impl Progress {
 pub fn line(record: &Record) -> Option<String> {
     let Record { seconds, shots, .. } = record;
     let speed = *shots as f64 / seconds.max(1e-9);
-    summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {speed:.0} a second, {summary}"))
+    summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {speed:.0} shots/s, {summary}"))
 }
 
 fn summary(record: &Record) -> Option<String> {
     let reward = record.held_out_reward?;
-    Some(format!("loss {:.4}, held-out reward {reward:.4}", record.critic_loss))
+    Some(format!("critic loss {:.4}, held-out reward {reward:.4}", record.critic_loss))
 }
 
 impl Watcher for Progress {

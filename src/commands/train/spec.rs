@@ -1,12 +1,20 @@
 //! From the command line to what a new run is made of.
 
-use std::path::{Path, PathBuf};
+use std::{
+    fs::canonicalize,
+    path::{Path, PathBuf},
+};
 
 use serde_json::Value;
 
 use super::{Args, failure};
 use crate::{
-    commands::{Failure, input::table_named, lookup::weights_named},
+    commands::{
+        Failure,
+        input::table_named,
+        lookup::{Source, weights_named},
+    },
+    game::Reward,
     learning::{
         learner::{AgentKind, TrainingPlan, lay_over},
         run::{
@@ -18,6 +26,7 @@ use crate::{
     },
     printing::timestamp,
     storage::{self, Places, toml_flaw},
+    table::Table,
 };
 
 /// What to train, with which weights, where.
@@ -51,57 +60,87 @@ fn begin_in_free<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>)
     begun
 }
 
-/// What the command line orders. Whatever it leaves open is as in the run that the weights come from, or the default.
+/// What the command line asks for. Whatever it leaves open is as in the run that the weights come from, or the default.
 pub fn read(args: &Args) -> Result<Read, Failure> {
-    let from = args.from.as_deref().map(weights_named).transpose()?;
-    let weights = from.as_deref().map(Weights::load).transpose().map_err(failure)?;
-    let start = weights.as_ref().map(|weights| &weights.start);
-    let agent = args.agent.clone().or_else(|| start.map(|start| start.agent.clone()));
-    let agent = agent.unwrap_or_else(|| "ddpg".to_owned());
-    let reward = args.reward.or_else(|| start.map(|start| start.reward)).unwrap_or_default();
-    let table = match (&args.table, &weights) {
-        (Some(name), _) => table_named(name)?,
-        (None, Some(Weights { table: Some(table), .. })) => table.clone(),
-        (None, Some(weights)) => table_named(&weights.start.table)?,
-        (None, None) => table_named("match")?,
+    let weights = match source(args)? {
+        None => None,
+        Some(Source::Path(path)) => Some(Weights::load(&path)),
+        Some(Source::Bundled(name)) => Weights::bundled(&name),
     };
-    // Another agent's settings mean nothing here; that its weights do not either is said when they are given.
-    let mut known =
-        weights.as_ref().filter(|weights| weights.start.agent == agent).map(|weights| weights.settings.clone());
-    // An agent that is not known is refused by name when the run starts.
-    let kind = AgentKind::named(&agent).ok();
-    if let (Some(Value::Object(settings)), Some(kind)) = (&mut known, kind) {
-        settings.retain(|name, _| !kind.of_one_start.contains(&name.as_str()));
-    }
-    let defaults = kind.map(|kind| (kind.defaults)()).unwrap_or_default();
-    let settings = settings(args.config.as_deref(), &args.set, known, &defaults)?;
-    let layouts = args.evaluation_layouts as usize;
-    let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);
+    let weights = weights.transpose().map_err(failure)?;
+    let base = weights.as_ref().map(base_of).transpose()?;
+    let spec = specified(args, base)?;
     let folder = args.run.clone().unwrap_or_else(|| {
-        let name = run_name(&timestamp(), &agent, &table.name, reward, args.seed);
+        let name = run_name(&timestamp(), &spec.agent, &spec.table.name, spec.plan.reward, args.seed);
         Places::of_this_user().runs.join(name)
     });
-    let plan = TrainingPlan { reward, seed: args.seed, shots: args.steps };
-    let spec = TrainingSpec { agent, plan, settings, schedule: Schedule::new(every, layouts), table };
     Ok(Read { spec, weights, folder, is_named: args.run.is_some() })
 }
 
-/// Whether the run, or the group of seeds, in the folder was started with the same specification.
-pub fn same_spec(read: &Read, seeds: Option<u64>) -> Result<(), Failure> {
+/// What `--from` names, if it is there.
+fn source(args: &Args) -> Result<Option<Source>, Failure> {
+    let Some(name) = &args.from else { return Ok(None) };
+    let table = table_named(args.table.as_deref().unwrap_or("match"))?;
+    weights_named(name, &table, args.reward.unwrap_or_default().rule().unwrap_or_default()).map(Some)
+}
+
+/// What a run trains by default, unlike one that starts from nothing.
+struct Base {
+    agent: String,
+    reward: Reward,
+    table: Table,
+    settings: Value,
+}
+
+/// What the weights bring along.
+fn base_of(weights: &Weights) -> Result<Base, Failure> {
+    let Weights { start: Start { agent, reward, table, .. }, settings, .. } = weights.clone();
+    let table = weights.table.clone().map_or_else(|| table_named(&table), Ok)?;
+    let mut settings = settings;
+    if let (Value::Object(settings), Ok(kind)) = (&mut settings, AgentKind::named(&agent)) {
+        settings.retain(|name, _| !kind.of_one_start.contains(&name.as_str()));
+    }
+    Ok(Base { agent, reward, table, settings })
+}
+
+/// What the command line asks for, and where it leaves anything open, `base` or the default.
+fn specified(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> {
+    let agent = args.agent.clone().or_else(|| base.as_ref().map(|base| base.agent.clone()));
+    let agent = agent.unwrap_or_else(|| "ddpg".to_owned());
+    let reward = args.reward.or_else(|| base.as_ref().map(|base| base.reward)).unwrap_or_default();
+    let table = match (&args.table, &base) {
+        (Some(name), _) => table_named(name)?,
+        (None, Some(base)) => base.table.clone(),
+        (None, None) => table_named("match")?,
+    };
+    // Another agent's settings mean nothing here; that its weights do not either is said when they are given.
+    let known = base.filter(|base| base.agent == agent).map(|base| base.settings);
+    // An agent that is not known is refused by name when the run starts.
+    let defaults = AgentKind::named(&agent).map(|kind| (kind.defaults)()).unwrap_or_default();
+    let settings = settings(args.config.as_deref(), &args.set, known, &defaults)?;
+    let layouts = args.evaluation_layouts as usize;
+    let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);
+    let plan = TrainingPlan { reward, seed: args.seed, shots: args.steps };
+    Ok(TrainingSpec { agent, plan, settings, schedule: Schedule::new(every, layouts), table })
+}
+
+/// Refuses to go on with the run, or the group of seeds, in `folder` where it was started with other settings. The weights that it
+/// started from are not read: it has its own by now, and theirs may be gone.
+pub fn same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
     // What cannot be read is told by whoever goes on with it.
-    let Some((theirs, from, their_seeds)) = known_spec(&read.folder) else { return Ok(()) };
-    let ours = &read.spec;
-    let source = |start: Option<&Start>| start.map_or_else(|| "none".to_owned(), |start| start.path.clone());
-    let count = |seeds: Option<u64>| seeds.map_or_else(|| "none".to_owned(), |seeds| seeds.to_string());
-    let (their_settings, our_settings) =
-        (theirs.all_settings().map_err(failure)?, ours.all_settings().map_err(failure)?);
-    let pairs = [
-        ("agent", theirs.agent, ours.agent.clone()),
+    let Some((theirs, start, their_seeds)) = known_spec(folder) else { return Ok(()) };
+    let base = args.from.as_ref().and(start.as_ref()).map(|_| Base {
+        agent: theirs.agent.clone(),
+        reward: theirs.plan.reward,
+        table: theirs.table.clone(),
+        settings: theirs.settings.clone(),
+    });
+    let ours = specified(args, base)?;
+    let mut differences: Vec<String> = [
+        ("agent", theirs.agent.clone(), ours.agent.clone()),
         ("reward", theirs.plan.reward.to_string(), ours.plan.reward.to_string()),
         ("seed", theirs.plan.seed.to_string(), ours.plan.seed.to_string()),
         ("steps", theirs.plan.shots.to_string(), ours.plan.shots.to_string()),
-        ("seeds", count(their_seeds), count(seeds)),
-        ("from", source(from.as_ref()), source(read.weights.as_ref().map(|weights| &weights.start))),
         ("evaluate-every", theirs.schedule.evaluate_every.to_string(), ours.schedule.evaluate_every.to_string()),
         (
             "evaluation-layouts",
@@ -109,17 +148,66 @@ pub fn same_spec(read: &Read, seeds: Option<u64>) -> Result<(), Failure> {
             ours.schedule.evaluation_layouts.to_string(),
         ),
         ("table", theirs.table.name.clone(), ours.table.name.clone()),
-        ("settings", their_settings.to_string(), our_settings.to_string()),
-    ];
-    let difference = match pairs.into_iter().find(|(_, theirs, ours)| theirs != ours) {
-        Some((what, theirs, ours)) => format!("{what} {theirs}, not {ours}"),
-        None if theirs.table != ours.table => format!("another table of the name {}", ours.table.name),
-        None => return Ok(()),
-    };
+    ]
+    .into_iter()
+    .filter(|(_, theirs, ours)| theirs != ours)
+    .map(|(what, theirs, ours)| format!("with {what} {theirs}, not {ours}"))
+    .collect();
+    if theirs.table.name == ours.table.name && theirs.table != ours.table {
+        differences.push(format!("on another table of the name {}", ours.table.name));
+    }
+    differences.extend(match (their_seeds, args.seeds) {
+        (Some(theirs), Some(ours)) => (theirs != ours).then(|| format!("with {theirs} seeds, not {ours}")),
+        (Some(theirs), None) => Some(format!("with {theirs} seeds, not as a single run")),
+        (None, Some(ours)) => Some(format!("as a single run, not with {ours} seeds")),
+        (None, None) => None,
+    });
+    differences.extend(match (start.as_ref().map(|start| start.path.as_str()), &args.from) {
+        (Some(theirs), Some(ours)) => {
+            (!is_same_source(theirs, args)).then(|| format!("from {theirs}, not from {}", ours.display()))
+        }
+        (Some(theirs), None) => Some(format!("from {theirs}, not without --from")),
+        (None, Some(ours)) => Some(format!("without --from, not from {}", ours.display())),
+        (None, None) => None,
+    });
+    if theirs.agent == ours.agent {
+        let [theirs, ours] = [&theirs, &ours].map(|spec| spec.all_settings().map_err(failure));
+        tell_settings(&mut differences, "", &theirs?, &ours?);
+    }
+    if differences.is_empty() {
+        return Ok(());
+    }
     Err(Failure::failed(format_args!(
-        "the run in {} has {difference}: --continue goes on with the run of the same order; choose another folder by --run",
-        read.folder.display()
+        "the run in {} was started {}: --continue resumes a run that was started with the same settings; choose another folder by --run",
+        folder.display(),
+        differences.join("; ")
     )))
+}
+
+/// Adds the settings, below the name `above`, that differ.
+fn tell_settings(differences: &mut Vec<String>, above: &str, theirs: &Value, ours: &Value) {
+    for (name, theirs) in theirs.as_object().into_iter().flatten() {
+        match &ours[name.as_str()] {
+            ours if ours == theirs => {}
+            ours if ours.is_object() => tell_settings(differences, &format!("{above}{name}."), theirs, ours),
+            ours => differences.push(format!("with {above}{name} = {theirs}, not {ours}")),
+        }
+    }
+}
+
+/// Whether `--from` names what a run was started from, `theirs` as the run says. Of what is gone nothing but the name is known.
+fn is_same_source(theirs: &str, args: &Args) -> bool {
+    let ours = match source(args) {
+        Ok(Some(Source::Path(path))) => path,
+        Ok(Some(Source::Bundled(name))) => name.into(),
+        // It is gone.
+        _ => args.from.clone().unwrap_or_default(),
+    };
+    let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().replace(".safetensors", ""));
+    match (canonicalize(theirs), canonicalize(&ours)) {
+        (Ok(theirs), Ok(ours)) => theirs == ours,
+        _ => name(Path::new(theirs)) == name(&ours),
+    }
 }
 
 /// What the run or the group in the folder was started with: what it trains, whose weights, and how many seeds.

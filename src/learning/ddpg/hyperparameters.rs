@@ -31,7 +31,8 @@ pub struct Hyperparameters {
     /// Actions that the actor proposes for an observation. One alone averages between success windows and misses all; several,
     /// started apart, each climb their own window, and the critic chooses.
     pub heads: usize,
-    /// Between which cue speeds the strokes of the heads lie, m/s, one after the other and again from the first; none for 0.3 to 6.
+    /// Between which cue speeds the strokes of the heads lie, m/s, one after the other and again from the first; empty: every
+    /// head may use 0.3 to 6 m/s.
     /// Left to themselves all climb to where they strike with all force: there a bad aim makes most points by luck.
     pub head_speeds: Vec<[f64; 2]>,
     /// Units of the actor's hidden layers.
@@ -55,8 +56,7 @@ pub struct Hyperparameters {
     /// Share of them that are played near the critic's favourite among all heads in all observations of a layout; the others
     /// near any head's action in any observation.
     pub critic_chooses: f64,
-    /// Share of them that are the averaged networks' own best proposals for a layout, several of each, played as they are: these
-    /// are the shots between which they will have to choose.
+    /// Share of shots that are the eight best proposals, played without noise, so that the critic learns to rank them.
     pub ranking: f64,
     /// Attempts of whose success a remembered shot is the mean, where the player errs: one attempt tells little of a stroke that is
     /// made one time in six.
@@ -157,9 +157,9 @@ impl Hyperparameters {
         check_layers("critic_layers", &self.critic_layers)?;
         check("heads", self.heads as f64, (1..=256).contains(&self.heads), "1 to 256")?;
         for [low, high] in &self.head_speeds {
-            let [least, most] = SPEEDS;
-            check("head_speeds", *low, *low >= least && *low < *high, "0.3 to 6 m/s, the lower one first")?;
-            check("head_speeds", *high, *high <= most, "0.3 to 6 m/s, the lower one first")?;
+            let ([least, most], shown) = (SPEEDS, format_args!("[{low}, {high}]"));
+            let accept = least <= *low && low < high && *high <= most;
+            check("head_speeds", shown, accept, "[low, high] with 0.3 <= low < high <= 6 m/s")?;
         }
         check_batch("batch", self.batch)?;
         check_batch("actor_batch", self.actor_batch)?;
@@ -201,6 +201,11 @@ mod tests {
         };
         assert!(refuse(&|hyper| hyper.heads = 0).contains("heads = 0"));
         assert!(refuse(&|hyper| hyper.critic_layers[1] = 0).contains("critic_layers"));
+        assert!(refuse(&|hyper| hyper.actor_layers.clear()).contains("actor_layers = [] is outside its range"));
+        for wrong in [[5.0, 1.0], [0.1, 2.0], [3.0, 7.0], [f64::NAN, 2.0]] {
+            let refused = refuse(&|hyper| hyper.head_speeds = vec![[1.0, 2.0], wrong]);
+            assert!(refused.starts_with(&format!("head_speeds = [{}, {}] is", wrong[0], wrong[1])), "{refused}");
+        }
         assert!(refuse(&|hyper| hyper.critic_learning_rate = f64::NAN).contains("NaN"));
         assert!(refuse(&|hyper| hyper.exploration.noise.push(-1.0)).contains("-1"));
     }

@@ -8,3 +8,8 @@ pub mod mlp;
 pub mod squared_error;
 pub mod tensors;
 pub mod weights;
+
+/// What an error of candle says: its first line. The others say where in the program, if the environment asks for that.
+pub fn first_line(error: &candle_core::Error) -> String {
+    error.to_string().lines().next().unwrap_or_default().to_owned()
+}

@@ -8,6 +8,7 @@ use serde::{Serialize, de::DeserializeOwned};
 
 use super::{
     adam::{Adam, AdamConfig},
+    first_line,
     mlp::Mlp,
 };
 use crate::learning::settings::SettingError;
@@ -34,17 +35,17 @@ pub enum WeightsError {
         expected: String,
     },
     /// A network has other layers than it must have.
-    #[error("its network \"{name}\" has layers of {found} units, and the settings say {wanted}")]
+    #[error("its network \"{name}\" has {found}, and the settings ask for {wanted}")]
     Shape {
         /// The network's name.
         name: String,
-        /// The units of its layers, inputs first.
+        /// Its layers, or the number of its values where nothing else is known.
         found: String,
-        /// Those that it must have.
+        /// What it must have.
         wanted: String,
     },
     /// candle refuses.
-    #[error("candle refuses its networks ({0})")]
+    #[error("candle refuses its networks ({})", first_line(.0))]
     Network(#[from] candle_core::Error),
     /// The agent's settings in it are refused.
     #[error("a setting in it is refused: {0}")]
@@ -242,8 +243,9 @@ fn layers(name: &str, network: &Mlp) -> Result<Vec<Array>, WeightsError> {
 }
 
 /// Layer sizes in a sentence.
-fn units<'a>(sizes: impl IntoIterator<Item = &'a usize>) -> String {
-    sizes.into_iter().map(usize::to_string).collect::<Vec<_>>().join("-")
+pub(crate) fn units<'a>(sizes: impl IntoIterator<Item = &'a usize>) -> String {
+    let sizes: Vec<_> = sizes.into_iter().map(usize::to_string).collect();
+    format!("layers of {} units", sizes.join("-"))
 }
 
 fn moment_name(optimiser: &str, order: usize) -> String {

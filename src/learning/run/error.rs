@@ -2,7 +2,12 @@
 
 use std::path::Path;
 
-use crate::learning::{PolicyError, agents::UnknownAgent, learner::StartError, nn::weights::WeightsError};
+use crate::learning::{
+    PolicyError,
+    agents::UnknownAgent,
+    learner::StartError,
+    nn::{first_line, weights::WeightsError},
+};
 
 /// Why a run cannot start, go on or be saved.
 #[derive(Debug, thiserror::Error)]
@@ -71,7 +76,7 @@ pub enum RunError {
     #[error("the state cannot be saved: {0}")]
     Save(#[from] WeightsError),
     /// The networks no longer give finite numbers.
-    #[error("training stopped: {0}")]
+    #[error("training stopped: {}", first_line(.0))]
     Training(#[from] candle_core::Error),
     /// The networks no longer give finite losses, after so many shots.
     #[error("training stopped after {0} shots: the loss is not a finite number any more; try a lower learning rate")]

@@ -65,29 +65,33 @@ pub struct Record {
 /// # Errors
 /// Whatever the file system reports; a missing file is an empty one.
 pub fn read(path: &Path) -> io::Result<Vec<Record>> {
-    Ok(whole_lines(&content(path)?).filter_map(|line| serde_json::from_slice(line).ok()).collect())
+    Ok(records(&content(path)?).collect())
 }
 
-/// Whether the file ends within a line; what cannot be read is told by who opens it.
-pub(super) fn is_torn(path: &Path) -> bool {
-    content(path).is_ok_and(|bytes| bytes.last().is_some_and(|byte| *byte != b'\n'))
+fn records(bytes: &[u8]) -> impl Iterator<Item = Record> {
+    whole_lines(bytes).filter_map(|line| serde_json::from_slice(line).ok())
 }
 
-/// A sentence where lines are missing in the file of a run that goes on after `shots` shots: there is one for every `log_every` shots.
-/// What cannot be read is told by who opens it.
-pub(super) fn gap(path: &Path, shots: u64, log_every: u64) -> Option<String> {
-    let records = read(path).ok()?;
-    let last = records.iter().map(|record| record.shots).filter(|last| *last <= shots).max();
+/// Sentences about the file of a run that goes on after `shots` shots: where it ends within a line, and where lines are missing, of
+/// which there is one for every `log_every` shots. What cannot be read is told by who opens it.
+pub(super) fn notices(path: &Path, shots: u64, log_every: u64) -> Vec<String> {
+    let Ok(bytes) = content(path) else { return Vec::new() };
+    let is_torn = bytes.last().is_some_and(|byte| *byte != b'\n');
+    let torn = is_torn.then(|| format!("the last line of {METRICS} is cut off and is left out"));
+    let last = records(&bytes).map(|record| record.shots).filter(|last| *last <= shots).max();
     // A checkpoint is written after all lines before it: none is missing where no line is due between the last one and it.
     let number = |shots: u64| shots / log_every.max(1);
-    if number(last.unwrap_or(0)) == number(shots) {
-        return None;
-    }
-    let lost = "those lines are lost, and the training goes on as if they were there";
-    Some(match last {
-        None if !path.exists() => format!("{METRICS} is missing: there is no line of the {shots} shots played; {lost}"),
-        last => format!("{}; {lost}", cut_off(last.unwrap_or(0), shots)),
-    })
+    let is_missing = number(last.unwrap_or(0)) != number(shots);
+    let missing = is_missing.then(|| {
+        let what = match last {
+            None if !path.exists() => {
+                format!("{METRICS} is missing: there is no line of the {shots} shots played")
+            }
+            last => cut_off(last.unwrap_or(0), shots),
+        };
+        format!("{what}; those lines are lost, and the training goes on as if they were there")
+    });
+    torn.into_iter().chain(missing).collect()
 }
 
 /// The sentence about a file whose last line is of `last` shots, where `shots` were played and lines are missing.
@@ -106,14 +110,14 @@ pub(super) struct MetricsFile {
 
 impl MetricsFile {
     /// Opens the file of a run that goes on after `shots` shots: what was written later, and a last line that was cut
-    /// off, is dropped, so that no line comes twice. Returns the last line that is left, too. A missing file is an empty one.
-    pub fn open(path: &Path, shots: u64) -> io::Result<(Self, Option<Record>)> {
+    /// off, is dropped, so that no line comes twice. Returns the records that are left, too. A missing file is an empty one.
+    pub fn open(path: &Path, shots: u64) -> io::Result<(Self, Vec<Record>)> {
         let bytes = content(path)?;
-        let (mut length, mut last) = (0, None);
+        let (mut length, mut left) = (0, Vec::new());
         for line in whole_lines(&bytes) {
             match serde_json::from_slice::<Record>(line) {
                 Ok(record) if record.shots > shots => break,
-                Ok(record) => last = Some(record),
+                Ok(record) => left.push(record),
                 // A line of unknown origin is kept.
                 Err(_) => {}
             }
@@ -122,7 +126,7 @@ impl MetricsFile {
         if length < bytes.len() as u64 {
             fs::OpenOptions::new().write(true).open(path)?.set_len(length)?;
         }
-        Ok((Self { path: path.to_owned(), length, waiting: Vec::new() }, last))
+        Ok((Self { path: path.to_owned(), length, waiting: Vec::new() }, left))
     }
 
     /// Adds a line to those that wait.
@@ -189,8 +193,8 @@ mod tests {
     fn opened(shots: u64) -> (tempfile::TempDir, PathBuf, MetricsFile) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("metrics.jsonl");
-        let (file, last) = MetricsFile::open(&path, shots).unwrap();
-        assert_eq!(last, None);
+        let (file, left) = MetricsFile::open(&path, shots).unwrap();
+        assert_eq!(left, []);
         (folder, path, file)
     }
 
@@ -212,13 +216,13 @@ mod tests {
             file.flush().unwrap();
         }
         let torn = fs::read_to_string(&path).unwrap() + "{\"time/total";
-        assert!(!is_torn(&path));
+        assert!(notices(&path, 3, 100).is_empty());
         fs::write(&path, &torn).unwrap();
-        assert!(is_torn(&path));
-        assert_eq!(MetricsFile::open(&path, 3).unwrap().1, Some(record(3)));
+        assert!(notices(&path, 3, 100)[0].contains("is cut off"));
+        assert_eq!(MetricsFile::open(&path, 3).unwrap().1, [record(1), record(2), record(3)]);
         fs::write(&path, torn).unwrap();
-        let (mut file, last) = MetricsFile::open(&path, 2).unwrap();
-        assert_eq!(last, Some(record(2)));
+        let (mut file, left) = MetricsFile::open(&path, 2).unwrap();
+        assert_eq!(left, [record(1), record(2)]);
         file.push(&record(4));
         file.sync().unwrap();
         assert_eq!(read(&path).unwrap(), [record(1), record(2), record(4)]);
@@ -227,17 +231,17 @@ mod tests {
     #[test]
     fn lines_that_are_missing_before_a_checkpoint_are_told_with_the_gap() {
         let (_folder, path, mut file) = opened(0);
-        assert_eq!(gap(&path, 99, 100), None, "no line is due yet");
-        assert!(gap(&path, 640, 100).unwrap().contains("is missing: there is no line of the 640 shots"));
+        assert!(notices(&path, 99, 100).is_empty(), "no line is due yet");
+        assert!(notices(&path, 640, 100)[0].contains("is missing: there is no line of the 640 shots"));
         for shots in [192, 384, 576] {
             file.push(&record(shots));
         }
         file.flush().unwrap();
         // Lines that are younger than the checkpoint are no gap: they come again.
         for (shots, is_whole) in [(192, true), (576, true), (599, true), (600, false)] {
-            assert_eq!(gap(&path, shots, 100).is_none(), is_whole, "{shots}");
+            assert_eq!(notices(&path, shots, 100).is_empty(), is_whole, "{shots}");
         }
-        assert!(gap(&path, 960, 60).unwrap().contains("it ends after 576 of the 960 shots played"));
+        assert!(notices(&path, 960, 60)[0].contains("it ends after 576 of the 960 shots played"));
     }
 
     #[test]

@@ -92,7 +92,7 @@ impl Run {
     ) -> Result<Self, RunError> {
         make_folder(folder)?;
         let lock = lock(folder)?;
-        refuse_taken(folder)?;
+        refuse_taken(folder, None)?;
         let config = Config::of(learner.as_ref(), schedule, from.clone());
         let state = State { schedule, from, accumulator: Accumulator::default() };
         let checkpoints = Checkpoints::new(folder);
@@ -120,10 +120,7 @@ impl Run {
             let (name, shots) = (checkpoint::PREVIOUS, learner.shots());
             notices.push(format!("{damage}; going on from {name}, after {shots} shots"));
         }
-        if metrics::is_torn(&folder.join(METRICS)) {
-            notices.push(format!("the last line of {METRICS} is cut off and is left out"));
-        }
-        notices.extend(metrics::gap(&folder.join(METRICS), learner.shots(), state.schedule.log_every));
+        notices.extend(metrics::notices(&folder.join(METRICS), learner.shots(), state.schedule.log_every));
         let config = Config::read(folder).or_else(|_| {
             // It was killed before it had one, or it was removed: the checkpoint has the same values.
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
@@ -216,8 +213,8 @@ fn make_folder(folder: &Path) -> Result<(), RunError> {
     std::fs::create_dir_all(folder).map_err(file(folder))
 }
 
-/// Refuses a folder in which anything is: a run, or files that no run has written. A run would write over some of them.
-fn refuse_taken(folder: &Path) -> Result<(), RunError> {
+/// Refuses a folder in which anything but `own` is: a run, or files that no run has written. A run would write over some of them.
+fn refuse_taken(folder: &Path, own: Option<&str>) -> Result<(), RunError> {
     let name = || folder.display().to_string();
     let holds = |file: &&str| folder.join(file).exists();
     if [config::FILE, checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(holds) || seeds::is_group(folder) {
@@ -225,7 +222,7 @@ fn refuse_taken(folder: &Path) -> Result<(), RunError> {
     }
     for entry in std::fs::read_dir(folder).map_err(file(folder))? {
         let entry = entry.map_err(file(folder))?.file_name();
-        if entry != Lock::FILE {
+        if entry != Lock::FILE && own.is_none_or(|own| entry != *own) {
             return Err(RunError::Foreign { folder: name(), entry: entry.to_string_lossy().into_owned() });
         }
     }

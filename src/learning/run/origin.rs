@@ -15,6 +15,7 @@ use crate::{
         checksum::{OF_CHECKPOINT, is_whole},
         learner::{Learner, note_of},
         nn::weights::Reader,
+        policy::bundled_bytes,
     },
     storage::{self, write_atomic},
     table::Table,
@@ -44,10 +45,19 @@ impl Weights {
             return Ok(Self::of_checkpoint(path, checkpoint::load(path, bytes)?));
         }
         // From the same bytes: a run may replace the file at any moment.
-        let policy = Policy::of_file(&bytes, &path.display().to_string())?;
+        Self::of_policy(path.display().to_string(), bytes)
+    }
+
+    /// The weights of the bundled policy of this name, if there is one.
+    pub fn bundled(name: &str) -> Option<Result<Self, RunError>> {
+        bundled_bytes(name).map(|bytes| Self::of_policy(name.to_owned(), bytes.to_vec()))
+    }
+
+    fn of_policy(path: String, bytes: Vec<u8>) -> Result<Self, RunError> {
+        let policy = Policy::of_file(&bytes, &path)?;
         let origin = policy.origin();
         let start = Start {
-            path: path.display().to_string(),
+            path: path.clone(),
             // The one agent whose policy has a file of its own.
             agent: "ddpg".to_owned(),
             table: origin.table.clone(),
@@ -55,8 +65,8 @@ impl Weights {
             seed: origin.seed,
             shots: origin.shots,
         };
-        let settings = note_of(&origin.hyperparameters)
-            .map_err(|error| RunError::Origin { path: path.display().to_string(), reason: error.to_string() })?;
+        let settings =
+            note_of(&origin.hyperparameters).map_err(|error| RunError::Origin { path, reason: error.to_string() })?;
         Ok(Self { start, settings, table: None, bytes })
     }
 

@@ -104,7 +104,8 @@ impl Group {
         spec.untrained(spec.plan.seed, weights.as_ref())?;
         super::make_folder(folder)?;
         let lock = super::lock(folder)?;
-        super::refuse_taken(folder)?;
+        // Killed before the next file was written, the same command writes this one again.
+        super::refuse_taken(folder, weights.as_ref().map(|_| WEIGHTS))?;
         if let Some(weights) = &weights {
             weights.write(&folder.join(WEIGHTS))?;
         }

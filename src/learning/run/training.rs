@@ -11,7 +11,7 @@ use super::{
     event_file::EventFile,
     examples::Examples,
     heartbeat::Heartbeat,
-    metrics::{self, MetricsFile, Record},
+    metrics::{MetricsFile, Record},
     request::Request,
     result,
     status::Phase,
@@ -79,14 +79,14 @@ impl Run {
     /// Where training breaks down, or where the last checkpoint cannot be written.
     pub fn train(&mut self, limits: &Limits<'_>, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
         let path = self.folder.join(METRICS);
-        let (metrics, last) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
-        let events = metrics::read(&path).and_then(|records| EventFile::create(&self.folder, &records)).ok();
+        let (metrics, records) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
+        let events = EventFile::create(&self.folder, &records).ok();
         let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
         if !self.learner.is_finished() {
             // A finished run whose last checkpoint was lost goes on from the one before.
             let _ = fs::remove_file(self.folder.join(result::FILE));
         }
-        let before = last.map_or(0.0, |record| record.seconds);
+        let before = records.last().map_or(0.0, |record| record.seconds);
         let last = (before, self.learner.shots());
         let clock = Clock { start: Instant::now(), before, paused: Duration::ZERO, last };
         let mut reporting =

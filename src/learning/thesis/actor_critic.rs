@@ -1,6 +1,6 @@
 //! A plain actor and its critic, and how they learn (thesis Algorithm 4): candle's modules, optimiser and gradients.
 
-use candle_core::{Device, Result, Tensor, bail};
+use candle_core::{Device, Result, Tensor};
 use candle_nn::{Module, Optimizer};
 use rand::Rng;
 
@@ -13,6 +13,7 @@ use crate::learning::nn::{
     adam::{Adam, AdamConfig, soft_update},
     mlp::{Mlp, Operations, parameter_count},
     squared_error::squared_error,
+    weights::{WeightsError, units},
 };
 
 /// Layer sizes of an actor with these hidden layers, from the state to the action, and of a critic, from both to one value.
@@ -93,7 +94,12 @@ impl ActorCritic {
     }
 
     /// Networks that go on from what [`ActorCritic::values`] and [`ActorCritic::updates`] gave.
-    pub fn from_values(sizes: &[Vec<usize>; 2], rates: Rates, values: &[f32], updates: u32) -> Result<Self> {
+    pub fn from_values(
+        sizes: &[Vec<usize>; 2],
+        rates: Rates,
+        values: &[f32],
+        updates: u32,
+    ) -> std::result::Result<Self, WeightsError> {
         let [online, target, first, second] = split(sizes, values)?;
         let optimisers = [0, 1].map(|which: usize| {
             let moments = [&first, &second].map(|moments| moments[which].parameters().as_detached_tensor());
@@ -103,9 +109,13 @@ impl ActorCritic {
     }
 
     /// Networks that begin to learn with the weights among such values.
-    pub fn from_weights(sizes: &[Vec<usize>; 2], rates: Rates, values: &[f32]) -> Result<Self> {
+    pub fn from_weights(
+        sizes: &[Vec<usize>; 2],
+        rates: Rates,
+        values: &[f32],
+    ) -> std::result::Result<Self, WeightsError> {
         let [online, ..] = split(sizes, values)?;
-        Self::starting_from(online, rates)
+        Ok(Self::starting_from(online, rates)?)
     }
 
     /// These networks with other operations.
@@ -171,13 +181,17 @@ impl ActorCritic {
 }
 
 /// The four parts of [`ActorCritic::values`].
-fn split([actor, critic]: &[Vec<usize>; 2], values: &[f32]) -> Result<[[Mlp; 2]; 4]> {
+fn split([actor, critic]: &[Vec<usize>; 2], values: &[f32]) -> std::result::Result<[[Mlp; 2]; 4], WeightsError> {
     let (actors, critics) = (parameter_count(actor), parameter_count(critic));
     let expected = 4 * (actors + critics);
     if values.len() != expected {
-        bail!("an actor of layers {actor:?} and a critic of {critic:?} have {expected} values, not {}", values.len());
+        return Err(WeightsError::Shape {
+            name: "networks".to_owned(),
+            found: format!("{} values", values.len()),
+            wanted: format!("{expected}, for an actor with {} and a critic with {}", units(actor), units(critic)),
+        });
     }
-    let part = |number: usize| -> Result<[Mlp; 2]> {
+    let part = |number: usize| -> std::result::Result<[Mlp; 2], WeightsError> {
         let (first, second) = values[number * (actors + critics)..][..actors + critics].split_at(actors);
         Ok([Mlp::from_parameters(actor, first.to_vec())?, Mlp::from_parameters(critic, second.to_vec())?])
     };

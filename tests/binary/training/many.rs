@@ -22,6 +22,13 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     done(here, &SHORT.replace("--seed 3", "--seed 4 --run four"));
     Files::of(&here.join("four")).assert_same(&Files::of(&here.join("whole/seed-4")), "alone and among others");
 
+    // The seeds have one objective, once all have played their last shot.
+    let line = format!("{SHORT} --run large --seeds 3 --continue --objective");
+    assert_eq!(unfinished(here, &format!("{line} --minutes 0.0001")).out, "");
+    let objective: f64 = done(here, &line).out.trim().parse().unwrap();
+    assert_eq!(objective, rows[9][2]);
+    fs::remove_dir_all(here.join("large")).unwrap();
+
     // Stopped before the first seed is through, then again.
     let parts = unfinished(here, &format!("{SHORT} --run parts --seeds 3 --minutes 0.0001"));
     assert!(parts.err.contains("--resume"), "{}", parts.err);
@@ -35,20 +42,106 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     assert!(states.iter().all(|run| run["state"] == "finished" && run["best_reward"].is_number()), "{listed}");
     assert!(listed.contains("whole/seed-5"), "{listed}");
 
-    // Another order is refused in words, by its number of seeds too; the same one finds it finished.
+    // Other settings are refused in words, the number of seeds too; with the same ones it is finished.
     let continued = |rest: &str| carom(here, &format!("{SHORT} --run whole --continue {rest}"));
     let [fewer, single] = ["--seeds 2", ""].map(continued);
-    assert!(fewer.code == Some(1) && fewer.err.contains("has seeds 3, not 2"), "{}", fewer.err);
-    assert!(single.code == Some(1) && single.err.contains("has seeds 3, not none"), "{}", single.err);
-    for (other, words) in [("--set ranking=0.35", "settings"), ("--from four", "has from none")] {
+    assert!(
+        fewer.code == Some(1) && fewer.err.contains("was started with 3 seeds, not 2: --continue resumes a run that"),
+        "{}",
+        fewer.err
+    );
+    assert!(
+        single.code == Some(1) && single.err.contains("was started with 3 seeds, not as a single run"),
+        "{}",
+        single.err
+    );
+    for (other, words) in [
+        ("--set ranking=0.35", "was started with ranking = 0.0, not 0.35:"),
+        ("--set exploration={uniform=0.25}", "was started with exploration.uniform = "),
+        ("--from four", "was started without --from, not from four"),
+    ] {
         let refused = continued(&format!("--seeds 3 {other}"));
         assert!(refused.code == Some(1) && refused.err.contains(words), "{other}: {}", refused.err);
+        assert!(refused.err.len() < 250, "nothing is told but what differs: {}", refused.err);
     }
+    let single = carom(here, &format!("{} --run four --continue --seeds 2", SHORT.replace("--seed 3", "--seed 4")));
+    assert!(single.err.contains("was started as a single run, not with 2 seeds"), "{}", single.err);
     assert_eq!(continued("--seeds 3").code, Some(0));
     // A single run would hide the seeds.
     let single = carom(here, &format!("{SHORT} --run whole"));
     assert_eq!(single.code, Some(1));
     assert!(single.err.contains("--resume"), "{}", single.err);
+}
+
+/// A scheduler asks with the same command again, days later: by then the run that the weights came from may be gone.
+#[test]
+fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
+    let folder = folder();
+    let here = folder.path();
+    done(here, &format!("{SHORT} --run one"));
+    done(here, &format!("{SHORT} --run two"));
+    for (run, seeds) in [("single", ""), ("group", " --seeds 2")] {
+        let line = |from: &str| {
+            format!(
+                "train --from {from} --steps 320 --evaluate-every 64 --evaluation-layouts 5 --set replay=4000 --run {run} --continue{seeds}"
+            )
+        };
+        unfinished(here, &format!("{} --minutes 0.00001", line("one")));
+        let absolute = here.join("one").display().to_string();
+        unfinished(here, &format!("{} --minutes 0.00001", line(&absolute)));
+        let other = carom(here, &line("two"));
+        assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
+        fs::rename(here.join("one"), here.join("away")).unwrap();
+        let other = carom(here, &line("two"));
+        assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
+        let other = carom(here, &line("one").replace("replay=4000", "replay=3000"));
+        assert!(other.err.contains("was started with replay = 4000, not 3000:"), "{}", other.err);
+        done(here, &line("one"));
+        fs::rename(here.join("away"), here.join("one")).unwrap();
+    }
+    // Killed after its first file was written.
+    fs::remove_file(here.join("group/seeds.json")).unwrap();
+    fs::remove_file(here.join("group/seeds.csv")).unwrap();
+    for seed in ["seed-1", "seed-2"] {
+        fs::remove_dir_all(here.join("group").join(seed)).unwrap();
+    }
+    let line = "--steps 64 --evaluation-layouts 5 --seeds 2 --run group --continue";
+    let mixed = carom(here, &format!("train {line}"));
+    assert!(mixed.code == Some(1) && mixed.err.contains("\"from.safetensors\" is in it"), "{}", mixed.err);
+    done(here, &format!("train --from one {line}"));
+}
+
+#[test]
+fn weights_are_found_by_the_names_that_policies_have() {
+    let folder = folder();
+    let here = folder.path();
+    let models = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    fs::create_dir_all(here.join("carom/policies")).unwrap();
+    fs::copy(models.join("match-one-cushion.safetensors"), here.join("carom/policies/mine.safetensors")).unwrap();
+    let short = "--steps 1 --evaluation-layouts 5 --set calibrated=0 --continue";
+    for (from, run, reward, path) in [
+        ("mine", "a", "one-cushion", "mine.safetensors"),
+        ("match-one-cushion", "b", "one-cushion", "match-one-cushion"),
+        ("bundled", "c", "r3", "match-r3"),
+        ("bundled --reward three-cushion --table thesis", "d", "three-cushion", "thesis-three-cushion"),
+    ] {
+        let line = format!("train --from {from} {short} --run {run}");
+        done(here, &line);
+        done(here, &line);
+        let config: Value = serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap();
+        assert!(config["from"]["path"].as_str().unwrap().ends_with(path), "{from}: {}", config["from"]);
+        assert_eq!(config["reward"], reward, "{from}");
+    }
+    let report: Value = serde_json::from_str(
+        &done(here, "evaluate --policy match-one-cushion --policy-only --rule one-cushion --layouts 5 --json").out,
+    )
+    .unwrap();
+    assert_eq!((&report["policy"], &report["networks"]), (&"match-one-cushion".into(), &"match-one-cushion".into()));
+    for line in ["train --from match-r9", "evaluate --policy match-r9"] {
+        let refused = carom(here, line);
+        let words = ["match-r9", "the name of one that was kept, bundled, or one of match-r3, "];
+        assert!(refused.code == Some(1) && words.iter().all(|words| refused.err.contains(words)), "{}", refused.err);
+    }
 }
 
 #[test]
@@ -103,5 +196,13 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
     assert_eq!(large.code, Some(2));
     assert!(large.err.contains("critic") && large.err.contains("-24-1"), "{}", large.err);
     assert!(large.err.contains("leave out the settings"), "{}", large.err);
+
+    done(here, "train --agent thesis-ddpg --table thesis --steps 100 --evaluation-layouts 5 --run thesis");
+    let mut large = command(here, "train --from thesis --set actor_layers=[8] --run large");
+    let large = outcome(large.env("RUST_BACKTRACE", "1").spawn().unwrap());
+    assert!(large.code == Some(2) && large.err.lines().count() == 1, "{}", large.err);
+    for words in ["actor with layers of 6-8-2 units", "leave out the settings"] {
+        assert!(large.err.contains(words), "{}", large.err);
+    }
     assert!(!here.join("large").exists());
 }

@@ -8,7 +8,7 @@ use super::{Policy, calibration::Calibration};
 use crate::{
     game::{Reward, Rule},
     learning::{
-        checksum::{NO_CHECKSUM, OF_POLICY, is_whole, write_checksum},
+        checksum::{NO_CHECKSUM, OF_POLICY, checksum, is_whole, write_checksum},
         ddpg::{context::knows, hyperparameters::Hyperparameters, networks::Networks},
         nn::weights::{Reader, WeightsError, Writer},
     },
@@ -37,6 +37,16 @@ const CONTEXT: &str = "context";
 fn bundled_file(whose: &str, rule: Rule) -> Option<&'static [u8]> {
     let reward = Reward::for_rule(rule);
     BUNDLED.into_iter().find(|(name, what, _)| (*name, *what) == (whose, reward)).map(|(.., bytes)| bytes)
+}
+
+/// What the bundled files are called (`models/README.md`), without `.safetensors`.
+pub fn bundled_names() -> impl Iterator<Item = String> {
+    BUNDLED.into_iter().map(|(whose, reward, _)| format!("{whose}-{reward}"))
+}
+
+/// The bundled file of this name.
+pub(in crate::learning) fn bundled_bytes(name: &str) -> Option<&'static [u8]> {
+    bundled_names().position(|bundled| bundled == name).map(|index| BUNDLED[index].2)
 }
 
 /// Where a policy comes from.
@@ -151,14 +161,29 @@ impl Policy {
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\"")))
     }
 
-    /// What the bundled file with these networks is called (`models/README.md`), without `.safetensors`; `None` where they are no
-    /// bundled ones.
+    /// The bundled policy in the file of this name.
+    ///
+    /// # Errors
+    /// As [`Policy::bundled`].
+    pub fn bundled_called(name: &str) -> Option<Result<Self, PolicyError>> {
+        bundled_bytes(name).map(|bytes| Self::from_bytes(bytes, name))
+    }
+
+    /// What the bundled file with these networks is called; `None` where they are no bundled ones.
     pub fn bundled_name(&self) -> Option<String> {
         // Seed, shots and settings tell them apart.
-        let is_this =
-            |bytes| Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin));
-        let found = BUNDLED.into_iter().find(|(.., bytes)| is_this(*bytes));
-        found.map(|(whose, reward, _)| format!("{whose}-{reward}"))
+        let is_this = |(.., bytes): &(_, _, &[u8])| {
+            Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin))
+        };
+        BUNDLED.iter().position(is_this).and_then(|index| bundled_names().nth(index))
+    }
+
+    /// A checksum of the networks and of what their file says of them: equal ones play equally.
+    ///
+    /// # Errors
+    /// As [`Writer::finish`].
+    pub fn checksum(&self) -> Result<String, WeightsError> {
+        Ok(checksum(&self.to_bytes()?))
     }
 
     /// Reads a policy from a file.

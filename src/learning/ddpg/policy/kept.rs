@@ -39,12 +39,9 @@ pub enum KeepError {
     },
 }
 
-/// The policy file called `name`: a path, or else the one kept under this name in `folder`.
-pub fn find(folder: &Path, name: &str) -> PathBuf {
-    let path = PathBuf::from(name);
-    let kept = file(folder, name);
-    // A run's folder may be called so as well.
-    if !path.is_file() && is_name(name) && kept.exists() { kept } else { path }
+/// The policy that is kept under `name` in `folder`, if there is one.
+pub fn find(folder: &Path, name: &str) -> Option<PathBuf> {
+    Some(file(folder, name)).filter(|kept| is_name(name) && kept.exists())
 }
 
 /// Keeps the policy in the file `policy` under `name` in `folder`, and returns where. One of the same name is replaced only
@@ -82,12 +79,12 @@ mod tests {
         let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
         let [first, second] = ["match-r3", "thesis-r3"].map(|name| models.join(name).with_extension(EXTENSION));
         let kept = keep(folder.path(), &first, "mine", false).unwrap();
-        assert_eq!(find(folder.path(), "mine"), kept);
+        assert_eq!(find(folder.path(), "mine").as_ref(), Some(&kept));
         assert_eq!(std::fs::read(&kept).unwrap(), std::fs::read(&first).unwrap());
         assert!(matches!(keep(folder.path(), &second, "mine", false), Err(KeepError::Taken(_))));
         keep(folder.path(), &second, "mine", true).unwrap();
         assert_eq!(std::fs::read(&kept).unwrap(), std::fs::read(&second).unwrap());
-        assert_eq!(find(folder.path(), "other"), PathBuf::from("other"));
+        assert_eq!([find(folder.path(), "other"), find(folder.path(), "../mine")], [None, None]);
     }
 
     #[test]

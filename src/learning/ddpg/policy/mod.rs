@@ -4,9 +4,11 @@ pub mod calibration;
 pub mod file;
 pub mod kept;
 
-use std::sync::Arc;
+use std::{iter::once, sync::Arc};
 
 use self::file::Origin;
+pub(in crate::learning) use self::file::bundled_bytes;
+pub use self::file::bundled_names;
 use crate::{
     game::Reward,
     learning::{
@@ -116,12 +118,11 @@ impl Policy {
         // Small batches stay in the processor's cache.
         for layouts in layouts.chunks(64) {
             for (layout, proposals) in layouts.iter().zip(self.proposals_for(table, layouts, &Skill::PERFECT)) {
-                let first = reward.of(table, layout, &proposals[0].cue);
-                let made = |earned: f64| earned >= 1.0;
+                let first = reward.with_room(table, layout, &proposals[0].cue, u32::MAX);
                 // On the `thesis` table a few proposals would take all the time, and next to none of those earn anything.
-                let value = |proposal: &Proposal| reward.within(table, layout, &proposal.cue, CONTACT_STEPS);
-                let rest = || proposals[1..].iter().any(|proposal| made(value(proposal)));
-                played.push((first, made(first) || rest()));
+                let value = |proposal: &Proposal| reward.with_room(table, layout, &proposal.cue, CONTACT_STEPS);
+                let any = once(first).chain(proposals[1..].iter().map(value)).any(|earned| earned >= 1.0);
+                played.push((first, any));
             }
         }
         Score::of(&played)
@@ -133,7 +134,8 @@ mod tests {
     use super::*;
     use crate::{
         game::Rule,
-        learning::evaluation::held_out_layouts,
+        learning::evaluation::{HELD_OUT_SEED, held_out_layouts},
+        physics::has_room,
         simulation::{EventKind, Recording},
     };
     use glam::DVec2;
@@ -159,6 +161,19 @@ mod tests {
                 proposal.cue.validate().unwrap();
             }
         }
+    }
+
+    #[test]
+    fn a_proposal_for_which_the_cue_has_no_room_counts_as_missed() {
+        let (table, reward) = (Table::default(), Reward::ThreeCushion);
+        let policy = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
+        // On this one of the layouts that runs are measured on only a stroke without room would make the point.
+        let layouts = &held_out_layouts(&table, 583, HELD_OUT_SEED)[582..];
+        let proposals = policy.proposals(&table, &layouts[0], &Skill::PERFECT);
+        let made = proposals.iter().filter(|proposal| reward.of(&table, &layouts[0], &proposal.cue) >= 1.0);
+        let has_room: Vec<bool> = made.map(|proposal| has_room(&table, &layouts[0], &proposal.cue)).collect();
+        assert!(has_room.contains(&false) && !has_room.contains(&true), "another policy wants another layout");
+        assert_eq!(policy.score(&table, reward, layouts).best_of_k, 0.0);
     }
 
     #[test]
