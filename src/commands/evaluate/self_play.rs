@@ -153,7 +153,7 @@ fn report<'a>(spec: &'a Spec, records: &[InningRecord]) -> SelfPlayReport<'a> {
         longest: records.iter().map(|inning| inning.points).max().unwrap_or(0),
         runs: records.iter().map(|inning| inning.points).collect(),
         simulations_per_turn: records.iter().map(|inning| inning.simulations).sum::<u64>() as f64 / turns,
-        mean_ms: 1e3 * records.iter().map(|inning| inning.seconds).sum::<f64>() / turns,
+        mean_ms: 1e3 * records.iter().fold(0.0, |all, inning| all + inning.seconds) / turns,
         slowest_ms: 1e3 * records.iter().map(|inning| inning.slowest_seconds).fold(0.0, f64::max),
     }
 }
