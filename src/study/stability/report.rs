@@ -118,8 +118,8 @@ fn multiple(value: f64) -> String {
 /// Columns of the table.
 const COLUMNS: usize = 9;
 
-/// Least width of a column of numbers: that of ten million shots.
-const SHOTS: usize = 8;
+/// Width of a column of numbers: that of ten million shots.
+const NUMBER: usize = 8;
 
 const HEADS: [&str; COLUMNS] = [
     "case",
@@ -143,21 +143,29 @@ pub fn rows(plan: &Plan) -> impl Iterator<Item = Row> {
     })
 }
 
-/// The heads of the table for a terminal.
+/// The heads of the same table for a terminal, where there is little room.
+const SHORT_HEADS: [&str; COLUMNS] =
+    ["case", "shots", "apart, m", "gained", "missing", "m²/s²", "events", "ms", "verdict"];
+
+/// The heads of the table for a terminal, and what they mean.
 pub fn heads() -> String {
-    line(&HEADS.map(str::to_owned))
+    format!(
+        "apart: worst overlap, escape, jump or gap; gained: energy, over rounding; missing: energy that nothing explains, over the tolerance, \
+         and in m²/s²; events: most of a shot; ms: the longest shot\n\n{}",
+        line(&SHORT_HEADS.map(str::to_owned))
+    )
 }
 
 /// One line of that table: words stand left, numbers right.
 fn line(cells: &[String; COLUMNS]) -> String {
     let longest = cases().iter().map(|case| case.name.chars().count()).max().unwrap_or(0);
     let mut line = String::new();
-    for (column, (cell, head)) in cells.iter().zip(HEADS).enumerate() {
+    for (column, cell) in cells.iter().enumerate() {
         // Writing to a string cannot fail.
         let _ = match column {
             0 => write!(line, "{cell:<longest$}"),
             _ if column + 1 == COLUMNS => write!(line, "  {cell}"),
-            _ => write!(line, "  {cell:>width$}", width = head.chars().count().max(SHOTS)),
+            _ => write!(line, "  {cell:>NUMBER$}"),
         };
     }
     line
@@ -236,8 +244,9 @@ mod tests {
     fn a_row_says_what_it_is_and_whether_it_holds() {
         let good = row();
         let bad = Row { failed: 2, example: Some("a ball is outside".to_owned()), ..row() };
-        let lines = [heads(), good.line(), bad.line()];
-        assert!(lines.iter().all(|line| line.lines().count() == 1), "{lines:?}");
+        let heads = heads();
+        let lines = [heads.lines().last().unwrap(), &good.line(), &bad.line()];
+        assert!(lines[1..].iter().all(|line| line.lines().count() == 1), "{lines:?}");
         let verdict = |line: &str| ["verdict", "holds", "2 fail"].iter().find_map(|word| line.find(word));
         let places = lines.each_ref().map(|line| verdict(line).map(|place| line[..place].chars().count()));
         assert!(places.iter().all(|place| *place == places[0]), "{lines:?}");
