@@ -34,10 +34,13 @@ pub fn in_plain_words(message: &str) -> String {
 }
 
 /// A sentence without the numbers by which the system knows its errors: its words say the same.
-pub fn without_numbers(sentence: &str) -> String {
-    let mut parts = sentence.split(" (os error ");
-    let first = parts.next().unwrap_or_default().to_owned();
-    parts.fold(first, |said, part| said + part.split_once(')').map_or(part, |(_, rest)| rest))
+pub fn without_numbers(mut sentence: String) -> String {
+    while let Some(start) = sentence.find(" (os error ")
+        && let Some(length) = sentence[start..].find(')')
+    {
+        sentence.replace_range(start..=start + length, "");
+    }
+    sentence
 }
 
 /// What is wrong with a TOML text: the line, the key that stands there, and why.
@@ -101,7 +104,7 @@ mod tests {
         assert_eq!(json("{nam: 3}"), "line 1, column 2 is no JSON");
         let said = std::io::Error::from_raw_os_error(2).to_string();
         assert!(said.contains("os error"), "{said}");
-        let said = without_numbers(&format!("a: {said}; b"));
+        let said = without_numbers(format!("a: {said}; b"));
         assert!(said.ends_with("; b") && !said.contains("os error") && said.len() > 6, "{said}");
         assert_eq!(json("{\"name\":\"a\"}"), "at line 1, column 12, `count` is missing");
     }

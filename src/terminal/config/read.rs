@@ -71,7 +71,7 @@ pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
                     complaints.push(Complaint { line: line(at), text });
                 }),
                 None => {
-                    complain("keys is no section; write [keys] and below it lines like \"x\" = \"Enter\"".to_owned())
+                    complain("keys is no section; write [keys] and below it lines like \"x\" = \"Enter\"".to_owned());
                 }
             }
         } else if let Some(entry) = ENTRIES.iter().find(|entry| entry.key == name) {

@@ -42,7 +42,7 @@ impl Message {
 
     /// A refusal or a failure.
     pub fn warning(text: impl Into<String>) -> Self {
-        Self { tone: Tone::Warning, text: without_numbers(&text.into()) }
+        Self { tone: Tone::Warning, text: without_numbers(text.into()) }
     }
 
     /// The same news after some other words.
