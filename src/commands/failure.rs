@@ -2,7 +2,7 @@
 
 use std::{fmt::Display, io};
 
-use crate::{learning::PolicyError, platform::UNFINISHED};
+use crate::{learning::PolicyError, platform::UNFINISHED, storage::without_numbers};
 
 /// A sentence for the user and the process' exit code.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -16,12 +16,12 @@ impl Failure {
     /// What was asked for is acceptable, but cannot be done: what a name or a path stands for is not there or cannot be read, or something
     /// went wrong: exit code 1.
     pub fn failed(message: impl Display) -> Self {
-        Self { message: message.to_string(), code: 1 }
+        Self { message: without_numbers(message.to_string()), code: 1 }
     }
 
     /// The command line, a line of the input or what a file holds is not acceptable, whatever there is on this machine: exit code 2.
     pub fn wrong_input(message: impl Display) -> Self {
-        Self { message: message.to_string(), code: 2 }
+        Self { message: without_numbers(message.to_string()), code: 2 }
     }
 
     /// What was begun can go on by the same command.

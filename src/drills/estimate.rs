@@ -100,8 +100,8 @@ fn openings(low: f64, high: f64) -> [bool; 2] {
 pub enum NoEstimate {
     /// Too few attempts, or shots.
     #[error(
-        "the skill cannot be estimated yet: it takes {FEWEST} attempts at {FEWEST_SHOTS} different shots at a real table, and \
-         there are {attempts} at {shots}; counted are model shots where no ball was shifted, and shots of the coach's hints, but no games"
+        "the skill cannot be estimated yet: so far attempts {attempts} ({FEWEST} needed), different shots {shots} ({FEWEST_SHOTS} \
+         needed); only model shots with no ball shifted and hinted shots at a real table count, and no games"
     )]
     TooFew {
         /// Attempts there are.

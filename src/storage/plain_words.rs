@@ -3,7 +3,7 @@
 use serde_json::error::Category;
 
 /// What the libraries say, and what people are told instead.
-const WORDS: [(&str, &str); 7] = [
+const WORDS: [(&str, &str); 17] = [
     ("expected usize", "expected a whole number from 0 on"),
     ("expected u64", "expected a whole number from 0 on"),
     ("expected u32", "expected a whole number from 0 on"),
@@ -11,7 +11,20 @@ const WORDS: [(&str, &str); 7] = [
     ("expected f32", "expected a number"),
     ("expected a boolean", "expected true or false"),
     ("unknown variant", "unknown word"),
+    ("unclosed array table", "the name of a section has no end"),
+    ("unclosed table", "the name of a section has no end"),
+    ("unclosed inline table", "the braces have no end"),
+    ("unclosed array", "the list has no end"),
+    ("key with no value", "a name without a value"),
+    ("missing value for key", "a name without a value"),
+    ("missing assignment between key-value pairs", "two values without a name between them"),
+    ("extra assignment between key-value pairs", "a second `=`"),
+    ("unexpected key or value", "more than one value"),
+    ("duplicate key", "a name that stands there already"),
 ];
+
+/// The same of what a file names; runs of training have another word for it, settings.
+const NAME: [&str; 2] = ["unknown field", "unknown name"];
 
 /// A message of serde in plain words.
 pub fn in_plain_words(message: &str) -> String {
@@ -20,9 +33,19 @@ pub fn in_plain_words(message: &str) -> String {
     WORDS.iter().fold(message, |message, (theirs, ours)| message.replace(theirs, ours))
 }
 
+/// A sentence without the numbers by which the system knows its errors: its words say the same.
+pub fn without_numbers(mut sentence: String) -> String {
+    while let Some(start) = sentence.find(" (os error ")
+        && let Some(length) = sentence[start..].find(')')
+    {
+        sentence.replace_range(start..=start + length, "");
+    }
+    sentence
+}
+
 /// What is wrong with a TOML text: the line, the key that stands there, and why.
 pub fn toml_flaw(text: &str, error: &toml::de::Error) -> String {
-    let reason = in_plain_words(error.message());
+    let reason = in_plain_words(error.message()).replace(NAME[0], NAME[1]);
     let is_missing = error.message().starts_with("missing field ");
     // What is missing in the whole file stands in no line of it, and what is missing in a section is no fault of another key.
     let Some(start) = error.span().map(|span| span.start).filter(|start| !is_missing || *start > 0) else {
@@ -43,7 +66,7 @@ pub fn json_flaw(error: &serde_json::Error) -> String {
         Category::Syntax | Category::Io => format!("line {line}, column {column} is no JSON"),
         Category::Data => {
             let text = error.to_string();
-            let reason = in_plain_words(text.split(" at line ").next().unwrap_or_default());
+            let reason = in_plain_words(text.split(" at line ").next().unwrap_or_default()).replace(NAME[0], NAME[1]);
             // What lies within other parts has no place.
             if line > 0 { format!("at line {line}, column {column}, {reason}") } else { reason }
         }
@@ -72,11 +95,17 @@ mod tests {
             toml("name = \"a\"\ncount = -1"),
             "line 2, count: invalid value: integer `-1`, expected a whole number from 0 on"
         );
-        assert!(toml("nmae = \"a\"\ncount = 1").starts_with("line 1, nmae: unknown field `nmae`"));
+        assert!(toml("nmae = \"a\"\ncount = 1").starts_with("line 1, nmae: unknown name `nmae`"));
+        assert_eq!(toml("name = \"a\"\n[two\n"), "line 2: the name of a section has no end, expected `]`");
         let json = |text: &str| json_flaw(&serde_json::from_str::<Two>(text).unwrap_err());
         assert_eq!(json(""), "it is empty");
         assert_eq!(json("{\"name\":\n"), "it ends in the middle of line 2");
         assert_eq!(json("{\"name\" 3}"), "line 1, column 9 is no JSON");
+        assert_eq!(json("{nam: 3}"), "line 1, column 2 is no JSON");
+        let said = std::io::Error::from_raw_os_error(2).to_string();
+        assert!(said.contains("os error"), "{said}");
+        let said = without_numbers(format!("a: {said}; b"));
+        assert!(said.ends_with("; b") && !said.contains("os error") && said.len() > 6, "{said}");
         assert_eq!(json("{\"name\":\"a\"}"), "at line 1, column 12, `count` is missing");
     }
 }

@@ -74,7 +74,7 @@ mod tests {
             ("taper = 0.5", "0 to 0.1 m a metre"),
             ("length = 0", "room.length = 0"),
             ("rail = 2", "room.rail = 2"),
-            ("shaft = 1", "unknown field"),
+            ("shaft = 1", "unknown name"),
         ] {
             let message = table(&format!("[room]\n{line}")).unwrap_err().to_string();
             assert!(message.contains(says), "{line}: {message}");

@@ -1,6 +1,6 @@
 //! How one stroke differs from another, as a player would say it.
 
-use super::{ShotWords, TIP, TipUnit, Units, short};
+use super::{ShotWords, TIP, TipUnit, Units, lengths_words, short};
 use crate::table::CueBall;
 
 /// Parts of a ball below which a difference of fullness is not told, is a hair, and is a little; from there on eighths are told.
@@ -45,9 +45,8 @@ impl ShotWords {
         );
         let harder = self.table_lengths - other.table_lengths;
         if harder.abs() >= LENGTHS {
-            let lengths = short(harder.abs(), 1);
-            let unit = if lengths == "1" { "length" } else { "lengths" };
-            parts.push(format!("{} by {lengths} {unit}", if harder > 0.0 { "harder" } else { "softer" }));
+            let lengths = lengths_words(harder.abs());
+            parts.push(format!("{} by {lengths}", if harder > 0.0 { "harder" } else { "softer" }));
         }
         let raised = self.elevation_deg - other.elevation_deg;
         if raised.abs() >= ELEVATION {

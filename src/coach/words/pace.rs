@@ -5,6 +5,7 @@
 
 use glam::DVec2;
 
+use super::short;
 use crate::{
     physics::CueInputs,
     simulation::{EventKind, Rail, Recording},
@@ -42,9 +43,21 @@ pub fn pace_word(lengths: f64) -> &'static str {
     }
 }
 
+/// So many table lengths in words, to a tenth.
+pub fn lengths_words(lengths: f64) -> String {
+    let number = short(lengths, 1);
+    let plural = if number == "1" { "" } else { "s" };
+    format!("{number} length{plural}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_length_is_no_plural() {
+        assert_eq!([0.98, 1.04, 1.1, 0.5].map(lengths_words), ["1 length", "1 length", "1.1 lengths", "0.5 lengths"]);
+    }
 
     #[test]
     fn a_harder_stroke_runs_further_on_every_table() {

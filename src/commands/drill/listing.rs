@@ -8,13 +8,14 @@ use super::{
     score::{Score, shot_text, words},
 };
 use crate::{
+    coach::ShotWords,
     commands::{
         Failure,
         input::whole,
-        output::{columns, json_line, line},
+        output::{columns, json_line, line, units},
     },
     drills::{Category, Exercise, Filter, Record, encode},
-    table::BALL_NAMES,
+    table::{BALL_NAMES, CueBall},
 };
 
 /// List the exercises, with the player's record.
@@ -122,6 +123,9 @@ pub fn show(args: &ShowArgs) -> Result<(), Failure> {
         line(format_args!("{name:<6} {x:>8.1} {y:>7.1} mm from the centre   {across:.2} {up:.2} diamonds"))?;
     }
     if let Some(shot) = shot {
+        if let Ok(words) = ShotWords::of(&table, &exercise.layout, shot) {
+            line(words.sentence(CueBall::White, units()))?;
+        }
         line(format_args!("shot    {} (a, b in radii, theta, phi in degrees, V in m/s)", shot_text(shot)))?;
     }
     if let Some(par) = par {

@@ -336,7 +336,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     }
     writeln!(
         out,
-        "For a player of skill \"{}\" under the rule {}; --skill and --rule choose others. Those of the settings of the screen do not count.",
+        "For a player of skill \"{}\" under the rule {}; --skill and --rule choose others. The screen's skill and rule are not used.",
         args.skill, args.rule
     )?;
     if answer.told.is_some() {
@@ -383,6 +383,9 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         let (theta, phi) = (theta.to_degrees(), cue.phi_text(3));
         let pattern = told.as_ref().and_then(Told::pattern).map_or_else(String::new, |name| format!("{name}; "));
         writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi},{speed:.3}: {pattern}{}", words(sort, chance, args))?;
+        if let Some(told) = told {
+            writeln!(out, "   {}", told.sentence(units()))?;
+        }
     }
     writeln!(out, "source: {}, {} simulations in {:.1} ms", answer.source, answer.simulations, answer.elapsed_ms)
 }

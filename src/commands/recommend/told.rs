@@ -57,13 +57,18 @@ impl Told {
     /// The same for people to read.
     pub fn describe(&self, out: &mut impl Write, units: Units) -> io::Result<()> {
         let numbers = &self.words.numbers;
-        writeln!(out, "{}", numbers.sentence(CueBall::White, units))?;
+        writeln!(out, "{}", self.sentence(units))?;
         writeln!(out, "{}", numbers.course(CueBall::White, units))?;
         writeln!(out, "{}", numbers.aim(units))?;
         match (self.pattern, self.course) {
             (Some(pattern), Some(course)) => writeln!(out, "Pattern: {pattern} ({course})."),
             _ => Ok(()),
         }
+    }
+
+    /// How to strike, alone.
+    pub fn sentence(&self, units: Units) -> String {
+        self.words.numbers.sentence(CueBall::White, units)
     }
 
     /// Its name alone.

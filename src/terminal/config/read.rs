@@ -7,10 +7,13 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use crate::terminal::{
-    Settings,
-    config::entries::{ENTRIES, Entry},
-    keymap::remap::chord,
+use crate::{
+    storage::in_plain_words,
+    terminal::{
+        Settings,
+        config::entries::{ENTRIES, Entry},
+        keymap::remap::chord,
+    },
 };
 
 /// The name of the part with the keys.
@@ -67,7 +70,9 @@ pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
                 Some(keys) => read_keys(&mut settings, keys, |at, text| {
                     complaints.push(Complaint { line: line(at), text });
                 }),
-                None => complain("keys is no table; write [keys] and below it lines like \"x\" = \"Enter\"".to_owned()),
+                None => {
+                    complain("keys is no section; write [keys] and below it lines like \"x\" = \"Enter\"".to_owned());
+                }
             }
         } else if let Some(entry) = ENTRIES.iter().find(|entry| entry.key == name) {
             if (entry.set)(&mut settings, value.get_ref()).is_none() {
@@ -100,7 +105,7 @@ fn without_mistakes(text: &str) -> (String, Vec<Complaint>) {
         let start = text.as_bytes()[..place].iter().rposition(|byte| *byte == b'\n').map_or(0, |newline| newline + 1);
         let end = text[start..].find('\n').map_or(text.len(), |length| start + length);
         let written = text[start..end].trim().to_owned();
-        let reason = error.message().to_owned();
+        let reason = in_plain_words(error.message());
         let text_of = |what: &str| {
             format!("{what} is not taken: {reason}; accepted are lines like name = value, with words in quotes")
         };

@@ -8,7 +8,7 @@ use crate::{
     coach::Skill,
     drills::Session,
     game::Rule,
-    storage::{self, replace},
+    storage::{self, json_flaw, replace},
     table::{CueBall, Layout, Table},
     terminal::Terms,
 };
@@ -103,11 +103,13 @@ impl<'a> SavedSession<'a> {
     pub fn load(path: &Path) -> Result<Option<Self>, String> {
         let bytes = storage::read_if_there(path, storage::PRACTICE).map_err(|error| error.to_string())?;
         let Some(bytes) = bytes else { return Ok(None) };
-        let header: Header = serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {error}"))?;
+        let header: Header =
+            serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {}", json_flaw(&error)))?;
         if header.version != VERSION {
             return Err(format!("it is of version {}, and {VERSION} is understood", header.version));
         }
-        let last: Self = serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {error}"))?;
+        let last: Self =
+            serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {}", json_flaw(&error)))?;
         last.checked().map(Some)
     }
 

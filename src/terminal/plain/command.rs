@@ -63,16 +63,16 @@ pub enum Command {
 
 /// What may be said, and what it does.
 pub const HELP: &[(&str, &str)] = &[
-    ("shot", "ask the coach for a shot; an empty line does the same"),
-    ("other", "the next of the other shots"),
+    ("shot", "ask the coach for a shot; ask and an empty line do the same"),
+    ("other", "the next of the other shots; so does next"),
     ("numbers", "the shot in numbers: small distances, speed and degrees"),
     ("system", "what a player counts on the diamonds for the shot, and what that is on this table"),
     ("words", "what the words for a shot mean: tips, o'clock, full, table lengths, diamonds"),
-    ("tell", "what the balls meet in the shot, and what comes of it"),
+    ("tell", "what the balls meet in the shot, and what comes of it; so does play"),
     ("tell all", "the same, and where they begin to roll and stop"),
     ("margins", "how far off the shot may be, and where to aim"),
     ("go on", "take the balls as the shot leaves them"),
-    ("where", "where the balls lie"),
+    ("where", "where the balls lie; so does balls alone"),
     ("move white left 20", "move a ball by so many millimetres: left, right, up or down"),
     ("balls -0.5,0 0,0 0.5,0.03", "place all three, in metres or in diamonds like 2d,2d 6d,2d 2d,2.5d"),
     (
@@ -99,16 +99,16 @@ impl FromStr for Command {
     fn from_str(line: &str) -> Result<Self, String> {
         let words: Vec<&str> = line.split_whitespace().collect();
         Ok(match words[..] {
-            [] | ["shot"] => Self::Shot,
-            ["other"] => Self::Other,
+            [] | ["shot" | "ask"] => Self::Shot,
+            ["other" | "next"] => Self::Other,
             ["numbers"] => Self::Numbers,
             ["system"] => Self::System,
             ["words"] => Self::Words,
-            ["tell"] => Self::Tell(false),
+            ["tell" | "play"] => Self::Tell(false),
             ["tell", "all"] => Self::Tell(true),
             ["margins"] => Self::Margins,
             ["go", "on"] => Self::GoOn,
-            ["where"] => Self::Where,
+            ["where" | "balls"] => Self::Where,
             ["opening"] => Self::Opening(Side::default()),
             ["opening", side] => Self::Opening(side.parse().map_err(|error| format!("{error}"))?),
             ["random"] => Self::Random,
@@ -164,7 +164,10 @@ mod tests {
         for (line, _) in HELP {
             assert!(line.parse::<Command>().is_ok(), "{line}");
         }
-        assert_eq!("".parse(), Ok(Command::Shot));
+        assert_eq!(["", "ask"].map(str::parse), [Ok(Command::Shot), Ok(Command::Shot)]);
+        assert_eq!(["other", "next"].map(str::parse), [Ok(Command::Other), Ok(Command::Other)]);
+        assert_eq!("play".parse(), Ok(Command::Tell(false)));
+        assert_eq!("balls".parse(), Ok(Command::Where));
         assert_eq!("?".parse(), Ok(Command::Help));
         assert_eq!("exit".parse(), Ok(Command::Quit));
     }

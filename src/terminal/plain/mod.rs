@@ -114,7 +114,7 @@ pub fn converse(
         };
         refused += usize::from(answer.is_err());
         let (Ok(said) | Err(said)) = answer;
-        write!(output, "{said}\n{prompt}")?;
+        write!(output, "{}\n{prompt}", speech::for_ears(&said))?;
         output.flush()?;
     }
     Ok(refused)
@@ -346,6 +346,7 @@ mod tests {
         ] {
             assert!(said.contains(words), "{words}: {said}");
         }
+        assert!(!said.contains(['%', '\u{b0}']), "signs are words: {said}");
         let first = "White lies at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
         assert_eq!(said.matches(first).count(), 2, "at the start and after undo, but not after quit: {said}");
     }

@@ -22,6 +22,11 @@ const fn small(unit: LengthUnit, decimals: usize) -> (f64, &'static str, usize) 
     }
 }
 
+/// Sentences that the screen has too, with words for its signs: what one reads aloud is spelt one way.
+pub fn for_ears(said: &str) -> String {
+    said.replace(" %", " percent").replace('\u{b0}', " degrees")
+}
+
 /// What speeds are told in, in words.
 pub const fn of_speed(unit: LengthUnit) -> &'static str {
     match unit {

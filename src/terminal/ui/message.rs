@@ -1,5 +1,7 @@
 //! Messages to the player: news, answers, refusals and failures.
 
+use crate::storage::without_numbers;
+
 /// What kind of news a message is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
@@ -40,7 +42,7 @@ impl Message {
 
     /// A refusal or a failure.
     pub fn warning(text: impl Into<String>) -> Self {
-        Self { tone: Tone::Warning, text: text.into() }
+        Self { tone: Tone::Warning, text: without_numbers(text.into()) }
     }
 
     /// The same news after some other words.

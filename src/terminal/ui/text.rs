@@ -61,8 +61,8 @@ pub fn shorten(text: &str, room: usize, caps: Capabilities) -> String {
     cut(wrap(&spell(text, caps), room), 1, room, caps).swap_remove(0)
 }
 
-/// The words of `text` in lines of at most `width` columns; a longer word begins a line and is broken. A character that is
-/// wider than that stands alone.
+/// The words of `text` in lines of at most `width` columns; a longer word begins a line and is broken, behind a `/` of a path where it
+/// has one. A character that is wider than that stands alone.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut taken = 0;
@@ -78,15 +78,23 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
             lines.push(String::new());
             taken = 0;
         }
-        for grapheme in word.graphemes(true) {
-            let wide = grapheme_columns(grapheme);
-            if taken + wide > width && taken > 0 {
+        let is_long = wide > width;
+        for part in word.split_inclusive('/') {
+            let wide = columns(part);
+            if is_long && taken > 0 && taken + wide > width && wide <= width {
                 lines.push(String::new());
                 taken = 0;
             }
-            let last = lines.len() - 1;
-            lines[last].push_str(grapheme);
-            taken += wide;
+            for grapheme in part.graphemes(true) {
+                let wide = grapheme_columns(grapheme);
+                if taken + wide > width && taken > 0 {
+                    lines.push(String::new());
+                    taken = 0;
+                }
+                let last = lines.len() - 1;
+                lines[last].push_str(grapheme);
+                taken += wide;
+            }
         }
     }
     lines
@@ -130,6 +138,8 @@ mod tests {
         assert_eq!(wrap("", 5), [""]);
         assert_eq!(wrap("one two three", 7), ["one two", "three"]);
         assert_eq!(wrap("unbreakable a b", 4), ["unbr", "eaka", "ble", "a b"]);
+        assert_eq!(wrap("in /home/me/state/last.json: no", 14), ["in", "/home/me/", "state/", "last.json: no"]);
+        assert_eq!(wrap("a/unbreakable", 6), ["a/unbr", "eakabl", "e"]);
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use std::collections::VecDeque;
 
+use crate::storage::without_numbers;
+
 /// Most toasts that are shown at once; before another one the oldest goes.
 const SHOWN: usize = 3;
 /// Most sentences that are kept.
@@ -37,8 +39,9 @@ impl Toasts {
         let Some((first, more)) = sentences.split_first() else { return };
         // The newest stands first: so they are read in their order.
         for text in more.iter().rev() {
-            if !self.past.contains(text) {
-                self.keep(text.clone());
+            let text = without_numbers(text.clone());
+            if !self.past.contains(&text) {
+                self.keep(text);
             }
         }
         let end = if more.is_empty() { String::new() } else { format!("; and {} more: F6", more.len()) };
@@ -47,6 +50,7 @@ impl Toasts {
 
     /// Shows `text`; one that is shown already is shown for longer.
     pub fn push(&mut self, text: String, is_answer: bool) {
+        let text = without_numbers(text);
         let (answer, news) = LOOKING;
         let left = text.chars().count() as f64 / READING + if is_answer { answer } else { news };
         if let Some(known) = self.shown.iter_mut().find(|toast| toast.text == text) {

@@ -143,7 +143,9 @@ fn margins_and_maps() {
     check("margins", &player);
     let large = player.text(200, 60);
     assert!(
-        large.contains("Margins") && large.contains("Aim: φ, V") && large.contains("tightest: errors leave it first"),
+        large.contains("Margins")
+            && large.contains("Map: aim, speed")
+            && large.contains("tightest: errors leave it first"),
         "{large}"
     );
     let picture = player.picture(120, 40);

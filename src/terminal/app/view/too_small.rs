@@ -14,10 +14,11 @@ use crate::terminal::ui::Ui;
 pub fn draw(area: Rect, ui: &mut Ui) {
     let (width, height) = SMALLEST;
     let times = ui.caps.pick("×", "x");
+    // Both sizes come first: the end may have no room.
+    let sizes = format!("{width}{times}{height} needed, {}{times}{} here", area.width, area.height);
     let lines = vec![
+        Line::styled(sizes, ui.theme.warning()),
         Line::styled("This screen needs more room.", ui.theme.text()),
-        Line::styled(format!("This terminal: {}{times}{}", area.width, area.height), ui.theme.warning()),
-        Line::styled(format!("Needed:        {width}{times}{height}"), ui.theme.good()),
         Line::styled("Make it larger, or press q to quit.", ui.theme.faint()),
     ];
     let rows = (lines.len() as u16).min(area.height);

@@ -137,6 +137,13 @@ impl CoachPage {
         self.study()
     }
 
+    /// Whether this says no more than how often the first shot is made.
+    pub(super) fn is_bare_chance(&self, message: &Message) -> bool {
+        let best = self.advised().and_then(|advised| advised.choices.first());
+        let chance = best.and_then(|choice| chance(&choice.proposal, &self.query));
+        chance.is_some_and(|chance| message.text == made_words(&self.query, &chance))
+    }
+
     /// Keeps the advice on the layout that `query` gave, and shows it from its best shot on if that is what is asked now.
     fn show(&mut self, query: CoachQuery, advice: Advice) {
         let is_asked = query == self.query;
@@ -252,6 +259,11 @@ impl CoachPage {
     }
 }
 
+/// How often the player makes it, in a sentence.
+fn made_words(query: &CoachQuery, chance: &str) -> String {
+    format!("{} makes it {chance}", skill_word(query.skill))
+}
+
 /// A proposal in a sentence.
 fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Message {
     let shot = &proposal.shot;
@@ -274,7 +286,7 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Mess
         Some(Cause::Hand) | None => "",
     };
     let forbidden = if query.jumps { "" } else { "; jumps are off" };
-    Message::good(format!("{} makes it {chance}{cause}{forbidden}", skill_word(query.skill)))
+    Message::good(format!("{}{cause}{forbidden}", made_words(query, &chance)))
 }
 
 /// How often the player makes a shot, where there is a doubt.

@@ -47,7 +47,7 @@ impl Saving {
         Some(match self.question.as_ref()? {
             Question::Title(..) => "save the balls as (a title, and #tags if you like): ".to_owned(),
             Question::Replace(exercise) => {
-                format!("there is a position called {} already; replace it? y/n", exercise.name)
+                format!("there is a position called {} already; replace it?", exercise.name)
             }
         })
     }

@@ -33,15 +33,15 @@ impl Question {
             Self::Search(_) => "find: ".to_owned(),
             Self::Code(_) => "paste or type the code of a position: ".to_owned(),
             Self::Replace(exercise) => {
-                format!("there is a position called {} already; replace it? y/n", exercise.name)
+                format!("there is a position called {} already; replace it?", exercise.name)
             }
-            Self::Remove(name) => format!("remove your position {name}? Its results stay. y/n"),
+            Self::Remove(name) => format!("remove your position {name}? Its results stay."),
             Self::Leave(made, all) => {
-                format!("leave the exam after {made} of {all} exercises? c on the coach's page goes on with it. y/n")
+                format!("leave the exam after {made} of {all} exercises? c on the coach's page goes on with it.")
             }
             Self::GiveUp(_, what, made) => {
                 let attempts = if *made == 1 { "1 attempt? It stays" } else { &format!("{made} attempts? They stay") };
-                format!("give up the {what} after {attempts} in the record. y/n")
+                format!("give up the {what} after {attempts} in the record.")
             }
         }
     }

@@ -22,7 +22,7 @@ fn an_exam_begins_with_a_page_that_tells_what_comes() {
 #[test]
 fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter Esc");
-    player.says("leave the exam after 1 of 20 exercises? c on the coach's page goes on with it. y/n");
+    player.says("leave the exam after 1 of 20 exercises? c on the coach's page goes on with it.");
     let left = player.press("y");
     assert_eq!(left.app.place(), LIBRARY);
     left.says("the exam is kept; c on the coach's page (F2) goes on with it");
@@ -116,7 +116,7 @@ fn an_open_run_is_given_up_only_on_demand_and_gone_on_with_where_it_was_left() {
     let run = Player::practising(TRUE_COLOUR).press("o Space Enter Enter");
     for key in ["x", "o", "<", "p", "m"] {
         let asked = Player::practising(TRUE_COLOUR).press("o Space Enter Enter").press(key);
-        asked.says("give up the run after 1 attempt? It stays in the record. y/n");
+        asked.says("give up the run after 1 attempt? It stays in the record.");
         let stays = asked.press("n Space");
         assert_eq!((stays.kept(), sessions(&stays)), (2, 1), "{key}");
     }

@@ -41,7 +41,7 @@ fn a_title_that_makes_no_name_is_mended_and_escape_saves_nothing() {
 #[test]
 fn a_name_that_is_taken_is_asked_about_and_a_bundled_one_refused() {
     let twice = at_coach().press("s").type_in("mine").press("Enter Right s").type_in("mine").press("Enter");
-    twice.says("there is a position called mine already; replace it? y/n");
+    twice.says("there is a position called mine already; replace it?");
     let first = twice.store().positions().items[0].layout;
     let kept = twice.press("n");
     assert_eq!((kept.store().positions().items[0].layout, kept.app.place()), (first, KeyContext::Coach));

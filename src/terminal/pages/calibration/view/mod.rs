@@ -51,15 +51,19 @@ fn question(page: &CalibrationPage) -> Option<(String, Option<&TextField>)> {
             (end.to_owned() + &form.question(&page.table), Some(form.typed()))
         }
         Input::Name(field) => ("the table's name = ".to_owned(), Some(field)),
-        Input::Replace(name) => (format!("there is a table called {name} already; replace it? y/n"), None),
-        Input::Anew => ("begin anew? What is entered is kept beside the file. y/n".to_owned(), None),
+        Input::Replace(name) => (format!("there is a table called {name} already; replace it?"), None),
+        Input::Anew => ("begin anew? What is entered is kept beside the file.".to_owned(), None),
     })
 }
 
 /// What the status line says while there is no news.
 fn status_line(page: &CalibrationPage) -> Message {
     let sheet = page.sheet();
-    if let Some(sentence) = sheet.trouble.as_ref().or(sheet.unjudged.as_ref()) {
+    // What is wrong in it has been a toast.
+    if sheet.trouble.is_some() {
+        return Message::warning("the file of entries cannot be read; N keeps it aside and begins anew; F6 says why");
+    }
+    if let Some(sentence) = &sheet.unjudged {
         return Message::warning(sentence.clone());
     }
     if sheet.entries.is_none() {

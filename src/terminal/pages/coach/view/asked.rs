@@ -4,26 +4,45 @@ use ratatui::layout::Rect;
 
 use crate::{
     coach::Skill,
+    game::Rule,
     terminal::{
         CoachAction,
         keymap::{chord_of, keys_text},
         pages::coach::{CoachPage, keys::COACH},
         ui::{Ui, draw_title, write_paragraphs},
+        words::skill_word,
     },
 };
 
 /// Draws the panel.
 pub fn draw_asked(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The coach", area, ui);
-    let named = Skill::NAMED.iter().find(|(_, skill)| *skill == coach.query.skill);
-    let skill = named.map_or_else(|| "your own skill".to_owned(), |(name, _)| format!("skill {name}"));
     let [skill_key, rule_key] = [CoachAction::NextSkill, CoachAction::NextRule].map(|action| key_of(&action, ui));
     let paragraphs = [
-        (format!("Its shots are for {skill} and rule {}.", coach.query.rule), ui.theme.text()),
+        (format!("Its shots are for {} at {}.", whom(coach.query.skill), game(coach.query.rule)), ui.theme.text()),
         (format!("{skill_key}: how well you play; {rule_key}: the rule."), ui.theme.faint()),
     ];
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     write_paragraphs(&paragraphs, text, ui);
+}
+
+/// Who plays, as one says it of a person.
+fn whom(skill: Skill) -> String {
+    match skill_word(skill) {
+        "my skill" => "your own skill".to_owned(),
+        "expert" => "an expert".to_owned(),
+        "beginner" => "a beginner".to_owned(),
+        name => format!("a {name} player"),
+    }
+}
+
+/// What players call the game by this rule.
+const fn game(rule: Rule) -> &'static str {
+    match rule {
+        Rule::StraightRail => "straight rail",
+        Rule::OneCushion => "one-cushion",
+        Rule::ThreeCushion => "three-cushion",
+    }
 }
 
 /// The key that does this on the coach's table.

@@ -8,7 +8,7 @@ use ratatui::{
 use crate::{
     coach::{
         Mark,
-        words::{English, TIP, TipUnit, pace_word, short},
+        words::{English, TIP, TipUnit, lengths_words, pace_word, short},
     },
     terminal::{
         Proposal,
@@ -132,8 +132,8 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize) -> Vec<Row> {
     };
     let mark =
         |mark: Mark| format!("{} rail {}", rail_word(mark.rail), place_along(coach, mark.diamond, to_hundredths));
-    let lengths = short(words.table_lengths, 1);
-    let speed = format!("{lengths} lengths, {}", speed_words(proposal.shot.cue.speed, coach.units.length, 2));
+    let lengths = lengths_words(words.table_lengths);
+    let speed = format!("{lengths}, {}", speed_words(proposal.shot.cue.speed, coach.units.length, 2));
     let whole_speed = format!("{}, {speed}", pace_word(words.table_lengths));
     vec![
         ("hit", hit),

@@ -10,7 +10,7 @@ use crate::{
     terminal::{
         AdviceState, Proposal,
         pages::coach::Choice,
-        ui::{Ui, columns, cut, draw_nothing, draw_title, list, spell, wrap, write_right},
+        ui::{Ui, columns, cut, draw_nothing, draw_title, list, shorten, spell, wrap, write_right},
         words::{chance_words, fixed, percent, skill_word},
     },
 };
@@ -75,16 +75,18 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
 
 /// How often each of the three would miss the shot if it alone erred, in lines; in fewer words where `rows` ask for it.
 fn risk_lines(risk: &Risk, width: usize, rows: usize) -> Vec<String> {
-    let [hand, table, places] = [risk.hand, risk.table, risk.placing].map(percent);
-    let whole =
-        ["one of them alone would miss:".to_owned(), format!("hand {hand} %, table {table} %, places {places} %")];
-    if columns(&whole.join(" ")) <= width {
-        vec![whole.join(" ")]
-    } else if rows >= whole.len() {
-        whole.into()
-    } else {
-        vec![format!("alone miss: hand {hand} table {table} places {places}")]
+    let [hand, table, balls] = [risk.hand, risk.table, risk.placing].map(percent);
+    let whole = ["each alone would miss:".to_owned(), format!("hand {hand} %, table {table} %, balls {balls} %")];
+    let in_one = [
+        whole.join(" "),
+        format!("missed by hand {hand}, table {table}, balls {balls} %"),
+        format!("miss: hand {hand}, table {table}, balls {balls} %"),
+    ];
+    if columns(&in_one[0]) > width && rows >= whole.len() {
+        return whole.into();
     }
+    let [.., shortest] = &in_one;
+    vec![in_one.iter().find(|words| columns(words) <= width).unwrap_or(shortest).clone()]
 }
 
 /// Draws a panel of why the first shot leads; `false` where that is not known.
@@ -123,6 +125,12 @@ pub fn why_lines(advised: &AdviceState, width: usize, rows: usize, ui: &Ui) -> O
     fitting(sentences.map(|words| format!("{name}: {words}")), width, rows, ui)
 }
 
+/// Why the first shot leads while that is the one shown, in one row: as many facts as it holds, none where it holds no sentence.
+pub fn why_line(advised: &AdviceState, width: usize, ui: &Ui) -> Option<String> {
+    let sentences = advised.why.as_ref().filter(|_| advised.chosen == 0)?.brief(ui.theme.cue_ball);
+    sentences.map(|words| spell(&format!("Why: {words}"), ui.caps)).find(|line| columns(line) <= width)
+}
+
 /// The first of ever shorter sentences that `rows` of such width hold, in lines; the last is cut where it does not fit either.
 fn fitting(sentences: impl Iterator<Item = String>, width: usize, rows: usize, ui: &Ui) -> Option<Vec<String>> {
     let mut tries = sentences.map(|sentence| wrap(&spell(&sentence, ui.caps), width));
@@ -143,7 +151,8 @@ pub fn choice_at(advised: &AdviceState, area: Rect, row: u16) -> Option<usize> {
 }
 
 /// What sort of shot it is, as players call it, or that it makes no point: the first ball, the pattern, how full, and how hard,
-/// the last two as far as `room` columns hold them; where it `is_exact`, how hard in table lengths, and before how full.
+/// the last two as far as `room` columns hold them, the first two cut with a sign where they do not; where it `is_exact`, how hard
+/// in table lengths, and before how full.
 pub fn sort_words(proposal: &Proposal, is_exact: bool, room: usize, ui: &Ui) -> String {
     if !proposal.shot.solved {
         return "no point".to_owned();
@@ -167,7 +176,8 @@ pub fn sort_words(proposal: &Proposal, is_exact: bool, room: usize, ui: &Ui) -> 
             text = more;
         }
     }
-    spell(&text, ui.caps)
+    let text = spell(&text, ui.caps);
+    if columns(&text) > room { shorten(&text, room, ui.caps) } else { text }
 }
 
 #[cfg(test)]
@@ -175,10 +185,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_is_said_that_each_risk_stands_alone_in_one_row_too() {
+    fn each_risk_is_told_in_one_row_too() {
         let risk = Risk { hand: 0.63, table: 0.24, placing: 0.112 };
-        assert_eq!(risk_lines(&risk, 38, 2), ["one of them alone would miss:", "hand 63 %, table 24 %, places 11 %"]);
-        assert_eq!(risk_lines(&risk, 38, 1), ["alone miss: hand 63 table 24 places 11"]);
-        assert_eq!(risk_lines(&risk, 70, 1), ["one of them alone would miss: hand 63 %, table 24 %, places 11 %"]);
+        assert_eq!(risk_lines(&risk, 38, 2), ["each alone would miss:", "hand 63 %, table 24 %, balls 11 %"]);
+        assert_eq!(risk_lines(&risk, 39, 1), ["missed by hand 63, table 24, balls 11 %"]);
+        assert_eq!(risk_lines(&risk, 38, 1), ["miss: hand 63, table 24, balls 11 %"]);
+        assert_eq!(risk_lines(&risk, 70, 1), ["each alone would miss: hand 63 %, table 24 %, balls 11 %"]);
     }
 }

@@ -13,7 +13,7 @@ use crate::{
     table::Table,
     terminal::{
         Glyphs,
-        ui::{Dot, Ink, Ui, draw_field, draw_lines, draw_title, face_in, field::Mark, spot_mark, write_right},
+        ui::{Dot, Ink, Ui, columns, draw_field, draw_lines, draw_title, face_in, field::Mark, spot_mark, write_right},
         words::fixed,
     },
 };
@@ -77,17 +77,22 @@ pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, unit: LengthUnit,
 }
 
 /// Draws the outcomes over direction, to the left as the shooter sees it, and speed, upwards, with the outline of the
-/// player's errors around the stroke in the middle; speeds are told in `unit`.
-pub fn draw_aim_map(map: &Map, skill: Skill, unit: LengthUnit, area: Rect, ui: &mut Ui) {
+/// player's errors around the stroke in the middle; speeds are told in `unit`. The two are called by the thesis'
+/// letters where they are told `in_letters`.
+pub fn draw_aim_map(map: &Map, skill: Skill, (unit, in_letters): (LengthUnit, bool), area: Rect, ui: &mut Ui) {
     let (factor, symbol) = told_in(map.up, unit);
-    let (phi, degree) = (ui.caps.pick("φ", "ph"), ui.caps.pick("°", ""));
+    let degree = ui.caps.pick("°", "");
+    let [aim, speed] = if in_letters { [ui.caps.pick("φ", "ph"), "V"] } else { ["aim", "speed"] };
     let wide = area.width >= WIDE;
     let span = |values: &[f64]| values.last().copied().unwrap_or_default();
-    let mut title = vec![Span::styled(format!("{}{phi}, V", if wide { "Aim: " } else { "" }), ui.theme.text())];
-    if !wide {
-        let reach = format!(" {}{}", ui.caps.pick("±", "+-"), fixed(factor * span(&map.rows), 1));
-        title.push(Span::styled(reach, ui.theme.faint()));
-    }
+    let plus_minus = ui.caps.pick("±", "+-");
+    // A narrow map names one along each of its sides.
+    let title = if wide {
+        vec![Span::styled(format!("Map: {aim}, {speed}"), ui.theme.text())]
+    } else {
+        let reach = format!(" {plus_minus}{}", fixed(factor * span(&map.rows), 1));
+        vec![Span::styled(speed, ui.theme.text()), Span::styled(reach, ui.theme.faint())]
+    };
     let inner = draw_title(title, area, ui);
     if inner.height < 2 {
         return;
@@ -106,9 +111,14 @@ pub fn draw_aim_map(map: &Map, skill: Skill, unit: LengthUnit, area: Rect, ui: &
         }
     }
     let axis = plot.bottom();
-    ui.buffer.set_string(plot.x, axis, format!("+{}{degree}", fixed(across, 2)), ui.theme.faint());
-    ui.buffer.set_string(plot.x + (plot.width - 1) / 2, axis, phi, ui.theme.faint());
-    write_right(ui.buffer, plot.x, plot.right(), axis, &format!("-{}{degree}", fixed(across, 2)), ui.theme.faint());
+    let across_words = fixed(across, 2);
+    let middle = if wide { aim.to_owned() } else { format!("{aim} {plus_minus}{across_words}{degree}") };
+    let indent = plot.width.saturating_sub(columns(&middle) as u16) / 2;
+    ui.buffer.set_stringn(plot.x + indent, axis, middle, usize::from(plot.width), ui.theme.faint());
+    if wide {
+        ui.buffer.set_string(plot.x, axis, format!("+{across_words}{degree}"), ui.theme.faint());
+        write_right(ui.buffer, plot.x, plot.right(), axis, &format!("-{across_words}{degree}"), ui.theme.faint());
+    }
     let line = if ui.caps.glyphs == Glyphs::Half { COARSE_LINE } else { LINE };
     let errors = (OUTLINE * skill.phi.to_degrees() / across, OUTLINE * skill.speed / up);
     draw_signs(plot, ui, |x, y, cell| {

@@ -9,7 +9,7 @@ use ratatui::{
 use crate::{
     coach::{
         Input, Margin, Skill, told_in,
-        words::{LengthUnit, short},
+        words::{LengthUnit, lengths_words, short},
     },
     terminal::{
         Capabilities, Shot, ShotAnalysis,
@@ -21,18 +21,26 @@ use crate::{
 /// Rows from which on every input has one of its own.
 const TALL: u16 = 6;
 
-/// Columns of the tall table: where its numbers end, from the panel's left edge.
-const LESS_END: u16 = 11;
-const MORE_END: u16 = 19;
-const YOURS_END: u16 = 28;
-const UNIT: u16 = 29;
+/// Columns of the tall table: where its names and its numbers end, from the panel's left edge.
+const NAME_END: u16 = 8;
+const LESS_END: u16 = 14;
+const MORE_END: u16 = 21;
+const YOURS_END: u16 = 29;
+const UNIT: u16 = 30;
 
 /// Columns of an input where two share a row: at least, and where there is room.
 const HALF: (u16, u16) = (20, 24);
 
 /// Draws the panel of a shot that is studied, with distances in `unit`; the tightest input, the one that the player's errors leave
-/// first, is marked. Without a study it says `empty`.
-pub fn draw_margins(studied: Option<(&ShotAnalysis, &Shot)>, unit: LengthUnit, empty: &str, area: Rect, ui: &mut Ui) {
+/// first, is marked. The inputs have the thesis' letters where they are told `in_letters`, and where words have no room. Without a
+/// study it says `empty`.
+pub fn draw_margins(
+    studied: Option<(&ShotAnalysis, &Shot)>,
+    (unit, in_letters): (LengthUnit, bool),
+    empty: &str,
+    area: Rect,
+    ui: &mut Ui,
+) {
     let tall = area.height > TALL;
     let mut title = vec![Span::styled("Margins", ui.theme.text())];
     if studied.is_some() && !tall {
@@ -65,7 +73,7 @@ pub fn draw_margins(studied: Option<(&ShotAnalysis, &Shot)>, unit: LengthUnit, e
             write_right(ui.buffer, inner.x, inner.x + end, inner.y, label, ui.theme.faint());
         }
         for (row, y) in rows.iter().zip(inner.y + 1..inner.bottom()) {
-            row.draw_whole(Rect { y, height: 1, ..inner }, ui);
+            row.draw_whole(in_letters, Rect { y, height: 1, ..inner }, ui);
         }
         let note = inner.y + 1 + rows.len() as u16;
         if tightest.is_some() && note < inner.bottom() {
@@ -87,7 +95,7 @@ pub fn draw_margins(studied: Option<(&ShotAnalysis, &Shot)>, unit: LengthUnit, e
         // The other panels tell the speed in table lengths alone.
         if 2 * usize::from(inner.height) > rows.len() {
             let (speed, lengths) = (unit.speed().0 * shot.cue.speed, shot.words.table_lengths);
-            let words = format!("V {} = {} lengths", fixed(speed, 1), short(lengths, 1));
+            let words = format!("V {} = {}", fixed(speed, 1), lengths_words(lengths));
             let x = inner.x + half + 1;
             let room = usize::from(inner.right().saturating_sub(x));
             ui.buffer.set_stringn(x, inner.bottom() - 1, words, room, ui.theme.faint());
@@ -127,7 +135,18 @@ impl Row<'_> {
         if self.is_tightest { self.theme.accent() } else { self.theme.text() }
     }
 
-    fn name(&self) -> &'static str {
+    /// The word that other views have for it.
+    const fn word(&self) -> &'static str {
+        match self.margin.input {
+            Input::Side => "side",
+            Input::Height => "height",
+            Input::Elevation => "cue",
+            Input::Direction => "aim",
+            Input::Speed => "speed",
+        }
+    }
+
+    fn letter(&self) -> &'static str {
         match self.margin.input {
             Input::Elevation => self.caps.pick("θ", "th"),
             Input::Direction => self.caps.pick("φ", "ph"),
@@ -141,15 +160,15 @@ impl Row<'_> {
             .map(|(margin, sign)| size(margin.map(|margin| self.factor * margin), sign, decimals))
     }
 
-    fn draw_whole(&self, area: Rect, ui: &mut Ui) {
+    fn draw_whole(&self, in_letters: bool, area: Rect, ui: &mut Ui) {
         let (x, y) = (area.x, area.y);
-        ui.buffer.set_string(x + 1, y, self.name(), self.theme.faint());
+        ui.buffer.set_string(x + 1, y, if in_letters { self.letter() } else { self.word() }, self.theme.faint());
         // An inch has hundredths that are a quarter of a millimetre.
         let decimals = if self.unit == LengthUnit::Feet.fine().1 { 3 } else { 2 };
         let [less, more] = self.sizes(decimals);
-        write_right(ui.buffer, x + 3, x + LESS_END, y, &less, self.style());
-        write_right(ui.buffer, x + 3, x + MORE_END, y, &more, self.style());
-        write_right(ui.buffer, x + 3, x + YOURS_END, y, &self.yours, self.theme.text());
+        write_right(ui.buffer, x + NAME_END, x + LESS_END, y, &less, self.style());
+        write_right(ui.buffer, x + NAME_END, x + MORE_END, y, &more, self.style());
+        write_right(ui.buffer, x + NAME_END, x + YOURS_END, y, &self.yours, self.theme.text());
         let unit = match self.unit {
             "degrees" => self.caps.pick("°", "deg"),
             unit => unit,
@@ -162,7 +181,7 @@ impl Row<'_> {
     fn draw_half(&self, x: u16, y: u16, ui: &mut Ui) {
         let mark = if self.is_tightest { self.caps.pick("▸", ">") } else { " " };
         ui.buffer.set_string(x, y, mark, self.theme.accent());
-        ui.buffer.set_string(x + 1, y, self.name(), self.theme.faint());
+        ui.buffer.set_string(x + 1, y, self.letter(), self.theme.faint());
         let [less, more] = self.sizes(2);
         write_right(ui.buffer, x + 3, x + 8, y, &less, self.style());
         write_right(ui.buffer, x + 8, x + 14, y, &more, self.style());

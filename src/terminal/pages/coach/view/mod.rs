@@ -30,7 +30,7 @@ use crate::{
                     asked::draw_asked,
                     balls::draw_balls,
                     card::draw_card,
-                    chances::{choice_at, draw_chances, draw_why},
+                    chances::{choice_at, draw_chances, draw_why, why_line},
                     header::draw_header,
                     lesson::{draw_lesson, draw_numbers, lesson_spots},
                     maps::{draw_aim_map, draw_legend, draw_tip_map},
@@ -91,7 +91,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
     if let Some(lesson) = lesson {
         draw_numbers(lesson, coach.table(), &Mapping::fit(coach.table(), panes.table), ui);
     }
-    draw_panels(coach, &panes, ui);
+    let says_why = draw_panels(coach, &panes, ui);
     if let Some(profile) = profile {
         let time = coach.watched().map(|_| coach.playback.time);
         draw_profile(profile, time, coach.units.length, side, ui);
@@ -101,7 +101,11 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
         return draw_question(&Message::plain(before + &question), field, area.status, ui);
     }
-    let message = message.unwrap_or_else(|| status_line(coach, usize::from(area.status.width.saturating_sub(2)), ui));
+    let room = usize::from(area.status.width.saturating_sub(2));
+    // The chance alone stands above, too; why the shot leads may stand nowhere else.
+    let message =
+        message.filter(|message| says_why || !coach.is_bare_chance(message) || why_told(coach, room, ui).is_none());
+    let message = message.unwrap_or_else(|| status_line(coach, says_why, room, ui));
     draw_status(&coach.marked(message), area.status, ui)
 }
 
@@ -124,12 +128,13 @@ fn panes(coach: &CoachPage, area: Rect) -> (Panes, Rect) {
 }
 
 /// Draws the panels: the chosen view's, with the maps in place of shot, tip and events beside the margins; then others as
-/// far as there is room.
-fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
+/// far as there is room. Whether one of them says why the first shot leads.
+fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     let (table, shot) = (coach.table(), coach.shot().map(AsRef::as_ref));
     let chosen = coach.view;
     if let Some(what_if) = coach.what_if() {
-        return draw_own_stroke(coach, what_if, panes, ui);
+        draw_own_stroke(coach, what_if, panes, ui);
+        return false;
     }
     let told = coach.told().filter(|_| chosen == View::Shot);
     let is_beside = panes.is_beside();
@@ -145,6 +150,8 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     });
     let explained = coach.shown().filter(|_| is_beside && chosen == View::Chances && coach.told().is_some());
     let is_explained = explained.is_some_and(|advised| draw_why(advised, panes.events, ui));
+    // Where all panels stand below, the chances among them say it.
+    let says_why = has_told_why || is_explained || !is_beside;
     for (view, area) in views(chosen, panes) {
         match coach.lesson.as_ref().filter(|_| view == chosen) {
             Some(lesson) => draw_lesson(lesson, area, ui),
@@ -156,9 +163,10 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         && let Some(study) = &advised.choice().study
     {
         let unit = coach.units.length;
-        draw_aim_map(&study.aim, study.hand, unit, panes.shot, ui);
+        draw_aim_map(&study.aim, study.hand, (unit, coach.is_in_numbers), panes.shot, ui);
         draw_tip_map(&study.tip, &shot.cue, table, unit, panes.tip.union(panes.sight), ui);
-        return draw_legend([&study.aim, &study.tip], advised.query.rule, panes.events, ui);
+        draw_legend([&study.aim, &study.tip], advised.query.rule, panes.events, ui);
+        return says_why;
     }
     let told_in = (table, coach.units.length);
     match coach.proposal() {
@@ -175,13 +183,12 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         Some(spin) => draw_spin(&spin, panes.sight, ui),
         None => draw_sight(shot.map(Shot::meeting), panes.sight, ui),
     }
-    if told.is_some() && is_beside || is_explained {
-        return;
+    match () {
+        () if told.is_some() && is_beside || is_explained => {}
+        () if shot.is_none() && coach.followed().is_none() => draw_asked(coach, panes.events, ui),
+        () => draw_listed(coach, shot, time, panes.events, ui),
     }
-    if shot.is_none() && coach.followed().is_none() {
-        return draw_asked(coach, panes.events, ui);
-    }
-    draw_listed(coach, shot, time, panes.events, ui);
+    says_why
 }
 
 /// Draws the events of a shot that are to be listed.
@@ -243,14 +250,20 @@ fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut
         View::Margins => {
             let study = choice.and_then(|choice| choice.study.as_deref());
             let shot = choice.map(|choice| &*choice.proposal.shot);
-            draw_margins(study.zip(shot), coach.units.length, empty, area, ui);
+            draw_margins(study.zip(shot), (coach.units.length, coach.is_in_numbers), empty, area, ui);
         }
         View::Plan => draw_plan(choice, coach.units.length, empty, area, ui),
     }
 }
 
+/// Why the shot leads that is about to be played, where its words stand on the page and a row of `room` columns holds it.
+fn why_told(coach: &CoachPage, room: usize, ui: &Ui) -> Option<String> {
+    let is_told = coach.view == View::Shot && coach.what_if().is_none() && coach.told().is_some();
+    why_line(coach.shown().filter(|_| is_told)?, room, ui)
+}
+
 /// What the status line says in `room` columns while there is no news.
-fn status_line(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
+fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Message {
     if let Some(picture) = coach.spinner() {
         let pictures =
             ui.caps.pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
@@ -269,7 +282,10 @@ fn status_line(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
         return if verdict.is_made() { Message::good(words) } else { Message::poor(words) };
     }
     Message::plain(match coach.watched() {
-        Some(shot) if coach.playback.time == 0.0 => aim_words(coach, shot, room, ui),
+        Some(shot) if coach.playback.time == 0.0 => {
+            let why = why_told(coach, room, ui).filter(|_| !says_why && coach.guide().is_none());
+            why.unwrap_or_else(|| aim_words(coach, shot, room, ui))
+        }
         Some(shot) => {
             let (events, time) = (coach.events(shot), coach.playback.readout);
             events.get(passed(&events, time)).map_or("no more contacts: the balls roll out".to_owned(), |next| {

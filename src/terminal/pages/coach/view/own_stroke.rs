@@ -3,7 +3,7 @@
 use ratatui::layout::Rect;
 
 use crate::{
-    coach::words::{TipUnit, short},
+    coach::words::{TipUnit, lengths_words},
     terminal::{
         Shot,
         pages::coach::{
@@ -16,6 +16,7 @@ use crate::{
         },
         shot::WhatIf,
         ui::{Beside, Ui, draw_lines, draw_sight, draw_spin, draw_tip, draw_title, draw_what_if, pair, stroke_rows},
+        words::fixed,
     },
 };
 
@@ -59,11 +60,23 @@ fn draw_set(shot: &Shot, coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let lines = rows.map(|(name, value)| {
         // The longest name has no blank of its own in a narrow column, and the whole word for an angle no room.
         let value = match name {
-            "speed" if columns > 6 => format!("{value}, {} lengths", short(shot.words.table_lengths, 1)),
+            "speed" if columns > 6 => format!("{value}, {}", lengths_words(shot.words.table_lengths)),
+            // As the coach's words call it.
+            "cue" if shot.words.has_level_cue() && value != "level" => level_words(shot, columns > 6, ui),
             _ if columns > 6 => value,
             _ => value.replace(" deg", ""),
         };
         pair(name, columns.max(name.len() + 1), value, ui.theme)
     });
     draw_lines(lines, Rect { x: inner.x + indent, width: inner.width.saturating_sub(indent), ..inner }, ui);
+}
+
+/// A cue that players call level, and how far what is behind the ball raises it all the same.
+fn level_words(shot: &Shot, is_wide: bool, ui: &Ui) -> String {
+    let degrees = |decimals| fixed(shot.words.elevation_deg, decimals);
+    if is_wide {
+        format!("level ({}{})", degrees(1), ui.caps.pick("°", " deg"))
+    } else {
+        format!("level {}{}", degrees(0), ui.caps.pick("°", ""))
+    }
 }

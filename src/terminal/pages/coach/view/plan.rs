@@ -42,7 +42,7 @@ pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: R
     let has_room = usize::from(inner.height) >= ROWS + explained.len();
     let rows = [
         ("now", shot_words(&choice.proposal, room, ui)),
-        ("stop", stop_words(choice, unit, has_room, ui.theme)),
+        stop_words(choice, unit, has_room, ui.theme),
         ("next", next_words(choice, room, ui)),
     ];
     let mut lines: Vec<Line> = rows
@@ -77,10 +77,10 @@ fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
 }
 
 /// How near to the planned positions the balls stop, in half of the attempts that make the point. Where that is not explained
-/// below, it is said here, and the balls have their letters alone.
-fn stop_words(choice: &Choice, unit: LengthUnit, is_explained: bool, theme: &Theme) -> String {
+/// below, the row's name and these words say it, and the balls have their letters alone.
+fn stop_words(choice: &Choice, unit: LengthUnit, is_explained: bool, theme: &Theme) -> (&'static str, String) {
     let (in_a_metre, symbol) = unit.small();
-    let Some(study) = &choice.study else { return "being tried".to_owned() };
+    let Some(study) = &choice.study else { return ("stop", "being tried".to_owned()) };
     let meant = choice.proposal.shot.recording.final_layout();
     let spread = |ball: usize| Some(in_a_metre * study.scatter.spread(ball, meant.balls[ball])?);
     let name = |ball: usize| {
@@ -88,11 +88,11 @@ fn stop_words(choice: &Choice, unit: LengthUnit, is_explained: bool, theme: &The
     };
     let words: Vec<_> =
         (0..BALLS).filter_map(|ball| Some(format!("{} {}", name(ball), fixed(spread(ball)?, 0)))).collect();
-    let before = if is_explained { "" } else { "half within " };
-    if words.is_empty() {
-        "no attempt made the point".to_owned()
-    } else {
-        format!("{before}{} {symbol}", words.join(", "))
+    let places = format!("{} {symbol}", words.join(", "));
+    match () {
+        () if words.is_empty() => ("stop", "no attempt made the point".to_owned()),
+        () if is_explained => ("stop", places),
+        () => ("half", format!("stop within {places}")),
     }
 }
 

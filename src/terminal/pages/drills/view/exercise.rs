@@ -54,6 +54,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     if side.intersection(panes.stroke).is_empty() {
         draw_precision(drills, turn, &panes, ui);
     }
+    let beside = score::draw(drills, turn, panes.score, ui);
     match what_if.zip(turn.taught()) {
         Some((what_if, taught)) => {
             let beside = Beside {
@@ -64,9 +65,8 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
             };
             draw_what_if(what_if, &beside, panes.aim, ui);
         }
-        None => panels::draw_aim(turn, drills.units, panes.aim, ui),
+        None => panels::draw_task(turn, drills.units, panes.aim, (beside, panes.score.right()), ui),
     }
-    score::draw(drills, turn, panes.score, ui);
     status_line(turn, drills.units.length)
 }
 

@@ -3,15 +3,19 @@
 use ratatui::{layout::Rect, style::Style};
 
 use crate::{
-    coach::Units,
+    coach::{ShotWords, Units},
     drills::changes,
     physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
     table::CueBall,
     terminal::{
         Capabilities, DrillAction, Taught,
         keymap::{chord_of, keys_text},
-        pages::drills::{Lesson, Meets, Sight, Turn, Watched, keys::EXERCISE, view::percent},
-        ui::{Ui, draw_lines, draw_title, pair, stroke_rows, wrap, write_paragraphs},
+        pages::drills::{
+            Lesson, Meets, Sight, Turn, Watched,
+            keys::EXERCISE,
+            view::{percent, separator},
+        },
+        ui::{Ui, draw_lines, draw_title, pair, spell, stroke_rows, wrap},
         words::{fixed, rail_name},
     },
 };
@@ -30,19 +34,22 @@ pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
     draw_lines(numbers.map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
 }
 
-/// Draws where the stroke is aimed and what is to be learnt; once it was played, how it compares.
-pub fn draw_aim(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
+/// Draws where the stroke is aimed and what is to be learnt; once it was played, how it compares. Below `beside`, the row from which
+/// on the panel to the right is empty, the words run under it to the column `end`.
+pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16), ui: &mut Ui) {
     let settled = turn.watched().filter(|watched| watched.is_settled);
-    let title = settled.map_or("Aim".to_owned(), |watched| chances(turn, watched, ui.caps));
+    let title = settled.map_or("Task".to_owned(), |watched| chances(turn, watched, ui.caps));
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
         paragraphs.extend(differences(turn, watched, units, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
     } else {
+        // The stroke's numbers tell it too: it comes last.
+        let mut least = None;
         if let Some(sight) = turn.sight() {
             paragraphs.push((sight_words(&sight, turn.cue_ball, turn.table.diamond(), units), ui.theme.accent()));
             match turn.least_elevation() {
                 Ok(LeastElevation { theta, over: Some(over) }) => {
-                    paragraphs.push((least_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
+                    least = Some((least_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
                 }
                 Ok(LeastElevation { over: None, .. }) => {}
                 Err(NoRoom { obstacle }) => {
@@ -57,25 +64,53 @@ pub fn draw_aim(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
             _ if is_elsewhere || turn.exercise.point.is_empty() => {}
             _ => paragraphs.push((turn.exercise.point.clone(), ui.theme.text())),
         }
+        paragraphs.extend(least);
     }
-    write_pages(title, &paragraphs, turn.text_page, area, ui);
+    let narrow = usize::from(area.width.saturating_sub(2));
+    let wide = usize::from(end.saturating_sub(area.x + 2)).max(narrow);
+    let full = usize::from(beside.saturating_sub(area.y + 1));
+    write_pages(title, &paragraphs, turn.text_page, area, |row| if row < full { narrow } else { wide }, ui);
 }
 
-/// Writes `paragraphs` below a title; where they have no room, one page of them, and the title says which and how to turn it.
-fn write_pages(title: String, paragraphs: &[(String, Style)], page: isize, area: Rect, ui: &mut Ui) {
+/// Writes `paragraphs` below a title, each row as wide as `width` says; where they have no room, one page of them, and the title says
+/// which and how to turn it.
+fn write_pages(
+    title: String,
+    paragraphs: &[(String, Style)],
+    page: isize,
+    area: Rect,
+    width: impl Fn(usize) -> usize,
+    ui: &mut Ui,
+) {
     let rows = usize::from(area.height.saturating_sub(1)).max(1);
-    let width = usize::from(area.width.saturating_sub(2));
-    let wrapped =
-        paragraphs.iter().flat_map(|(words, style)| wrap(words, width).into_iter().map(move |line| (line, *style)));
-    let lines: Vec<(String, Style)> = wrapped.collect();
+    let lines = lines_of(paragraphs, |row| width(row % rows));
     let pages = lines.len().div_ceil(rows).max(1);
     let page = page.rem_euclid(pages.cast_signed()).cast_unsigned();
     let turns = chord_of(EXERCISE, &DrillAction::TurnText(1)).into_iter();
     let key = keys_text(turns.flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps);
-    let title = if pages > 1 { format!("{title}, {} of {pages}: {key}", page + 1) } else { title };
+    let title = if pages > 1 { format!("{title}{}{key} {}/{pages}", separator(ui.caps), page + 1) } else { title };
     let inner = draw_title(title, area, ui);
-    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
-    write_paragraphs(lines.chunks(rows).nth(page).unwrap_or_default(), text, ui);
+    let shown = lines.chunks(rows).nth(page).unwrap_or_default();
+    for (((line, style), y), row) in shown.iter().zip(inner.y..inner.bottom()).zip(0..) {
+        ui.buffer.set_stringn(inner.x + 1, y, line, width(row), *style);
+    }
+}
+
+/// The words of `paragraphs` in rows as wide as `width` says, each paragraph from a new row.
+fn lines_of(paragraphs: &[(String, Style)], width: impl Fn(usize) -> usize) -> Vec<(String, Style)> {
+    let mut lines: Vec<(String, Style)> = Vec::new();
+    for (words, style) in paragraphs {
+        let mut rest = words.split_whitespace().collect::<Vec<_>>().join(" ");
+        loop {
+            let first = wrap(&rest, width(lines.len())).swap_remove(0);
+            rest = rest[first.len()..].trim_start().to_owned();
+            lines.push((first, *style));
+            if rest.is_empty() {
+                break;
+            }
+        }
+    }
+    lines
 }
 
 /// What the line of aim meets.
@@ -118,23 +153,22 @@ pub const fn teacher(taught: &Taught) -> &'static str {
     if taught.is_own { "model shot" } else { "coach" }
 }
 
-/// What a player has to change to get from one stroke to another, or `none` where the difference cannot be seen.
-fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, units: Units, caps: Capabilities) -> String {
-    let words = changes(&turn.table, from, to, units).join(", ");
-    match words.as_str() {
-        "" => none.to_owned(),
-        _ if caps.unicode => words,
-        _ => words.replace('°', " deg"),
-    }
+/// How a stroke differs from another one, as a player would say it; nothing where the difference is too small to see or to play.
+fn told(turn: &Turn, stroke: &CueInputs, other: &CueInputs, units: Units) -> Option<String> {
+    let of = |cue| ShotWords::of(&turn.table, &turn.layout, cue).ok();
+    let is_seen = !changes(&turn.table, other, stroke, units).is_empty();
+    // What cannot be played has nothing to be compared; playing it says why.
+    let (words, others) = of(stroke).filter(|_| is_seen).zip(of(other))?;
+    let parts = words.differences(&others, false, turn.cue_ball, units);
+    (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// How often the advised stroke is made, and how to set it.
+/// How often the advised stroke is made, how to strike it, and how the stroke that is set differs.
 fn hint(turn: &Turn, taught: &Taught, units: Units, caps: Capabilities) -> String {
     let advice = &taught.advice;
-    let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", units, caps);
-    let numbers =
-        stroke_rows(&advice.cue, units, turn.table.radius, caps).map(|(name, value)| format!("{name} {value}"));
-    format!("{} makes {}: {}. Yours: {changes}", teacher(taught), percent(advice.chance.rate), numbers.join(", "))
+    let yours = told(turn, &turn.raised_stroke(), &advice.cue, units).unwrap_or_else(|| "the same".to_owned());
+    let sentence = taught.shot.words.sentence(turn.cue_ball, units);
+    spell(&format!("{} makes {}: {sentence} Yours: {yours}", teacher(taught), percent(advice.chance.rate)), caps)
 }
 
 /// How often the stroke is made, and the advised one.
@@ -148,18 +182,19 @@ fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
     }
 }
 
-/// What would make the stroke the advised one, and what the player's errors have added to it.
+/// How the stroke that was meant differs from the advised one, and what the player's errors have added to it.
 fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities) -> [String; 2] {
+    let Watched { meant, outcome, .. } = watched;
     let lesson = match &turn.lesson {
-        Lesson::Known(taught) => {
-            let changes = told(turn, [&watched.meant, &taught.advice.cue], "no change worth telling", units, caps);
-            format!("{}: {changes}", teacher(taught))
-        }
+        Lesson::Known(taught) => told(turn, meant, &taught.advice.cue, units).map_or_else(
+            || format!("{}: no change worth telling", teacher(taught)),
+            |yours| format!("yours, beside the {}: {yours}", teacher(taught)),
+        ),
         Lesson::Pending => "the coach is still thinking".to_owned(),
         Lesson::Missing => "the coach has found no shot".to_owned(),
     };
-    let added = told(turn, [&watched.meant, &watched.outcome.played.stroke], "nothing worth telling", units, caps);
-    [lesson, format!("your hand: {added}")]
+    let added = told(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "nothing worth telling".to_owned());
+    [lesson, format!("your hand: {added}")].map(|words| spell(&words, caps))
 }
 
 #[cfg(test)]
@@ -189,6 +224,14 @@ mod tests {
         let told = |units| stroke_rows(&cue, units, table.radius, caps).map(|(name, value)| format!("{name} {value}"));
         assert_eq!([&told(Units::default())[1], &told(Units::default())[3]], ["left 2 tips", "speed 2.00 m/s"]);
         assert_eq!([&told(other)[1], &told(other)[3]], ["left 6.2 mm", "speed 6.56 ft/s"]);
+    }
+
+    #[test]
+    fn rows_that_run_under_an_empty_panel_hold_more() {
+        let paragraphs = [("one two three four five".to_owned(), Style::new()), ("six".to_owned(), Style::new())];
+        let lines = lines_of(&paragraphs, |row| if row < 1 { 7 } else { 10 });
+        let lines: Vec<_> = lines.iter().map(|(line, _)| line.as_str()).collect();
+        assert_eq!(lines, ["one two", "three four", "five", "six"]);
     }
 
     #[test]

@@ -18,8 +18,8 @@ use crate::{
     },
 };
 
-/// Draws the panel.
-pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) {
+/// Draws the panel; gives the first row that is left.
+pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) -> u16 {
     let session = turn.told();
     let place = if session.venue == Venue::Table { "Real table: " } else { "Score: " };
     let inner = draw_title(format!("{place}{}", session.goal.words()), area, ui);
@@ -37,7 +37,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) {
             paragraphs.push((words, ui.theme.faint()));
         }
     }
-    write_paragraphs(&paragraphs, text, ui);
+    write_paragraphs(&paragraphs, text, ui)
 }
 
 /// The attempts of an exam or the points of a run, a sign each; gives the first row that is left.

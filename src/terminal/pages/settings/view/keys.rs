@@ -89,5 +89,5 @@ pub fn press(settings: &SettingsPage) -> String {
 /// What is asked about a key that does something else.
 pub fn taken(settings: &SettingsPage, chord: Chord, caps: Capabilities) -> String {
     let works = settings.keys.other_works(chord, &settings.settings.keys);
-    format!("{} does something else: {}. Shall it do this instead? y/n", keys_text([chord], caps), tell(&works))
+    format!("{} does something else: {}. Shall it do this instead?", keys_text([chord], caps), tell(&works))
 }
