@@ -40,7 +40,7 @@ fn settings_of_an_agent_are_refused_in_plain_words() {
         ("# mine\nheads = \n", "the settings in own.toml: line 2, heads: "),
         (
             "heads = 8\nheads = 9\n",
-            "the settings in own.toml: line 2, heads: duplicate key; accepted are lines like heads = 8",
+            "the settings in own.toml: line 2, heads: a name that stands there already; accepted are lines like heads = 8",
         ),
         ("heads = 1979-05-27\n", "heads = \"1979-05-27\""),
     ] {

@@ -61,7 +61,7 @@ fn status_line(page: &CalibrationPage) -> Message {
     let sheet = page.sheet();
     // What is wrong in it has been a toast.
     if sheet.trouble.is_some() {
-        return Message::warning("the file of entries cannot be read; N keeps it aside and begins anew; F6 says why");
+        return Message::warning("the entries cannot be read (F6: why); N keeps the file aside and begins anew");
     }
     if let Some(sentence) = &sheet.unjudged {
         return Message::warning(sentence.clone());
