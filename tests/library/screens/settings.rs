@@ -2,11 +2,14 @@
 
 use std::fs;
 
-use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check};
+use super::{
+    keys::key,
+    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check},
+};
 use carom::{
     game::Rule,
     table::{Layout, Table},
-    terminal::{Capabilities, Depth, Glyphs, KeyContext, PageId, Settings, SettingsContext},
+    terminal::{Capabilities, Depth, Effect, Glyphs, KeyContext, PageId, Settings, SettingsContext},
 };
 use proptest::prelude::*;
 use ratatui::style::Color;
@@ -328,10 +331,14 @@ proptest! {
         keys in prop::collection::vec(0..KEYS.len(), 1..60), width in 40_u16..200, height in 10_u16..60,
     ) {
         let mut player = with(TRUE_COLOUR, "# mine\nodd = 1\nplan = false # behind\n[keys]\n\"Hyper-x\" = \"q\"\n");
-        for key in keys {
+        for index in keys {
             // What ends the program is another matter.
-            if KEYS[key] != "q" || player.app.place() == KeyContext::Settings(SettingsContext::Pressing) {
-                player = player.press(KEYS[key]);
+            if KEYS[index] != "q" || player.app.place() == KeyContext::Settings(SettingsContext::Pressing) {
+                player.event(&key(KEYS[index]));
+            }
+            // Another key may have been given that meaning.
+            if matches!(player.effects.last(), Some(Effect::Quit)) {
+                break;
             }
         }
         player.picture(width, height);

@@ -36,21 +36,21 @@ impl Question {
         let name = watch.map_or("the run", |watch| &watch.own.name);
         match self {
             Self::Long { shots, seconds } => format!(
-                "{} shots take about {}, at the usual {:.0} shots a second; start the run? y/n",
+                "{} shots take about {}, at the usual {:.0} shots a second; start the run?",
                 count(*shots),
                 long_time_words(*seconds),
                 *shots as f64 / seconds
             ),
-            Self::Stop => format!("stop {name}: measure it, save it and end it? y/n"),
+            Self::Stop => format!("stop {name}: measure it, save it and end it?"),
             Self::Abandon => {
-                let Some(watch) = watch else { return format!("abandon {name}? y/n") };
+                let Some(watch) = watch else { return format!("abandon {name}?") };
                 let shots = count(watch.own.run.shots());
                 let best = watch.own.run.best();
                 let best = best.map_or(String::new(), |best| format!(", with a best held-out reward of {best:.3}"));
-                format!("abandon {name}: end it now and delete its folder? {shots} shots are lost{best}. y/n")
+                format!("abandon {name}: end it now and delete its folder? {shots} shots are lost{best}")
             }
             Self::Name(_) => "keep the networks under the name: ".to_owned(),
-            Self::Replace(name) => format!("there are networks called {name} already; replace them? y/n"),
+            Self::Replace(name) => format!("there are networks called {name} already; replace them?"),
         }
     }
 

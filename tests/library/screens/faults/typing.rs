@@ -50,7 +50,7 @@ fn a_run_of_more_than_a_day_asks_before_it_starts() {
     assert!(player.effects.is_empty(), "{:?}", player.effects);
     assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Question));
     player.says("9,000,000,000 shots take about");
-    player.says("y/n");
+    player.shows(&["start the run?", "y yes", "n no"]);
     let no = player.press("n");
     assert_eq!(no.app.place(), KeyContext::Training(TrainingContext::Form), "the form is as it was");
     no.says("9,000,000,000");
