@@ -50,19 +50,25 @@ impl Risk {
         let largest = all.into_iter().fold(first, |largest, other| if other.1 > largest.1 { other } else { largest });
         (largest.1 >= 0.02).then_some(largest.0)
     }
-}
 
-impl fmt::Display for Risk {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [hand, table, placing] = [self.hand, self.table, self.placing].map(|share| 100.0 * share);
-        write!(
-            formatter,
+    /// In a sentence, of a shot that is missed so often in all.
+    pub fn words(&self, missed: Option<f64>) -> String {
+        let mut shares = [self.hand, self.table, self.placing];
+        let [hand, table, placing] = shares.map(|share| 100.0 * share);
+        let alone = format!(
             "missed by the hand alone {hand:.0} %, by what is not known of the table {table:.0} %, of the balls' places {placing:.0} %"
-        )?;
+        );
+        shares.sort_by(f64::total_cmp);
+        // Where two of them miss as often as all together, any error does: the stroke as it is meant is at the edge.
+        if missed.is_some_and(|missed| shares[1] >= 0.02 && shares[1] > 0.9 * missed) {
+            return format!(
+                "{alone}; one alone misses as often as all together, for the stroke is at the edge of what makes the point"
+            );
+        }
         match self.main_cause() {
-            Some(Cause::Table) => formatter.write_str("; mostly the table, which carom calibrate measures"),
-            Some(cause) => write!(formatter, "; mostly {cause}"),
-            None => Ok(()),
+            Some(Cause::Table) => format!("{alone}; mostly the table, which carom calibrate measures"),
+            Some(cause) => format!("{alone}; mostly {cause}"),
+            None => alone,
         }
     }
 }
@@ -88,5 +94,16 @@ mod tests {
         assert_eq!(risk(0.3, 0.1, 0.31).main_cause(), Some(Cause::Placing));
         assert_eq!(risk(0.02, 0.0, 0.0).main_cause(), Some(Cause::Hand));
         assert_eq!(risk(0.01, 0.0, 0.005).main_cause(), None, "a shot that hardly ever misses");
+    }
+
+    #[test]
+    fn where_one_error_misses_as_often_as_all_together_none_is_the_main_cause() {
+        let risk = Risk { hand: 0.37, table: 0.36, placing: 0.39 };
+        assert!(risk.words(Some(0.354)).contains("one alone misses as often as all together"));
+        assert!(
+            risk.words(Some(0.7)).ends_with("mostly the places") && risk.words(None).ends_with("mostly the places")
+        );
+        let hand = Risk { hand: 0.37, table: 0.05, placing: 0.02 };
+        assert!(hand.words(Some(0.38)).ends_with("mostly the hand"));
     }
 }

@@ -6,7 +6,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::{
-    Input, Pattern, Recommendation, Sensitivity, Shooter, Technique, Units,
+    Alternative, Input, Pattern, Recommendation, Sensitivity, Shooter, Skill, Technique, Units,
     draws::Draws,
     trial::{CONTACT_STEPS, Task, unhurried},
     words::{self, PlaceUnit, short, table_lengths},
@@ -15,6 +15,7 @@ use crate::{
     game::{Rule, Tally},
     physics::{CueInputs, strike},
     simulation::{Event, EventKind, Observer, Recording, ShotError, StepBudget, watch},
+    statistics::{SuccessRate, quantile},
     table::{CueBall, Layout, Table},
 };
 
@@ -27,6 +28,9 @@ const NAMED: f64 = 0.02;
 /// Difference of make probabilities from which on attempts tell which shot is the better one: the standard error of it where half of a
 /// thousand and of four hundred attempts make the point.
 const TOLD_APART: f64 = 0.03;
+
+/// Share of the width that errors of direction would need at least for a shot's make probability, below which the width is not told.
+const EXPLAINED: f64 = 0.8;
 
 /// Two balls that meet again within this time have met once, s: a ball that follows another through runs on to it.
 const SAME: f64 = 0.1;
@@ -59,14 +63,12 @@ pub struct Difference {
     pub harder: f64,
     /// How often it is made.
     pub make_probability: Option<f64>,
-    /// By how much its direction may be off in all, degrees; `None` where there is no end to that.
+    /// By how much its direction may be off in all, degrees; `None` where there is no end to that, or it does not tell how often the shot
+    /// is made.
     pub aim_deg: Option<f64>,
     /// Probability of the point after it, where that counts too.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub next_probability: Option<f64>,
-    /// Whether it is made more often than the first beyond doubt: its interval lies above that of the first.
-    #[serde(skip)]
-    pub is_surely_more: bool,
 }
 
 /// Why a shot leads.
@@ -74,7 +76,8 @@ pub struct Difference {
 pub struct Why {
     /// How often it is made.
     pub make_probability: Option<f64>,
-    /// By how much its direction may be off in all, degrees; `None` where there is no end to that, or it makes no point.
+    /// By how much its direction may be off in all, degrees; `None` where there is no end to that, it makes no point, or that does not tell
+    /// how often the shot is made.
     pub aim_deg: Option<f64>,
     /// The kiss that spoils most attempts.
     pub kiss: Option<Kiss>,
@@ -82,6 +85,9 @@ pub struct Why {
     pub next_probability: Option<f64>,
     /// The next best shot.
     pub second: Option<Difference>,
+    /// The numbers of the shots that seem to be made more often than the first, from 2, which luck may explain: their intervals meet.
+    #[serde(skip)]
+    unsure: Vec<usize>,
     /// Whether the shots are ranked by this point and the next.
     #[serde(skip)]
     is_planned: bool,
@@ -115,29 +121,36 @@ pub fn why(
             fuller: if its_ball == ball { its.fullness() - technique.fullness() } else { 0.0 },
             harder: lengths(&other.cue) - lengths(&advice.cue),
             make_probability: other.make_probability.map(|rate| rate.rate),
-            aim_deg: aim_width(&sensitivity, &other.cue),
+            aim_deg: aim_width(&sensitivity, &other.cue, shooter.skill, other.make_probability),
             next_probability: other.next_probability,
-            is_surely_more: other
-                .make_probability
-                .zip(advice.make_probability)
-                .is_some_and(|(its, own)| its.low > own.high),
         })
     });
+    let is_unsure = |other: &Alternative| {
+        let rates = other.make_probability.zip(advice.make_probability);
+        rates.is_some_and(|(its, own)| its.rate > own.rate && its.low <= own.high)
+    };
+    let numbered = (2..).zip(&advice.alternatives);
     Ok(Why {
         make_probability: advice.make_probability.map(|rate| rate.rate),
-        aim_deg: aim_width(&sensitivity, &advice.cue),
+        aim_deg: aim_width(&sensitivity, &advice.cue, shooter.skill, advice.make_probability),
         kiss: kiss(shooter, rule, table, layout, &advice.cue, seed),
         next_probability: advice.next_probability,
         second: second.transpose()?,
+        unsure: numbered.filter(|(_, other)| is_unsure(other)).map(|(number, _)| number).collect(),
         is_planned: advice.is_planned,
         scale: (table.diamond(), 0.5 * DVec2::new(table.length, table.width)),
     })
 }
 
-/// By how much the direction may be off to both sides together, degrees.
-fn aim_width(sensitivity: &Sensitivity, cue: &CueInputs) -> Option<f64> {
+/// By how much the direction may be off to both sides together, degrees; `None` where a player of this skill makes the shot much more often
+/// than his direction stays within that: other directions make it, too.
+fn aim_width(sensitivity: &Sensitivity, cue: &CueInputs, skill: Skill, made: Option<SuccessRate>) -> Option<f64> {
     let margin = sensitivity.margin(Input::Direction, cue)?;
-    Some(margin.less? + margin.more?)
+    let width = margin.less? + margin.more?;
+    // Of all windows so wide, errors stay most often within the one around nought.
+    let least = |rate: f64| 2.0 * skill.at(cue).phi.to_degrees() * quantile(0.5 * (1.0 + rate));
+    let explains = made.is_none_or(|made| made.rate >= 1.0 || width > EXPLAINED * least(made.rate));
+    explains.then_some(width)
 }
 
 /// The kiss that spoils most of the player's attempts; `None` where none spoils two of a hundred.
@@ -292,9 +305,7 @@ impl Why {
 
     /// Whether the second-best shot seems to be made more often, which luck may explain, and no plan decides.
     fn is_unsure(&self) -> bool {
-        let made = self.make_probability.zip(self.second.as_ref());
-        made.is_some_and(|(own, second)| second.make_probability > Some(own) && !second.is_surely_more)
-            && !self.is_by_plan()
+        self.unsure.contains(&2) && !self.is_by_plan()
     }
 
     /// How the next point is left, beside how the second-best shot, which is called `other`, leaves it.
@@ -328,7 +339,13 @@ impl Why {
 
     /// The part of it that a list of the shots with their chances does not say, ever shorter; nothing where there is nothing.
     pub fn beside_the_list(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
-        let luck = self.is_unsure().then(|| "shot 2 is not surely made more often".to_owned());
+        let unsure: Vec<String> =
+            self.unsure.iter().filter(|number| **number != 2 || self.is_unsure()).map(usize::to_string).collect();
+        let luck = match &unsure[..] {
+            [] => None,
+            [number] => Some(format!("shot {number} is not surely made more often")),
+            numbers => Some(format!("shots {} are not surely made more often", numbers.join(", "))),
+        };
         ever_shorter(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| words::capital(&sentence))
     }
 
@@ -383,7 +400,7 @@ impl Difference {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::coach::{Coach, Request, Skill};
+    use crate::coach::{Coach, Request};
 
     /// The break with natural english: red comes back from the far cushions through the way of the cue ball.
     #[test]
@@ -397,6 +414,21 @@ mod tests {
         assert!((0.02..0.4).contains(&found.share), "{found:?}");
         assert!(found.place.abs().cmple(table.reach()).all(), "{found:?}");
         assert_eq!(seen(Skill::PERFECT), None);
+    }
+
+    #[test]
+    fn the_room_of_the_aim_is_told_where_it_explains_how_often_the_shot_is_made() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let cue = CueInputs::parse("0.143,0.256,0.713,351.760,2.967").unwrap();
+        let sensitivity = Sensitivity::new(Rule::ThreeCushion, &table, &layout, crate::coach::Doubt::NONE);
+        let told = |made: usize| aim_width(&sensitivity, &cue, Skill::CLUB, Some(SuccessRate::new(made, 100)));
+        let width = told(1).unwrap();
+        // The hand stays within a window of this width so often, at most.
+        let sigma = Skill::CLUB.at(&cue).phi.to_degrees();
+        let within = (1..100).find(|made| 2.0 * sigma * quantile(0.5 + 0.005 * *made as f64) > width).unwrap();
+        assert_eq!(told(within / 2), Some(width));
+        assert_eq!((told((2 * within).min(99)), told(100)), (None, Some(width)), "{width} {within}");
     }
 
     #[test]
@@ -441,19 +473,22 @@ mod tests {
         let unknown = Why { next_probability: None, ..planned }.words(CueBall::White, Units::default());
         assert!(unknown.contains("the plan decides: the next point counts too"), "{unknown}");
         // By luck alone the second may seem to be made more often; then that is no reason against the first.
-        let second = |is_surely_more| {
-            let second =
-                why.second.clone().map(|second| Difference { make_probability: Some(0.54), is_surely_more, ..second });
-            Why { make_probability: Some(0.48), second, is_planned: false, ..why.clone() }
+        let second = |unsure: &[usize]| {
+            let second = why.second.clone().map(|second| Difference { make_probability: Some(0.54), ..second });
+            Why { make_probability: Some(0.48), second, is_planned: false, unsure: unsure.to_vec(), ..why.clone() }
         };
-        let said = second(false).words(CueBall::White, Units::default());
+        let said = second(&[2]).words(CueBall::White, Units::default());
         assert!(said.starts_with("Made 48 % of the time, the second shot 54 %, which is not surely more;"), "{said}");
-        for sentence in second(false).brief(CueBall::White) {
+        for sentence in second(&[2]).brief(CueBall::White) {
             assert!(sentence.contains("%, not surely more"), "{sentence}");
         }
-        let first = second(false).beside_the_list(CueBall::White).next().unwrap();
+        let first = second(&[2]).beside_the_list(CueBall::White).next().unwrap();
         assert!(first.starts_with("Shot 2 is not surely made more often"), "{first}");
-        let said = second(true).words(CueBall::White, Units::default());
+        for (unsure, words) in [(&[3][..], "Shot 3 is not surely"), (&[2, 3], "Shots 2, 3 are not surely")] {
+            let first = second(unsure).beside_the_list(CueBall::White).next().unwrap();
+            assert!(first.starts_with(words), "{first}");
+        }
+        let said = second(&[]).words(CueBall::White, Units::default());
         assert!(said.starts_with("Made 48 % of the time, the second shot 54 %; "), "{said}");
         let alone = Why { second: None, ..why }.words(CueBall::White, Units::default());
         assert!(alone.ends_with('.') && !alone.contains("next shot"), "{alone}");

@@ -85,7 +85,9 @@ impl Shift {
             let path = path_beside(table, leg, -by)?;
             let arrival = along(path[3], third);
             let third = arrival + turned * by;
-            ((third - table_third).abs() <= NEAR).then_some(Self {
+            // Nor does a ball come to a place beyond it.
+            let is_there = (0.0..=last).contains(&third) && (third - table_third).abs() <= NEAR;
+            is_there.then_some(Self {
                 name: "parallel-shift",
                 rails: [first, leg.hits[2].0],
                 diamond,

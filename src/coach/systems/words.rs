@@ -61,7 +61,10 @@ impl Applied {
         match (self.table_first, self.table_third) {
             (Some(first), _) if said(first) == self.aim() => "the same on your table".to_owned(),
             (Some(first), _) => format!("on your table {}", said(first)),
-            (None, Some(third)) => format!("on your table it comes to {}", said(third)),
+            (None, Some(third)) if said(third) == said(self.numbers.third) => "the same on your table".to_owned(),
+            (None, Some(third)) => {
+                format!("on your table it comes to {} instead of {}", said(third), said(self.numbers.third))
+            }
             (None, None) => String::new(),
         }
     }

@@ -227,6 +227,16 @@ impl Pattern {
         technique.first?;
         PATTERNS.iter().find(|pattern| (pattern.is_it)(technique))
     }
+
+    /// Its course in words for this shot: what goes by the first three cushions may have more of them.
+    pub fn course_of(&self, technique: &Technique) -> String {
+        let says_all =
+            !technique.before.is_empty() || ["jump", "masse", "time", "around-the-table"].contains(&self.tag);
+        match technique.between.len() {
+            many if many > 3 && !says_all => format!("{}; here {many} cushions in all", self.course),
+            _ => self.course.to_owned(),
+        }
+    }
 }
 
 /// The cushions between the balls: `l` and `s` for the long and the short one that is met first, `L` and `S` for those

@@ -34,8 +34,11 @@ pub const TIP: f64 = 0.1;
 /// Least english that is told, R w / v.
 const TOLD: f64 = 0.1;
 
+/// Elevation below which a cue is called level, degrees: no player tells it from one that is.
+const LEVEL: f64 = 2.0;
+
 /// How near the least elevation a cue counts as level as it can be, rad: half a degree.
-const LEVEL: f64 = 0.5_f64.to_radians();
+const LEAST: f64 = 0.5_f64.to_radians();
 
 /// Elevation from which such a cue is no longer called level, degrees: the rail behind the ball alone asks for two or three.
 const RAISED: f64 = 5.0;
@@ -128,7 +131,7 @@ impl ShotWords {
             // Every stroke that can be played runs some way.
             table_lengths: table_lengths(table, cue.speed).unwrap_or_default(),
             elevation_deg: cue.theta.to_degrees(),
-            is_level: cue.theta - least <= LEVEL,
+            is_level: cue.theta - least <= LEAST,
             before: technique.before.clone(),
             between: technique.between.clone(),
             again: technique.again,
@@ -142,6 +145,6 @@ impl ShotWords {
 
     /// Whether players call the cue level.
     pub fn has_level_cue(&self) -> bool {
-        self.elevation_deg < LEVEL.to_degrees() || self.is_level && self.elevation_deg < RAISED
+        self.elevation_deg < LEVEL || self.is_level && self.elevation_deg < RAISED
     }
 }

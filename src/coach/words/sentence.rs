@@ -10,7 +10,9 @@ use crate::{
 impl ShotWords {
     /// How to strike, in one sentence, for who plays with `cue_ball`.
     pub fn sentence(&self, cue_ball: CueBall, units: Units) -> String {
-        let clock = self.clock.map_or_else(String::new, |clock| format!(" at {}", numbers::clock_words(clock)));
+        // Side that is nearly straight above or below the centre has no hour of its own.
+        let clock = self.clock.filter(|clock| clock % 6.0 != 0.0);
+        let clock = clock.map_or_else(String::new, |clock| format!(" at {}", numbers::clock_words(clock)));
         let lengths = short(self.table_lengths, 1);
         let unit = if lengths == "1" { "length" } else { "lengths" };
         self.sentence_with(cue_ball, units, &clock, &format!(" ({lengths} table {unit})"))
@@ -45,8 +47,7 @@ impl ShotWords {
     fn stops(&self, cue_ball: CueBall, units: Units) -> String {
         let names = cue_ball.names();
         let cushions = |cushions: &[Cushion]| -> Vec<String> {
-            let one =
-                |cushion: &Cushion| format!("{} {}", length_word(cushion.rail), self.place(cushion.diamond, units, 1));
+            let one = |cushion: &Cushion| format!("{} {}", cushion.rail.name(), self.place(cushion.diamond, units, 1));
             cushions.iter().map(one).collect()
         };
         let mut stops = cushions(&self.before);
@@ -68,7 +69,7 @@ impl ShotWords {
         format!("Cue from {} to {}.", mark(self.behind), mark(self.ahead))
     }
 
-    /// Which ball, and how full; or which cushion comes first.
+    /// Which ball, and how full; the cushions that come before it, and where the first of them is met.
     fn first_words(&self, cue_ball: CueBall, units: Units) -> String {
         let ball = self.first.map(|hit| {
             let (full, is_middle) = numbers::fullness_words(hit.fullness);
@@ -79,10 +80,12 @@ impl ShotWords {
             };
             format!("{}, {full}{side}", cue_ball.names()[hit.ball])
         });
-        let cushion =
-            self.before.first().or(self.between.first().filter(|_| ball.is_none())).map(|cushion| {
-                format!("{} first at {}", rail_words(cushion.rail), self.place(cushion.diamond, units, 1))
-            });
+        // A shot that meets no ball at all is told the first of its cushions.
+        let met = if ball.is_none() && self.before.is_empty() { self.between.get(..1) } else { Some(&self.before[..]) };
+        let cushion = met.unwrap_or_default().split_first().map(|(first, others)| {
+            let first = format!("{} first at {}", rail_words(first.rail), self.place(first.diamond, units, 1));
+            others.iter().fold(first, |words, other| words + ", then " + rail_words(other.rail))
+        });
         let meets = match (cushion, ball) {
             (Some(cushion), Some(ball)) => format!("{cushion}, then {ball}"),
             (Some(cushion), None) => format!("{cushion}, no ball"),
@@ -139,14 +142,6 @@ impl ShotWords {
     /// A place along a cushion.
     fn place(&self, diamonds: f64, units: Units, decimals: usize) -> String {
         units.place.words(diamonds, self.diamond, decimals)
-    }
-}
-
-/// Whether a cushion is a long or a short one.
-const fn length_word(rail: Rail) -> &'static str {
-    match rail {
-        Rail::Top | Rail::Bottom => "long",
-        Rail::Left | Rail::Right => "short",
     }
 }
 

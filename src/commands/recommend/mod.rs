@@ -344,12 +344,14 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     }
     let CueInputs { a, b, theta, speed, .. } = answer.cue;
     let side = match a {
-        a if a > 0.0 => " (left of centre)",
-        a if a < 0.0 => " (right of centre)",
+        a if a >= 5e-4 => " (left of centre)",
+        a if a <= -5e-4 => " (right of centre)",
         _ => "",
     };
-    writeln!(out, "a      {a:>8.3} R{side}")?;
-    writeln!(out, "b      {b:>8.3} R")?;
+    // Without a sign where it is told as nought.
+    let told = |place: f64| (1e3 * place).round() / 1e3 + 0.0;
+    writeln!(out, "a      {:>8.3} R{side}", told(a))?;
+    writeln!(out, "b      {:>8.3} R", told(b))?;
     writeln!(out, "theta  {:>8.3} degrees", theta.to_degrees())?;
     writeln!(out, "phi    {:>8} degrees", answer.cue.phi_text(3))?;
     let (factor, symbol) = units().length.speed();
@@ -370,7 +372,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         writeln!(out, "{system}")?;
     }
     if let Some(risk) = &answer.risk {
-        writeln!(out, "{risk}")?;
+        writeln!(out, "{}", risk.words(answer.chance.make_probability.map(|made| 1.0 - made)))?;
     }
     if let Some(next) = answer.next_probability {
         writeln!(out, "after it the next point is made about {:.0} % of the time", 100.0 * next)?;

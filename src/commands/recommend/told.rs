@@ -38,7 +38,7 @@ pub struct Told {
     pattern: Option<&'static str>,
     words: Words,
     #[serde(skip)]
-    course: Option<&'static str>,
+    pattern_course: Option<String>,
 }
 
 impl Told {
@@ -50,7 +50,7 @@ impl Told {
         Ok(Self {
             pattern: pattern.map(|pattern| pattern.name),
             words: Words::of(numbers, Units::default()),
-            course: pattern.map(|pattern| pattern.course),
+            pattern_course: pattern.map(|pattern| pattern.course_of(&technique)),
         })
     }
 
@@ -60,7 +60,7 @@ impl Told {
         writeln!(out, "{}", self.sentence(units))?;
         writeln!(out, "{}", numbers.course(CueBall::White, units))?;
         writeln!(out, "{}", numbers.aim(units))?;
-        match (self.pattern, self.course) {
+        match (self.pattern, &self.pattern_course) {
             (Some(pattern), Some(course)) => writeln!(out, "Pattern: {pattern} ({course})."),
             _ => Ok(()),
         }

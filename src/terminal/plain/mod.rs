@@ -288,7 +288,9 @@ impl Conversation {
                 let words = ShotWords::of_technique(talk.table(), talk.layout(), &shot.cue, &technique);
                 lines.extend([words.sentence(cue_ball, units), words.course(cue_ball, units), words.aim(units)]);
                 let pattern = Pattern::of(&technique);
-                lines.extend(pattern.map(|pattern| format!("Pattern: {}: {}.", pattern.name, pattern.course)));
+                lines.extend(
+                    pattern.map(|pattern| format!("Pattern: {}: {}.", pattern.name, pattern.course_of(&technique))),
+                );
             }
             lines.push(speech::chance(shot.kind, shot.rate, talk.request.skill, cue_ball, units.length));
             let why = talk.why.as_ref().filter(|_| talk.chosen == 0);

@@ -138,7 +138,6 @@ fn why_a_shot_leads_is_told_to_its_end_and_the_kiss_is_marked_on_the_table_befor
         harder: 0.5,
         make_probability: Some(0.59),
         aim_deg: Some(0.65),
-        is_surely_more: false,
     };
     let mut why = Why::default();
     (why.make_probability, why.aim_deg, why.next_probability, why.second) =

@@ -48,11 +48,11 @@ pub enum Reading {
     Both,
 }
 
-/// A stop on the course: a ball, or whether a cushion is a long one and where it is met, diamonds.
+/// A stop on the course: a ball, or a cushion and where it is met, diamonds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stop {
     Ball(usize),
-    Cushion { is_long: bool, diamond: f64 },
+    Cushion(Mark),
 }
 
 /// What a text says.
@@ -90,8 +90,9 @@ fn raised(table: &Table, layout: &Layout, cue: CueInputs) -> CueInputs {
 fn sentence(text: &str, table: &Table) -> Option<Said> {
     let text = text.trim_end_matches('.').to_lowercase();
     let [first, tip, stroke] = text.split("; ").collect::<Vec<_>>()[..] else { return None };
-    let (rail, ball) = match first.split_once(", then ") {
-        Some((rail, ball)) => (Some(rail_mark(rail.split_once(" first at ")?)?), ball),
+    let (rail, ball) = match first.rsplit_once(", then ") {
+        // Which cushions follow before the ball, the course says, too.
+        Some((rails, ball)) => (Some(rail_mark(rails.split(", then ").next()?.split_once(" first at ")?)?), ball),
         None => (None, first),
     };
     let (name, full) = ball.split_once(", ")?;
@@ -166,13 +167,13 @@ fn rail_mark((rail, diamond): (&str, &str)) -> Option<Mark> {
     Some(Mark { rail, diamond: diamond.trim_end_matches('.').parse().ok()? })
 }
 
-/// Reads "Red – long 5.1 – short 1.2 – red again – long 2.3 – yellow, thin on the left."; how the second ball is met is not gone by, nor where
+/// Reads "Red – top 5.1 – left 1.2 – red again – bottom 2.3 – yellow, thin on the left."; how the second ball is met is not gone by, nor where
 /// the first is met again.
 fn course(text: &str) -> Option<Vec<Stop>> {
     let text = text.trim_end_matches('.').to_lowercase();
     let text = text.split_once(", ").map_or(&*text, |(stops, _)| stops);
     let stop = |words: &str| match words.split_once(' ') {
-        Some((length, diamond)) => Some(Stop::Cushion { is_long: length == "long", diamond: diamond.parse().ok()? }),
+        Some(mark) => Some(Stop::Cushion(rail_mark(mark)?)),
         None => Some(Stop::Ball(BALL_NAMES.iter().position(|name| *name == words)?)),
     };
     text.split(" \u{2013} ").filter(|words| !words.ends_with(" again")).map(stop).collect()
@@ -251,10 +252,7 @@ fn unlike(cue: &CueInputs, said: &Said, stops: &[Stop], table: &Table, layout: &
         }
     }
     if !stops.is_empty() {
-        let cushion = |cushion: &Cushion| Stop::Cushion {
-            is_long: matches!(cushion.rail, Rail::Top | Rail::Bottom),
-            diamond: cushion.diamond,
-        };
+        let cushion = |Cushion { rail, diamond, .. }: &Cushion| Stop::Cushion(Mark { rail: *rail, diamond: *diamond });
         let mut course: Vec<Stop> = technique.before.iter().map(cushion).collect();
         course.extend(technique.first.map(|hit| Stop::Ball(hit.ball)));
         course.extend(technique.between.iter().map(cushion));
@@ -263,10 +261,8 @@ fn unlike(cue: &CueInputs, said: &Said, stops: &[Stop], table: &Table, layout: &
         }
         for (place, stop) in stops.iter().enumerate() {
             far += match (stop, course.get(place)) {
-                (Stop::Cushion { is_long, diamond }, Some(Stop::Cushion { is_long: its, diamond: there }))
-                    if is_long == its =>
-                {
-                    beyond((diamond - there).abs() * 10.0)
+                (Stop::Cushion(mark), Some(Stop::Cushion(its))) if mark.rail == its.rail => {
+                    beyond((mark.diamond - its.diamond).abs() * 10.0)
                 }
                 (Stop::Ball(ball), Some(Stop::Ball(its))) if ball == its => 0.0,
                 _ => 50.0,
