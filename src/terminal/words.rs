@@ -72,7 +72,8 @@ pub fn percent(probability: f64) -> String {
 
 /// A share with its 95 % interval, like 94 % (92-95).
 pub fn chance_words(rate: &SuccessRate) -> String {
-    format!("{} % ({}-{})", percent(rate.rate), percent(rate.low), percent(rate.high))
+    let [rate, low, high] = [rate.rate, rate.low, rate.high].map(percent);
+    if low == high { format!("{rate} %") } else { format!("{rate} % ({low}-{high})") }
 }
 
 /// The number with `decimals` digits, never as minus zero.

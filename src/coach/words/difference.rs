@@ -1,6 +1,6 @@
 //! How one stroke differs from another, as a player would say it.
 
-use super::{ShotWords, TIP, TipUnit, Units, lengths_words, short};
+use super::{Hit, ShotWords, TIP, TipUnit, Units, lengths_words, numbers, short};
 use crate::table::CueBall;
 
 /// Parts of a ball below which a difference of fullness is not told, is a hair, and is a little; from there on eighths are told.
@@ -73,7 +73,9 @@ impl ShotWords {
         if hit.ball != others.ball {
             return vec![format!("meets {} first", names[hit.ball])];
         }
-        if hit.left != others.left {
+        // What is hit full has no side.
+        let has_side = |hit: Hit| !numbers::fullness_words(hit.fullness).1;
+        if hit.left != others.left && has_side(hit) && has_side(others) {
             return vec![format!("{} on its {} side", names[hit.ball], if hit.left { "left" } else { "right" })];
         }
         let fuller = hit.fullness - others.fullness;
@@ -182,6 +184,9 @@ mod tests {
     #[test]
     fn another_ball_another_side_and_none_are_named() {
         assert_eq!(told("-0.2,0.1,0,-4.5,3", true), "red on its right side");
+        let full = of("-0.2,0.1,0,-2.4,3");
+        assert!(full.first.is_some_and(|hit| hit.fullness > 0.97), "{:?}", full.first);
+        assert!(told("-0.2,0.1,0,-2.4,3", true).starts_with("too thick by "), "{}", told("-0.2,0.1,0,-2.4,3", true));
         assert_eq!(told("-0.2,0.1,0,17.4,3", true), "meets yellow first");
         assert_eq!(told("-0.2,0.1,0,10,0.3", true).split(", ").next(), Some("meets no ball"));
     }

@@ -108,11 +108,17 @@ impl WhatIf {
         self.verdict.words(cue_ball, units.length).replacen(": ", ", if played exactly: ", 1)
     }
 
-    /// How it differs from the coach's, whom `teacher` names; and whether there is room for the cue.
-    pub fn difference(&self, teacher: &str, cue_ball: CueBall, units: Units) -> String {
+    /// How it differs from that of the coach, whom `teacher` names, which the player makes so often, if that is known; and whether there is
+    /// room for the cue. What the player makes as often has no fault, even where it misses if it is played exactly.
+    pub fn difference(&self, teacher: &str, coach_made: Option<f64>, cue_ball: CueBall, units: Units) -> String {
         let misses = !self.is_made() && self.coach.solved;
-        let parts = self.shot.words.differences(&self.coach.words, misses, cue_ball, units);
-        let room = if self.has_room { "" } else { "; no room for the cue" };
+        let is_as_good = misses && self.made.zip(coach_made).is_some_and(|(own, made)| own.rate >= made);
+        let parts = self.shot.words.differences(&self.coach.words, misses && !is_as_good, cue_ball, units);
+        let room = match (self.has_room, is_as_good) {
+            (false, _) => "; no room for the cue",
+            (true, true) => "; with your errors as good",
+            (true, false) => "",
+        };
         if parts.is_empty() {
             format!("You: as the {teacher}{room}")
         } else {
@@ -145,13 +151,13 @@ mod tests {
         with(|mut what_if, scene| {
             let units = Units::default();
             assert!(what_if.is_made() && Arc::ptr_eq(&what_if.coach, &what_if.shot));
-            assert_eq!(what_if.difference("coach", CueBall::White, units), "You: as the coach");
+            assert_eq!(what_if.difference("coach", None, CueBall::White, units), "You: as the coach");
             let coach = Arc::clone(&what_if.coach);
             let softer = CueInputs { speed: 0.5, ..coach.cue };
             what_if.strike(&softer, scene).unwrap();
             assert!(!what_if.is_made() && what_if.coach.cue == coach.cue && what_if.shot.cue.speed == 0.5);
             assert!(what_if.outcome(CueBall::White, units).starts_with("No point, if played exactly: "));
-            let told = what_if.difference("coach", CueBall::White, units);
+            let told = what_if.difference("coach", None, CueBall::White, units);
             assert!(told.starts_with("You: ") && told.contains("softer by "), "{told}");
         });
     }

@@ -32,7 +32,7 @@ pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) 
     let own = match what_if.made {
         Some(rate) => format!(" {} %", percent(rate.rate)),
         None if what_if.is_asked() => ui.caps.pick(" … %", " ... %").to_owned(),
-        None => String::new(),
+        None => if what_if.is_made() { " makes it" } else { " misses" }.to_owned(),
     };
     title.push(Span::styled(own, ui.theme.text()));
     title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
@@ -43,7 +43,7 @@ pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) 
     let plain = |words: String| spell(&words, ui.caps);
     let paragraphs = [
         (plain(what_if.outcome(cue_ball, units)), outcome_style),
-        (plain(what_if.difference(teacher, cue_ball, units)), ui.theme.text()),
+        (plain(what_if.difference(teacher, made, cue_ball, units)), ui.theme.text()),
     ];
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     write_paragraphs(&paragraphs, text, ui);

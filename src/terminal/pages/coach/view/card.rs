@@ -38,7 +38,11 @@ pub fn draw_card(proposal: &Proposal, coach: &CoachPage, area: Rect, ui: &mut Ui
     }
     title.push(chance_span(proposal, is_wide, ui));
     let inner = draw_title(title, area, ui);
-    let rows = if is_wide { wide_rows(proposal, coach, usize::from(area.width)) } else { narrow_rows(proposal, coach) };
+    let rows = if is_wide {
+        wide_rows(proposal, coach, usize::from(area.width), usize::from(inner.height))
+    } else {
+        narrow_rows(proposal, coach)
+    };
     for ((name, mut value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
         let mut line = Line::default();
         if is_wide {
@@ -104,8 +108,8 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     rows.into_iter().map(|row| ("", row)).collect()
 }
 
-/// Rows of so many columns.
-fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize) -> Vec<Row> {
+/// Rows of so many columns, and so many of them if that can be.
+fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) -> Vec<Row> {
     let words = &proposal.shot.words;
     let hit = words.first.map_or_else(
         || "no ball".to_owned(),
@@ -114,12 +118,11 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize) -> Vec<Row> {
             format!("{} {}, {side}", coach.cue_ball().names()[hit.ball], fraction(hit.fullness))
         },
     );
-    let hit = match words.before.first() {
-        Some(cushion) => {
-            format!("{} {} first, {hit}", rail_word(cushion.rail), place_along(coach, cushion.diamond, to_tenths))
-        }
-        None => hit,
-    };
+    // All cushions before the ball have a row of their own.
+    let cushions = words.before.split_first().map(|(first, others)| {
+        let first = format!("{} {}", rail_word(first.rail), place_along(coach, first.diamond, to_tenths));
+        others.iter().fold(first, |words, other| format!("{words}, {}", rail_word(other.rail)))
+    });
     let english = match words.english {
         Some(English::Running) => ", running",
         Some(English::Reverse) => ", reverse",
@@ -135,15 +138,22 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize) -> Vec<Row> {
     let lengths = lengths_words(words.table_lengths);
     let speed = format!("{lengths}, {}", speed_words(proposal.shot.cue.speed, coach.units.length, 2));
     let whole_speed = format!("{}, {speed}", pace_word(words.table_lengths));
-    vec![
+    let aim = [("from", mark(words.behind)), ("to", mark(words.ahead))];
+    let mut rows: Vec<Row> = cushions.map(|cushions| ("first", cushions)).into_iter().collect();
+    rows.extend([
         ("hit", hit),
         ("side", tip_side_words(proposal, coach) + english),
         ("height", tip_height_words(proposal, coach)),
         ("speed", if columns(&whole_speed) + NAME < width { whole_speed } else { speed }),
         ("cue", cue),
-        ("from", mark(words.behind)),
-        ("to", mark(words.ahead)),
-    ]
+    ]);
+    if rows.len() + aim.len() > most {
+        let [from, to] = aim.map(|(_, mark)| mark.replace(" rail", ""));
+        rows.push(("aim", format!("{from} to {to}")));
+    } else {
+        rows.extend(aim);
+    }
+    rows
 }
 
 fn tip_side_words(proposal: &Proposal, coach: &CoachPage) -> String {

@@ -13,7 +13,7 @@ use crate::{
     },
     terminal::{
         Capabilities, Shot, ShotAnalysis,
-        ui::{Theme, Ui, draw_nothing, draw_title, write_right},
+        ui::{Theme, Ui, columns, draw_nothing, draw_title, write_right},
         words::fixed,
     },
 };
@@ -95,9 +95,12 @@ pub fn draw_margins(
         // The other panels tell the speed in table lengths alone.
         if 2 * usize::from(inner.height) > rows.len() {
             let (speed, lengths) = (unit.speed().0 * shot.cue.speed, shot.words.table_lengths);
-            let words = format!("V {} = {}", fixed(speed, 1), lengths_words(lengths));
             let x = inner.x + half + 1;
             let room = usize::from(inner.right().saturating_sub(x));
+            let mut words = format!("V {} = {}", fixed(speed, 1), lengths_words(lengths));
+            if columns(&words) > room {
+                words = format!("V {}", fixed(speed, 1));
+            }
             ui.buffer.set_stringn(x, inner.bottom() - 1, words, room, ui.theme.faint());
         }
     }

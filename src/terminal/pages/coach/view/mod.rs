@@ -288,9 +288,13 @@ fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Messa
         }
         Some(shot) => {
             let (events, time) = (coach.events(shot), coach.playback.readout);
-            events.get(passed(&events, time)).map_or("no more contacts: the balls roll out".to_owned(), |next| {
-                format!("next: {} in {} s", event_words(next.kind, coach.cue_ball()), fixed(next.time - time, 1))
-            })
+            match events.get(passed(&events, time)) {
+                Some(next) => {
+                    format!("next: {} in {} s", event_words(next.kind, coach.cue_ball()), fixed(next.time - time, 1))
+                }
+                None if time >= shot.recording.duration() => "all balls lie still".to_owned(),
+                None => "no more contacts: the balls roll out".to_owned(),
+            }
         }
         None => selected_ball(coach),
     })

@@ -77,6 +77,6 @@ fn level_words(shot: &Shot, is_wide: bool, ui: &Ui) -> String {
     if is_wide {
         format!("level ({}{})", degrees(1), ui.caps.pick("°", " deg"))
     } else {
-        format!("level {}{}", degrees(0), ui.caps.pick("°", ""))
+        ui.caps.pick(format!("level {}°", degrees(0)).as_str(), "level").to_owned()
     }
 }
