@@ -226,9 +226,10 @@ mod tests {
         run.train(&FOREVER, &mut Told::default()).unwrap();
         drop(run);
         let mut follower = Follower::new(&path);
-        let mut lines = Vec::new();
-        followed.apply(follower.look_at_lines(&mut |record| lines.push(record.shots)).unwrap());
-        assert_eq!((followed.condition, lines.len()), (Condition::Is(Phase::Finished), 5));
+        let update = follower.look().unwrap();
+        assert_eq!(update.records.len(), 5);
+        followed.apply(update);
+        assert_eq!(followed.condition, Condition::Is(Phase::Finished));
         assert_eq!(followed.config.as_ref().unwrap().plan.shots, 160);
         assert!(followed.examples.is_some() && followed.notices.is_empty());
         std::fs::remove_file(path.join("metrics.jsonl")).unwrap();

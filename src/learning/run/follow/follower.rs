@@ -10,7 +10,7 @@ use super::{
     Condition, Update,
     condition::{Signs, condition},
     stamp::Stamp,
-    tail::{Tail, Taken},
+    tail::{News, Tail},
 };
 use crate::{
     learning::run::{
@@ -18,7 +18,7 @@ use crate::{
         config::{self, Config},
         examples::{self, Examples},
         holds_checkpoints,
-        metrics::{self, Record},
+        metrics,
         status::{self, RunStatus},
     },
     storage::Lock,
@@ -62,18 +62,13 @@ impl Follower {
 
     /// Looks once; `None` where nothing has changed. Never fails: what is wrong becomes a notice.
     pub fn look(&mut self) -> Option<Update> {
-        self.look_at_lines(&mut |_| ())
-    }
-
-    /// [`Follower::look`], with every line of metrics handed to `see` as well, from the first one on.
-    pub fn look_at_lines(&mut self, see: &mut dyn FnMut(&Record)) -> Option<Update> {
         let mut update = Update::default();
         if self.seldom.is_none_or(|last| last.elapsed() >= SELDOM) {
             self.seldom = Some(Instant::now());
             self.look_seldom(&mut update);
         }
         self.look_at_status(&mut update);
-        let is_there = self.look_at_metrics(&mut update, see);
+        let is_there = self.look_at_metrics(&mut update);
         self.signs.silent = self.heard.map_or(Duration::ZERO, |heard| heard.elapsed());
         let now = condition(&self.signs);
         if now != self.condition {
@@ -153,25 +148,18 @@ impl Follower {
     }
 
     /// Reads what is new; `false` where there is no file.
-    fn look_at_metrics(&mut self, update: &mut Update, see: &mut dyn FnMut(&Record)) -> io::Result<bool> {
-        let mut lines = self.lines;
-        let (mut records, mut last, mut is_afresh) = (Vec::new(), None, false);
-        let is_there = self.tail.look(|taken| match taken {
-            Taken::Afresh => {
-                records.clear();
-                lines = 0;
-                is_afresh = true;
-            }
-            Taken::Line(record) => {
-                see(&record);
-                last = Some(record.shots);
-                lines += 1;
-                records.push(record);
-            }
-        });
-        update.begins = if last.is_some() { is_afresh || self.lines == 0 } else { is_afresh && is_there.is_ok() };
-        self.lines = lines;
-        self.signs.shots = if is_afresh { last } else { last.or(self.signs.shots) };
+    fn look_at_metrics(&mut self, update: &mut Update) -> io::Result<bool> {
+        let mut news = News::default();
+        let is_there = self.tail.look(&mut news);
+        let News { is_afresh, records } = news;
+        let last = records.last().map(|record| record.shots);
+        let is_first = self.lines == 0 && last.is_some();
+        update.begins = is_first || is_afresh && (last.is_some() || is_there.is_ok());
+        if is_afresh {
+            (self.lines, self.signs.shots) = (0, None);
+        }
+        self.lines += records.len() as u64;
+        self.signs.shots = last.or(self.signs.shots);
         update.records = records;
         is_there
     }
@@ -213,7 +201,7 @@ mod tests {
         game::Reward,
         learning::{
             learner::{AgentKind, TrainingPlan},
-            run::{config::Schedule, follow::Followed},
+            run::{config::Schedule, follow::Followed, metrics::Record},
         },
         table::Table,
     };
