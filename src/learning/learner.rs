@@ -39,8 +39,6 @@ pub struct AgentKind {
     pub start: Start,
     /// The learner whose [`Learner::save`] filled the file and returned the note.
     pub restore: Restore,
-    /// Shots of a whole iteration with these settings; `None` where they do not say.
-    pub shots_per_iteration: fn(&Value) -> Option<u64>,
     /// Settings that apply only when weights are loaded; `--from` does not pass them on.
     pub of_one_start: &'static [&'static str],
 }

@@ -53,7 +53,6 @@ pub const AGENT: AgentKind = AgentKind {
         Ok(Box::new(Trainer::new(Task { plan, hyperparameters }, table)?))
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
-    shots_per_iteration: |settings| settings.get("shots_per_update")?.as_u64(),
     of_one_start: &["new_actor"],
 };
 

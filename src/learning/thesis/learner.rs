@@ -58,7 +58,6 @@ const fn line<A: Agent + 'static>() -> AgentKind {
             settings.validate()?;
             Ok(Box::new(TrainingLoop { agent: A::restore(settings, reader, agent)?, state }))
         },
-        shots_per_iteration: |_| Some(SHOTS_PER_ITERATION),
         of_one_start: &[],
     }
 }

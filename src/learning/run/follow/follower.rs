@@ -17,8 +17,7 @@ use crate::{
         METRICS,
         config::{self, Config},
         examples::{self, Examples},
-        holds_checkpoints,
-        metrics,
+        holds_checkpoints, metrics,
         status::{self, RunStatus},
     },
     storage::Lock,
@@ -26,9 +25,6 @@ use crate::{
 
 /// Time between two looks at what changes seldom, and at the lock: each look at the lock holds it for an instant.
 const SELDOM: Duration = Duration::from_secs(1);
-
-/// By so many of the longest gaps between two lines may the metrics be behind what the run says of itself.
-const GAPS_BEHIND: u64 = 2;
 
 /// Looks at a run's files. It only reads them, so any number may follow one run.
 #[derive(Debug, Default)]
@@ -43,10 +39,9 @@ pub struct Follower {
     heard: Option<Instant>,
     /// Lines of metrics read.
     lines: u64,
-    /// Most shots between two of them, where that is known.
-    longest_gap: Option<u64>,
-    /// Shots played as the run says itself.
+    /// Shots played, and shots as of the last line of metrics, as the run says itself.
     said: u64,
+    logged: u64,
     signs: Signs,
     condition: Condition,
     /// What is wrong with each file, in the order in which it is reported.
@@ -96,7 +91,6 @@ impl Follower {
             match Config::read(&self.folder) {
                 Ok(config) => {
                     self.signs.planned = Some(config.plan.shots);
-                    self.longest_gap = config.longest_gap();
                     self.troubles[0] = config.newer_version().map(|version| {
                         format!(
                             "the run is of carom {version}, which is newer than this one: not all of it may be shown"
@@ -135,7 +129,7 @@ impl Follower {
         match RunStatus::read(&self.folder) {
             Ok(status) => {
                 self.signs.phase = Some(status.phase);
-                self.said = status.shots;
+                (self.said, self.logged) = (status.shots, status.logged);
                 self.troubles[1] = None;
                 update.status = Some(status);
             }
@@ -166,9 +160,7 @@ impl Follower {
 
     fn trouble_of_metrics(&self, is_there: io::Result<bool>) -> Option<String> {
         let read = self.signs.shots.unwrap_or(0);
-        // A line may be on its way, and another one due: that of an iteration that is measured comes after the measurement.
-        let is_behind =
-            self.longest_gap.is_some_and(|gap| self.said > read.saturating_add(gap.saturating_mul(GAPS_BEHIND)));
+        let is_behind = self.logged > read;
         match is_there {
             Err(error) => Some(format!("{METRICS} cannot be read: {error}; what was read before is still shown")),
             Ok(false) if self.lines > 0 => {
@@ -197,14 +189,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::{
-        game::Reward,
-        learning::{
-            learner::{AgentKind, TrainingPlan},
-            run::{config::Schedule, follow::Followed, metrics::Record},
-        },
-        table::Table,
-    };
+    use crate::learning::run::{follow::Followed, metrics::Record};
 
     /// Anything: bytes, nothing at all, and files like ours with a part that is cut off or changed.
     fn content(ours: &'static str) -> impl Strategy<Value = Option<Vec<u8>>> {
@@ -236,27 +221,20 @@ mod tests {
         \"phi_deg\":0,\"speed\":1},\"reward\":1}]}";
 
     #[test]
-    fn a_run_whose_iterations_are_longer_than_its_lines_apart_is_not_behind_while_it_is_measured() {
+    fn lines_are_missed_only_if_the_run_has_written_them() {
         let folder = tempfile::tempdir().unwrap();
-        let kind = AgentKind::named("ddpg").unwrap();
-        let plan = TrainingPlan { reward: Reward::R3, seed: 1, shots: 20_000 };
-        let learner = (kind.start)(plan, Table::default(), &serde_json::json!({})).unwrap();
-        let config = Config::of(learner.as_ref(), Schedule::new(3000, 20_000), None);
-        assert!(config.schedule.log_every < 192);
-        config.write(folder.path()).unwrap();
-        let notices = |read: u64, said: u64| {
+        let notices = |read: u64, logged: u64| {
             let line = Record { shots: read, ..Record::default() };
             fs::write(folder.path().join(METRICS), serde_json::to_string(&line).unwrap() + "\n").unwrap();
-            RunStatus { shots: said, ..RunStatus::default() }.write(folder.path()).unwrap();
+            RunStatus { shots: 3072, logged, ..RunStatus::default() }.write(folder.path()).unwrap();
             let mut followed = Followed::new(folder.path());
             followed.apply(Follower::new(folder.path()).look().unwrap());
             followed.notices
         };
-        // The iteration after which it is measured has been played, and its line has not come.
-        assert_eq!(notices(2880, 3072), [""; 0]);
-        assert_eq!(notices(2880, 3264), [""; 0]);
+        // More has been played since the last line; and an earlier version says nothing of lines.
+        assert_eq!((notices(2880, 2880), notices(960, 0)), (vec![], vec![]));
         assert_eq!(
-            notices(960, 3072),
+            notices(960, 2880),
             ["metrics.jsonl has been emptied or cut off: it ends after 960 of the 3072 shots played"]
         );
     }
