@@ -16,37 +16,33 @@ use crate::{
     table::Table,
 };
 
-/// The bundled policies: the table's name, or `context` for those that are told table and player, for all tables like `match`; what
-/// was rewarded; and the file.
-const BUNDLED: [(&str, Reward, &[u8]); 9] = [
-    ("match", Reward::R3, include_bytes!("../../../../models/match-r3.safetensors")),
-    ("match", Reward::OneCushion, include_bytes!("../../../../models/match-one-cushion.safetensors")),
-    ("match", Reward::ThreeCushion, include_bytes!("../../../../models/match-three-cushion.safetensors")),
-    ("thesis", Reward::R3, include_bytes!("../../../../models/thesis-r3.safetensors")),
-    ("thesis", Reward::OneCushion, include_bytes!("../../../../models/thesis-one-cushion.safetensors")),
-    ("thesis", Reward::ThreeCushion, include_bytes!("../../../../models/thesis-three-cushion.safetensors")),
-    (CONTEXT, Reward::R3, include_bytes!("../../../../models/context-r3.safetensors")),
-    (CONTEXT, Reward::OneCushion, include_bytes!("../../../../models/context-one-cushion.safetensors")),
-    (CONTEXT, Reward::ThreeCushion, include_bytes!("../../../../models/context-three-cushion.safetensors")),
+/// The bundled policies by their names (`models/README.md`): the table, or `context` for those that are told table and player, for all
+/// tables like `match`; and what was rewarded.
+const BUNDLED: [(&str, &[u8]); 9] = [
+    ("match-r3", include_bytes!("../../../../models/match-r3.safetensors")),
+    ("match-one-cushion", include_bytes!("../../../../models/match-one-cushion.safetensors")),
+    ("match-three-cushion", include_bytes!("../../../../models/match-three-cushion.safetensors")),
+    ("thesis-r3", include_bytes!("../../../../models/thesis-r3.safetensors")),
+    ("thesis-one-cushion", include_bytes!("../../../../models/thesis-one-cushion.safetensors")),
+    ("thesis-three-cushion", include_bytes!("../../../../models/thesis-three-cushion.safetensors")),
+    ("context-r3", include_bytes!("../../../../models/context-r3.safetensors")),
+    ("context-one-cushion", include_bytes!("../../../../models/context-one-cushion.safetensors")),
+    ("context-three-cushion", include_bytes!("../../../../models/context-three-cushion.safetensors")),
 ];
 
-/// Whose the policies are that are told table and player.
-const CONTEXT: &str = "context";
-
-/// The bundled file of this name for `rule`.
+/// The bundled policy's file for a table, or `context`, and a rule.
 fn bundled_file(whose: &str, rule: Rule) -> Option<&'static [u8]> {
-    let reward = Reward::for_rule(rule);
-    BUNDLED.into_iter().find(|(name, what, _)| (*name, *what) == (whose, reward)).map(|(.., bytes)| bytes)
+    bundled_bytes(&format!("{whose}-{}", Reward::for_rule(rule)))
 }
 
-/// What the bundled files are called (`models/README.md`), without `.safetensors`.
-pub fn bundled_names() -> impl Iterator<Item = String> {
-    BUNDLED.into_iter().map(|(whose, reward, _)| format!("{whose}-{reward}"))
+/// The names of the bundled policies.
+pub fn bundled_names() -> impl Iterator<Item = &'static str> {
+    BUNDLED.into_iter().map(|(name, _)| name)
 }
 
 /// The bundled file of this name.
 pub(in crate::learning) fn bundled_bytes(name: &str) -> Option<&'static [u8]> {
-    bundled_names().position(|bundled| bundled == name).map(|index| BUNDLED[index].2)
+    BUNDLED.into_iter().find(|(bundled, _)| *bundled == name).map(|(_, bytes)| bytes)
 }
 
 /// Where a policy comes from.
@@ -157,7 +153,7 @@ impl Policy {
 
     /// The policy for `rule` on all tables like `match`, if this is one.
     fn bundled_with_context(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
-        let bytes = bundled_file(CONTEXT, rule).filter(|_| knows(table))?;
+        let bytes = bundled_file("context", rule).filter(|_| knows(table))?;
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\"")))
     }
 
@@ -170,12 +166,11 @@ impl Policy {
     }
 
     /// What the bundled file with these networks is called; `None` where they are no bundled ones.
-    pub fn bundled_name(&self) -> Option<String> {
+    pub fn bundled_name(&self) -> Option<&'static str> {
         // Seed, shots and settings tell them apart.
-        let is_this = |(.., bytes): &(_, _, &[u8])| {
-            Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin))
-        };
-        BUNDLED.iter().position(is_this).and_then(|index| bundled_names().nth(index))
+        let is_this =
+            |bytes| Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin));
+        BUNDLED.into_iter().find(|(_, bytes)| is_this(bytes)).map(|(name, _)| name)
     }
 
     /// A checksum of the networks and of what their file says of them: equal ones play equally.
@@ -288,7 +283,7 @@ mod tests {
         ] {
             let table = Table::preset(table).unwrap();
             let policy = Policy::bundled_for(&table, Rule::ThreeCushion, errs).unwrap().unwrap();
-            assert_eq!(policy.bundled_name().as_deref(), Some(name));
+            assert_eq!(policy.bundled_name(), Some(name));
             assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.safetensors")).exists());
         }
         let mut another = bundled();
