@@ -191,23 +191,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_defaults_are_valid_and_nonsense_is_named() {
+    fn what_is_no_number_is_outside_every_range() {
         let good = Hyperparameters::default();
-        good.validate().unwrap();
-        let refuse = |change: &dyn Fn(&mut Hyperparameters)| {
-            let mut hyper = good.clone();
-            change(&mut hyper);
-            hyper.validate().unwrap_err().to_string()
-        };
-        assert!(refuse(&|hyper| hyper.heads = 0).contains("heads = 0"));
-        assert!(refuse(&|hyper| hyper.critic_layers[1] = 0).contains("critic_layers"));
-        assert!(refuse(&|hyper| hyper.actor_layers.clear()).contains("actor_layers = [] is outside its range"));
-        for wrong in [[5.0, 1.0], [0.1, 2.0], [3.0, 7.0], [f64::NAN, 2.0]] {
-            let refused = refuse(&|hyper| hyper.head_speeds = vec![[1.0, 2.0], wrong]);
-            assert!(refused.starts_with(&format!("head_speeds = [{}, {}] is", wrong[0], wrong[1])), "{refused}");
+        for (hyper, named) in [
+            (Hyperparameters { critic_learning_rate: f64::NAN, ..good.clone() }, "critic_learning_rate = NaN is"),
+            (Hyperparameters { head_speeds: vec![[1.0, 2.0], [f64::NAN, 2.0]], ..good }, "head_speeds = [NaN, 2] is"),
+        ] {
+            assert!(hyper.validate().unwrap_err().to_string().starts_with(named));
         }
-        assert!(refuse(&|hyper| hyper.critic_learning_rate = f64::NAN).contains("NaN"));
-        assert!(refuse(&|hyper| hyper.exploration.noise.push(-1.0)).contains("-1"));
     }
 
     #[test]

@@ -304,23 +304,4 @@ mod tests {
         trainer.agent = Ddpg::starting_from(policy.networks.duplicate().unwrap(), trainer.agent.hyper.clone()).unwrap();
         trainer
     }
-
-    #[test]
-    fn settings_come_back_and_wrong_ones_are_named() {
-        let plan = TrainingPlan { reward: crate::game::Reward::R1, seed: 1, shots: 10 };
-        let start = |settings: Value| (AGENT.start)(plan, Table::default(), &settings);
-        let some = start(serde_json::json!({ "heads": 2 })).unwrap().settings();
-        assert_eq!(start(some.clone()).unwrap().settings(), some);
-        assert_eq!(some["heads"], 2);
-        assert!(start(serde_json::json!({ "head": 2 })).unwrap_err().to_string().contains("head"));
-        let wrong = start(serde_json::json!({ "heads": 2, "ranking": "abc" })).unwrap_err().to_string();
-        assert!(wrong.contains("ranking = \"abc\": invalid type"), "{wrong}");
-        assert!(wrong.ends_with("expected a number; accepted is 0 to 1"), "{wrong}");
-        assert!(start(serde_json::json!({ "searched": 1 })).unwrap_err().to_string().contains("context = true"));
-        // Expert iteration that began from a round in which the critic alone learnt went on so for ten rounds unnoticed.
-        let frozen =
-            serde_json::json!({ "context": true, "searched": 1, "imitation": 0.3, "actor_learning_rate": 1e-9 });
-        assert!(start(frozen).unwrap_err().to_string().contains("actor_learning_rate of 1e-9"));
-        assert!(start(serde_json::json!({ "heads": 0 })).unwrap_err().to_string().contains("heads = 0"));
-    }
 }
