@@ -19,17 +19,3 @@ impl AgentKind {
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("there is no agent \"{0}\"; use {list}", list = AGENTS.map(|agent| agent.name).join(", "))]
 pub struct UnknownAgent(String);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn agents_are_found_by_name_and_unknown_ones_are_told_the_names() {
-        for agent in AGENTS {
-            assert_eq!(AgentKind::named(agent.name).unwrap().name, agent.name);
-        }
-        let unknown = AgentKind::named("sarsa").unwrap_err().to_string();
-        assert!(unknown.contains("sarsa") && unknown.contains("ddpg"), "{unknown}");
-    }
-}

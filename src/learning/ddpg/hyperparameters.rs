@@ -200,19 +200,4 @@ mod tests {
             assert!(hyper.validate().unwrap_err().to_string().starts_with(named));
         }
     }
-
-    #[test]
-    fn settings_of_earlier_versions_are_read_where_they_changed_nothing() {
-        for name in ["hindsight", "demonstrations"] {
-            let read = |value: f64| {
-                let mut settings = serde_json::to_value(Hyperparameters::default()).unwrap();
-                assert_eq!(settings.get(name), None);
-                settings[name] = value.into();
-                serde_json::from_value::<Hyperparameters>(settings).unwrap()
-            };
-            assert_eq!(read(0.0), Hyperparameters::default());
-            let refused = read(0.5).validate().unwrap_err().to_string();
-            assert!(refused.contains(&format!("{name} = 0.5")) && refused.contains("accepted is 0"), "{refused}");
-        }
-    }
 }

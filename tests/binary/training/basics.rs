@@ -135,7 +135,8 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
     fs::write(here.join("cellar.toml"), table).unwrap();
     for (line, code, named) in [
         ("evaluate --policy none.safetensors", 1, "none.safetensors"),
-        ("evaluate --policy broken.safetensors", 2, "broken.safetensors"),
+        ("evaluate --policy broken.safetensors", 2, "broken.safetensors is not a policy that carom can use: "),
+        ("evaluate --policy broken.safetensors", 2, "; train one with `carom train`"),
         ("evaluate --table snooker", 1, "snooker"),
         ("evaluate --policy-only --table cellar.toml", 2, "cellar"),
         ("evaluate --random-search 10 --policy-only", 2, "--random-search"),
@@ -151,7 +152,7 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
         ("train --run new --seeds 0", 2, "0"),
         ("train --run new --seeds 2 --seed 18446744073709551615", 2, "0 to 18446744073709551614"),
         ("train --run new --jobs 2", 2, "--seeds"),
-        ("train --run new --agent sarsa", 2, "sarsa"),
+        ("train --run new --agent sarsa", 2, "no agent \"sarsa\"; use ddpg, q-learning, dqn, thesis-ddpg"),
         ("train --run new --agent sarsa --seeds 2", 2, "sarsa"),
         ("train --run new --config wrong.toml", 2, "heads = 0"),
         ("train --run new --config nan.toml", 2, "target_rate"),
@@ -199,11 +200,6 @@ fn one_part_of_a_setting_is_set_alone_and_the_others_stay() {
     // What the run that the weights come from has of the other parts stays as well.
     done(here, &format!("train --from a {short} --set noise.theta=0.3 --run b"));
     assert_eq!(settings("b")["noise"], serde_json::json!({"theta": 0.3, "sigma": 1.0, "dt": 0.5}));
-    for (agent, last) in [("q-learning", 0.05), ("dqn", 0.1)] {
-        done(here, &format!("train --agent {agent} --reward r1 {short} --set epsilon.first=0.5 --run {agent}"));
-        let epsilon = &settings(agent)["epsilon"];
-        assert_eq!((epsilon["first"].as_f64(), epsilon["last"].as_f64()), (Some(0.5), Some(last)), "{agent}");
-    }
     fs::write(here.join("parts.toml"), "[noise]\nsigma = 2.0\n").unwrap();
     done(here, &format!("train --from a {short} --config parts.toml --set noise.theta=0.3 --run c"));
     assert_eq!(settings("c")["noise"], serde_json::json!({"theta": 0.3, "sigma": 2.0, "dt": 0.5}));

@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn a_saved_policy_plays_the_same_and_damage_is_reported() {
+    fn a_saved_policy_plays_the_same_and_a_missing_one_is_reported() {
         let (policy, table) = (bundled(), Table::default());
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("policy.safetensors");
@@ -310,10 +310,6 @@ mod tests {
             policy.proposals(&table, &layout, &Skill::PERFECT)
         );
 
-        let bytes = std::fs::read(&path).unwrap();
-        std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
-        let message = Policy::load(&path).unwrap_err().to_string();
-        assert!(message.contains("policy.safetensors") && message.contains("carom train"), "{message}");
         let missing = Policy::load(&folder.path().join("none")).unwrap_err().to_string();
         assert!(missing.contains("none") && missing.contains("cannot be read"), "{missing}");
     }
