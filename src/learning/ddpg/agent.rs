@@ -28,11 +28,8 @@ const WAY_WEIGHTS: [f32; ACTIONS] = [4.0, 1.0, 1.0, 1.0, 1.0];
 /// One shot as the replay buffer holds it: what was seen, what was done, what it earned. A shot is a whole episode, so there is no next state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transition {
-    /// The layout as the agent saw it.
     pub observation: Observation,
-    /// Under which conditions it was played.
     pub conditions: Conditions,
-    /// What it did.
     pub action: Action,
     /// What that earned, as a share of the most that there is to earn.
     pub success: f32,
@@ -41,7 +38,6 @@ pub struct Transition {
 /// Shots to learn from: as many observations as actions and successes.
 #[derive(Clone, Debug)]
 pub struct ShotBatch {
-    /// What was seen.
     pub observed: ObservationBatch,
     /// The action that was taken in each observation.
     pub actions: Vec<Action>,

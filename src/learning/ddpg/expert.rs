@@ -51,17 +51,12 @@ const LOWEST: f32 = -0.3;
 /// Where and by whom strokes are tried.
 #[derive(Clone, Copy, Debug)]
 pub struct Expert<'a> {
-    /// Where runs are played.
     pub tables: &'a RandomizedTables,
-    /// What earns a reward.
     pub reward: Reward,
-    /// What the networks' input is made of.
     pub inputs: Inputs,
     /// The critic that chooses between strokes before any attempt is made.
     pub networks: &'a Networks,
-    /// The balls.
     pub layout: &'a Layout,
-    /// Who plays on which table.
     pub conditions: Conditions,
 }
 

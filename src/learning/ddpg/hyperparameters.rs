@@ -129,7 +129,6 @@ impl Default for Hyperparameters {
 }
 
 impl Hyperparameters {
-    /// What the networks' input is made of.
     pub const fn inputs(&self) -> Inputs {
         let Self { actions: space, context, closed_form, rails_first, .. } = *self;
         Inputs { space, context, closed_form, rails_first }
@@ -151,7 +150,6 @@ impl Hyperparameters {
             .map(|learning_rate| AdamConfig { learning_rate, gradient_clip: self.gradient_clip })
     }
 
-    /// Checks every setting.
     pub fn validate(&self) -> Result<(), SettingError> {
         check_layers("actor_layers", &self.actor_layers)?;
         check_layers("critic_layers", &self.critic_layers)?;

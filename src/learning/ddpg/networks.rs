@@ -23,7 +23,6 @@ const TIP_STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Place of the speed among the numbers of an action.
 const SPEED: usize = 1;
 
-/// An actor and a critic.
 #[derive(Clone, Debug)]
 pub struct Networks {
     /// From an observation to the heads' actions, before the squashing.
@@ -71,7 +70,6 @@ impl Networks {
         Ok(Self { actor: self.actor.duplicate()?, critic: self.critic.duplicate()?, ..self.clone() })
     }
 
-    /// These networks with other operations.
     #[must_use]
     pub fn with(self, operations: Operations) -> Self {
         Self { actor: self.actor.with(operations), critic: self.critic.with(operations), ..self }

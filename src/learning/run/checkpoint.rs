@@ -47,11 +47,8 @@ pub fn shots_in(folder: &Path) -> Option<u64> {
 /// What a run goes on from.
 #[derive(Debug)]
 pub struct Loaded {
-    /// The learner.
     pub learner: Box<dyn Learner>,
-    /// The run's own state.
     pub state: State,
-    /// The checkpoint's bytes.
     pub bytes: Vec<u8>,
     /// Why it is the one before the last, if it is.
     pub fallback: Option<Damage>,
