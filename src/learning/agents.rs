@@ -1,9 +1,13 @@
 //! The agents that can be trained, by name.
 
-use super::{ddpg::learner as ddpg, learner::AgentKind, thesis::learner as thesis};
+use super::{
+    ddpg::learner::AGENT as DDPG,
+    learner::AgentKind,
+    thesis::{ddpg::PlainDdpg, dqn::Dqn, learner::kind_of, q_learning::QLearning},
+};
 
 /// The agents that can be trained. To add one: implement [`Learner`](super::learner::Learner) and add its line here.
-pub const AGENTS: [AgentKind; 4] = [ddpg::AGENT, thesis::Q_LEARNING, thesis::DQN, thesis::DDPG];
+pub const AGENTS: [AgentKind; 4] = [DDPG, kind_of::<QLearning>(), kind_of::<Dqn>(), kind_of::<PlainDdpg>()];
 
 impl AgentKind {
     /// The agent called `name`.
