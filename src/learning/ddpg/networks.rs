@@ -13,7 +13,10 @@ use super::{
     observation_batch::{ObservationBatch, Seen, actions_in},
 };
 use crate::{
-    learning::nn::mlp::{Mlp, Operations},
+    learning::nn::{
+        mlp::{Mlp, Operations},
+        weights::{Reader, WeightsError},
+    },
     table::{Layout, Table},
 };
 
@@ -63,6 +66,14 @@ impl Networks {
         let [actor, critic] = hyper.sizes();
         let actor = Mlp::random(&actor, rng)?.with_output_bias(&start)?;
         Self::new(hyper, actor, Mlp::random(&critic, rng)?)
+    }
+
+    /// The networks in a file whose names there begin with `prefix`.
+    pub fn read(reader: &Reader<'_>, prefix: &str, hyper: &Hyperparameters) -> std::result::Result<Self, WeightsError> {
+        let [actor, critic] = hyper.sizes();
+        let actor = reader.network(&format!("{prefix}actor"), &actor)?;
+        let critic = reader.network(&format!("{prefix}critic"), &critic)?;
+        Ok(Self::new(hyper, actor, critic)?)
     }
 
     /// A copy with its own parameters.

@@ -84,19 +84,13 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
 /// Where they do not fit or are from a version with other features or actions.
 pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     let note: TrainerState = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
-    note.task.hyperparameters.validate()?;
-    let inputs = note.task.hyperparameters.inputs();
-    if note.features != inputs.version() || note.actions != note.task.hyperparameters.actions.meaning() {
+    let hyper = &note.task.hyperparameters;
+    hyper.validate()?;
+    let inputs = hyper.inputs();
+    if note.features != inputs.version() || note.actions != hyper.actions.meaning() {
         return Err(WeightsError::Foreign);
     }
-    let networks = |name: &str| -> Result<Networks, WeightsError> {
-        let [actor, critic] = note.task.hyperparameters.sizes();
-        let actor = reader.network(&format!("{name}.actor"), &actor)?;
-        let critic = reader.network(&format!("{name}.critic"), &critic)?;
-        Ok(Networks::new(&note.task.hyperparameters, actor, critic)?)
-    };
-    let (online, target) = (networks("online")?, networks("target")?);
-    let hyper = &note.task.hyperparameters;
+    let (online, target) = (Networks::read(reader, "online.", hyper)?, Networks::read(reader, "target.", hyper)?);
     let [actor, critic] = hyper.adam();
     let agent = Ddpg {
         actor_optimiser: reader.optimiser("actor", &online.actor, actor, note.actor_steps)?,

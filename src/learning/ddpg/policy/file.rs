@@ -218,10 +218,7 @@ impl Policy {
         let inputs = origin.hyperparameters.inputs();
         version("features", &origin.features, &inputs.version())?;
         version("actions", &origin.actions, inputs.space.meaning())?;
-        let [actor, critic] = origin.hyperparameters.sizes();
-        let actor = reader.network("actor", &actor).map_err(content)?;
-        let critic = reader.network("critic", &critic).map_err(content)?;
-        let networks = Networks::new(&origin.hyperparameters, actor, critic).map_err(|error| content(error.into()))?;
+        let networks = Networks::read(&reader, "", &origin.hyperparameters).map_err(content)?;
         Ok(Self { networks, origin })
     }
 
