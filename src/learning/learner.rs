@@ -167,6 +167,15 @@ pub struct Iteration {
     pub actor_loss: Option<f64>,
 }
 
+/// What an update saw.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct UpdateStats {
+    /// Loss of whatever judges actions.
+    pub loss: f64,
+    /// Mean value that it gives the agent's own choices.
+    pub value: f64,
+}
+
 /// How far an agent's learning has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {

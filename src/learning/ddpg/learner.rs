@@ -16,7 +16,8 @@ use crate::{
     learning::{
         evaluation::Score,
         learner::{
-            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, defaults_of, note_of, settings_from,
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, UpdateStats, defaults_of, note_of,
+            settings_from,
         },
         nn::weights::{Reader, WeightsError, Writer},
     },
@@ -97,11 +98,10 @@ impl Learner for Trainer {
         let searched = self.searched.sample(imitated, &mut self.rng);
         let (played, searched) =
             (self.batch(&played)?, if searched.is_empty() { None } else { Some(self.batch(&searched)?) });
-        let losses = self.agent.update(&played, searched.as_ref(), lr_factor)?;
+        let UpdateStats { loss, value } = self.agent.update(&played, searched.as_ref(), lr_factor)?;
         self.updates += 1;
-        // The critic's mean probability of success over all heads.
-        let q_value = -losses.actor;
-        Ok(Iteration { mean_reward, q_value, critic_loss: losses.critic, actor_loss: Some(losses.actor) })
+        // What the actor climbs has further terms.
+        Ok(Iteration { mean_reward, q_value: value, critic_loss: loss, actor_loss: Some(-value) })
     }
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {

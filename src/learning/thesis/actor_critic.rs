@@ -5,15 +5,17 @@ use candle_nn::{Module, Optimizer};
 use rand::Rng;
 
 use super::{
-    agent::UpdateStats,
     environment::{ACTIONS, STATES},
     replay::{Batch, number},
 };
-use crate::learning::nn::{
-    adam::{Adam, AdamConfig, soft_update},
-    mlp::{Mlp, Operations, parameter_count},
-    squared_error::squared_error,
-    weights::{WeightsError, units},
+use crate::learning::{
+    learner::UpdateStats,
+    nn::{
+        adam::{Adam, AdamConfig, soft_update},
+        mlp::{Mlp, Operations, parameter_count},
+        squared_error::squared_error,
+        weights::{WeightsError, units},
+    },
 };
 
 /// Layer sizes of an actor with these hidden layers, from the state to the action, and of a critic, from both to one value.

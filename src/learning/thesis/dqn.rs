@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    agent::{Agent, Choice, Settings, Transition, UpdateStats},
+    agent::{Agent, Choice, Settings, Transition},
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Observation, STATES},
     exploration::Epsilon,
@@ -16,7 +16,7 @@ use super::{
     replay::{self, Batch, MEMORY, StoredTransition, number},
 };
 use crate::learning::{
-    learner::{Progress, note_of},
+    learner::{Progress, UpdateStats, note_of},
     nn::{
         adam::{Adam, AdamConfig},
         mlp::Mlp,
