@@ -141,20 +141,17 @@ impl Policy {
     /// # Errors
     /// As [`Policy::bundled`].
     pub fn bundled_for(table: &Table, rule: Rule, errs: bool) -> Option<Result<Self, PolicyError>> {
-        let (own, told) = (|| Self::bundled(table, rule), || Self::bundled_with_context(table, rule));
-        if errs { told().or_else(own) } else { own().or_else(|| Self::bundled_of_match(table, rule)).or_else(told) }
-    }
-
-    /// The policy for `rule` on `match`, if it is told the table and this is one that it knows.
-    fn bundled_of_match(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
-        let policy = Self::bundled(&Table::default(), rule).filter(|_| knows(table))?;
-        policy.as_ref().map_or(true, Self::has_context).then_some(policy)
-    }
-
-    /// The policy for `rule` on all tables like `match`, if this is one.
-    fn bundled_with_context(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
-        let bytes = bundled_file("context", rule).filter(|_| knows(table))?;
-        Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\"")))
+        let own = || Self::bundled(table, rule);
+        let told = |bytes| Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\""));
+        let of_player = || bundled_file("context", rule).filter(|_| knows(table)).map(told);
+        if errs {
+            return of_player().or_else(own);
+        }
+        let of_match = || {
+            let policy = Self::bundled(&Table::default(), rule).filter(|_| knows(table))?;
+            policy.as_ref().map_or(true, Self::has_context).then_some(policy)
+        };
+        own().or_else(of_match).or_else(of_player)
     }
 
     /// The bundled policy in the file of this name.
