@@ -186,39 +186,8 @@ impl Follower {
 mod tests {
     use std::fs;
 
-    use proptest::prelude::*;
-
     use super::*;
     use crate::learning::run::{follow::Followed, metrics::Record};
-
-    /// Anything: bytes, nothing at all, and files like ours with a part that is cut off or changed.
-    fn content(ours: &'static str) -> impl Strategy<Value = Option<Vec<u8>>> {
-        let changed = (any::<prop::sample::Index>(), any::<u8>()).prop_map(move |(index, byte)| {
-            let mut bytes = ours.as_bytes().to_vec();
-            let at = index.index(bytes.len());
-            bytes[at] = byte;
-            bytes
-        });
-        let cut =
-            any::<prop::sample::Index>().prop_map(move |index| ours.as_bytes()[..index.index(ours.len())].to_vec());
-        prop_oneof![
-            Just(None),
-            Just(Some(ours.as_bytes().to_vec())),
-            cut.prop_map(Some),
-            changed.prop_map(Some),
-            prop::collection::vec(any::<u8>(), 0..200).prop_map(Some),
-        ]
-    }
-
-    const LINES: &str = "{\"time/total_timesteps\":5,\"time/time_elapsed\":1e999,\"time/fps\":\"NaN\",\"train/n_updates\":3,\
-        \"train/learning_rate\":0.1,\"train/critic_loss\":null,\"train/q_value\":-1,\"rollout/ep_rew_mean\":\"Infinity\"}\n\
-        {\"time/total_timesteps\":4,\"time/time_elapsed\":1,\"time/fps\":2,\"train/n_updates\":3,\
-        \"train/learning_rate\":0.1,\"train/critic_loss\":1,\"train/q_value\":-1,\"rollout/ep_rew_mean\":0}\n";
-    const STANDING: &str = "{\"phase\":\"training\",\"shots\":0,\"updates\":18446744073709551615,\"seconds\":1e308,\
-        \"shots_per_second\":-1,\"updates_per_second\":0,\"exploration\":0,\"memory\":null,\"process\":1,\
-        \"warning\":null,\"reason\":null}";
-    const SHOTS: &str = "{\"after\":1,\"shots\":[{\"layout\":[[0,0],[1,0],[0,1]],\"cue\":{\"a\":0,\"b\":0,\"theta_deg\":0,\
-        \"phi_deg\":0,\"speed\":1},\"reward\":1}]}";
 
     #[test]
     fn lines_are_missed_only_if_the_run_has_written_them() {
@@ -237,34 +206,5 @@ mod tests {
             notices(960, 2880),
             ["metrics.jsonl has been emptied or cut off: it ends after 960 of the 3072 shots played"]
         );
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(200))]
-
-        #[test]
-        fn whatever_is_in_the_files_gives_a_sentence_and_never_a_panic(
-            states in prop::collection::vec((content(LINES), content(STANDING), content(SHOTS), content("{}")), 1..4)
-        ) {
-            let folder = tempfile::tempdir().unwrap();
-            let (mut follower, mut followed) = (Follower::new(folder.path()), Followed::new(folder.path()));
-            for (lines, status, shots, config) in states {
-                for (name, content) in
-                    [(METRICS, lines), (status::FILE, status), (examples::FILE, shots), (config::FILE, config)]
-                {
-                    let path = folder.path().join(name);
-                    match content {
-                        Some(content) => fs::write(path, content).unwrap(),
-                        None => { let _ = fs::remove_file(path); }
-                    }
-                }
-                follower.seldom = None;
-                if let Some(update) = follower.look() {
-                    followed.apply(update);
-                }
-                prop_assert!(!followed.sentence().is_empty());
-                let _ = (followed.shots(), followed.time_left());
-            }
-        }
     }
 }
