@@ -171,7 +171,7 @@ mod tests {
     };
 
     #[test]
-    fn weights_are_taken_from_checkpoints_and_policies_and_other_sizes_are_refused() {
+    fn weights_are_taken_from_checkpoints_and_policies() {
         let mut teacher = Trainer::new(small_task(), Table::default()).unwrap();
         teacher.iterate().unwrap();
         let mut writer = Writer::default();
@@ -186,7 +186,7 @@ mod tests {
         for (file, digits) in [(checkpoint.as_slice(), 0.0), (&policy, 5e-4)] {
             let mut task = small_task();
             task.plan.seed = 6;
-            let mut pupil = Trainer::new(task.clone(), Table::default()).unwrap();
+            let mut pupil = Trainer::new(task, Table::default()).unwrap();
             assert_ne!(weights(&pupil), weights(&teacher));
             pupil.load_weights(&Reader::new(file).unwrap()).unwrap();
             let [own, given] = [&pupil, &teacher].map(|trainer| weights(trainer).concat());
@@ -194,14 +194,6 @@ mod tests {
                 own.iter().zip(&given).all(|(own, given)| (own - given).abs() <= digits * given.abs() + digits * 1e-3)
             );
             assert_eq!(pupil.shots(), 0);
-
-            task.hyperparameters.critic_layers = vec![8];
-            let refused = Trainer::new(task, Table::default()).unwrap().load_weights(&Reader::new(file).unwrap());
-            let refused = refused.unwrap_err().to_string();
-            assert!(
-                refused.contains("critic") && refused.contains("-8-1") && refused.contains("-16-16-1"),
-                "{refused}"
-            );
         }
     }
 
