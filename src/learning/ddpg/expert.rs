@@ -1,5 +1,5 @@
-//! The expert of expert iteration (Anthony et al. 2017): from the networks' proposals and strokes here and there, a race on the
-//! simulator finds strokes that the player makes more often than any that was proposed. The critic says which take part in it.
+//! The expert of expert iteration (Anthony et al. 2017): a search on the simulator for strokes that the player makes more often than any
+//! that the networks propose. Of these proposals and random strokes it keeps the critic's favourites, and compares them by attempts.
 
 use candle_core::Result;
 use rand::{Rng, RngExt, SeedableRng};
