@@ -69,7 +69,7 @@ pub enum Source {
     /// A file, or a run's folder.
     Path(PathBuf),
     /// A bundled policy.
-    Bundled(String),
+    Bundled(&'static str),
 }
 
 /// What `--from` names: a file or folder, a run of the user's, a kept policy or a bundled one, for a run on `table` under `rule` where
@@ -80,7 +80,7 @@ pub enum Source {
 pub fn weights_named(name: &Path, table: &Table, rule: Rule) -> Result<Source, Failure> {
     if name == Path::new(BUNDLED) {
         let found = bundled_policy(table, rule, false)?.bundled_name();
-        return Ok(Source::Bundled(found.unwrap_or_else(|| BUNDLED.to_owned())));
+        return Ok(Source::Bundled(found.unwrap_or(BUNDLED)));
     }
     if let Some(path) = run_named(name).or_else(|| kept_policy(name)) {
         return Ok(Source::Path(path));

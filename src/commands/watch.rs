@@ -76,14 +76,10 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
     let (mut follower, mut followed) = (Follower::new(folder), Followed::new(folder));
     let (mut before, mut over) = (Condition::Unknown, None::<Instant>);
     while !stop.load(Ordering::Relaxed) {
-        let mut written = Ok(());
-        let update = follower.look_at_lines(&mut |record| {
-            if written.is_ok() {
-                written = print(record, json);
+        if let Some(update) = follower.look() {
+            for record in &update.records {
+                print(record, json)?;
             }
-        });
-        written?;
-        if let Some(update) = update {
             for notice in update.notices.iter().flatten() {
                 tell(format_args!("note: {}", OneLine(notice)));
             }

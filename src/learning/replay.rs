@@ -44,7 +44,6 @@ impl<T: Copy> ReplayBuffer<T> {
         self.held.len() as f64 / self.capacity as f64
     }
 
-    /// Adds a shot.
     pub fn push(&mut self, shot: T) {
         if self.held.len() < self.capacity {
             self.held.push(shot);

@@ -18,7 +18,6 @@ impl SettingError {
     }
 }
 
-/// Fails where `accept` is false.
 pub fn check(
     name: &'static str,
     value: impl Display,
@@ -28,7 +27,6 @@ pub fn check(
     if accept { Ok(()) } else { Err(SettingError { name, value: value.to_string(), accepted }) }
 }
 
-/// Checks that a share is one.
 pub fn check_share(name: &'static str, value: f64) -> Result<(), SettingError> {
     check(name, value, (0.0..=1.0).contains(&value), "0 to 1")
 }
@@ -38,7 +36,6 @@ pub fn check_positive(name: &'static str, value: f64) -> Result<(), SettingError
     check(name, value, value > 0.0 && value <= 1e3, "above 0 and at most 1000")
 }
 
-/// Checks a count.
 pub fn check_count(name: &'static str, value: usize) -> Result<(), SettingError> {
     check(name, value as f64, (1..=1 << 24).contains(&value), "1 to 16777216")
 }
@@ -48,7 +45,6 @@ pub fn check_batch(name: &'static str, value: usize) -> Result<(), SettingError>
     check(name, value as f64, (1..=1 << 16).contains(&value), "1 to 65536")
 }
 
-/// Checks hidden layers.
 pub fn check_layers(name: &'static str, layers: &[usize]) -> Result<(), SettingError> {
     check(name, format_args!("{layers:?}"), (1..=16).contains(&layers.len()), "a list of 1 to 16 layers")?;
     let check_units = |units: &usize| check(name, *units as f64, (1..=8192).contains(units), "1 to 8192 units a layer");

@@ -222,23 +222,3 @@ fn weights_are_loaded_and_those_of_another_agent_or_size_are_refused() {
     let refused = start("thesis-ddpg", &json!({})).load_weights(&Reader::new(&bytes).unwrap()).unwrap_err().to_string();
     assert!(["10028", "12492", "6-16-16-16-2"].iter().all(|part| refused.contains(part)), "{refused}");
 }
-
-#[test]
-fn wrong_settings_are_named() {
-    let plan = TrainingPlan { reward: Reward::R1, seed: 1, shots: 10 };
-    for (agent, settings, word) in [
-        ("q-learning", json!({ "learning_rate": 1.5 }), "learning_rate = 1.5"),
-        ("q-learning", json!({ "alpha": 0.1 }), "alpha"),
-        ("dqn", json!({ "layers": [16, 0] }), "layers = 0"),
-        ("dqn", json!({ "episode": { "shots": 0 } }), "episode = 0"),
-        ("thesis-ddpg", json!({ "keep": -0.1 }), "keep = -0.1"),
-        ("thesis-ddpg", json!({ "hindsight": 0.7, "demonstrations": 0.7 }), "hindsight + demonstrations = 1.4"),
-        ("thesis-ddpg", json!({ "demonstrations": 0.5 }), "use them with r3"),
-        ("thesis-ddpg", json!({ "noise_falls_to": 0.0 }), "noise_falls_to = 0"),
-        ("thesis-ddpg", json!({ "noise": { "theta": 3.0, "sigma": 0.3, "dt": 1.0 } }), "noise.theta = 3"),
-    ] {
-        let error =
-            (AgentKind::named(agent).unwrap().start)(plan, Table::default(), &settings).unwrap_err().to_string();
-        assert!(error.contains(word), "{error}");
-    }
-}

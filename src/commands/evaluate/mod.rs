@@ -165,7 +165,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
         policy: args.random_search.is_none().then(|| args.policy.clone()),
         checksum: player.checksum().map_err(Failure::failed)?,
         version: Some(SOURCE.map_or_else(|| VERSION.to_owned(), |source| format!("{VERSION} ({source})"))),
-        networks: player.networks(),
+        networks: player.networks().map(str::to_owned),
         table,
         measure: args.reward.map_or(args.rule.name(), Reward::name).to_owned(),
         is_yes_or_no: reward == Reward::R1 || reward.rule().is_some(),

@@ -62,7 +62,7 @@ impl Player {
     }
 
     /// Which of the bundled networks play alone, if any do.
-    pub fn networks(&self) -> Option<String> {
+    pub fn networks(&self) -> Option<&'static str> {
         match self {
             Self::Policy(policy) => policy.bundled_name(),
             Self::Recommender(..) | Self::RandomSearch(_) => None,

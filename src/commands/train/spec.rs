@@ -65,7 +65,7 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     let weights = match source(args)? {
         None => None,
         Some(Source::Path(path)) => Some(Weights::load(&path)),
-        Some(Source::Bundled(name)) => Weights::bundled(&name),
+        Some(Source::Bundled(name)) => Weights::bundled(name),
     };
     let weights = weights.transpose().map_err(failure)?;
     let base = weights.as_ref().map(base_of).transpose()?;

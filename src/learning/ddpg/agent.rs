@@ -16,7 +16,10 @@ use super::{
     observation_batch::{ObservationBatch, action_rows},
     randomized_tables::Conditions,
 };
-use crate::learning::nn::adam::{Adam, soft_update};
+use crate::learning::{
+    learner::UpdateStats,
+    nn::adam::{Adam, soft_update},
+};
 
 /// Outputs of the actor beyond which the hyperbolic tangent, 0.96 here, hardly has a slope.
 const SATURATED: f64 = 2.0;
@@ -28,11 +31,8 @@ const WAY_WEIGHTS: [f32; ACTIONS] = [4.0, 1.0, 1.0, 1.0, 1.0];
 /// One shot as the replay buffer holds it: what was seen, what was done, what it earned. A shot is a whole episode, so there is no next state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transition {
-    /// The layout as the agent saw it.
     pub observation: Observation,
-    /// Under which conditions it was played.
     pub conditions: Conditions,
-    /// What it did.
     pub action: Action,
     /// What that earned, as a share of the most that there is to earn.
     pub success: f32,
@@ -41,21 +41,11 @@ pub struct Transition {
 /// Shots to learn from: as many observations as actions and successes.
 #[derive(Clone, Debug)]
 pub struct ShotBatch {
-    /// What was seen.
     pub observed: ObservationBatch,
     /// The action that was taken in each observation.
     pub actions: Vec<Action>,
     /// The success, 0 to 1, that each had.
     pub successes: Vec<f32>,
-}
-
-/// What an update reports.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct UpdateStats {
-    /// Mean cross entropy of the critic, nats.
-    pub critic: f64,
-    /// Minus the critic's mean probability of success over all heads; what the actor climbs has further terms.
-    pub actor: f64,
 }
 
 /// The agent: networks, their averaged copies, and the optimisers' state.
@@ -87,7 +77,8 @@ impl Ddpg {
     }
 
     /// Learns from a batch of shots that were played, and the actor besides from the best strokes that searches have found.
-    /// `lr_factor` scales both learning rates.
+    /// `lr_factor` scales both learning rates. Returns the critic's mean cross entropy, nats, and its mean probability of success over
+    /// all heads.
     ///
     /// # Errors
     /// Where sizes differ, or where the networks no longer give finite numbers.
@@ -106,7 +97,7 @@ impl Ddpg {
         soft_update(self.target.critic.parameters(), self.online.critic.parameters(), self.hyper.target_rate)?;
         soft_update(self.target.actor.parameters(), self.online.actor.parameters(), self.hyper.target_rate)?;
         let number = |tensor: &Tensor| tensor.to_scalar::<f32>().map(f64::from);
-        Ok(UpdateStats { critic: number(&loss)?, actor: -number(&probability)? })
+        Ok(UpdateStats { loss: number(&loss)?, value: number(&probability)? })
     }
 
     /// The mean cross entropy between the critic's probabilities and what happened.

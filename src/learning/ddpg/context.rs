@@ -45,7 +45,6 @@ const FURTHEST: f64 = 2.5;
 /// What a network's input is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Inputs {
-    /// What the actions mean.
     pub space: ActionSpace,
     /// Whether the context is among it.
     pub context: bool,

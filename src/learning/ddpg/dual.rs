@@ -10,7 +10,6 @@ pub const ALONG: usize = 5;
 /// A value and its partial derivatives with respect to the numbers of an action.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual {
-    /// The value.
     pub value: f64,
     /// Its slope along each action.
     pub slope: [f64; ALONG],
@@ -32,13 +31,11 @@ impl Dual {
         Self { value, slope: self.slope.map(|slope| derivative * slope) }
     }
 
-    /// Square root.
     pub fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.chain(root, 0.5 / root)
     }
 
-    /// One divided by this number.
     pub fn recip(self) -> Self {
         let inverse = self.value.recip();
         self.chain(inverse, -inverse * inverse)
@@ -49,23 +46,19 @@ impl Dual {
         (-(self * self).at_most(0.998) + 1.0).sqrt()
     }
 
-    /// Sine and cosine.
     pub fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();
         (self.chain(sin, cos), self.chain(cos, -sin))
     }
 
-    /// This number, or `limit` where it is larger.
     pub fn at_most(self, limit: f64) -> Self {
         if self.value > limit { Self::constant(limit) } else { self }
     }
 
-    /// This number, or `limit` where it is smaller.
     pub fn at_least(self, limit: f64) -> Self {
         if self.value < limit { Self::constant(limit) } else { self }
     }
 
-    /// The smaller of two numbers.
     pub fn min(self, other: Self) -> Self {
         if other.value < self.value { other } else { self }
     }
@@ -121,9 +114,7 @@ impl Mul<f64> for Dual {
 /// A vector in the plane of such numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DualVector {
-    /// Component along x.
     pub x: Dual,
-    /// Component along y.
     pub y: Dual,
 }
 
@@ -144,7 +135,6 @@ impl DualVector {
         Self { x: self.x * inverse, y: self.y * inverse }
     }
 
-    /// Scalar product.
     pub fn dot(self, other: Self) -> Dual {
         self.x * other.x + self.y * other.y
     }

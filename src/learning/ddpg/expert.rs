@@ -1,5 +1,5 @@
-//! The expert of expert iteration (Anthony et al. 2017): from the networks' proposals and strokes here and there, a race on the
-//! simulator finds strokes that the player makes more often than any that was proposed. The critic says which take part in it.
+//! The expert of expert iteration (Anthony et al. 2017): a search on the simulator for strokes that the player makes more often than any
+//! that the networks propose. Of these proposals and random strokes it keeps the critic's favourites, and compares them by attempts.
 
 use candle_core::Result;
 use rand::{Rng, RngExt, SeedableRng};
@@ -51,17 +51,12 @@ const LOWEST: f32 = -0.3;
 /// Where and by whom strokes are tried.
 #[derive(Clone, Copy, Debug)]
 pub struct Expert<'a> {
-    /// Where runs are played.
     pub tables: &'a RandomizedTables,
-    /// What earns a reward.
     pub reward: Reward,
-    /// What the networks' input is made of.
     pub inputs: Inputs,
     /// The critic that chooses between strokes before any attempt is made.
     pub networks: &'a Networks,
-    /// The balls.
     pub layout: &'a Layout,
-    /// Who plays on which table.
     pub conditions: Conditions,
 }
 

@@ -129,7 +129,6 @@ impl Default for Hyperparameters {
 }
 
 impl Hyperparameters {
-    /// What the networks' input is made of.
     pub const fn inputs(&self) -> Inputs {
         let Self { actions: space, context, closed_form, rails_first, .. } = *self;
         Inputs { space, context, closed_form, rails_first }
@@ -151,7 +150,6 @@ impl Hyperparameters {
             .map(|learning_rate| AdamConfig { learning_rate, gradient_clip: self.gradient_clip })
     }
 
-    /// Checks every setting.
     pub fn validate(&self) -> Result<(), SettingError> {
         check_layers("actor_layers", &self.actor_layers)?;
         check_layers("critic_layers", &self.critic_layers)?;
@@ -191,37 +189,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_defaults_are_valid_and_nonsense_is_named() {
+    fn what_is_no_number_is_outside_every_range() {
         let good = Hyperparameters::default();
-        good.validate().unwrap();
-        let refuse = |change: &dyn Fn(&mut Hyperparameters)| {
-            let mut hyper = good.clone();
-            change(&mut hyper);
-            hyper.validate().unwrap_err().to_string()
-        };
-        assert!(refuse(&|hyper| hyper.heads = 0).contains("heads = 0"));
-        assert!(refuse(&|hyper| hyper.critic_layers[1] = 0).contains("critic_layers"));
-        assert!(refuse(&|hyper| hyper.actor_layers.clear()).contains("actor_layers = [] is outside its range"));
-        for wrong in [[5.0, 1.0], [0.1, 2.0], [3.0, 7.0], [f64::NAN, 2.0]] {
-            let refused = refuse(&|hyper| hyper.head_speeds = vec![[1.0, 2.0], wrong]);
-            assert!(refused.starts_with(&format!("head_speeds = [{}, {}] is", wrong[0], wrong[1])), "{refused}");
-        }
-        assert!(refuse(&|hyper| hyper.critic_learning_rate = f64::NAN).contains("NaN"));
-        assert!(refuse(&|hyper| hyper.exploration.noise.push(-1.0)).contains("-1"));
-    }
-
-    #[test]
-    fn settings_of_earlier_versions_are_read_where_they_changed_nothing() {
-        for name in ["hindsight", "demonstrations"] {
-            let read = |value: f64| {
-                let mut settings = serde_json::to_value(Hyperparameters::default()).unwrap();
-                assert_eq!(settings.get(name), None);
-                settings[name] = value.into();
-                serde_json::from_value::<Hyperparameters>(settings).unwrap()
-            };
-            assert_eq!(read(0.0), Hyperparameters::default());
-            let refused = read(0.5).validate().unwrap_err().to_string();
-            assert!(refused.contains(&format!("{name} = 0.5")) && refused.contains("accepted is 0"), "{refused}");
+        for (hyper, named) in [
+            (Hyperparameters { critic_learning_rate: f64::NAN, ..good.clone() }, "critic_learning_rate = NaN is"),
+            (Hyperparameters { head_speeds: vec![[1.0, 2.0], [f64::NAN, 2.0]], ..good }, "head_speeds = [NaN, 2] is"),
+        ] {
+            assert!(hyper.validate().unwrap_err().to_string().starts_with(named));
         }
     }
 }

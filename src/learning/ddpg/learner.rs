@@ -16,7 +16,8 @@ use crate::{
     learning::{
         evaluation::Score,
         learner::{
-            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, defaults_of, note_of, settings_from,
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, UpdateStats, defaults_of, note_of,
+            settings_from,
         },
         nn::weights::{Reader, WeightsError, Writer},
     },
@@ -53,7 +54,6 @@ pub const AGENT: AgentKind = AgentKind {
         Ok(Box::new(Trainer::new(Task { plan, hyperparameters }, table)?))
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
-    shots_per_iteration: |settings| settings.get("shots_per_update")?.as_u64(),
     of_one_start: &["new_actor"],
 };
 
@@ -98,11 +98,10 @@ impl Learner for Trainer {
         let searched = self.searched.sample(imitated, &mut self.rng);
         let (played, searched) =
             (self.batch(&played)?, if searched.is_empty() { None } else { Some(self.batch(&searched)?) });
-        let losses = self.agent.update(&played, searched.as_ref(), lr_factor)?;
+        let UpdateStats { loss, value } = self.agent.update(&played, searched.as_ref(), lr_factor)?;
         self.updates += 1;
-        // The critic's mean probability of success over all heads.
-        let q_value = -losses.actor;
-        Ok(Iteration { mean_reward, q_value, critic_loss: losses.critic, actor_loss: Some(losses.actor) })
+        // What the actor climbs has further terms.
+        Ok(Iteration { mean_reward, q_value: value, critic_loss: loss, actor_loss: Some(-value) })
     }
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
@@ -172,7 +171,7 @@ mod tests {
     };
 
     #[test]
-    fn weights_are_taken_from_checkpoints_and_policies_and_other_sizes_are_refused() {
+    fn weights_are_taken_from_checkpoints_and_policies() {
         let mut teacher = Trainer::new(small_task(), Table::default()).unwrap();
         teacher.iterate().unwrap();
         let mut writer = Writer::default();
@@ -187,7 +186,7 @@ mod tests {
         for (file, digits) in [(checkpoint.as_slice(), 0.0), (&policy, 5e-4)] {
             let mut task = small_task();
             task.plan.seed = 6;
-            let mut pupil = Trainer::new(task.clone(), Table::default()).unwrap();
+            let mut pupil = Trainer::new(task, Table::default()).unwrap();
             assert_ne!(weights(&pupil), weights(&teacher));
             pupil.load_weights(&Reader::new(file).unwrap()).unwrap();
             let [own, given] = [&pupil, &teacher].map(|trainer| weights(trainer).concat());
@@ -195,14 +194,6 @@ mod tests {
                 own.iter().zip(&given).all(|(own, given)| (own - given).abs() <= digits * given.abs() + digits * 1e-3)
             );
             assert_eq!(pupil.shots(), 0);
-
-            task.hyperparameters.critic_layers = vec![8];
-            let refused = Trainer::new(task, Table::default()).unwrap().load_weights(&Reader::new(file).unwrap());
-            let refused = refused.unwrap_err().to_string();
-            assert!(
-                refused.contains("critic") && refused.contains("-8-1") && refused.contains("-16-16-1"),
-                "{refused}"
-            );
         }
     }
 
@@ -304,24 +295,5 @@ mod tests {
         let mut trainer = Trainer::new(task, Table::default()).unwrap();
         trainer.agent = Ddpg::starting_from(policy.networks.duplicate().unwrap(), trainer.agent.hyper.clone()).unwrap();
         trainer
-    }
-
-    #[test]
-    fn settings_come_back_and_wrong_ones_are_named() {
-        let plan = TrainingPlan { reward: crate::game::Reward::R1, seed: 1, shots: 10 };
-        let start = |settings: Value| (AGENT.start)(plan, Table::default(), &settings);
-        let some = start(serde_json::json!({ "heads": 2 })).unwrap().settings();
-        assert_eq!(start(some.clone()).unwrap().settings(), some);
-        assert_eq!(some["heads"], 2);
-        assert!(start(serde_json::json!({ "head": 2 })).unwrap_err().to_string().contains("head"));
-        let wrong = start(serde_json::json!({ "heads": 2, "ranking": "abc" })).unwrap_err().to_string();
-        assert!(wrong.contains("ranking = \"abc\": invalid type"), "{wrong}");
-        assert!(wrong.ends_with("expected a number; accepted is 0 to 1"), "{wrong}");
-        assert!(start(serde_json::json!({ "searched": 1 })).unwrap_err().to_string().contains("context = true"));
-        // Expert iteration that began from a round in which the critic alone learnt went on so for ten rounds unnoticed.
-        let frozen =
-            serde_json::json!({ "context": true, "searched": 1, "imitation": 0.3, "actor_learning_rate": 1e-9 });
-        assert!(start(frozen).unwrap_err().to_string().contains("actor_learning_rate of 1e-9"));
-        assert!(start(serde_json::json!({ "heads": 0 })).unwrap_err().to_string().contains("heads = 0"));
     }
 }

@@ -13,7 +13,10 @@ use super::{
     observation_batch::{ObservationBatch, Seen, actions_in},
 };
 use crate::{
-    learning::nn::mlp::{Mlp, Operations},
+    learning::nn::{
+        mlp::{Mlp, Operations},
+        weights::{Reader, WeightsError},
+    },
     table::{Layout, Table},
 };
 
@@ -23,7 +26,6 @@ const TIP_STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Place of the speed among the numbers of an action.
 const SPEED: usize = 1;
 
-/// An actor and a critic.
 #[derive(Clone, Debug)]
 pub struct Networks {
     /// From an observation to the heads' actions, before the squashing.
@@ -66,12 +68,19 @@ impl Networks {
         Self::new(hyper, actor, Mlp::random(&critic, rng)?)
     }
 
+    /// The networks in a file whose names there begin with `prefix`.
+    pub fn read(reader: &Reader<'_>, prefix: &str, hyper: &Hyperparameters) -> std::result::Result<Self, WeightsError> {
+        let [actor, critic] = hyper.sizes();
+        let actor = reader.network(&format!("{prefix}actor"), &actor)?;
+        let critic = reader.network(&format!("{prefix}critic"), &critic)?;
+        Ok(Self::new(hyper, actor, critic)?)
+    }
+
     /// A copy with its own parameters.
     pub fn duplicate(&self) -> Result<Self> {
         Ok(Self { actor: self.actor.duplicate()?, critic: self.critic.duplicate()?, ..self.clone() })
     }
 
-    /// These networks with other operations.
     #[must_use]
     pub fn with(self, operations: Operations) -> Self {
         Self { actor: self.actor.with(operations), critic: self.critic.with(operations), ..self }

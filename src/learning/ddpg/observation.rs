@@ -102,18 +102,14 @@ impl Observation {
     }
 }
 
-/// The three lines between the balls of an observation.
+/// From where the cue ball's last straight way begins to both object balls, and from the first of these onward to the second.
 #[derive(Clone, Copy, Debug)]
 pub struct Lines {
-    /// From the cue ball to the first object ball.
     pub to_first: Line,
-    /// From the cue ball to the second.
     pub to_second: Line,
-    /// From the first object ball to the second.
     pub onward: Line,
 }
 
-/// A distance and a direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
     /// Length, m; at least one ball diameter.

@@ -21,9 +21,7 @@ use crate::{
 /// An observation, and what the agent is told besides.
 #[derive(Clone, Debug)]
 pub struct Seen {
-    /// The observation.
     pub observation: Observation,
-    /// The table.
     pub table: Arc<Table>,
     /// The player's errors as a multiple of an expert's; they count for networks with a context.
     pub errors: f64,
@@ -52,7 +50,6 @@ fn padded(used: &[f32]) -> Action {
 #[derive(Clone, Debug)]
 pub struct ObservationBatch {
     inputs: Inputs,
-    /// What it was made of.
     pub seen: Arc<[Seen]>,
     /// The actor's input, a row for each observation.
     pub states: Tensor,
@@ -82,7 +79,6 @@ impl ObservationBatch {
         Self::new(inputs, observations.into_iter().map(seen).collect())
     }
 
-    /// What the actions mean.
     pub const fn space(&self) -> ActionSpace {
         self.inputs.space
     }

@@ -38,7 +38,6 @@ const STREAM: u64 = 0x7665_6e75_6573;
 /// Under which conditions a shot is played: what an agent with a context is told.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Conditions {
-    /// The number of the table.
     pub table: u32,
     /// The player's errors as a multiple of an expert's, 0 for none.
     pub errors: f32,

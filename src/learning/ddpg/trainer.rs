@@ -26,7 +26,6 @@ pub struct Task {
     /// What earns a reward, the seed and the number of shots. The same task gives the same weights on the same machine.
     #[serde(flatten)]
     pub plan: TrainingPlan,
-    /// The agent's settings.
     pub hyperparameters: Hyperparameters,
 }
 
@@ -46,7 +45,6 @@ pub struct Trainer {
 }
 
 impl Trainer {
-    /// An untrained agent.
     pub fn new(task: Task, table: Table) -> Result<Self> {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(task.plan.seed);
         let agent = Ddpg::new(task.hyperparameters.clone(), &mut rng)?;

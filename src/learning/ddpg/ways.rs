@@ -18,9 +18,7 @@ use crate::{
 /// The ways to the first ball in an observation.
 #[derive(Clone, Debug)]
 pub struct Ways<'a> {
-    /// The table.
     pub table: &'a Table,
-    /// The observation.
     pub observation: &'a Observation,
     /// Its lines from ball to ball.
     pub lines: Lines,
@@ -28,7 +26,6 @@ pub struct Ways<'a> {
 }
 
 impl<'a> Ways<'a> {
-    /// The ways in an observation of a table.
     pub fn of(table: &'a Table, observation: &'a Observation) -> Self {
         Self { table, observation, lines: observation.lines(table), by_rail: ByRail::of(table, observation) }
     }

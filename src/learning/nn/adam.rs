@@ -6,7 +6,6 @@ use pulp::Arch;
 
 use super::tensors::{stored_values, values};
 
-/// What an [`Adam`] is made with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdamConfig {
     /// Size of a step.
@@ -42,7 +41,6 @@ impl Adam {
         &self.moments
     }
 
-    /// Steps taken.
     pub const fn steps(&self) -> u32 {
         self.steps
     }

@@ -214,16 +214,6 @@ mod tests {
     }
 
     #[test]
-    fn the_same_seed_gives_the_same_network() {
-        let network = |seed| {
-            let mlp = Mlp::random(&SIZES, &mut Xoshiro256PlusPlus::seed_from_u64(seed)).unwrap();
-            mlp.parameters().to_vec1::<f32>().unwrap()
-        };
-        assert_eq!(network(1), network(1));
-        assert_ne!(network(1), network(2));
-    }
-
-    #[test]
     fn a_wrong_number_of_parameters_or_inputs_is_refused() {
         assert!(Mlp::from_parameters(&[2, 3], vec![0.0; 8]).unwrap_err().to_string().contains('9'));
         let (mlp, _) = network_and_inputs();

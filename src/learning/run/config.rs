@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::{error::RunError, json};
 use crate::{
     game::Reward,
-    learning::learner::{AgentKind, Learner, TrainingPlan},
+    learning::learner::{Learner, TrainingPlan},
     printing::{SOURCE, VERSION, now},
     storage,
     table::Table,
@@ -118,13 +118,6 @@ impl Config {
     /// Writes it for the run in `folder`.
     pub(super) fn write(&self, folder: &Path) -> Result<(), RunError> {
         json::write(&folder.join(FILE), self)
-    }
-
-    /// Most shots that lie between two lines of metrics: a line comes after a whole iteration, and one iteration may be longer than
-    /// the schedule asks for. `None` where the agent's iterations are not known here.
-    pub fn longest_gap(&self) -> Option<u64> {
-        let iteration = (AgentKind::named(&self.agent).ok()?.shots_per_iteration)(&self.settings)?;
-        Some(self.schedule.log_every.saturating_add(iteration))
     }
 
     /// The version of the carom that started the run, where it is newer than this one.

@@ -35,9 +35,7 @@ struct Header {
 /// What of a run lives beside its learner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// When it reports and is measured.
     pub schedule: Schedule,
-    /// Whose weights it started from.
     pub from: Option<Start>,
     /// What it has to report next.
     #[serde(rename = "tally")]

@@ -39,7 +39,6 @@ impl EventFile {
         Ok(events)
     }
 
-    /// Adds a line.
     pub fn push(&mut self, record: &Record) -> io::Result<()> {
         self.0.write_all(&framed(&event(record, now())))
     }

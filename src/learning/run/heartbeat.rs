@@ -174,22 +174,17 @@ mod tests {
     #[test]
     fn a_run_that_is_given_up_leaves_nothing_but_what_is_not_its_own() {
         let folder = tempfile::tempdir().unwrap();
-        let runs = ["kept", "gone"].map(|name| folder.path().join(name));
-        for path in &runs {
-            let mut run = small_run(path);
-            if *path == runs[0] {
-                std::fs::write(path.join("notes.txt"), "mine").unwrap();
-            }
-            let asking = ask(path, Phase::Training, Request::Abandon);
-            assert_eq!(run.train(&SLOW, &mut Told::default()).unwrap(), Ending::Abandoned);
-            asking.join().unwrap();
-            assert!(discard(path).unwrap_err().to_string().contains("another process"));
-            drop(run);
-            discard(path).unwrap();
-        }
-        let left: Vec<_> = std::fs::read_dir(&runs[0]).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        let path = folder.path();
+        let mut run = small_run(path);
+        std::fs::write(path.join("notes.txt"), "mine").unwrap();
+        let asking = ask(path, Phase::Training, Request::Abandon);
+        assert_eq!(run.train(&SLOW, &mut Told::default()).unwrap(), Ending::Abandoned);
+        asking.join().unwrap();
+        assert!(discard(path).unwrap_err().to_string().contains("another process"));
+        drop(run);
+        discard(path).unwrap();
+        let left: Vec<_> = std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(left, ["notes.txt"]);
-        assert!(!runs[1].exists());
     }
 
     /// Gives its run up as soon as that has measured itself for the last time.
@@ -226,9 +221,10 @@ mod tests {
         run.train(&FOREVER, &mut Told::default()).unwrap();
         drop(run);
         let mut follower = Follower::new(&path);
-        let mut lines = Vec::new();
-        followed.apply(follower.look_at_lines(&mut |record| lines.push(record.shots)).unwrap());
-        assert_eq!((followed.condition, lines.len()), (Condition::Is(Phase::Finished), 5));
+        let update = follower.look().unwrap();
+        assert_eq!(update.records.len(), 5);
+        followed.apply(update);
+        assert_eq!(followed.condition, Condition::Is(Phase::Finished));
         assert_eq!(followed.config.as_ref().unwrap().plan.shots, 160);
         assert!(followed.examples.is_some() && followed.notices.is_empty());
         std::fs::remove_file(path.join("metrics.jsonl")).unwrap();

@@ -6,18 +6,13 @@ use serde::{
     de::{Error as _, Unexpected},
 };
 
-/// The names, as protobuf's JSON writes them too.
-const NAN: &str = "NaN";
-const ABOVE: &str = "Infinity";
-const BELOW: &str = "-Infinity";
-
-/// Writes a number, or its name.
+/// Writes a number, or its name as protobuf's JSON has it.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
 pub fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     match *number {
         number if number.is_finite() => serializer.serialize_f64(number),
-        number if number.is_nan() => serializer.serialize_str(NAN),
-        number => serializer.serialize_str(if number > 0.0 { ABOVE } else { BELOW }),
+        number if number.is_nan() => serializer.serialize_str("NaN"),
+        number => serializer.serialize_str(if number > 0.0 { "Infinity" } else { "-Infinity" }),
     }
 }
 
@@ -26,12 +21,8 @@ pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D:
     match Number::deserialize(deserializer)? {
         Number::Finite(number) => Ok(number),
         Number::None(()) => Ok(f64::NAN),
-        Number::Name(name) => match name.as_str() {
-            NAN => Ok(f64::NAN),
-            ABOVE => Ok(f64::INFINITY),
-            BELOW => Ok(f64::NEG_INFINITY),
-            _ => Err(D::Error::invalid_value(Unexpected::Str(&name), &EXPECTED)),
-        },
+        // Rust reads these names as numbers.
+        Number::Name(name) => name.parse().map_err(|_| D::Error::invalid_value(Unexpected::Str(&name), &EXPECTED)),
     }
 }
 

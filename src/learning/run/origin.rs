@@ -24,7 +24,6 @@ use crate::{
 /// Weights to start from, and what is known of them.
 #[derive(Clone, Debug)]
 pub struct Weights {
-    /// Whose they are.
     pub start: Start,
     /// The settings of the agent that has them.
     pub settings: Value,

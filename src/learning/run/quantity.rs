@@ -15,7 +15,7 @@ pub enum Quantity {
     HeldOut,
     /// Loss of the actor.
     ActorLoss,
-    /// Share of the held-out layouts in which any proposal earns at least 1.
+    /// Best-of-k success: share of the held-out layouts in which any proposal earns at least 1.
     BestOfK,
     /// Shots a second, measurements left out.
     ShotSpeed,
@@ -50,7 +50,7 @@ impl Quantity {
             Self::CriticLoss => "critic loss",
             Self::HeldOut => "held-out success",
             Self::ActorLoss => "actor loss",
-            Self::BestOfK => "any proposal scores",
+            Self::BestOfK => "best-of-k success",
             Self::ShotSpeed => "shots a second",
             Self::UpdateSpeed => "updates a second",
             Self::Exploration => "exploration",

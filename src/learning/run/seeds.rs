@@ -33,21 +33,17 @@ const WEIGHTS: &str = "from.safetensors";
 /// What to train.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingSpec {
-    /// The agent's name.
     pub agent: String,
     /// Reward, number of shots, and the first seed.
     #[serde(flatten)]
     pub plan: TrainingPlan,
     /// The agent's settings, as far as they differ from its defaults.
     pub settings: Value,
-    /// When a run reports and is measured.
     pub schedule: Schedule,
-    /// The table.
     pub table: Table,
 }
 
 impl TrainingSpec {
-    /// A new run with this seed.
     pub fn start(&self, folder: &Path, seed: u64, weights: Option<&Weights>) -> Result<Run, RunError> {
         let learner = self.untrained(seed, weights)?;
         Run::create(folder, learner, self.schedule, weights.map(|weights| weights.start.clone()))
@@ -68,7 +64,6 @@ impl TrainingSpec {
     }
 }
 
-/// What `seeds.json` says.
 #[derive(Debug, Serialize, Deserialize)]
 struct GroupFile {
     seeds: u64,
@@ -126,7 +121,6 @@ impl Group {
         Ok(Self { folder: folder.to_owned(), spec, seeds, weights, _lock: lock })
     }
 
-    /// The group's folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
@@ -186,17 +180,13 @@ pub fn is_group(folder: &Path) -> bool {
 /// The mean rewards on held-out layouts that several seeds had after as many shots.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Shots played.
     pub shots: u64,
     /// Seeds that have come so far.
     pub seeds: usize,
-    /// Their mean.
     pub mean: f64,
     /// Their sample standard deviation; one alone has none.
     pub sd: Option<f64>,
-    /// The smallest.
     pub min: f64,
-    /// The largest.
     pub max: f64,
 }
 

@@ -60,6 +60,9 @@ pub struct RunStatus {
     pub phase: Phase,
     /// Shots played.
     pub shots: u64,
+    /// Shots that had been played at the last line of the metrics' file; 0 in files of earlier versions.
+    #[serde(default)]
+    pub logged: u64,
     /// Updates made.
     pub updates: u64,
     /// Seconds of training so far, evaluations included, pauses not.

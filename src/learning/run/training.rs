@@ -89,8 +89,9 @@ impl Run {
         let before = records.last().map_or(0.0, |record| record.seconds);
         let last = (before, self.learner.shots());
         let clock = Clock { start: Instant::now(), before, paused: Duration::ZERO, last };
-        let mut reporting =
-            Reporting { metrics, events, clock, heartbeat: Heartbeat::new(&self.folder), layouts, watcher };
+        let mut heartbeat = Heartbeat::new(&self.folder);
+        heartbeat.status.logged = records.last().map_or(0, |record| record.shots);
+        let mut reporting = Reporting { metrics, events, clock, heartbeat, layouts, watcher };
         let ending = self.iterate_until(limits, &mut reporting).and_then(|ending| {
             // It may have been given up during the last measurement, after which nothing else is asked for.
             if Request::take(&self.folder) == Some(Ok(Request::Abandon)) {
@@ -204,7 +205,9 @@ impl Run {
             }
             reporting.watcher.line(&record);
             // Until there is room it waits in memory. No checkpoint is written before it is.
-            let _ = reporting.metrics.flush();
+            if reporting.metrics.flush().is_ok() {
+                reporting.heartbeat.status.logged = shots;
+            }
         }
         if is_finite { Ok(score) } else { Err(RunError::NotFinite(shots)) }
     }

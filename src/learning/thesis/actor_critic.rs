@@ -5,15 +5,17 @@ use candle_nn::{Module, Optimizer};
 use rand::Rng;
 
 use super::{
-    agent::UpdateStats,
     environment::{ACTIONS, STATES},
     replay::{Batch, number},
 };
-use crate::learning::nn::{
-    adam::{Adam, AdamConfig, soft_update},
-    mlp::{Mlp, Operations, parameter_count},
-    squared_error::squared_error,
-    weights::{WeightsError, units},
+use crate::learning::{
+    learner::UpdateStats,
+    nn::{
+        adam::{Adam, AdamConfig, soft_update},
+        mlp::{Mlp, Operations, parameter_count},
+        squared_error::squared_error,
+        weights::{WeightsError, units},
+    },
 };
 
 /// Layer sizes of an actor with these hidden layers, from the state to the action, and of a critic, from both to one value.
@@ -24,7 +26,6 @@ pub fn sizes(actor: &[usize], critic: &[usize]) -> [Vec<usize>; 2] {
 /// How to learn (thesis Table 4; the networks' example gives the clipping).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
-    /// Both networks' optimisers.
     pub adam: AdamConfig,
     /// The part k of the target networks that a soft update keeps (equation 59).
     pub keep: f64,
@@ -118,14 +119,12 @@ impl ActorCritic {
         Ok(Self::starting_from(online, rates)?)
     }
 
-    /// These networks with other operations.
     #[must_use]
     pub fn with(self, operations: Operations) -> Self {
         let [online, target] = [self.online, self.target].map(|pair| pair.map(|network| network.with(operations)));
         Self { online, target, ..self }
     }
 
-    /// Updates made so far.
     pub const fn updates(&self) -> u32 {
         self.optimisers[0].steps()
     }

@@ -10,7 +10,7 @@ use super::{
     environment::{Action, Environment, Observation, discrete_action},
 };
 use crate::learning::{
-    learner::Progress,
+    learner::{Progress, UpdateStats},
     nn::weights::{Reader, WeightsError, Writer},
     settings::SettingError,
 };
@@ -44,15 +44,6 @@ pub struct Transition {
     pub goes_on: bool,
     /// What is seen now.
     pub after: Observation,
-}
-
-/// What an update saw.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct UpdateStats {
-    /// Mean squared error of the values against their targets.
-    pub loss: f64,
-    /// Mean value of the agent's own choices.
-    pub value: f64,
 }
 
 /// An agent's settings.

@@ -32,7 +32,6 @@ pub enum Episode {
 /// Rows and columns of the squares in which a table has states (4.2.2).
 const SQUARES: [u32; 2] = [6, 12];
 
-/// A game of carom.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Carom {
     pub(super) table: Table,
@@ -44,7 +43,6 @@ pub struct Carom {
 }
 
 impl Carom {
-    /// A game on `table`.
     pub fn new(table: Table, reward: Reward, episode: Episode) -> Self {
         Self { layout: Layout::opening(&table), table, reward, episode, shots: 0 }
     }

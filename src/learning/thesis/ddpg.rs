@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::{
     actor_critic::{ActorCritic, Guidance, Rates, sizes},
-    agent::{Agent, Choice, Settings, Transition, UpdateStats},
+    agent::{Agent, Choice, Settings, Transition},
     carom::Episode,
     environment::{Action, Environment, Observation, STATES},
     exploration::OrnsteinUhlenbeck,
@@ -19,7 +19,7 @@ use super::{
     symmetry::{WAYS, seen},
 };
 use crate::learning::{
-    learner::{Progress, note_of},
+    learner::{Progress, UpdateStats, note_of},
     nn::{
         adam::AdamConfig,
         weights::{Reader, WeightsError, Writer},

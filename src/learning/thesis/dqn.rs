@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    agent::{Agent, Choice, Settings, Transition, UpdateStats},
+    agent::{Agent, Choice, Settings, Transition},
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Observation, STATES},
     exploration::Epsilon,
@@ -16,7 +16,7 @@ use super::{
     replay::{self, Batch, MEMORY, StoredTransition, number},
 };
 use crate::learning::{
-    learner::{Progress, note_of},
+    learner::{Progress, UpdateStats, note_of},
     nn::{
         adam::{Adam, AdamConfig},
         mlp::Mlp,
@@ -93,7 +93,6 @@ pub struct Dqn {
     optimiser: Adam,
     replay: ReplayBuffer<StoredTransition>,
     shots: u64,
-    updates: u32,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -122,8 +121,7 @@ impl Dqn {
         let loss = squared_error(&values.gather(&batch.indices, 1)?, &wanted)?;
         self.optimiser.backward_step(&loss)?;
         let value = values.detach().max(1)?.mean_all()?;
-        self.updates += 1;
-        if self.updates.is_multiple_of(self.settings.target_every) {
+        if self.optimiser.steps().is_multiple_of(self.settings.target_every) {
             self.target = self.online.duplicate()?;
         }
         Ok(UpdateStats { loss: number(&loss)?, value: number(&value)? })
@@ -145,7 +143,6 @@ impl Agent for Dqn {
             online,
             settings,
             shots: 0,
-            updates: 0,
         })
     }
 
@@ -155,7 +152,7 @@ impl Agent for Dqn {
 
     fn progress(&self) -> Progress {
         Progress {
-            updates: u64::from(self.updates),
+            updates: u64::from(self.optimiser.steps()),
             learning_rate: self.settings.learning_rate,
             exploration: self.settings.epsilon.after(self.shots),
             replay_fill: Some(self.replay.fill()),
@@ -185,7 +182,7 @@ impl Agent for Dqn {
         writer.add_network("target", &self.target)?;
         writer.add_optimiser("", &self.optimiser)?;
         let next = replay::save(&self.replay, MEMORY, writer);
-        note_of(&DqnState { shots: self.shots, updates: self.updates, next })
+        note_of(&DqnState { shots: self.shots, updates: self.optimiser.steps(), next })
     }
 
     fn restore(settings: DqnSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
@@ -198,7 +195,6 @@ impl Agent for Dqn {
             online,
             settings,
             shots,
-            updates,
         })
     }
 

@@ -8,9 +8,6 @@ use serde_json::Value;
 use super::{
     agent::{Agent, EpisodeState, Settings},
     carom::{Carom, cue_inputs},
-    ddpg::PlainDdpg,
-    dqn::Dqn,
-    q_learning::QLearning,
 };
 use crate::{
     learning::{
@@ -27,14 +24,8 @@ use crate::{
 /// Shots of an iteration. As many as the agents play before their first update, so that updates come in whole hundreds.
 const SHOTS_PER_ITERATION: u64 = 100;
 
-/// The lines in the list of agents.
-pub const Q_LEARNING: AgentKind = line::<QLearning>();
-/// See [`Q_LEARNING`].
-pub const DQN: AgentKind = line::<Dqn>();
-/// See [`Q_LEARNING`].
-pub const DDPG: AgentKind = line::<PlainDdpg>();
-
-const fn line<A: Agent + 'static>() -> AgentKind {
+/// The line of a thesis' agent in the list of agents.
+pub const fn kind_of<A: Agent + 'static>() -> AgentKind {
     AgentKind {
         name: A::NAME,
         title: A::TITLE,
@@ -58,7 +49,6 @@ const fn line<A: Agent + 'static>() -> AgentKind {
             settings.validate()?;
             Ok(Box::new(TrainingLoop { agent: A::restore(settings, reader, agent)?, state }))
         },
-        shots_per_iteration: |_| Some(SHOTS_PER_ITERATION),
         of_one_start: &[],
     }
 }

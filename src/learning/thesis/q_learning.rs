@@ -9,13 +9,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    agent::{Agent, Choice, Settings, Transition, UpdateStats},
+    agent::{Agent, Choice, Settings, Transition},
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Observation},
     exploration::Epsilon,
 };
 use crate::learning::{
-    learner::{Progress, note_of},
+    learner::{Progress, UpdateStats, note_of},
     nn::weights::{Reader, WeightsError, Writer},
     settings::{SettingError, check, check_positive, check_share},
 };

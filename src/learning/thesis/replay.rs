@@ -12,20 +12,14 @@ use crate::learning::{
     replay::ReplayBuffer,
 };
 
-/// One shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StoredTransition {
-    /// The state before.
     pub state: State,
-    /// What was done.
     pub action: Action,
     /// Its number among the discrete actions, for agents that have them.
     pub index: u32,
-    /// What it earned.
     pub reward: f32,
-    /// Whether the episode went on.
     pub goes_on: bool,
-    /// The state after.
     pub next: State,
 }
 
@@ -102,7 +96,6 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// The batch of these transitions.
     pub fn new(drawn: &[StoredTransition], discount: f64) -> Result<Self, Error> {
         let rows = drawn.len();
         let matrix = |values: Vec<f32>, columns: usize| Tensor::from_vec(values, (rows, columns), &Device::Cpu);

@@ -6,7 +6,11 @@ use carom::{
     drills::Store,
     learning::{
         Policy,
-        run::{Run, list::runs_in},
+        run::{
+            Run,
+            follow::{Followed, Follower},
+            list::runs_in,
+        },
     },
     storage::Places,
     terminal::Settings,
@@ -52,8 +56,22 @@ fn only(folder: &str) -> (String, Vec<u8>) {
     (file.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(file).unwrap())
 }
 
-fn one_of(names: &'static [&'static str]) -> impl Strategy<Value = (&'static str, Vec<u8>)> {
-    prop::sample::select(names).prop_flat_map(|name| (Just(name), mutated(sound(&format!("run/{name}")))))
+/// Files that a run is known by.
+const OF_RUN: [&str; 5] = ["config.json", "metrics.jsonl", "state.json", "shots.json", "checkpoint.safetensors"];
+
+/// One of them, damaged.
+fn one_of_run() -> impl Strategy<Value = (&'static str, Vec<u8>)> {
+    prop::sample::select(&OF_RUN).prop_flat_map(|name| (Just(name), mutated(sound(&format!("run/{name}")))))
+}
+
+/// A folder that holds a sound run called `run`.
+fn folder_of_run() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("run")).unwrap();
+    for name in OF_RUN {
+        fs::write(folder.path().join("run").join(name), sound(&format!("run/{name}"))).unwrap();
+    }
+    folder
 }
 
 proptest! {
@@ -84,13 +102,10 @@ proptest! {
     }
 
     #[test]
-    fn runs((name, bytes) in one_of(&["config.json", "metrics.jsonl", "state.json", "checkpoint.safetensors"])) {
-        let folder = tempfile::tempdir().unwrap();
+    fn runs((name, bytes) in one_of_run()) {
+        let folder = folder_of_run();
         let run = folder.path().join("run");
-        fs::create_dir(&run).unwrap();
-        for known in ["config.json", "metrics.jsonl", "state.json", "checkpoint.safetensors"] {
-            fs::write(run.join(known), if known == name { bytes.clone() } else { sound(&format!("run/{known}")) }).unwrap();
-        }
+        fs::write(run.join(name), bytes).unwrap();
         let _ = runs_in(folder.path());
         let _ = Run::resume(&run);
     }
@@ -101,5 +116,31 @@ proptest! {
         let path = folder.path().join("policy.safetensors");
         fs::write(&path, bytes).unwrap();
         let _ = Policy::load(&path);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn runs_that_are_followed(states in prop::collection::vec((one_of_run(), any::<bool>()), 1..6)) {
+        let folder = folder_of_run();
+        let run = folder.path().join("run");
+        let (mut follower, mut followed) = (Follower::new(&run), Followed::new(&run));
+        for ((name, bytes), is_there) in states {
+            if is_there {
+                fs::write(run.join(name), bytes).unwrap();
+            } else {
+                let _ = fs::remove_file(run.join(name));
+            }
+            // What changes seldom is looked at once a second, but by a new follower at once.
+            for follower in [&mut follower, &mut Follower::new(&run)] {
+                if let Some(update) = follower.look() {
+                    followed.apply(update);
+                }
+                prop_assert!(!followed.sentence().is_empty());
+                let _ = (followed.shots(), followed.time_left());
+            }
+        }
     }
 }

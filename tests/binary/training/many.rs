@@ -192,10 +192,13 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
     );
 
     fs::write(here.join("large.toml"), "critic_layers = [24]").unwrap();
-    let large = carom(here, "train --from one --config large.toml --run large");
-    assert_eq!(large.code, Some(2));
-    assert!(large.err.contains("critic") && large.err.contains("-24-1"), "{}", large.err);
-    assert!(large.err.contains("leave out the settings"), "{}", large.err);
+    for from in ["one", weights] {
+        let large = carom(here, &format!("train --from {from} --config large.toml --run large"));
+        assert_eq!(large.code, Some(2));
+        for words in ["critic", "-16-1", "-24-1", "leave out the settings"] {
+            assert!(large.err.contains(words), "{}", large.err);
+        }
+    }
 
     done(here, "train --agent thesis-ddpg --table thesis --steps 100 --evaluation-layouts 5 --run thesis");
     let mut large = command(here, "train --from thesis --set actor_layers=[8] --run large");

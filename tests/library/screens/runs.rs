@@ -63,6 +63,7 @@ pub fn status() -> RunStatus {
     RunStatus {
         phase: Phase::Training,
         shots: 1_200_000,
+        logged: 1_200_000,
         updates: 93_750,
         seconds: 2772.0,
         shots_per_second: 433.0,

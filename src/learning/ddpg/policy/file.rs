@@ -16,37 +16,33 @@ use crate::{
     table::Table,
 };
 
-/// The bundled policies: the table's name, or `context` for those that are told table and player, for all tables like `match`; what
-/// was rewarded; and the file.
-const BUNDLED: [(&str, Reward, &[u8]); 9] = [
-    ("match", Reward::R3, include_bytes!("../../../../models/match-r3.safetensors")),
-    ("match", Reward::OneCushion, include_bytes!("../../../../models/match-one-cushion.safetensors")),
-    ("match", Reward::ThreeCushion, include_bytes!("../../../../models/match-three-cushion.safetensors")),
-    ("thesis", Reward::R3, include_bytes!("../../../../models/thesis-r3.safetensors")),
-    ("thesis", Reward::OneCushion, include_bytes!("../../../../models/thesis-one-cushion.safetensors")),
-    ("thesis", Reward::ThreeCushion, include_bytes!("../../../../models/thesis-three-cushion.safetensors")),
-    (CONTEXT, Reward::R3, include_bytes!("../../../../models/context-r3.safetensors")),
-    (CONTEXT, Reward::OneCushion, include_bytes!("../../../../models/context-one-cushion.safetensors")),
-    (CONTEXT, Reward::ThreeCushion, include_bytes!("../../../../models/context-three-cushion.safetensors")),
+/// The bundled policies by their names (`models/README.md`): the table, or `context` for those that are told table and player, for all
+/// tables like `match`; and what was rewarded.
+const BUNDLED: [(&str, &[u8]); 9] = [
+    ("match-r3", include_bytes!("../../../../models/match-r3.safetensors")),
+    ("match-one-cushion", include_bytes!("../../../../models/match-one-cushion.safetensors")),
+    ("match-three-cushion", include_bytes!("../../../../models/match-three-cushion.safetensors")),
+    ("thesis-r3", include_bytes!("../../../../models/thesis-r3.safetensors")),
+    ("thesis-one-cushion", include_bytes!("../../../../models/thesis-one-cushion.safetensors")),
+    ("thesis-three-cushion", include_bytes!("../../../../models/thesis-three-cushion.safetensors")),
+    ("context-r3", include_bytes!("../../../../models/context-r3.safetensors")),
+    ("context-one-cushion", include_bytes!("../../../../models/context-one-cushion.safetensors")),
+    ("context-three-cushion", include_bytes!("../../../../models/context-three-cushion.safetensors")),
 ];
 
-/// Whose the policies are that are told table and player.
-const CONTEXT: &str = "context";
-
-/// The bundled file of this name for `rule`.
+/// The bundled policy's file for a table, or `context`, and a rule.
 fn bundled_file(whose: &str, rule: Rule) -> Option<&'static [u8]> {
-    let reward = Reward::for_rule(rule);
-    BUNDLED.into_iter().find(|(name, what, _)| (*name, *what) == (whose, reward)).map(|(.., bytes)| bytes)
+    bundled_bytes(&format!("{whose}-{}", Reward::for_rule(rule)))
 }
 
-/// What the bundled files are called (`models/README.md`), without `.safetensors`.
-pub fn bundled_names() -> impl Iterator<Item = String> {
-    BUNDLED.into_iter().map(|(whose, reward, _)| format!("{whose}-{reward}"))
+/// The names of the bundled policies.
+pub fn bundled_names() -> impl Iterator<Item = &'static str> {
+    BUNDLED.into_iter().map(|(name, _)| name)
 }
 
 /// The bundled file of this name.
 pub(in crate::learning) fn bundled_bytes(name: &str) -> Option<&'static [u8]> {
-    bundled_names().position(|bundled| bundled == name).map(|index| BUNDLED[index].2)
+    BUNDLED.into_iter().find(|(bundled, _)| *bundled == name).map(|(_, bytes)| bytes)
 }
 
 /// Where a policy comes from.
@@ -145,20 +141,17 @@ impl Policy {
     /// # Errors
     /// As [`Policy::bundled`].
     pub fn bundled_for(table: &Table, rule: Rule, errs: bool) -> Option<Result<Self, PolicyError>> {
-        let (own, told) = (|| Self::bundled(table, rule), || Self::bundled_with_context(table, rule));
-        if errs { told().or_else(own) } else { own().or_else(|| Self::bundled_of_match(table, rule)).or_else(told) }
-    }
-
-    /// The policy for `rule` on `match`, if it is told the table and this is one that it knows.
-    fn bundled_of_match(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
-        let policy = Self::bundled(&Table::default(), rule).filter(|_| knows(table))?;
-        policy.as_ref().map_or(true, Self::has_context).then_some(policy)
-    }
-
-    /// The policy for `rule` on all tables like `match`, if this is one.
-    fn bundled_with_context(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
-        let bytes = bundled_file(CONTEXT, rule).filter(|_| knows(table))?;
-        Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\"")))
+        let own = || Self::bundled(table, rule);
+        let told = |bytes| Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\""));
+        let of_player = || bundled_file("context", rule).filter(|_| knows(table)).map(told);
+        if errs {
+            return of_player().or_else(own);
+        }
+        let of_match = || {
+            let policy = Self::bundled(&Table::default(), rule).filter(|_| knows(table))?;
+            policy.as_ref().map_or(true, Self::has_context).then_some(policy)
+        };
+        own().or_else(of_match).or_else(of_player)
     }
 
     /// The bundled policy in the file of this name.
@@ -170,12 +163,11 @@ impl Policy {
     }
 
     /// What the bundled file with these networks is called; `None` where they are no bundled ones.
-    pub fn bundled_name(&self) -> Option<String> {
+    pub fn bundled_name(&self) -> Option<&'static str> {
         // Seed, shots and settings tell them apart.
-        let is_this = |(.., bytes): &(_, _, &[u8])| {
-            Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin))
-        };
-        BUNDLED.iter().position(is_this).and_then(|index| bundled_names().nth(index))
+        let is_this =
+            |bytes| Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin));
+        BUNDLED.into_iter().find(|(_, bytes)| is_this(bytes)).map(|(name, _)| name)
     }
 
     /// A checksum of the networks and of what their file says of them: equal ones play equally.
@@ -223,10 +215,7 @@ impl Policy {
         let inputs = origin.hyperparameters.inputs();
         version("features", &origin.features, &inputs.version())?;
         version("actions", &origin.actions, inputs.space.meaning())?;
-        let [actor, critic] = origin.hyperparameters.sizes();
-        let actor = reader.network("actor", &actor).map_err(content)?;
-        let critic = reader.network("critic", &critic).map_err(content)?;
-        let networks = Networks::new(&origin.hyperparameters, actor, critic).map_err(|error| content(error.into()))?;
+        let networks = Networks::read(&reader, "", &origin.hyperparameters).map_err(content)?;
         Ok(Self { networks, origin })
     }
 
@@ -288,7 +277,7 @@ mod tests {
         ] {
             let table = Table::preset(table).unwrap();
             let policy = Policy::bundled_for(&table, Rule::ThreeCushion, errs).unwrap().unwrap();
-            assert_eq!(policy.bundled_name().as_deref(), Some(name));
+            assert_eq!(policy.bundled_name(), Some(name));
             assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.safetensors")).exists());
         }
         let mut another = bundled();
@@ -304,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn a_saved_policy_plays_the_same_and_damage_is_reported() {
+    fn a_saved_policy_plays_the_same_and_a_missing_one_is_reported() {
         let (policy, table) = (bundled(), Table::default());
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("policy.safetensors");
@@ -315,10 +304,6 @@ mod tests {
             policy.proposals(&table, &layout, &Skill::PERFECT)
         );
 
-        let bytes = std::fs::read(&path).unwrap();
-        std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
-        let message = Policy::load(&path).unwrap_err().to_string();
-        assert!(message.contains("policy.safetensors") && message.contains("carom train"), "{message}");
         let missing = Policy::load(&folder.path().join("none")).unwrap_err().to_string();
         assert!(missing.contains("none") && missing.contains("cannot be read"), "{missing}");
     }

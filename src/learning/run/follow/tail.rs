@@ -41,8 +41,8 @@ impl Tail {
         self.stamp.is_some_and(|stamp| self.offset < stamp.length)
     }
 
-    /// Reads what is new and hands it to `take`; `false` where there is no file.
-    pub fn look(&mut self, mut take: impl FnMut(Taken)) -> io::Result<bool> {
+    /// Adds what is new to `news`; `false` where there is no file. What was read before an error is in `news`, too.
+    pub fn look(&mut self, news: &mut News) -> io::Result<bool> {
         let stamp = Stamp::of(&self.path);
         if stamp == self.stamp {
             return Ok(stamp.is_some());
@@ -58,9 +58,9 @@ impl Tail {
         let stamp = Stamp::from(&file.metadata()?);
         if !self.is_the_same(&mut file, stamp.length)? {
             *self = Self::new(&self.path);
-            take(Taken::Afresh);
+            news.is_afresh = true;
         }
-        self.read(&mut file, &mut take)?;
+        self.read(&mut file, &mut news.records)?;
         // Not before: what could not be read is tried again.
         self.stamp = Some(stamp);
         Ok(true)
@@ -77,7 +77,7 @@ impl Tail {
         Ok(found == self.mark)
     }
 
-    fn read(&mut self, file: &mut File, take: &mut impl FnMut(Taken)) -> io::Result<()> {
+    fn read(&mut self, file: &mut File, records: &mut Vec<Record>) -> io::Result<()> {
         file.seek(SeekFrom::Start(self.offset))?;
         let mut buffer = Vec::new();
         loop {
@@ -93,7 +93,7 @@ impl Tail {
             };
             for line in buffer[..end].split_inclusive(|byte| *byte == b'\n') {
                 match serde_json::from_slice(line) {
-                    Ok(record) => take(Taken::Line(record)),
+                    Ok(record) => records.push(record),
                     Err(_) if line.trim_ascii().is_empty() => {}
                     Err(_) => self.unreadable += 1,
                 }
@@ -106,13 +106,13 @@ impl Tail {
     }
 }
 
-/// What [`Tail::look`] hands over.
-#[derive(Debug)]
-pub enum Taken {
-    /// What came before counts no more: all lines follow.
-    Afresh,
-    /// A line.
-    Line(Record),
+/// What a look has found.
+#[derive(Debug, Default)]
+pub struct News {
+    /// Whether what came before counts no more: the lines are all that there are.
+    pub is_afresh: bool,
+    /// Lines that have come.
+    pub records: Vec<Record>,
 }
 
 #[cfg(test)]
@@ -139,12 +139,9 @@ mod tests {
 
     /// Whether the file was read afresh, and its new lines; `None` where there is no file.
     fn look(tail: &mut Tail) -> Option<(bool, Vec<u64>)> {
-        let (mut afresh, mut shots) = (false, Vec::new());
-        let is_there = tail.look(|taken| match taken {
-            Taken::Afresh => afresh = true,
-            Taken::Line(record) => shots.push(record.shots),
-        });
-        is_there.unwrap().then_some((afresh, shots))
+        let mut news = News::default();
+        let is_there = tail.look(&mut news).unwrap();
+        is_there.then(|| (news.is_afresh, news.records.iter().map(|record| record.shots).collect()))
     }
 
     #[test]
@@ -187,7 +184,7 @@ mod tests {
         let (_folder, path, mut tail) = fresh();
         std::fs::create_dir(&path).unwrap();
         for _ in 0..2 {
-            assert!(tail.look(|_| ()).is_err());
+            assert!(tail.look(&mut News::default()).is_err());
         }
         assert!(!tail.is_torn());
         std::fs::remove_dir(&path).unwrap();

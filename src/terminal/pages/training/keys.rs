@@ -231,7 +231,7 @@ pub const fn words(action: TrainingAction, _section: Section) -> Option<&'static
         A::Show(2) => "show or hide the critic loss",
         A::Show(3) => "show or hide the held-out success",
         A::Show(4) => "show or hide the actor loss",
-        A::Show(5) => "show or hide whether any proposal scores",
+        A::Show(5) => "show or hide the best-of-k success",
         A::Show(6) => "show or hide the shots a second",
         A::Show(7) => "show or hide the updates a second",
         A::Show(8) => "show or hide the exploration",
