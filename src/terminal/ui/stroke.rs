@@ -15,8 +15,7 @@ pub fn stroke_rows(cue: &CueInputs, units: Units, radius: f64, caps: Capabilitie
         ("aim", cue.phi_text(2) + degree),
         side,
         height,
-        // A foot is a third of a metre.
-        ("speed", format!("{} {per_second}", fixed(in_a_metre * cue.speed, if in_a_metre == 1.0 { 2 } else { 1 }))),
+        ("speed", format!("{} {per_second}", fixed(in_a_metre * cue.speed, 2))),
         (
             "cue",
             match fixed(cue.theta.to_degrees(), 1).as_str() {

@@ -312,7 +312,7 @@ fn without_colours_letters_tell_everything() {
         plan.is_plain().shows(&["now  94 % yellow, ", "next 100 % very hard"]);
         // What the distances are has no room below them at 80 columns.
         let stops =
-            [(80, 24, "half stop within W 75, Y 45, R 95 cm"), (120, 40, "stop white 75, yellow 45, red 95 cm")];
+            [(80, 24, "stop half within W 75, Y 45, R 95 cm"), (120, 40, "stop white 75, yellow 45, red 95 cm")];
         assert!(stops.iter().all(|&(width, height, words)| plan.text(width, height).contains(words)));
         if caps == ASCII {
             check_at(&[(120, 40)], "ascii_plan", &plan);

@@ -92,7 +92,7 @@ fn stop_words(choice: &Choice, unit: LengthUnit, is_explained: bool, theme: &The
     match () {
         () if words.is_empty() => ("stop", "no attempt made the point".to_owned()),
         () if is_explained => ("stop", places),
-        () => ("half", format!("stop within {places}")),
+        () => ("stop", format!("half within {places}")),
     }
 }
 
