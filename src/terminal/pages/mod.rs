@@ -25,6 +25,15 @@ pub trait Page {
     /// What the status line says, to be changed.
     fn message_mut(&mut self) -> &mut Option<Message>;
 
+    /// Says why something is refused or has failed; nothing comes of it then.
+    fn refuse<T>(&mut self, why: impl ToString) -> Option<T>
+    where
+        Self: Sized,
+    {
+        *self.message_mut() = Some(Message::warning(why.to_string()));
+        None
+    }
+
     /// The text that is typed, where some is.
     fn field_mut(&mut self) -> Option<&mut TextField>;
 

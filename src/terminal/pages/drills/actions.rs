@@ -4,7 +4,10 @@ use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
     terminal::{
         DrillAction as Action, DrillCondition, DrillTask, Effect,
-        pages::drills::{Balls, DrillsPage, Question, Screen, Turn, question::LONGEST},
+        pages::{
+            Page,
+            drills::{Balls, DrillsPage, Question, Screen, Turn, question::LONGEST},
+        },
         ui::{Message, TextField},
         words::skill_word,
     },
@@ -150,10 +153,7 @@ impl DrillsPage {
                 }
                 Some(effect)
             }
-            Err(error) => {
-                self.message = Some(Message::warning(error.to_string()));
-                None
-            }
+            Err(error) => self.refuse(error),
         }
     }
 
@@ -189,10 +189,7 @@ impl DrillsPage {
                 )));
                 Some(Effect::Copy(code))
             }
-            Err(error) => {
-                self.message = Some(Message::warning(error.to_string()));
-                None
-            }
+            Err(error) => self.refuse(error),
         }
     }
 
@@ -242,8 +239,7 @@ impl DrillsPage {
             Err(sentence) => {
                 // What was typed stays, to be mended.
                 self.question = Some(question);
-                self.message = Some(Message::warning(sentence));
-                None
+                self.refuse(sentence)
             }
         }
     }

@@ -5,7 +5,10 @@ use crate::{
     drills::{Attempt, Exercise, Library, Session},
     terminal::{
         DrillReport, DrillTask, Loaded,
-        pages::drills::{Book, DrillsPage, Estimate, Question, Screen, Stage},
+        pages::{
+            Page,
+            drills::{Book, DrillsPage, Estimate, Question, Screen, Stage},
+        },
         ui::Message,
     },
 };
@@ -23,10 +26,7 @@ impl DrillsPage {
                 return tasks;
             }
             DrillReport::AdviceState(id, answer) => {
-                let taught = answer.unwrap_or_else(|sentence| {
-                    self.message = Some(Message::warning(sentence));
-                    None
-                });
+                let taught = answer.unwrap_or_else(|sentence| self.refuse(sentence));
                 if let Some(turn) = &mut self.turn {
                     turn.advised(id, taught);
                 }

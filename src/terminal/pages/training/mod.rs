@@ -273,10 +273,7 @@ impl TrainingPage {
                     CoachQuery { policy: Some((watch.own.name.clone(), policy)), rule, ..CoachQuery::default() },
                 ))
             }
-            Err(sentence) => {
-                self.message = Some(Message::warning(sentence));
-                None
-            }
+            Err(sentence) => self.refuse(sentence),
         }
     }
 }
