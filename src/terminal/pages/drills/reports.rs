@@ -4,10 +4,10 @@ use crate::{
     coach::Skill,
     drills::{Attempt, Exercise, Library, Session},
     terminal::{
-        DrillReport, DrillTask, Loaded,
+        DrillContext, DrillReport, DrillTask, Loaded,
         pages::{
             Page,
-            drills::{Book, DrillsPage, Estimate, Question, Screen, Stage},
+            drills::{Book, DrillsPage, Estimate, Question, Stage},
         },
         ui::Message,
     },
@@ -20,7 +20,7 @@ impl DrillsPage {
             DrillReport::Loaded(loaded) => {
                 self.loaded(*loaded);
                 let mut tasks = self.catch_up();
-                if self.page() == Screen::Record {
+                if self.page() == DrillContext::Record {
                     tasks.push(DrillTask::Estimate(self.records.ask(), self.book.shared()));
                 }
                 return tasks;
@@ -129,7 +129,7 @@ impl DrillsPage {
     fn go_on_with(&mut self, stored: Session) -> Vec<DrillTask> {
         let Some(turn) = self.turn.as_mut().filter(|turn| turn.session.id == stored.id) else { return Vec::new() };
         if stored.is_exam() && stored.is_over() {
-            self.pages = vec![Screen::Library, Screen::Result];
+            self.pages = vec![DrillContext::Library, DrillContext::Result];
         }
         turn.go_on_with(stored)
     }

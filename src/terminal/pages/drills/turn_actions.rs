@@ -4,8 +4,8 @@ use crate::{
     coach::Skill,
     drills::{Attempt, Goal, Session, Venue},
     terminal::{
-        DrillAction as Action, DrillCondition as Condition, DrillTask, Effect, Taught,
-        pages::drills::{DrillsPage, Lesson, Question, Screen, Stage, Turn},
+        DrillAction as Action, DrillCondition as Condition, DrillContext, DrillTask, Effect, Taught,
+        pages::drills::{DrillsPage, Lesson, Question, Stage, Turn},
         shot::OwnStroke,
         ui::Message,
         words::skill_word,
@@ -224,7 +224,7 @@ impl DrillsPage {
         match next {
             Some((table, layout)) => turn.place(table, layout).then(|| Effect::Drill(turn.ask())),
             None if turn.is_exam() => {
-                self.pages = vec![Screen::Library, Screen::Result];
+                self.pages = vec![DrillContext::Library, DrillContext::Result];
                 None
             }
             None => some(self.restart(None)),

@@ -20,10 +20,7 @@ use crate::{
     drills::Record,
     terminal::{
         Capabilities, DrillContext,
-        pages::{
-            PageArea, Target,
-            drills::{DrillsPage, Screen},
-        },
+        pages::{PageArea, Target, drills::DrillsPage},
         ui::{Message, Ui, columns, draw_question, draw_status, shorten, write_right},
         words::{self, skill_word},
     },
@@ -36,12 +33,12 @@ const READABLE: u16 = 80;
 pub fn draw(drills: &DrillsPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let (header, body, status) = (area.header, area.body, area.status);
     let status_line = match (drills.page(), &drills.turn) {
-        (Screen::Exam(level), Some(turn)) => exam::draw(drills, turn, level, header, body, ui),
-        (Screen::Exercise, Some(turn)) => exercise::draw(drills, turn, header, body, ui),
-        (Screen::Result, Some(turn)) => result::draw(drills, turn, header, body, ui),
-        (Screen::Record, _) => record::draw(drills, header, body, ui),
-        (Screen::Films, _) => films::draw(drills, header, body, ui),
-        (Screen::Film, _) => film::draw(drills, header, body, ui),
+        (DrillContext::Exam, Some(turn)) => exam::draw(drills, turn, header, body, ui),
+        (DrillContext::Exercise, Some(turn)) => exercise::draw(drills, turn, header, body, ui),
+        (DrillContext::Result, Some(turn)) => result::draw(drills, turn, header, body, ui),
+        (DrillContext::Record, _) => record::draw(drills, header, body, ui),
+        (DrillContext::Films, _) => films::draw(drills, header, body, ui),
+        (DrillContext::Film, _) => film::draw(drills, header, body, ui),
         _ => library::draw(drills, header, body, ui),
     };
     let message = drills.message.clone();
