@@ -214,8 +214,7 @@ pub fn key_pages() -> Vec<KeyPage> {
 
 fn entries(place: KeyContext) -> Vec<KeyEntry> {
     let entries = |binding: Bound| {
-        let (group, hint, section) = (binding.description, binding.hint.map_or("", |(word, _)| word), binding.section);
-        binding.works().into_iter().map(move |(_, words, chords)| KeyEntry { chords, words, group, hint, section })
+        binding.works().into_iter().map(move |(_, words, chords)| KeyEntry { chords, words, section: binding.section })
     };
     listed(place).flat_map(entries).collect()
 }

@@ -83,10 +83,6 @@ pub struct KeyEntry {
     pub chords: Vec<Chord>,
     /// What it does.
     pub words: &'static str,
-    /// What the help says of its binding, which may do other things as well.
-    pub group: &'static str,
-    /// The binding's word in the hint line, or nothing.
-    pub hint: &'static str,
     /// Its heading in the help.
     pub section: Section,
 }
