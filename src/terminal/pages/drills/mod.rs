@@ -17,10 +17,6 @@ mod turn_actions;
 mod view;
 mod watched;
 
-use rand::{RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
-use ratatui::layout::Position;
-
 use crate::{
     coach::{Skill, Units},
     drills::{Goal, Library, Session},
@@ -29,10 +25,12 @@ use crate::{
     table::{CueBall, Layout, Table},
     terminal::{
         DrillContext, DrillTask, Effect, Settings,
-        pages::{Page, PageArea, Target, drills::film::FilmsScreen, next_skill},
-        ui::{Message, TextField, Typed, Ui},
+        pages::{Page, drills::film::FilmsScreen, next_skill},
+        ui::{Message, TextField, Typed},
     },
 };
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub use book::{Book, record_of};
 pub use catalogue::Catalogue;
@@ -268,14 +266,6 @@ impl DrillsPage {
 }
 
 impl Page for DrillsPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
-        view::draw(self, area, ui)
-    }
-
-    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
-        view::target(self, area, at)
-    }
-
     fn message_mut(&mut self) -> &mut Option<Message> {
         &mut self.message
     }
