@@ -19,16 +19,12 @@ use CoachCondition as W;
 pub enum CoachAction {
     /// Selects a ball by its colour: white, yellow or red.
     Select(usize),
-    /// Selects the next ball.
-    SelectNext,
-    /// Selects the ball before.
-    SelectPrevious,
+    /// Selects another ball, the next where positive.
+    SelectOther(isize),
     /// Moves the selected ball: steps to the right and up, and how large a step is against the chosen one.
     Move(i8, i8, f64),
-    /// Chooses a larger step.
-    LargerStep,
-    /// Chooses a smaller step.
-    SmallerStep,
+    /// Chooses a larger step where positive, else a smaller one.
+    Step(isize),
     /// Chooses steps of quarter diamonds, or of millimetres again.
     TurnQuarters,
     /// Asks where the balls are to lie, to be typed or pasted.
@@ -49,18 +45,14 @@ pub enum CoachAction {
     Cancel,
     /// Plays or pauses the shot.
     PlayPause,
-    /// Steps to the next event.
-    NextEvent,
-    /// Steps to the event before.
-    PreviousEvent,
+    /// Steps to another event, the next where positive.
+    Event(isize),
     /// Goes to the stroke.
     ToStart,
     /// Goes to where the balls lie still.
     ToEnd,
-    /// Plays faster.
-    Faster,
-    /// Plays slower.
-    Slower,
+    /// Plays faster where positive, else slower.
+    Pace(isize),
     /// Leaves the shot, to move balls again.
     PlaceBalls,
     /// Takes the balls as the shot leaves them.
@@ -81,10 +73,8 @@ pub enum CoachAction {
     TurnSideView,
     /// Shows something else in the panels.
     NextView,
-    /// Shows the next of the shots that may be chosen.
-    NextShot,
-    /// Shows the one before.
-    PreviousShot,
+    /// Shows another of the shots that may be chosen, the next where positive.
+    Shot(isize),
     /// Shows one of them by its place in the list; no key does it, but the mouse.
     Show(usize),
     /// Takes the shot that is shown over into the player's own stroke.
@@ -201,11 +191,11 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled networks again, as at the start"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
-    bind(Shot, W::Choice, &[letter('[', A::PreviousShot), letter(']', A::NextShot)], Some(("shots", 2)),
+    bind(Shot, W::Choice, &[letter('[', A::Shot(-1)), letter(']', A::Shot(1))], Some(("shots", 2)),
         "step through the shots that the coach lists")
         .each(&["show the one before of the coach's shots", "show the next of the coach's shots"]),
     bind(Shot, W::Watching, &[
-        key(Tab, A::SelectNext), key(BackTab, A::SelectPrevious), letter('1', A::Select(0)), letter('2', A::Select(1)),
+        key(Tab, A::SelectOther(1)), key(BackTab, A::SelectOther(-1)), letter('1', A::Select(0)), letter('2', A::Select(1)),
         letter('3', A::Select(2)), key(Esc, A::PlaceBalls), letter('e', A::PlaceBalls),
         ], Some(("place", 1)), "back to placing the balls, with one of them selected; a click on a ball does it too").each(&[
         "leave the shot and select the next ball", "leave the shot and select the ball before",
@@ -250,18 +240,18 @@ pub const COACH: &[Binding<A, W>] = &[
         "move the ball left by a tenth of a step", "move the ball down by a tenth of a step",
         "move the ball up by a tenth of a step", "move the ball right by a tenth of a step",
         ]),
-    bind(Balls, W::Placing, &[letter('-', A::SmallerStep), letter('+', A::LargerStep), letter('=', A::LargerStep)],
+    bind(Balls, W::Placing, &[letter('-', A::Step(-1)), letter('+', A::Step(1)), letter('=', A::Step(1))],
         Some(("step", 2)), "choose a smaller or larger step").each(&["choose a smaller step", "choose a larger step"]),
     bind(Balls, W::Placing, &[letter('D', A::TurnQuarters)], None,
         "steps of quarter diamonds, or of millimetres again").known_as("snap grid"),
-    bind(Shot, W::Shot, &[letter(',', A::PreviousEvent), letter('.', A::NextEvent)],
+    bind(Shot, W::Shot, &[letter(',', A::Event(-1)), letter('.', A::Event(1))],
         Some(("event", 2)), "step from event to event")
         .each(&["step to the event before", "step to the next event"]),
-    bind(Shot, W::Watching, &[key(Left, A::PreviousEvent), key(Right, A::NextEvent)], None,
+    bind(Shot, W::Watching, &[key(Left, A::Event(-1)), key(Right, A::Event(1))], None,
         "step from event to event while a shot is watched")
         .each(&["step to the event before", "step to the next event"]),
-    bind(Shot, W::Watching, &[letter('-', A::Slower), letter('+', A::Faster), letter('=', A::Faster),
-        key(Down, A::Slower), key(Up, A::Faster)], Some(("speed", 2)), "play slower or faster")
+    bind(Shot, W::Watching, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
+        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], Some(("speed", 2)), "play slower or faster")
         .each(&["play slower", "play faster"]),
     bind(Shot, W::Shot, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('0', A::ToStart), letter('$', A::ToEnd)],
         None, "to the stroke, to the end").each(&["to the stroke", "to the end of the shot"]),
@@ -275,7 +265,7 @@ pub const COACH: &[Binding<A, W>] = &[
         "choose the rule: straight rail, one or three cushions", "choose the player: a level of skill",
         "plan on or off: whether the next point counts too",
         ]),
-    bind(Balls, W::Idle, &[key(Tab, A::SelectNext), key(BackTab, A::SelectPrevious), letter('1', A::Select(0)),
+    bind(Balls, W::Idle, &[key(Tab, A::SelectOther(1)), key(BackTab, A::SelectOther(-1)), letter('1', A::Select(0)),
         letter('2', A::Select(1)), letter('3', A::Select(2))], Some(("ball", 1)), "select a ball: white, yellow, red").each(&[
         "select the next ball", "select the ball before", "select the white ball", "select the yellow ball",
         "select the red ball",
@@ -323,12 +313,12 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
         "take the last change of the stroke back"),
     bind(Stroke, W::StrokeUndone, &[letter('U', A::StrokeAgain), letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)],
         Some(("redo", 1)), "make a change of the stroke again that was taken back"),
-    bind(Stroke, W::Anytime, &[letter(',', A::PreviousEvent), letter('.', A::NextEvent)], Some(("event", 2)),
+    bind(Stroke, W::Anytime, &[letter(',', A::Event(-1)), letter('.', A::Event(1))], Some(("event", 2)),
         "step from event to event").each(&["step to the event before", "step to the next event"]),
 ], [
     bind(Stroke, W::Anytime, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('$', A::ToEnd)], None,
         "to the stroke, to the end").each(&["to the stroke", "to the end of the shot"]),
-    bind(Stroke, W::Anytime, &[letter('<', A::Slower), letter('>', A::Faster)], None, "play slower or faster")
+    bind(Stroke, W::Anytime, &[letter('<', A::Pace(-1)), letter('>', A::Pace(1))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),
     bind(Stroke, W::Anytime, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
     bind(Program, W::Named, &[letter('F', A::TurnShown)], None, "let others follow your table (carom follow NAME), or no longer"),

@@ -237,10 +237,9 @@ impl DrillsPage {
         let (events, duration) = (shot.recording.events(), shot.recording.duration());
         match action {
             Action::PlayPause => watched.playback.toggle(duration),
-            Action::Event(step) if step > 0 => watched.playback.step_forward(events, duration),
-            Action::Event(_) => watched.playback.step_back(events),
-            Action::Pace(step) if step > 0 => watched.playback.faster(),
-            _ => watched.playback.slower(),
+            Action::Event(steps) => watched.playback.step(steps, events, duration),
+            Action::Pace(steps) => watched.playback.change_speed(steps),
+            _ => {}
         }
         watched.settle();
     }
