@@ -14,10 +14,7 @@ use crate::terminal::{
         Section::{self, Program},
         bind, chord_of, ctrl, key, letter,
     },
-    pages::{
-        calibration::keys as calibration, coach::keys as coach, drills::keys as drills, settings::keys as settings,
-        training::keys as training,
-    },
+    pages::coach::keys as coach,
 };
 
 use Action as A;
@@ -111,17 +108,22 @@ impl Bound {
     }
 }
 
-/// Adds the lines of a page's table; `words` are those of one of a line's actions by itself.
+/// Adds the lines of a page's table.
 fn take<B: Copy + PartialEq, W: Copy>(
     all: &mut Vec<Bound>,
     table: &[Binding<B, W>],
     action: fn(B) -> Action,
     when: fn(W) -> Condition,
-    words: fn(B, Section) -> Option<&'static str>,
 ) {
     all.extend(table.iter().map(|binding| {
-        let is_one = binding.keys.iter().all(|(_, other)| *other == binding.keys[0].1);
-        let words = |of: B| if is_one { None } else { words(of, binding.section) }.unwrap_or(binding.description);
+        let mut actions: Vec<B> = Vec::new();
+        let mut words = |of: B| {
+            if !actions.contains(&of) {
+                actions.push(of);
+            }
+            let place = actions.iter().position(|known| *known == of);
+            place.and_then(|place| binding.each.get(place)).copied().unwrap_or(binding.description)
+        };
         Bound {
             keys: binding.keys.iter().map(|(chord, of)| (*chord, action(*of), words(*of))).collect(),
             hint: binding.hint,
@@ -178,27 +180,21 @@ const LEAVE: &[Binding<Action, Condition>] = &[
 /// All keys at `place`. The first enabled binding with a key wins; the hint line shows as many as fit, in this order.
 pub fn bindings(place: KeyContext) -> Vec<Bound> {
     let mut all = Vec::new();
-    let program = |all: &mut Vec<Bound>, table| take(all, table, |action| action, |when| when, palette_keys::words);
+    let program = |all: &mut Vec<Bound>, table| take(all, table, |action| action, |when| when);
     let (help, leave) = match place {
         _ if place.takes_letters() => (&[][..], LEAVE),
         _ => (HELP, PROGRAM),
     };
     program(&mut all, help);
     match place {
-        KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach, coach::words),
-        KeyContext::OwnStroke => take(&mut all, coach::OWN_STROKE, A::Coach, Condition::Coach, coach::words),
-        KeyContext::Follow => take(&mut all, coach::FOLLOW, A::Coach, Condition::Coach, coach::words),
-        KeyContext::Question(place) => take(&mut all, place.bindings(), A::Coach, Condition::Coach, coach::words),
-        KeyContext::Training(place) => {
-            take(&mut all, place.bindings(), A::Training, Condition::Training, training::words);
-        }
-        KeyContext::Drill(place) => take(&mut all, place.bindings(), A::Drill, Condition::Drill, drills::words),
-        KeyContext::Settings(place) => {
-            take(&mut all, place.bindings(), A::Settings, Condition::Settings, settings::words);
-        }
-        KeyContext::Calibration(place) => {
-            take(&mut all, place.bindings(), A::Calibration, Condition::Calibration, calibration::words);
-        }
+        KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach),
+        KeyContext::OwnStroke => take(&mut all, coach::OWN_STROKE, A::Coach, Condition::Coach),
+        KeyContext::Follow => take(&mut all, coach::FOLLOW, A::Coach, Condition::Coach),
+        KeyContext::Question(place) => take(&mut all, place.bindings(), A::Coach, Condition::Coach),
+        KeyContext::Training(place) => take(&mut all, place.bindings(), A::Training, Condition::Training),
+        KeyContext::Drill(place) => take(&mut all, place.bindings(), A::Drill, Condition::Drill),
+        KeyContext::Settings(place) => take(&mut all, place.bindings(), A::Settings, Condition::Settings),
+        KeyContext::Calibration(place) => take(&mut all, place.bindings(), A::Calibration, Condition::Calibration),
         KeyContext::CommandPalette => program(&mut all, palette_keys::PALETTE),
     }
     program(&mut all, TABS);
@@ -218,8 +214,7 @@ pub fn key_pages() -> Vec<KeyPage> {
 
 fn entries(place: KeyContext) -> Vec<KeyEntry> {
     let entries = |binding: Bound| {
-        let (group, hint, section) = (binding.description, binding.hint.map_or("", |(word, _)| word), binding.section);
-        binding.works().into_iter().map(move |(_, words, chords)| KeyEntry { chords, words, group, hint, section })
+        binding.works().into_iter().map(move |(_, words, chords)| KeyEntry { chords, words, section: binding.section })
     };
     listed(place).flat_map(entries).collect()
 }

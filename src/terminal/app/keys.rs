@@ -147,7 +147,7 @@ impl App {
             },
             PageId::Training if self.help.is_some() => KeyContext::Training(self.training.page()),
             PageId::Training => KeyContext::Training(self.training.place()),
-            PageId::Drills if self.help.is_some() => KeyContext::Drill(self.drills.page_place()),
+            PageId::Drills if self.help.is_some() => KeyContext::Drill(self.drills.page()),
             PageId::Drills => KeyContext::Drill(self.drills.place()),
             PageId::Settings if self.help.is_some() => KeyContext::Settings(self.settings.page),
             PageId::Settings => KeyContext::Settings(self.settings.place()),

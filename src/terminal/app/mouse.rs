@@ -63,8 +63,8 @@ impl App {
         }
         match self.target(event)? {
             Pointed::Page(Target::Table(_)) => {
-                let action = if notch < 0 { CoachAction::Faster } else { CoachAction::Slower };
-                self.attempt(Condition::Coach(CoachCondition::Watching), Action::Coach(action))
+                let faster = CoachAction::Pace(-isize::from(notch));
+                self.attempt(Condition::Coach(CoachCondition::Watching), Action::Coach(faster))
             }
             Pointed::Page(Target::Shot(_)) | Pointed::Tab(_) => None,
             Pointed::Page(Target::List(_)) => self.move_mark(isize::from(notch)),

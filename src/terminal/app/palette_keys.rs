@@ -3,11 +3,7 @@
 use crossterm::event::KeyCode::{Down, Enter, Esc, PageDown, PageUp, Up};
 
 use super::bindings::{Action, Condition};
-use crate::terminal::keymap::{
-    Binding, Chord,
-    Section::{self, Program},
-    bind, ctrl, letter, mark,
-};
+use crate::terminal::keymap::{Binding, Chord, Section::Program, bind, ctrl, letter};
 
 use PaletteAction as A;
 
@@ -42,14 +38,7 @@ pub const OPEN: Binding<Action, Condition> = bind(
 pub const PALETTE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[key(Enter, A::Choose)], Some(("do it", 1)), "do what is marked"),
     bind(Program, Condition::Always, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))],
-        Some(("choose", 2)), "mark another command"),
+        Some(("choose", 2)), "mark another command")
+        .each(&["mark the next command", "mark the command before", "go down by ten commands", "go up by ten commands"]),
     bind(Program, Condition::Always, &[key(Esc, A::Close)], Some(("close", 1)), "close the list"),
 ];
-
-/// The words of `action` by itself, where its binding does several things.
-pub const fn words(action: Action, _: Section) -> Option<&'static str> {
-    match action {
-        Action::CommandPalette(A::Line(lines)) => mark!(lines, "command"),
-        _ => None,
-    }
-}

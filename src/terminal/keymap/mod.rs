@@ -29,12 +29,19 @@ pub struct Binding<A: 'static, W> {
     pub section: Section,
     /// Other words under which the command palette finds it.
     pub also: &'static str,
+    /// What its actions do one by one, in the order of their first keys; empty where the description says it of each.
+    pub each: &'static [&'static str],
 }
 
 impl<A, W: Copy> Binding<A, W> {
     /// The same line, which the command palette finds by these `words` as well.
     pub const fn known_as(self, also: &'static str) -> Self {
         Self { also, ..self }
+    }
+
+    /// The same line with `words` for each of its actions, in the order of their first keys.
+    pub const fn each(self, words: &'static [&'static str]) -> Self {
+        Self { each: words, ..self }
     }
 }
 
@@ -46,7 +53,7 @@ pub const fn bind<A, W: Copy>(
     hint: Option<(&'static str, usize)>,
     description: &'static str,
 ) -> Binding<A, W> {
-    Binding { keys, hint, description, when, section, also: "" }
+    Binding { keys, hint, description, when, section, also: "", each: &[] }
 }
 
 /// A key without modifiers.
@@ -76,10 +83,6 @@ pub struct KeyEntry {
     pub chords: Vec<Chord>,
     /// What it does.
     pub words: &'static str,
-    /// What the help says of its binding, which may do other things as well.
-    pub group: &'static str,
-    /// The binding's word in the hint line, or nothing.
-    pub hint: &'static str,
     /// Its heading in the help.
     pub section: Section,
 }
@@ -125,18 +128,17 @@ macro_rules! lines {
 }
 pub(in crate::terminal) use lines;
 
-/// Words for marking another line of a list of `$what`.
-macro_rules! mark {
-    ($lines:expr, $what:literal) => {
-        match $lines {
-            1 => Some(concat!("mark the next ", $what)),
-            -1 => Some(concat!("mark the ", $what, " before")),
-            10 => Some(concat!("go down by ten ", $what, "s")),
-            -10 => Some(concat!("go up by ten ", $what, "s")),
-            isize::MAX => Some(concat!("mark the last ", $what)),
-            isize::MIN => Some(concat!("mark the first ", $what)),
-            _ => None,
-        }
+/// What each of [`lines!`] does in a list of `$what`.
+macro_rules! marks {
+    ($what:literal) => {
+        &[
+            concat!("mark the next ", $what),
+            concat!("mark the ", $what, " before"),
+            concat!("go down by ten ", $what, "s"),
+            concat!("go up by ten ", $what, "s"),
+            concat!("mark the last ", $what),
+            concat!("mark the first ", $what),
+        ]
     };
 }
-pub(crate) use mark;
+pub(in crate::terminal) use marks;

@@ -14,16 +14,28 @@ use ratatui::layout::{Position, Rect};
 use super::ui::{TextField, Typed, Ui, geometry::Mapping, message::Message};
 use crate::{coach::Skill, table::CueBall};
 
-/// What the app asks of every page. What its keys do is typed: each page has actions of its own.
-pub trait Page {
+/// How a page is drawn, and what of it answers to the mouse: what its `view` does.
+pub trait Picture {
     /// Draws the page; gives the first row of what stands below its picture.
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16;
 
     /// What is drawn at a cell of the screen that answers to the mouse.
     fn target(&self, area: &PageArea, at: Position) -> Option<Target>;
+}
 
+/// What the app asks of every page. What its keys do is typed: each page has actions of its own.
+pub trait Page: Picture {
     /// What the status line says, to be changed.
     fn message_mut(&mut self) -> &mut Option<Message>;
+
+    /// Says why something is refused or has failed; nothing comes of it then.
+    fn refuse<T>(&mut self, why: impl ToString) -> Option<T>
+    where
+        Self: Sized,
+    {
+        *self.message_mut() = Some(Message::warning(why.to_string()));
+        None
+    }
 
     /// The text that is typed, where some is.
     fn field_mut(&mut self) -> Option<&mut TextField>;

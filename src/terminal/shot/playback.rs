@@ -39,14 +39,9 @@ impl Playback {
         self.speed = SPEEDS.iter().position(|known| *known == speed).unwrap_or(self.speed);
     }
 
-    /// The next higher speed.
-    pub fn faster(&mut self) {
-        self.speed = (self.speed + 1).min(SPEEDS.len() - 1);
-    }
-
-    /// The next lower speed.
-    pub fn slower(&mut self) {
-        self.speed = self.speed.saturating_sub(1);
+    /// The next higher speed, or the next lower one where negative.
+    pub fn change_speed(&mut self, steps: isize) {
+        self.speed = self.speed.saturating_add_signed(steps).min(SPEEDS.len() - 1);
     }
 
     /// Plays, or pauses; at the end it plays from the start.
@@ -93,16 +88,14 @@ impl Playback {
         self.playing = playing && time < duration;
     }
 
-    /// Pauses at the first event after now, or at the end.
-    pub fn step_forward(&mut self, events: &[Event], duration: f64) {
-        let next = events.iter().find(|event| event.time > self.time);
-        self.jump(next.map_or(duration, |event| event.time));
-    }
-
-    /// Pauses at the last event before now, or at the stroke.
-    pub fn step_back(&mut self, events: &[Event]) {
-        let before = events.iter().rfind(|event| event.time < self.time);
-        self.jump(before.map_or(0.0, |event| event.time));
+    /// Pauses at the first event after now, or at the end; where `steps` is negative at the last event before, or at the stroke.
+    pub fn step(&mut self, steps: isize, events: &[Event], duration: f64) {
+        let (found, end) = if steps > 0 {
+            (events.iter().find(|event| event.time > self.time), duration)
+        } else {
+            (events.iter().rfind(|event| event.time < self.time), 0.0)
+        };
+        self.jump(found.map_or(end, |event| event.time));
     }
 }
 
@@ -125,12 +118,12 @@ mod tests {
         let mut playback = Playback::default();
         let mut seen = Vec::new();
         for _ in 0..4 {
-            playback.step_forward(&events(), 2.0);
+            playback.step(1, &events(), 2.0);
             seen.push(playback.time);
         }
         assert_eq!(seen, [0.5, 1.25, 2.0, 2.0]);
         for _ in 0..4 {
-            playback.step_back(&events());
+            playback.step(-1, &events(), 2.0);
             seen.push(playback.time);
         }
         assert_eq!(seen[4..], [1.25, 0.5, 0.0, 0.0]);
@@ -141,7 +134,7 @@ mod tests {
     fn playing_ends_at_the_end_and_starts_again_from_the_stroke() {
         let mut playback = Playback::default();
         playback.toggle(2.0);
-        playback.faster();
+        playback.change_speed(1);
         playback.tick(0.6, 2.0);
         assert!(playback.playing && (playback.time - 1.2).abs() < 1e-12);
         playback.tick(0.6, 2.0);

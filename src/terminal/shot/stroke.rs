@@ -25,35 +25,6 @@ pub enum StrokeChange {
     Faster(f64),
 }
 
-impl StrokeChange {
-    /// What it does, where its key stands in a line with others.
-    pub const fn words(self) -> Option<&'static str> {
-        Some(match self {
-            Self::Turn(0.2) => "aim left by 0.2 degrees",
-            Self::Turn(-0.2) => "aim right by 0.2 degrees",
-            Self::Turn(5.0) => "aim left by 5 degrees",
-            Self::Turn(-5.0) => "aim right by 5 degrees",
-            Self::Turn(0.01) => "aim left by 0.01 degrees",
-            Self::Turn(-0.01) => "aim right by 0.01 degrees",
-            Self::Tip(0.5, 0.0) => "move the tip left by 0.5 mm",
-            Self::Tip(-0.5, 0.0) => "move the tip right by 0.5 mm",
-            Self::Tip(0.0, -0.5) => "move the tip down by 0.5 mm",
-            Self::Tip(0.0, 0.5) => "move the tip up by 0.5 mm",
-            Self::Tip(3.0, 0.0) => "move the tip left by 3 mm",
-            Self::Tip(-3.0, 0.0) => "move the tip right by 3 mm",
-            Self::Tip(0.0, -3.0) => "move the tip down by 3 mm",
-            Self::Tip(0.0, 3.0) => "move the tip up by 3 mm",
-            Self::Faster(0.1) => "strike harder by 0.1 m/s",
-            Self::Faster(-0.1) => "strike softer by 0.1 m/s",
-            Self::Faster(0.5) => "strike harder by 0.5 m/s",
-            Self::Faster(-0.5) => "strike softer by 0.5 m/s",
-            Self::Raise(1.0) => "raise the cue by 1 degree",
-            Self::Raise(-1.0) => "lower the cue by 1 degree",
-            _ => return None,
-        })
-    }
-}
-
 /// Why a stroke stays as it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("further out the tip would slip off the ball")]
@@ -153,27 +124,38 @@ macro_rules! stroke_keys {
         &[
             $($before,)*
             bind(Stroke, $when, &[key(Left, $action(Turn(0.2))), key(Right, $action(Turn(-0.2)))], Some(("aim", 2)),
-                "aim further to the left, to the right, by 0.2 degrees"),
+                "aim further to the left, to the right, by 0.2 degrees")
+                .each(&["aim left by 0.2 degrees", "aim right by 0.2 degrees"]),
             bind(Stroke, $when, &[(Chord::shift(Left), $action(Turn(5.0))), (Chord::shift(Right), $action(Turn(-5.0)))],
-                None, "aim further to the left, to the right, by 5 degrees"),
+                None, "aim further to the left, to the right, by 5 degrees")
+                .each(&["aim left by 5 degrees", "aim right by 5 degrees"]),
             bind(Stroke, $when, &[(Chord::ctrl(Left), $action(Turn(0.01))), (Chord::ctrl(Right), $action(Turn(-0.01)))],
-                None, "aim further to the left, to the right, by 0.01 degrees"),
+                None, "aim further to the left, to the right, by 0.01 degrees")
+                .each(&["aim left by 0.01 degrees", "aim right by 0.01 degrees"]),
             bind(Stroke, $when, &[letter('h', $action(Tip(0.5, 0.0))), letter('j', $action(Tip(0.0, -0.5))),
                 letter('k', $action(Tip(0.0, 0.5))), letter('l', $action(Tip(-0.5, 0.0)))], Some(("tip", 4)),
-                "move the tip to the left, down, up, to the right by 0.5 mm"),
+                "move the tip to the left, down, up, to the right by 0.5 mm").each(&[
+                "move the tip left by 0.5 mm", "move the tip down by 0.5 mm",
+                "move the tip up by 0.5 mm", "move the tip right by 0.5 mm",
+                ]),
             bind(Stroke, $when, &[letter('H', $action(Tip(3.0, 0.0))), letter('J', $action(Tip(0.0, -3.0))),
                 letter('K', $action(Tip(0.0, 3.0))), letter('L', $action(Tip(-3.0, 0.0)))], None,
-                "move the tip to the left, down, up, to the right by 3 mm"),
+                "move the tip to the left, down, up, to the right by 3 mm").each(&[
+                "move the tip left by 3 mm", "move the tip down by 3 mm",
+                "move the tip up by 3 mm", "move the tip right by 3 mm",
+                ]),
             bind(Stroke, $when, &[key(Down, $action(Faster(-0.1))), key(Up, $action(Faster(0.1)))], Some(("speed", 2)),
-                "strike softer, harder by 0.1 m/s"),
+                "strike softer, harder by 0.1 m/s").each(&["strike softer by 0.1 m/s", "strike harder by 0.1 m/s"]),
             bind(Stroke, $when, &[(Chord::shift(Down), $action(Faster(-0.5))), (Chord::shift(Up), $action(Faster(0.5)))],
-                None, "strike softer, harder by 0.5 m/s"),
+                None, "strike softer, harder by 0.5 m/s")
+                .each(&["strike softer by 0.5 m/s", "strike harder by 0.5 m/s"]),
             $($between,)*
             bind(Stroke, $when, &[key(Tab, $action(AimAtBall))], Some(("at a ball", 1)),
                 "aim full at the first object ball, then at the other"),
             bind(Stroke, $when, &[letter('0', $action(Centre))], None, "put the tip in the middle"),
             bind(Stroke, $when, &[letter('-', $action(Raise(-1.0))), letter('+', $action(Raise(1.0))),
-                letter('=', $action(Raise(1.0)))], None, "lower, raise the cue by 1 degree"),
+                letter('=', $action(Raise(1.0)))], None, "lower, raise the cue by 1 degree")
+                .each(&["lower the cue by 1 degree", "raise the cue by 1 degree"]),
             $($after,)*
         ]
     }};

@@ -101,7 +101,7 @@ impl Tasks {
                 coach.answer(&job, |answer| drop(to_screen.send(Event::Answer(answer))));
             }
         };
-        Ok(started(&mut self.coach, "coach", work)?.give(job))
+        Ok(started(&mut self.coach, || Worker::start("coach", work))?.give(job))
     }
 
     /// Starts to find out what is wanted now, and stops what is not wanted any more.
@@ -160,14 +160,11 @@ impl Tasks {
     /// As [`Tasks::train`].
     pub fn practise(&mut self, tasks: Vec<DrillTask>) -> io::Result<()> {
         for task in tasks {
+            let (to_screen, mut practice) = (self.to_screen.clone(), PracticeWorker::default());
             if matches!(task, DrillTask::Estimate(..)) {
-                let to_screen = self.to_screen.clone();
-                thread::Builder::new()
-                    .name("estimate".into())
-                    .spawn(move || PracticeWorker::default().work(task, &to_screen))?;
+                thread::Builder::new().name("estimate".into()).spawn(move || practice.work(task, &to_screen))?;
                 continue;
             }
-            let (to_screen, mut practice) = (self.to_screen.clone(), PracticeWorker::default());
             let is_closing = Arc::clone(&self.is_closing);
             let work = move |task: DrillTask| {
                 if task.writes() || !is_closing.load(Ordering::Relaxed) {
@@ -175,7 +172,7 @@ impl Tasks {
                 }
             };
             // A thread that has ended has sent its last report.
-            started(&mut self.practice, "practice", work)?.give(task);
+            started(&mut self.practice, || Worker::start("practice", work))?.give(task);
         }
         Ok(())
     }
@@ -188,7 +185,7 @@ impl Tasks {
         let (to_screen, mut file) = (self.to_screen.clone(), SettingsFile::default());
         // A screen that is gone needs no answer.
         let work = move |task| drop(to_screen.send(Event::Settings(file.run(&task))));
-        started(&mut self.settings, "settings", work)?.give(task);
+        started(&mut self.settings, || Worker::start("settings", work))?.give(task);
         Ok(())
     }
 
@@ -201,15 +198,12 @@ impl Tasks {
             let to_screen = self.to_screen.clone();
             // A screen that is gone needs no answer.
             let work = move |task: CalibrationTask| drop(to_screen.send(Event::Calibration(task.run())));
-            if task.writes() {
-                started(&mut self.kept, "calibration", work)?.give(task);
-                continue;
-            }
-            let known = match self.judged.take() {
-                Some(known) => known,
-                None => Worker::of_the_newest("calibrate", work)?,
+            let worker = if task.writes() {
+                started(&mut self.kept, || Worker::start("calibration", work))?
+            } else {
+                started(&mut self.judged, || Worker::of_the_newest("calibrate", work))?
             };
-            self.judged.insert(known).give(task);
+            worker.give(task);
         }
         Ok(())
     }
@@ -284,14 +278,10 @@ impl Tasks {
 ///
 /// # Errors
 /// A thread that could not be started.
-fn started<'a, T: Send + 'static>(
-    worker: &'a mut Option<Worker<T>>,
-    name: &str,
-    work: impl FnMut(T) + Send + 'static,
-) -> io::Result<&'a Worker<T>> {
+fn started<T>(worker: &mut Option<Worker<T>>, start: impl FnOnce() -> io::Result<Worker<T>>) -> io::Result<&Worker<T>> {
     let known = match worker.take() {
         Some(known) => known,
-        None => Worker::start(name, work)?,
+        None => start()?,
     };
     Ok(worker.insert(known))
 }

@@ -23,6 +23,13 @@ pub fn line_at(mark: usize, count: usize, area: Rect, y: u16) -> Option<usize> {
     shown(mark, count, area).find(|(_, row)| *row == y).map(|(line, _)| line)
 }
 
+/// Draws the sign of the mark at the beginning of a row, if it `is_marked`.
+pub fn draw_mark(is_marked: bool, x: u16, y: u16, ui: &mut Ui) {
+    if is_marked {
+        ui.buffer.set_string(x, y, ui.caps.pick("▸", ">"), ui.theme.accent());
+    }
+}
+
 /// A row of a list whose entries stand below headings.
 #[derive(Clone, Copy, Debug)]
 enum Row<T> {
@@ -77,9 +84,7 @@ impl<T> Grouped<T> {
                 }
                 Row::Entry(place, entry) => {
                     let is_marked = *place == self.mark;
-                    if is_marked {
-                        ui.buffer.set_string(area.x, y, ui.caps.pick("▸", ">"), ui.theme.accent());
-                    }
+                    draw_mark(is_marked, area.x, y, ui);
                     let row = Rect { x: area.x + 2, y, width: area.width.saturating_sub(2), height: 1 };
                     draw(entry, is_marked, row, ui);
                 }

@@ -69,8 +69,8 @@ fn draw_command(app: &App, command: &Command, is_marked: bool, area: Rect, ui: &
     let room = usize::from(area.width.saturating_sub(KEYS + 4));
     ui.buffer.set_stringn(area.x + 2, area.y, &command.keys, usize::from(KEYS), keys);
     ui.buffer.set_string(area.x + KEYS + 3, area.y, shorten(&text, room, ui.caps), words);
+    list::draw_mark(is_marked, area.x, area.y, ui);
     if is_marked {
-        ui.buffer.set_string(area.x, area.y, ui.caps.pick("▸", ">"), ui.theme.accent());
         ui.buffer.set_style(area, words.add_modifier(Modifier::REVERSED));
     }
 }

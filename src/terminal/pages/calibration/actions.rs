@@ -5,7 +5,10 @@ use crate::{
     table::PRESETS,
     terminal::{
         CalibrationAction as Action, CalibrationCondition as Condition, CalibrationTask, Effect,
-        pages::calibration::{CalibrationPage, Input, Side, form::Form, sheet::Back},
+        pages::{
+            Page,
+            calibration::{CalibrationPage, Input, Side, form::Form, sheet::Back},
+        },
         ui::{Message, TextField},
     },
 };
@@ -225,8 +228,7 @@ impl CalibrationPage {
         };
         if let Some(reason) = refused {
             self.input = Some(Input::Name(TextField::new(LONGEST).with(name)));
-            self.message = Some(Message::warning(format!("\"{name}\" {reason}")));
-            return None;
+            return self.refuse(format!("\"{name}\" {reason}"));
         }
         let mut table = found.table.clone();
         name.clone_into(&mut table.name);

@@ -6,8 +6,8 @@ use crossterm::event::KeyCode::{
 
 use crate::terminal::keymap::{
     Binding,
-    Section::{self, Calibration, Marks, Program},
-    bind, ctrl, key, letter, mark,
+    Section::{Calibration, Marks, Program},
+    bind, ctrl, key, letter,
 };
 
 use CalibrationAction as A;
@@ -111,14 +111,17 @@ pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Here, &[
         key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
         key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
-        ], Some(("test", 2)), "mark another test"),
-    bind(Calibration, W::Here, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page"),
+        ], Some(("test", 2)), "mark another test")
+        .each(&["mark the next test", "mark the test before", "mark the last test", "mark the first test"]),
+    bind(Calibration, W::Here, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page")
+        .each(&["mark a test ten on; of the values, the next page", "mark a test ten back; of the values, the page before"]),
     bind(Calibration, W::Here, &[key(Tab, A::Turn)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
     bind(Calibration, W::Here, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test of which one more stroke tells most"),
     bind(Calibration, W::Undo, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
     bind(Calibration, W::Stroke, &[letter('e', A::Amend)], Some(("amend", 1)), "change what was entered of the marked stroke"),
     bind(Calibration, W::Stroke, &[key(Left, A::Stroke(-1)), key(Right, A::Stroke(1)), letter('h', A::Stroke(-1)), letter('l', A::Stroke(1))],
-        Some(("stroke", 2)), "mark another stroke of the test"),
+        Some(("stroke", 2)), "mark another stroke of the test")
+        .each(&["mark the stroke of the test before", "mark the next stroke of the test"]),
     bind(Calibration, W::Stroke, &[key(Delete, A::TakeOut), key(Backspace, A::TakeOut)], Some(("take out", 1)), "take the marked stroke out"),
     bind(Calibration, W::Here, &[letter('x', A::LeaveOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
     bind(Calibration, W::Found, &[letter('s', A::Save)], Some(("save", 1)), "save the table under a name"),
@@ -133,7 +136,7 @@ pub const TESTS: &[Binding<A, W>] = &[
 pub const FORM: &[Binding<A, W>] = &[
     bind(Marks, W::Here, &[key(Enter, A::Yes)], Some(("next, keep", 1)), "go to the next mark; after the last one keep the stroke"),
     bind(Marks, W::Here, &[key(Down, A::Field(1)), key(Up, A::Field(-1)), key(Tab, A::Field(1)), key(BackTab, A::Field(-1))],
-        Some(("mark", 2)), "type another mark"),
+        Some(("mark", 2)), "type another mark").each(&["type the next mark", "type the mark before"]),
     bind(Marks, W::Here, &[ctrl('t', A::Tape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),
     bind(Marks, W::Here, &[ctrl('e', A::FarEnd)], Some(("far end", 1)), "this stroke was played from the far end, where the balls meet the other rails; again for your own"),
     bind(Marks, W::Here, &[key(Esc, A::No)], Some(("back", 1)), "leave the form; it is there again when the same stroke is entered"),
@@ -152,17 +155,3 @@ pub const QUESTION: &[Binding<A, W>] = &[
     bind(Calibration, W::Here, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
     bind(Calibration, W::Here, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
 ];
-
-/// The words of `action` by itself, where its binding does several things.
-pub const fn words(action: CalibrationAction, _: Section) -> Option<&'static str> {
-    Some(match action {
-        A::Line(lines) => return mark!(lines, "test"),
-        A::Page(1) => "mark a test ten on; of the values, the next page",
-        A::Page(-1) => "mark a test ten back; of the values, the page before",
-        A::Stroke(1) => "mark the next stroke of the test",
-        A::Stroke(-1) => "mark the stroke of the test before",
-        A::Field(1) => "type the next mark",
-        A::Field(-1) => "type the mark before",
-        _ => return None,
-    })
-}

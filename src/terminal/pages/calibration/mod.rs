@@ -11,8 +11,6 @@ mod view;
 
 use std::path::PathBuf;
 
-use ratatui::layout::Position;
-
 use self::{form::Form, sheet::Sheet};
 use crate::{
     calibration::beside,
@@ -21,8 +19,8 @@ use crate::{
     table::Table,
     terminal::{
         CalibrationContext, CalibrationReport, CalibrationTask, Effect, KeptEntries, StrokeDraft,
-        pages::{Page, PageArea, Target},
-        ui::{Message, TextField, Ui},
+        pages::Page,
+        ui::{Message, TextField},
     },
 };
 
@@ -227,14 +225,6 @@ impl CalibrationPage {
 }
 
 impl Page for CalibrationPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
-        view::draw(self, area, ui)
-    }
-
-    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
-        view::target(self, area, at)
-    }
-
     fn message_mut(&mut self) -> &mut Option<Message> {
         &mut self.message
     }

@@ -71,11 +71,9 @@ impl CoachPage {
         match action {
             // The keys are for colours.
             Action::Select(ball) => self.select(self.cue_ball().ordered([0, 1, 2])[ball]),
-            Action::SelectNext => self.select((self.selected + 1) % BALLS),
-            Action::SelectPrevious => self.select((self.selected + BALLS - 1) % BALLS),
+            Action::SelectOther(balls) => self.select((self.selected + BALLS).saturating_add_signed(balls) % BALLS),
             Action::Move(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
-            Action::LargerStep => self.choose_step(self.step + 1),
-            Action::SmallerStep => self.choose_step(self.step.saturating_sub(1)),
+            Action::Step(steps) => self.choose_step(self.step.saturating_add_signed(steps)),
             Action::TurnQuarters => {
                 self.quarters = !self.quarters;
                 self.say_step();
@@ -111,8 +109,7 @@ impl CoachPage {
             Action::TurnSideView => self.turn_side_view(),
             Action::TurnShown => self.turn_shown(),
             Action::NextView => self.view = self.view.next(),
-            Action::NextShot => self.choose(|advised| advised.turn(true)),
-            Action::PreviousShot => self.choose(|advised| advised.turn(false)),
+            Action::Shot(shots) => self.choose(|advised| advised.turn(shots)),
             Action::Show(shot) => self.choose(|advised| advised.show(shot)),
             Action::WhatIf => return self.take_over(),
             Action::LeaveStroke => self.leave_own_stroke(),
@@ -156,12 +153,10 @@ impl CoachPage {
         self.mode = Mode::Watching;
         match action {
             Action::PlayPause => self.playback.toggle(duration),
-            Action::NextEvent => self.playback.step_forward(&events, duration),
-            Action::PreviousEvent => self.playback.step_back(&events),
+            Action::Event(steps) => self.playback.step(steps, &events, duration),
             Action::ToStart => self.playback.jump(0.0),
             Action::ToEnd => self.playback.jump(duration),
-            Action::Faster => self.playback.faster(),
-            Action::Slower => self.playback.slower(),
+            Action::Pace(steps) => self.playback.change_speed(steps),
             _ => {}
         }
     }

@@ -71,9 +71,9 @@ impl AdviceState {
         self.chosen = shot.min(self.choices.len() - 1);
     }
 
-    /// Shows the next shot, or the one before; after the last comes the first.
-    pub fn turn(&mut self, forward: bool) {
+    /// Shows another shot, the next where positive; after the last comes the first.
+    pub fn turn(&mut self, shots: isize) {
         let count = self.choices.len();
-        self.chosen = (self.chosen + if forward { 1 } else { count - 1 }) % count;
+        self.chosen = (self.chosen + count).saturating_add_signed(shots) % count;
     }
 }

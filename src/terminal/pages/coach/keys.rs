@@ -5,7 +5,7 @@ use crossterm::event::KeyCode::{BackTab, Down, End, Enter, Esc, Home, Left, Righ
 use crate::terminal::{
     keymap::{
         Binding, Chord,
-        Section::{self, Balls, Program, Shot},
+        Section::{Balls, Program, Shot},
         bind, ctrl, key, letter,
     },
     shot::{StrokeChange, stroke::stroke_keys},
@@ -19,16 +19,12 @@ use CoachCondition as W;
 pub enum CoachAction {
     /// Selects a ball by its colour: white, yellow or red.
     Select(usize),
-    /// Selects the next ball.
-    SelectNext,
-    /// Selects the ball before.
-    SelectPrevious,
+    /// Selects another ball, the next where positive.
+    SelectOther(isize),
     /// Moves the selected ball: steps to the right and up, and how large a step is against the chosen one.
     Move(i8, i8, f64),
-    /// Chooses a larger step.
-    LargerStep,
-    /// Chooses a smaller step.
-    SmallerStep,
+    /// Chooses a larger step where positive, else a smaller one.
+    Step(isize),
     /// Chooses steps of quarter diamonds, or of millimetres again.
     TurnQuarters,
     /// Asks where the balls are to lie, to be typed or pasted.
@@ -49,18 +45,14 @@ pub enum CoachAction {
     Cancel,
     /// Plays or pauses the shot.
     PlayPause,
-    /// Steps to the next event.
-    NextEvent,
-    /// Steps to the event before.
-    PreviousEvent,
+    /// Steps to another event, the next where positive.
+    Event(isize),
     /// Goes to the stroke.
     ToStart,
     /// Goes to where the balls lie still.
     ToEnd,
-    /// Plays faster.
-    Faster,
-    /// Plays slower.
-    Slower,
+    /// Plays faster where positive, else slower.
+    Pace(isize),
     /// Leaves the shot, to move balls again.
     PlaceBalls,
     /// Takes the balls as the shot leaves them.
@@ -81,10 +73,8 @@ pub enum CoachAction {
     TurnSideView,
     /// Shows something else in the panels.
     NextView,
-    /// Shows the next of the shots that may be chosen.
-    NextShot,
-    /// Shows the one before.
-    PreviousShot,
+    /// Shows another of the shots that may be chosen, the next where positive.
+    Shot(isize),
     /// Shows one of them by its place in the list; no key does it, but the mouse.
     Show(usize),
     /// Takes the shot that is shown over into the player's own stroke.
@@ -201,12 +191,17 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled networks again, as at the start"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
-    bind(Shot, W::Choice, &[letter('[', A::PreviousShot), letter(']', A::NextShot)], Some(("shots", 2)),
-        "step through the shots that the coach lists"),
+    bind(Shot, W::Choice, &[letter('[', A::Shot(-1)), letter(']', A::Shot(1))], Some(("shots", 2)),
+        "step through the shots that the coach lists")
+        .each(&["show the one before of the coach's shots", "show the next of the coach's shots"]),
     bind(Shot, W::Watching, &[
-        key(Tab, A::SelectNext), key(BackTab, A::SelectPrevious), letter('1', A::Select(0)), letter('2', A::Select(1)),
+        key(Tab, A::SelectOther(1)), key(BackTab, A::SelectOther(-1)), letter('1', A::Select(0)), letter('2', A::Select(1)),
         letter('3', A::Select(2)), key(Esc, A::PlaceBalls), letter('e', A::PlaceBalls),
-        ], Some(("place", 1)), "back to placing the balls, with one of them selected; a click on a ball does it too"),
+        ], Some(("place", 1)), "back to placing the balls, with one of them selected; a click on a ball does it too").each(&[
+        "leave the shot and select the next ball", "leave the shot and select the ball before",
+        "leave the shot and select the white ball", "leave the shot and select the yellow ball",
+        "leave the shot and select the red ball", "leave the shot, back to placing the balls",
+        ]),
     bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
         "turn the panels: shot and balls, chances, margins and maps, plan").known_as("diamonds words"),
     bind(Shot, W::Shot, &[letter('w', A::WhatIf)], Some(("what if", 1)),
@@ -225,38 +220,56 @@ pub const COACH: &[Binding<A, W>] = &[
         key(Up, A::Move(0, 1, 1.0)), key(Right, A::Move(1, 0, 1.0)),
         letter('h', A::Move(-1, 0, 1.0)), letter('j', A::Move(0, -1, 1.0)),
         letter('k', A::Move(0, 1, 1.0)), letter('l', A::Move(1, 0, 1.0)),
-        ], Some(("move", 4)), "move the selected ball by one step"),
+        ], Some(("move", 4)), "move the selected ball by one step").each(&[
+        "move the ball left by one step", "move the ball down by one step",
+        "move the ball up by one step", "move the ball right by one step",
+        ]),
     bind(Balls, W::Placing, &[
         (Chord::shift(Left), A::Move(-1, 0, 10.0)), (Chord::shift(Down), A::Move(0, -1, 10.0)),
         (Chord::shift(Up), A::Move(0, 1, 10.0)), (Chord::shift(Right), A::Move(1, 0, 10.0)),
         letter('H', A::Move(-1, 0, 10.0)), letter('J', A::Move(0, -1, 10.0)),
         letter('K', A::Move(0, 1, 10.0)), letter('L', A::Move(1, 0, 10.0)),
-        ], None, "move the selected ball by ten steps"),
+        ], None, "move the selected ball by ten steps").each(&[
+        "move the ball left by ten steps", "move the ball down by ten steps",
+        "move the ball up by ten steps", "move the ball right by ten steps",
+        ]),
     bind(Balls, W::Placing, &[
         (Chord::ctrl(Left), A::Move(-1, 0, 0.1)), (Chord::ctrl(Down), A::Move(0, -1, 0.1)),
         (Chord::ctrl(Up), A::Move(0, 1, 0.1)), (Chord::ctrl(Right), A::Move(1, 0, 0.1)),
-        ], None, "move the selected ball by a tenth of a step"),
-    bind(Balls, W::Placing, &[letter('-', A::SmallerStep), letter('+', A::LargerStep), letter('=', A::LargerStep)],
-        Some(("step", 2)), "choose a smaller or larger step"),
+        ], None, "move the selected ball by a tenth of a step").each(&[
+        "move the ball left by a tenth of a step", "move the ball down by a tenth of a step",
+        "move the ball up by a tenth of a step", "move the ball right by a tenth of a step",
+        ]),
+    bind(Balls, W::Placing, &[letter('-', A::Step(-1)), letter('+', A::Step(1)), letter('=', A::Step(1))],
+        Some(("step", 2)), "choose a smaller or larger step").each(&["choose a smaller step", "choose a larger step"]),
     bind(Balls, W::Placing, &[letter('D', A::TurnQuarters)], None,
         "steps of quarter diamonds, or of millimetres again").known_as("snap grid"),
-    bind(Shot, W::Shot, &[letter(',', A::PreviousEvent), letter('.', A::NextEvent)],
-        Some(("event", 2)), "step from event to event"),
-    bind(Shot, W::Watching, &[key(Left, A::PreviousEvent), key(Right, A::NextEvent)], None,
-        "step from event to event while a shot is watched"),
-    bind(Shot, W::Watching, &[letter('-', A::Slower), letter('+', A::Faster), letter('=', A::Faster),
-        key(Down, A::Slower), key(Up, A::Faster)], Some(("speed", 2)), "play slower or faster"),
+    bind(Shot, W::Shot, &[letter(',', A::Event(-1)), letter('.', A::Event(1))],
+        Some(("event", 2)), "step from event to event")
+        .each(&["step to the event before", "step to the next event"]),
+    bind(Shot, W::Watching, &[key(Left, A::Event(-1)), key(Right, A::Event(1))], None,
+        "step from event to event while a shot is watched")
+        .each(&["step to the event before", "step to the next event"]),
+    bind(Shot, W::Watching, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
+        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], Some(("speed", 2)), "play slower or faster")
+        .each(&["play slower", "play faster"]),
     bind(Shot, W::Shot, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('0', A::ToStart), letter('$', A::ToEnd)],
-        None, "to the stroke, to the end"),
+        None, "to the stroke, to the end").each(&["to the stroke", "to the end of the shot"]),
     bind(Shot, W::Shot, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
         "go on with the balls as the shot leaves them, with the next shot of the plan"),
     bind(Balls, W::Idle, &[letter('p', A::TypePositions)], Some(("type", 1)),
         "type where the balls lie, in diamonds or metres, or a share code; pasting does it too")
         .known_as("position coordinates enter paste load import code diamonds"),
     bind(Shot, W::Idle, &[letter('R', A::NextRule), letter('S', A::NextSkill), letter('P', A::TurnPlan)],
-        Some(("rule, player, plan", 3)), "choose what counts, who plays, and whether the next point counts too"),
-    bind(Balls, W::Idle, &[key(Tab, A::SelectNext), key(BackTab, A::SelectPrevious), letter('1', A::Select(0)),
-        letter('2', A::Select(1)), letter('3', A::Select(2))], Some(("ball", 1)), "select a ball: white, yellow, red"),
+        Some(("rule, player, plan", 3)), "choose what counts, who plays, and whether the next point counts too").each(&[
+        "choose the rule: straight rail, one or three cushions", "choose the player: a level of skill",
+        "plan on or off: whether the next point counts too",
+        ]),
+    bind(Balls, W::Idle, &[key(Tab, A::SelectOther(1)), key(BackTab, A::SelectOther(-1)), letter('1', A::Select(0)),
+        letter('2', A::Select(1)), letter('3', A::Select(2))], Some(("ball", 1)), "select a ball: white, yellow, red").each(&[
+        "select the next ball", "select the ball before", "select the white ball", "select the yellow ball",
+        "select the red ball",
+        ]),
     bind(Balls, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
     bind(Balls, W::Redoable, &[letter('U', A::Redo), ctrl('r', A::Redo)], Some(("redo", 1)),
         "make a change again that was taken back"),
@@ -300,56 +313,13 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
         "take the last change of the stroke back"),
     bind(Stroke, W::StrokeUndone, &[letter('U', A::StrokeAgain), letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)],
         Some(("redo", 1)), "make a change of the stroke again that was taken back"),
-    bind(Stroke, W::Anytime, &[letter(',', A::PreviousEvent), letter('.', A::NextEvent)], Some(("event", 2)),
-        "step from event to event"),
+    bind(Stroke, W::Anytime, &[letter(',', A::Event(-1)), letter('.', A::Event(1))], Some(("event", 2)),
+        "step from event to event").each(&["step to the event before", "step to the next event"]),
 ], [
     bind(Stroke, W::Anytime, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('$', A::ToEnd)], None,
-        "to the stroke, to the end"),
-    bind(Stroke, W::Anytime, &[letter('<', A::Slower), letter('>', A::Faster)], None, "play slower or faster"),
+        "to the stroke, to the end").each(&["to the stroke", "to the end of the shot"]),
+    bind(Stroke, W::Anytime, &[letter('<', A::Pace(-1)), letter('>', A::Pace(1))], None, "play slower or faster")
+        .each(&["play slower", "play faster"]),
     bind(Stroke, W::Anytime, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
     bind(Program, W::Named, &[letter('F', A::TurnShown)], None, "let others follow your table (carom follow NAME), or no longer"),
 ]);
-
-/// The words of `action` by itself, where its binding does several things.
-pub const fn words(action: CoachAction, section: Section) -> Option<&'static str> {
-    Some(match action {
-        A::Stroke(change) => return change.words(),
-        A::Select(0) if matches!(section, Shot) => "leave the shot and select the white ball",
-        A::Select(1) if matches!(section, Shot) => "leave the shot and select the yellow ball",
-        A::Select(2) if matches!(section, Shot) => "leave the shot and select the red ball",
-        A::SelectNext if matches!(section, Shot) => "leave the shot and select the next ball",
-        A::SelectPrevious if matches!(section, Shot) => "leave the shot and select the ball before",
-        A::PlaceBalls => "leave the shot, back to placing the balls",
-        A::Select(0) => "select the white ball",
-        A::Select(1) => "select the yellow ball",
-        A::Select(2) => "select the red ball",
-        A::SelectNext => "select the next ball",
-        A::SelectPrevious => "select the ball before",
-        A::Move(-1, 0, 1.0) => "move the ball left by one step",
-        A::Move(1, 0, 1.0) => "move the ball right by one step",
-        A::Move(0, -1, 1.0) => "move the ball down by one step",
-        A::Move(0, 1, 1.0) => "move the ball up by one step",
-        A::Move(-1, 0, 10.0) => "move the ball left by ten steps",
-        A::Move(1, 0, 10.0) => "move the ball right by ten steps",
-        A::Move(0, -1, 10.0) => "move the ball down by ten steps",
-        A::Move(0, 1, 10.0) => "move the ball up by ten steps",
-        A::Move(-1, 0, 0.1) => "move the ball left by a tenth of a step",
-        A::Move(1, 0, 0.1) => "move the ball right by a tenth of a step",
-        A::Move(0, -1, 0.1) => "move the ball down by a tenth of a step",
-        A::Move(0, 1, 0.1) => "move the ball up by a tenth of a step",
-        A::LargerStep => "choose a larger step",
-        A::SmallerStep => "choose a smaller step",
-        A::NextEvent => "step to the next event",
-        A::PreviousEvent => "step to the event before",
-        A::ToStart => "to the stroke",
-        A::ToEnd => "to the end of the shot",
-        A::Faster => "play faster",
-        A::Slower => "play slower",
-        A::NextRule => "choose the rule: straight rail, one or three cushions",
-        A::NextSkill => "choose the player: a level of skill",
-        A::TurnPlan => "plan on or off: whether the next point counts too",
-        A::NextShot => "show the next of the coach's shots",
-        A::PreviousShot => "show the one before of the coach's shots",
-        _ => return None,
-    })
-}

@@ -124,8 +124,8 @@ pub struct CoachPage {
     pub is_in_numbers: bool,
     /// Whether all events are listed; else contacts only.
     pub has_all_events: bool,
-    /// From where the shot is looked at.
-    seen: side_view::Seen,
+    /// Whether a jump is shown from the side too.
+    is_from_side: bool,
     /// The units in which lengths are told.
     pub units: Units,
     /// The player's name, under which others can follow the table.
@@ -180,7 +180,7 @@ impl CoachPage {
             view: View::default(),
             is_in_numbers: false,
             has_all_events: false,
-            seen: side_view::Seen::default(),
+            is_from_side: false,
             units: Units::default(),
             player: None,
             company: Company::Alone,

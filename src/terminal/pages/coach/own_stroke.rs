@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use crate::terminal::{
     Effect, Job,
-    pages::coach::CoachPage,
+    pages::{Page, coach::CoachPage},
     shot::{
         OwnStroke, StrokeChange, WhatIf,
         what_if::{self, Scene},
     },
-    ui::Message,
 };
 
 /// Attempts at a stroke of the player's own where the coach's was not judged, since its search was stopped.
@@ -67,7 +66,7 @@ impl CoachPage {
         let mut stroke = self.compared.as_ref()?.stroke.clone();
         match stroke.change(change, &table, &layout) {
             Ok(()) => self.strike(stroke),
-            Err(error) => self.refuse(&error.to_string()),
+            Err(error) => self.refuse(error),
         }
     }
 
@@ -86,7 +85,7 @@ impl CoachPage {
         }
         self.compared = Some(compared);
         if let Err(error) = struck {
-            return self.refuse(&error.to_string());
+            return self.refuse(error);
         }
         self.watch_from_the_stroke();
         self.judge()
@@ -106,11 +105,6 @@ impl CoachPage {
         let job = self.job(None);
         let cancel = self.compared.as_mut()?.what_if.ask(job.id);
         Some(Effect::Ask(Box::new(Job { stroke: Some((cue, attempts)), seed, cancel, ..job })))
-    }
-
-    fn refuse(&mut self, sentence: &str) -> Option<Effect> {
-        self.message = Some(Message::warning(sentence));
-        None
     }
 
     fn scene(&self) -> Scene<'_> {

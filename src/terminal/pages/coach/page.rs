@@ -1,25 +1,15 @@
 //! What the app asks of this page.
 
-use ratatui::layout::Position;
-
-use super::{CoachPage, SPINNER_INTERVAL, view};
+use super::{CoachPage, SPINNER_INTERVAL};
 use crate::{
     table::CueBall,
     terminal::{
-        pages::{Page, PageArea, Target},
-        ui::{Message, TextField, Typed, Ui},
+        pages::Page,
+        ui::{Message, TextField, Typed},
     },
 };
 
 impl Page for CoachPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
-        view::draw(self, area, ui)
-    }
-
-    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
-        view::target(self, area, at)
-    }
-
     fn message_mut(&mut self) -> &mut Option<Message> {
         &mut self.message
     }

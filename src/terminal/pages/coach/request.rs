@@ -12,7 +12,7 @@ use crate::{
     terminal::{
         Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot, Terms,
         pages::{
-            after,
+            Page, after,
             coach::{CoachPage, Position},
             next_skill,
         },
@@ -199,8 +199,7 @@ impl CoachPage {
         let choice = self.advised()?.choice();
         let (end, next) = (choice.proposal.shot.recording.final_layout(), choice.next.clone());
         if let Err(error) = end.validate(self.table()) {
-            self.message = Some(Message::warning(error.to_string()));
-            return None;
+            return self.refuse(error);
         }
         self.place(end);
         let Some(next) = next else { return Some(self.ask()) };

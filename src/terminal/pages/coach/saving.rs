@@ -7,7 +7,10 @@ use crate::{
     table::PRESETS,
     terminal::{
         DrillTask, Effect,
-        pages::coach::{CoachPage, keys::QuestionContext},
+        pages::{
+            Page,
+            coach::{CoachPage, keys::QuestionContext},
+        },
         ui::{Message, TextField},
     },
 };
@@ -100,8 +103,7 @@ impl CoachPage {
                 Err(sentence) => {
                     // What was typed stays, to be mended.
                     self.saving.question = Some(Question::Title(typed, position));
-                    self.message = Some(Message::warning(sentence));
-                    return None;
+                    return self.refuse(sentence);
                 }
             },
         };

@@ -3,8 +3,11 @@
 use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
     terminal::{
-        DrillAction as Action, DrillCondition, DrillTask, Effect,
-        pages::drills::{Balls, DrillsPage, Question, Screen, Turn, question::LONGEST},
+        DrillAction as Action, DrillCondition, DrillContext, DrillTask, Effect,
+        pages::{
+            Page,
+            drills::{Balls, DrillsPage, Question, Turn, question::LONGEST},
+        },
         ui::{Message, TextField},
         words::skill_word,
     },
@@ -37,13 +40,13 @@ impl DrillsPage {
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.back(),
-            Action::Line(lines) if self.page() == Screen::Record => self.scroll_records(lines),
-            Action::Line(lines) if self.page() == Screen::Films => self.film.move_mark(lines),
+            Action::Line(lines) if self.page() == DrillContext::Record => self.scroll_records(lines),
+            Action::Line(lines) if self.page() == DrillContext::Films => self.film.move_mark(lines),
             Action::Line(lines) => self.catalogue.move_mark(lines),
             Action::OpenFilms => self.open_films(),
-            Action::Open if self.page() == Screen::Films => return self.open_film(0),
+            Action::Open if self.page() == DrillContext::Films => return self.open_film(0),
             Action::Filmed(shots) => return self.open_film(shots),
-            Action::PlayPause | Action::Event(_) | Action::Pace(_) if self.page() == Screen::Film => {
+            Action::PlayPause | Action::Event(_) | Action::Pace(_) if self.page() == DrillContext::Film => {
                 self.film.watch(action);
             }
             Action::Category(step) => self.catalogue.choose_category(step),
@@ -52,7 +55,7 @@ impl DrillsPage {
             Action::Search => self.question = Some(Question::Search(TextField::new(LONGEST))),
             Action::Open => return self.open_marked(),
             Action::Exam(level) => return self.begin_exam(level),
-            Action::BeginExam => self.pages = vec![Screen::Library, Screen::Exercise],
+            Action::BeginExam => self.pages = vec![DrillContext::Library, DrillContext::Exercise],
             Action::Record => return Some(self.open_records()),
             Action::Scope => self.records.toggle_scope(),
             Action::KeepSkill => {
@@ -76,7 +79,7 @@ impl DrillsPage {
     }
 
     fn back(&mut self) {
-        let is_exercise = self.page() == Screen::Exercise;
+        let is_exercise = self.page() == DrillContext::Exercise;
         let exam = self.turn.as_mut().filter(|turn| is_exercise && turn.is_exam() && !turn.session.is_over());
         if let Some(exam) = exam {
             exam.finish_watching();
@@ -85,7 +88,7 @@ impl DrillsPage {
         }
         self.pages.pop();
         self.film.playback.pause();
-        if self.page() == Screen::Library {
+        if self.page() == DrillContext::Library {
             let is_kept = self.turn.as_ref().is_some_and(Turn::is_under_way);
             self.leave_page();
             if is_kept {
@@ -100,7 +103,7 @@ impl DrillsPage {
         let is_left = self.is_left();
         self.leave_turn();
         if !is_left {
-            self.pages = vec![Screen::Library];
+            self.pages = vec![DrillContext::Library];
         }
     }
 
@@ -130,7 +133,7 @@ impl DrillsPage {
         match Turn::new(session) {
             Ok(Some(mut turn)) => {
                 turn.jumps = self.jumps;
-                self.pages = vec![Screen::Library, Screen::Exercise];
+                self.pages = vec![DrillContext::Library, DrillContext::Exercise];
                 return self.turn.insert(turn).ask();
             }
             Ok(None) => {}
@@ -145,29 +148,27 @@ impl DrillsPage {
             Ok(exercises) => {
                 let effect = self.begin(Goal::Exam, exercises);
                 // A page says first what comes; the key that chose the exam plays no stroke of it.
-                if self.page() == Screen::Exercise {
-                    self.pages = vec![Screen::Library, Screen::Exam(level)];
+                if self.page() == DrillContext::Exercise {
+                    self.exam_level = level;
+                    self.pages = vec![DrillContext::Library, DrillContext::Exam];
                 }
                 Some(effect)
             }
-            Err(error) => {
-                self.message = Some(Message::warning(error.to_string()));
-                None
-            }
+            Err(error) => self.refuse(error),
         }
     }
 
     /// Opens the page of a filmed shot, so many after the marked one, and has its stroke fitted.
     fn open_film(&mut self, shots: isize) -> Option<Effect> {
         let filmed = self.film.begin(shots)?;
-        if self.page() != Screen::Film {
-            self.pages.push(Screen::Film);
+        if self.page() != DrillContext::Film {
+            self.pages.push(DrillContext::Film);
         }
         Some(Effect::Drill(vec![DrillTask::Film(Box::new(filmed))]))
     }
 
     fn open_records(&mut self) -> Effect {
-        self.pages.push(Screen::Record);
+        self.pages.push(DrillContext::Record);
         let name = self.turn.as_ref().filter(|turn| !turn.is_exam()).map(|turn| turn.exercise.name.clone());
         self.records.open(name);
         // Another program may have noted something.
@@ -189,10 +190,7 @@ impl DrillsPage {
                 )));
                 Some(Effect::Copy(code))
             }
-            Err(error) => {
-                self.message = Some(Message::warning(error.to_string()));
-                None
-            }
+            Err(error) => self.refuse(error),
         }
     }
 
@@ -242,8 +240,7 @@ impl DrillsPage {
             Err(sentence) => {
                 // What was typed stays, to be mended.
                 self.question = Some(question);
-                self.message = Some(Message::warning(sentence));
-                None
+                self.refuse(sentence)
             }
         }
     }

@@ -62,10 +62,8 @@ impl FilmsScreen {
         let Some(scene) = &self.scene else { return };
         let (events, duration) = (scene.shot.recording.events(), scene.replay.duration());
         match action {
-            DrillAction::Event(step) if step > 0 => self.playback.step_forward(events, duration),
-            DrillAction::Event(_) => self.playback.step_back(events),
-            DrillAction::Pace(step) if step > 0 => self.playback.faster(),
-            DrillAction::Pace(_) => self.playback.slower(),
+            DrillAction::Event(steps) => self.playback.step(steps, events, duration),
+            DrillAction::Pace(steps) => self.playback.change_speed(steps),
             _ => self.playback.toggle(duration),
         }
     }

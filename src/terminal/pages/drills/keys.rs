@@ -5,8 +5,8 @@ use crossterm::event::KeyCode::{BackTab, Delete, Down, Enter, Esc, Left, PageDow
 use crate::terminal::{
     keymap::{
         Binding,
-        Section::{self, Film, Library, Position, Program, Record, Score},
-        bind, ctrl, key, letter, lines, mark,
+        Section::{Film, Library, Position, Program, Record, Score},
+        bind, ctrl, key, letter, lines, marks,
     },
     shot::{StrokeChange, stroke::stroke_keys},
 };
@@ -193,20 +193,28 @@ const BACK: Binding<A, W> = bind(Program, W::Here, &[key(Esc, A::Back)], Some(("
 #[rustfmt::skip]
 pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Library, W::Marked, &[key(Enter, A::Open)], Some(("practise", 1)), "open the marked exercise"),
-    bind(Library, W::Marked, lines!(A::Line), Some(("choose", 2)), "mark another exercise"),
+    bind(Library, W::Marked, lines!(A::Line), Some(("choose", 2)), "mark another exercise").each(marks!("exercise")),
     bind(Library, W::Here, &[key(Left, A::Category(-1)), key(Right, A::Category(1)), key(BackTab, A::Category(-1)),
-        key(Tab, A::Category(1))], Some(("category", 2)), "list another category"),
+        key(Tab, A::Category(1))], Some(("category", 2)), "list another category")
+        .each(&["list the category before", "list the next category"]),
     bind(Library, W::Here, &[letter('/', A::Search)], Some(("find", 1)), "find words in titles, points and tags")
         .known_as("diamonds systems banks"),
     bind(Library, W::Filtered, &[letter('0', A::All)], Some(("all", 1)), "list everything again"),
     bind(Library, W::Here, &[letter('e', A::Exam(1)), letter('E', A::Exam(2)), letter('X', A::Exam(3))], Some(("exam", 1)),
-        "an exam of 20 exercises, one attempt each: of grade 1 to 3, 2 to 4, 3 to 5"),
+        "an exam of 20 exercises, one attempt each: of grade 1 to 3, 2 to 4, 3 to 5").each(&[
+        "an exam of grade 1 to 3: 20 exercises, one attempt each", "an exam of grade 2 to 4: 20 exercises, one attempt each",
+        "an exam of grade 3 to 5: 20 exercises, one attempt each",
+        ]),
     bind(Library, W::Here, &[letter('p', A::Player)], Some(("player", 1)), "choose the player whose errors are played"),
     bind(Library, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of all exercises, and the skill that it shows"),
     bind(Library, W::Here, &[
         letter('1', A::Grade(1)), letter('2', A::Grade(2)), letter('3', A::Grade(3)), letter('4', A::Grade(4)),
         letter('5', A::Grade(5)),
-        ], None, "list one grade alone, 1 the easiest; once more lists all"),
+        ], None, "list one grade alone, 1 the easiest; once more lists all").each(&[
+        "list grade 1 alone, the easiest; once more lists all", "list grade 2 alone; once more lists all",
+        "list grade 3 alone; once more lists all", "list grade 4 alone; once more lists all",
+        "list grade 5 alone, the hardest; once more lists all",
+        ]),
     bind(Library, W::Marked, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Library, W::Marked, &[letter('y', A::Share)], Some(("share", 1)), "show the exercise as a code of one line, and copy it")
         .known_as("export clipboard"),
@@ -222,7 +230,8 @@ pub const LIBRARY: &[Binding<A, W>] = &[
 pub const SEARCH: &[Binding<A, W>] = &[
     bind(Library, W::Here, &[key(Enter, A::Yes)], Some(("choose from these", 1)), "choose from what is found"),
     bind(Library, W::Here, &[key(Esc, A::No)], Some(("all", 1)), "list everything again"),
-    bind(Library, W::Marked, &[key(Down, A::Line(1)), key(Up, A::Line(-1))], None, "mark another exercise"),
+    bind(Library, W::Marked, &[key(Down, A::Line(1)), key(Up, A::Line(-1))], None, "mark another exercise")
+        .each(&["mark the next exercise", "mark the exercise before"]),
 ];
 
 /// What comes in an exam.
@@ -239,7 +248,8 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)), "the next repetition, or the next exercise of an exam"),
     bind(Stroke, W::Watching, &[letter(' ', A::PlayPause)], Some(("replay", 1)), "play and pause the shot"),
     bind(Stroke, W::Watching, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
-        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], None, "play slower or faster"),
+        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], None, "play slower or faster")
+        .each(&["play slower", "play faster"]),
     bind(Stroke, W::Aiming, &[letter(' ', A::Play), key(Enter, A::Play)], Some(("play", 1)),
         "play the stroke, with the player's errors"),
 ], [
@@ -250,18 +260,23 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
          with a hint").known_as("adopt compare try hint"),
     bind(Stroke, W::Here, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
     bind(Stroke, W::Here, &[key(PageDown, A::TurnText(1)), key(PageUp, A::TurnText(-1))], None,
-        "turn the pages of a text that is longer than its room"),
+        "turn the pages of a text that is longer than its room").each(&[
+        "the next page of a text that is longer than its room", "the page before of a text that is longer than its room",
+        ]),
     bind(Score, W::Restart, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/miss", 2)),
-        "note a point, a miss at a real table; nothing is played here"),
+        "note a point, a miss at a real table; nothing is played here").each(&[
+        "note a point at a real table; nothing is played here", "note a miss at a real table; nothing is played here",
+        ]),
     bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
     bind(Score, W::Restart, &[letter('o', A::Goal)], Some(("goal", 1)),
         "free repetition, a run of points, a game that plays on from where the balls stop, or a match of two sides"),
     bind(Position, W::Restart, &[letter('x', A::Shift)], Some(("shift", 1)),
         "shift the balls by half a ball at each repetition, or not"),
     bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
-        "a shorter or longer goal"),
+        "a shorter or longer goal").each(&["a shorter goal", "a longer goal"]),
     bind(Stroke, W::Watching, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
-        key(Right, A::Event(1))], Some(("event", 2)), "step from event to event"),
+        key(Right, A::Event(1))], Some(("event", 2)), "step from event to event")
+        .each(&["step to the event before", "step to the next event"]),
 ], [
     bind(Stroke, W::StrokeChanged, &[letter('z', A::StrokeBack)], None, "take the last change of the stroke back"),
     bind(Stroke, W::StrokeUndone, &[letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)], None,
@@ -285,7 +300,9 @@ pub const RESULT: &[Binding<A, W>] = &[
 pub const RECORD: &[Binding<A, W>] = &[
     bind(Record, W::OfExercise, &[letter('a', A::Scope)], Some(("all or one", 1)), "the record of all exercises, or of this one"),
     bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as my skill, and play with it"),
-    bind(Record, W::Here, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))], Some(("scroll", 2)), "earlier sessions"),
+    bind(Record, W::Here, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))], Some(("scroll", 2)), "earlier sessions").each(&[
+        "earlier sessions, by one line", "later sessions, by one line", "earlier sessions, by ten lines", "later sessions, by ten lines",
+        ]),
     BACK,
 ];
 
@@ -293,7 +310,7 @@ pub const RECORD: &[Binding<A, W>] = &[
 #[rustfmt::skip]
 pub const FILMS: &[Binding<A, W>] = &[
     bind(Film, W::Here, &[key(Enter, A::Open)], Some(("watch", 1)), "watch the marked shot"),
-    bind(Film, W::Here, lines!(A::Line), Some(("choose", 2)), "mark another shot"),
+    bind(Film, W::Here, lines!(A::Line), Some(("choose", 2)), "mark another shot").each(marks!("shot")),
     BACK,
 ];
 
@@ -302,11 +319,13 @@ pub const FILMS: &[Binding<A, W>] = &[
 pub const FILM: &[Binding<A, W>] = &[
     bind(Film, W::Filmed, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
     bind(Film, W::Filmed, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
-        key(Right, A::Event(1))], Some(("event", 2)), "step from event to event"),
+        key(Right, A::Event(1))], Some(("event", 2)), "step from event to event")
+        .each(&["step to the event before", "step to the next event"]),
     bind(Film, W::Filmed, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
-        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], Some(("speed", 2)), "play slower or faster"),
+        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], Some(("speed", 2)), "play slower or faster")
+        .each(&["play slower", "play faster"]),
     bind(Film, W::Here, &[letter('[', A::Filmed(-1)), letter(']', A::Filmed(1))], Some(("other shot", 2)),
-        "watch the shot before, the next shot"),
+        "watch the shot before, the next shot").each(&["watch the shot before", "watch the next shot"]),
     BACK,
 ];
 
@@ -323,43 +342,3 @@ pub const TEXT: &[Binding<A, W>] = &[
     bind(Program, W::Here, &[key(Enter, A::Yes)], Some(("take it", 1)), "take what is typed"),
     bind(Program, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave all as it is"),
 ];
-
-/// The words of `action` by itself, where its binding does several things.
-pub const fn words(action: DrillAction, section: Section) -> Option<&'static str> {
-    Some(match action {
-        A::Stroke(change) => return change.words(),
-        A::Line(lines) => {
-            return match (section, lines) {
-                (Section::Record, 1) => Some("earlier sessions, by one line"),
-                (Section::Record, -1) => Some("later sessions, by one line"),
-                (Section::Record, 10) => Some("earlier sessions, by ten lines"),
-                (Section::Record, -10) => Some("later sessions, by ten lines"),
-                (Section::Film, _) => mark!(lines, "shot"),
-                _ => mark!(lines, "exercise"),
-            };
-        }
-        A::Category(1) => "list the next category",
-        A::Category(-1) => "list the category before",
-        A::Grade(1) => "list grade 1 alone, the easiest; once more lists all",
-        A::Grade(2) => "list grade 2 alone; once more lists all",
-        A::Grade(3) => "list grade 3 alone; once more lists all",
-        A::Grade(4) => "list grade 4 alone; once more lists all",
-        A::Grade(5) => "list grade 5 alone, the hardest; once more lists all",
-        A::Exam(1) => "an exam of grade 1 to 3: 20 exercises, one attempt each",
-        A::Exam(2) => "an exam of grade 2 to 4: 20 exercises, one attempt each",
-        A::Exam(3) => "an exam of grade 3 to 5: 20 exercises, one attempt each",
-        A::TurnText(1) => "the next page of a text that is longer than its room",
-        A::TurnText(-1) => "the page before of a text that is longer than its room",
-        A::Event(1) => "step to the next event",
-        A::Event(-1) => "step to the event before",
-        A::Pace(1) => "play faster",
-        A::Pace(-1) => "play slower",
-        A::Filmed(1) => "watch the next shot",
-        A::Filmed(-1) => "watch the shot before",
-        A::Log(true) => "note a point at a real table; nothing is played here",
-        A::Log(false) => "note a miss at a real table; nothing is played here",
-        A::Count(1) => "a longer goal",
-        A::Count(-1) => "a shorter goal",
-        _ => return None,
-    })
-}

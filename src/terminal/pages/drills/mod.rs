@@ -17,10 +17,6 @@ mod turn_actions;
 mod view;
 mod watched;
 
-use rand::{RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
-use ratatui::layout::Position;
-
 use crate::{
     coach::{Skill, Units},
     drills::{Goal, Library, Session},
@@ -29,10 +25,12 @@ use crate::{
     table::{CueBall, Layout, Table},
     terminal::{
         DrillContext, DrillTask, Effect, Settings,
-        pages::{Page, PageArea, Target, drills::film::FilmsScreen, next_skill},
-        ui::{Message, TextField, Typed, Ui},
+        pages::{Page, drills::film::FilmsScreen, next_skill},
+        ui::{Message, TextField, Typed},
     },
 };
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub use book::{Book, record_of};
 pub use catalogue::Catalogue;
@@ -41,25 +39,6 @@ pub use records::{Estimate, Records};
 pub use sight::{Meets, Sight};
 pub use turn::{Lesson, Stage, Turn};
 pub use watched::Watched;
-
-/// A page of the drill screens.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Screen {
-    /// The list of exercises.
-    Library,
-    /// What comes in an exam of this level that is about to begin.
-    Exam(u8),
-    /// An exercise.
-    Exercise,
-    /// The result of an exam.
-    Result,
-    /// A record.
-    Record,
-    /// The list of filmed shots.
-    Films,
-    /// A filmed shot that is watched.
-    Film,
-}
 
 /// Who plays.
 #[derive(Clone, Copy, Debug)]
@@ -129,8 +108,10 @@ pub struct DrillsPage {
     pub units: Units,
     options: RepetitionOptions,
     for_coach: Option<Balls>,
+    /// The level of the exam that was chosen last.
+    exam_level: u8,
     /// The pages one has come through; the last one is open.
-    pages: Vec<Screen>,
+    pages: Vec<DrillContext>,
     /// An exam that was left before its end.
     left_exam: Option<Session>,
     /// Runs, games and matches that were left before their end, one an exercise; opening that goes on with it.
@@ -157,6 +138,7 @@ impl DrillsPage {
             units: Units::default(),
             options: RepetitionOptions { goal: Goal::Free, shifted: false },
             for_coach: None,
+            exam_level: 0,
             pages: Vec::new(),
             left_exam: None,
             left: Vec::new(),
@@ -182,7 +164,7 @@ impl DrillsPage {
             tasks.extend(self.change_player());
         }
         if self.pages.is_empty() {
-            self.pages.push(Screen::Library);
+            self.pages.push(DrillContext::Library);
         }
         Effect::Drill(tasks)
     }
@@ -201,7 +183,7 @@ impl DrillsPage {
         tasks.extend(self.practise(session));
         // A damaged one has no page.
         if self.pages.is_empty() {
-            self.pages.push(Screen::Library);
+            self.pages.push(DrillContext::Library);
         }
         Effect::Drill(tasks)
     }
@@ -230,8 +212,8 @@ impl DrillsPage {
     }
 
     /// The page that is open.
-    pub fn page(&self) -> Screen {
-        self.pages.last().copied().unwrap_or(Screen::Library)
+    pub fn page(&self) -> DrillContext {
+        self.pages.last().copied().unwrap_or(DrillContext::Library)
     }
 
     /// The key context: the page's, or that of a question on it.
@@ -240,20 +222,7 @@ impl DrillsPage {
             Some(Question::Search(_)) => DrillContext::Search,
             Some(Question::Code(_)) => DrillContext::Text,
             Some(_) => DrillContext::Question,
-            None => self.page_place(),
-        }
-    }
-
-    /// The page's own keys, whatever is asked.
-    pub fn page_place(&self) -> DrillContext {
-        match self.page() {
-            Screen::Library => DrillContext::Library,
-            Screen::Exam(_) => DrillContext::Exam,
-            Screen::Exercise => DrillContext::Exercise,
-            Screen::Result => DrillContext::Result,
-            Screen::Record => DrillContext::Record,
-            Screen::Films => DrillContext::Films,
-            Screen::Film => DrillContext::Film,
+            None => self.page(),
         }
     }
 
@@ -278,7 +247,7 @@ impl DrillsPage {
                 self.left.push(turn.newest().clone());
             }
         }
-        self.pages.retain(|page| *page == Screen::Library);
+        self.pages.retain(|page| *page == DrillContext::Library);
     }
 
     /// Who plays in the exercise that is open, or would in another: an exam stays with whom it was begun.
@@ -289,22 +258,14 @@ impl DrillsPage {
     /// Opens the list of filmed shots.
     pub fn open_films(&mut self) {
         self.film.playback.pause();
-        if !matches!(self.page(), Screen::Films) {
-            self.pages.retain(|page| !matches!(page, Screen::Films | Screen::Film));
-            self.pages.push(Screen::Films);
+        if !matches!(self.page(), DrillContext::Films) {
+            self.pages.retain(|page| !matches!(page, DrillContext::Films | DrillContext::Film));
+            self.pages.push(DrillContext::Films);
         }
     }
 }
 
 impl Page for DrillsPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
-        view::draw(self, area, ui)
-    }
-
-    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
-        view::target(self, area, at)
-    }
-
     fn message_mut(&mut self) -> &mut Option<Message> {
         &mut self.message
     }
@@ -326,7 +287,7 @@ impl Page for DrillsPage {
     }
 
     fn tick(&mut self, seconds: f64) {
-        if self.page() == Screen::Film {
+        if self.page() == DrillContext::Film {
             self.film.tick(seconds);
         } else if let Some(turn) = &mut self.turn {
             turn.tick(seconds);
@@ -335,8 +296,8 @@ impl Page for DrillsPage {
 
     fn frame_interval(&self) -> Option<f64> {
         let is_moving = match self.page() {
-            Screen::Exercise => self.turn.as_ref().is_some_and(Turn::is_moving),
-            Screen::Film => self.film.playback.playing,
+            DrillContext::Exercise => self.turn.as_ref().is_some_and(Turn::is_moving),
+            DrillContext::Film => self.film.playback.playing,
             _ => false,
         };
         is_moving.then_some(1.0 / 30.0)

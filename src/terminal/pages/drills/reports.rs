@@ -4,8 +4,11 @@ use crate::{
     coach::Skill,
     drills::{Attempt, Exercise, Library, Session},
     terminal::{
-        DrillReport, DrillTask, Loaded,
-        pages::drills::{Book, DrillsPage, Estimate, Question, Screen, Stage},
+        DrillContext, DrillReport, DrillTask, Loaded,
+        pages::{
+            Page,
+            drills::{Book, DrillsPage, Estimate, Question, Stage},
+        },
         ui::Message,
     },
 };
@@ -17,16 +20,13 @@ impl DrillsPage {
             DrillReport::Loaded(loaded) => {
                 self.loaded(*loaded);
                 let mut tasks = self.catch_up();
-                if self.page() == Screen::Record {
+                if self.page() == DrillContext::Record {
                     tasks.push(DrillTask::Estimate(self.records.ask(), self.book.shared()));
                 }
                 return tasks;
             }
             DrillReport::AdviceState(id, answer) => {
-                let taught = answer.unwrap_or_else(|sentence| {
-                    self.message = Some(Message::warning(sentence));
-                    None
-                });
+                let taught = answer.unwrap_or_else(|sentence| self.refuse(sentence));
                 if let Some(turn) = &mut self.turn {
                     turn.advised(id, taught);
                 }
@@ -129,7 +129,7 @@ impl DrillsPage {
     fn go_on_with(&mut self, stored: Session) -> Vec<DrillTask> {
         let Some(turn) = self.turn.as_mut().filter(|turn| turn.session.id == stored.id) else { return Vec::new() };
         if stored.is_exam() && stored.is_over() {
-            self.pages = vec![Screen::Library, Screen::Result];
+            self.pages = vec![DrillContext::Library, DrillContext::Result];
         }
         turn.go_on_with(stored)
     }

@@ -4,8 +4,8 @@ use crate::{
     coach::Skill,
     drills::{Attempt, Goal, Session, Venue},
     terminal::{
-        DrillAction as Action, DrillCondition as Condition, DrillTask, Effect, Taught,
-        pages::drills::{DrillsPage, Lesson, Question, Screen, Stage, Turn},
+        DrillAction as Action, DrillCondition as Condition, DrillContext, DrillTask, Effect, Taught,
+        pages::drills::{DrillsPage, Lesson, Question, Stage, Turn},
         shot::OwnStroke,
         ui::Message,
         words::skill_word,
@@ -224,7 +224,7 @@ impl DrillsPage {
         match next {
             Some((table, layout)) => turn.place(table, layout).then(|| Effect::Drill(turn.ask())),
             None if turn.is_exam() => {
-                self.pages = vec![Screen::Library, Screen::Result];
+                self.pages = vec![DrillContext::Library, DrillContext::Result];
                 None
             }
             None => some(self.restart(None)),
@@ -237,10 +237,9 @@ impl DrillsPage {
         let (events, duration) = (shot.recording.events(), shot.recording.duration());
         match action {
             Action::PlayPause => watched.playback.toggle(duration),
-            Action::Event(step) if step > 0 => watched.playback.step_forward(events, duration),
-            Action::Event(_) => watched.playback.step_back(events),
-            Action::Pace(step) if step > 0 => watched.playback.faster(),
-            _ => watched.playback.slower(),
+            Action::Event(steps) => watched.playback.step(steps, events, duration),
+            Action::Pace(steps) => watched.playback.change_speed(steps),
+            _ => {}
         }
         watched.settle();
     }

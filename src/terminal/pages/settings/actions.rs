@@ -9,8 +9,11 @@ use crate::{
         Change, Effect, Settings, SettingsAction as Action, SettingsCondition, SettingsContext as Page,
         config::{ENTRIES, Entry},
         keymap::Chord,
-        pages::settings::{Input, LONGEST, SettingsPage, TABLE},
-        ui::{Message, TextField},
+        pages::{
+            Page as _,
+            settings::{Input, LONGEST, SettingsPage, TABLE},
+        },
+        ui::TextField,
     },
 };
 
@@ -92,8 +95,7 @@ impl SettingsPage {
             }
         };
         let Some(next) = next.cloned() else {
-            self.message = Some(Message::warning(format!("{} = {now}; accepted is {}", entry.key, entry.accepted)));
-            return None;
+            return self.refuse(format!("{} = {now}; accepted is {}", entry.key, entry.accepted));
         };
         self.set(&next)
     }
@@ -118,10 +120,7 @@ impl SettingsPage {
                 let value = (entry.get)(&settings);
                 self.take(entry, &value.clone(), Change::Value(entry.key, value))
             }
-            Err(sentence) => {
-                self.message = Some(Message::warning(sentence));
-                None
-            }
+            Err(sentence) => self.refuse(sentence),
         }
     }
 
@@ -129,10 +128,7 @@ impl SettingsPage {
     fn take(&mut self, entry: &Entry, value: &str, change: Change) -> Option<Effect> {
         match self.settings.with(entry, value) {
             Ok(settings) => self.before = std::mem::replace(&mut self.settings, settings),
-            Err(sentence) => {
-                self.message = Some(Message::warning(sentence));
-                return None;
-            }
+            Err(sentence) => return self.refuse(sentence),
         }
         Some(self.task(Some(change)))
     }
@@ -145,7 +141,7 @@ impl SettingsPage {
                 return Some(self.give(chord));
             }
             Ok(chord) => self.input = Some(Input::Taken(chord)),
-            Err(sentence) => self.message = Some(Message::warning(sentence)),
+            Err(sentence) => return self.refuse(sentence),
         }
         None
     }

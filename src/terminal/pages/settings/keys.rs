@@ -4,8 +4,8 @@ use crossterm::event::KeyCode::{Backspace, Delete, Enter, Esc, Left, Right, Tab}
 
 use crate::terminal::keymap::{
     Binding,
-    Section::{self, OwnKeys, Program, Settings},
-    bind, key, letter, lines, mark,
+    Section::{OwnKeys, Program, Settings},
+    bind, key, letter, lines, marks,
 };
 
 use SettingsAction as A;
@@ -80,9 +80,10 @@ const BACK: Binding<A, W> =
 #[rustfmt::skip]
 pub const VALUES: &[Binding<A, W>] = &[
     bind(Settings, W::Here, &[key(Left, A::Value(-1)), key(Right, A::Value(1)), letter('h', A::Value(-1)), letter('l', A::Value(1))],
-        Some(("change", 2)), "take the value before, the next value"),
+        Some(("change", 2)), "take the value before, the next value")
+        .each(&["take the value before", "take the next value"]),
     bind(Settings, W::Here, &[key(Enter, A::Type)], Some(("type", 1)), "type a value"),
-    bind(Settings, W::Here, lines!(A::Line), Some(("choose", 2)), "mark another setting"),
+    bind(Settings, W::Here, lines!(A::Line), Some(("choose", 2)), "mark another setting").each(marks!("setting")),
     bind(Settings, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the default"),
     bind(Settings, W::Here, &[key(Tab, A::Turn)], Some(("keys", 1)), "to the keys"),
     BACK,
@@ -93,8 +94,9 @@ pub const VALUES: &[Binding<A, W>] = &[
 pub const KEYS: &[Binding<A, W>] = &[
     bind(OwnKeys, W::Here, &[key(Enter, A::Press)], Some(("new key", 1)), "choose a key for what is marked"),
     bind(OwnKeys, W::Here, &[key(Left, A::KeyContext(-1)), key(Right, A::KeyContext(1)), letter('h', A::KeyContext(-1)), letter('l', A::KeyContext(1))],
-        Some(("page", 2)), "list the keys of another page"),
-    bind(OwnKeys, W::Here, lines!(A::Line), Some(("choose", 2)), "mark something else"),
+        Some(("page", 2)), "list the keys of another page")
+        .each(&["list the keys of the page before", "list the keys of the next page"]),
+    bind(OwnKeys, W::Here, lines!(A::Line), Some(("choose", 2)), "mark something else").each(marks!("line")),
     bind(OwnKeys, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the keys that it has by default"),
     bind(OwnKeys, W::Here, &[key(Tab, A::Turn)], Some(("settings", 1)), "to the settings"),
     BACK,
@@ -119,16 +121,3 @@ pub const QUESTION: &[Binding<A, W>] = &[
     bind(OwnKeys, W::Here, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
     bind(OwnKeys, W::Here, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
 ];
-
-/// The words of `action` by itself, where its binding does several things.
-pub const fn words(action: SettingsAction, section: Section) -> Option<&'static str> {
-    Some(match action {
-        A::Line(lines) if matches!(section, Section::Settings) => return mark!(lines, "setting"),
-        A::Line(lines) => return mark!(lines, "line"),
-        A::Value(1) => "take the next value",
-        A::Value(-1) => "take the value before",
-        A::KeyContext(1) => "list the keys of the next page",
-        A::KeyContext(-1) => "list the keys of the page before",
-        _ => return None,
-    })
-}

@@ -10,16 +10,14 @@ mod view;
 
 use std::path::PathBuf;
 
-use ratatui::layout::Position;
-
 use crate::{
     storage::Places,
     terminal::{
         Change, Effect, Settings, SettingsContext, SettingsReport, SettingsTask,
         config::{ENTRIES, Entry, quoted},
         keymap::{Chord, KeyPage},
-        pages::{Page, PageArea, Target, settings::own_keys::OwnKeys},
-        ui::{Message, TextField, Ui},
+        pages::{Page, settings::own_keys::OwnKeys},
+        ui::{Message, TextField},
     },
 };
 
@@ -175,14 +173,6 @@ impl SettingsPage {
 }
 
 impl Page for SettingsPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
-        view::draw(self, area, ui)
-    }
-
-    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
-        view::target(self, area, at)
-    }
-
     fn message_mut(&mut self) -> &mut Option<Message> {
         &mut self.message
     }

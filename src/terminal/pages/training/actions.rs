@@ -10,7 +10,10 @@ use crate::{
     storage::is_name,
     terminal::{
         Effect, Keeping, Launch, TrainingAction as Action, TrainingCondition as Condition, TrainingContext,
-        pages::training::{Form, Question, TrainingPage, Watch, watch::Named},
+        pages::{
+            Page,
+            training::{Form, Question, TrainingPage, Watch, watch::Named},
+        },
         tasks::training::NO_POLICY,
         ui::Message,
     },
@@ -139,10 +142,7 @@ impl TrainingPage {
                 self.launched = Some((launch.folder.clone(), Instant::now()));
                 Some(Effect::Train(Box::new(launch)))
             }
-            Err(sentence) => {
-                self.message = Some(Message::warning(sentence));
-                None
-            }
+            Err(sentence) => self.refuse(sentence),
         }
     }
 
@@ -196,8 +196,7 @@ impl TrainingPage {
         let question = self.question.take()?;
         // Between the question and its answer the run may have ended.
         if let Some(reason) = self.disabled_reason(question.when()) {
-            self.message = Some(Message::warning(reason));
-            return None;
+            return self.refuse(reason);
         }
         let folder = self.watch.as_ref().map(|watch| watch.folder().to_owned());
         match question {
@@ -211,8 +210,7 @@ impl TrainingPage {
                     return Some(self.keep(name, false));
                 }
                 self.question = Some(Question::Name(typed));
-                self.message = Some(Message::warning(KeepError::Name(name).to_string()));
-                None
+                self.refuse(KeepError::Name(name))
             }
         }
     }

@@ -4,8 +4,8 @@ use crossterm::event::KeyCode::{BackTab, Backspace, Down, End, Enter, Esc, Left,
 
 use crate::terminal::keymap::{
     Binding,
-    Section::{self, Charts, Form, List, Program, Replay, Run},
-    bind, key, letter, lines, mark,
+    Section::{Charts, Form, List, Program, Replay, Run},
+    bind, key, letter, lines, marks,
 };
 
 use TrainingAction as A;
@@ -137,7 +137,8 @@ pub enum TrainingCondition {
 const BACK: Binding<A, W> = bind(Program, W::Here, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before");
 
 #[rustfmt::skip]
-const MARK: Binding<A, W> = bind(List, W::Marked, lines!(A::Line), Some(("choose", 2)), "mark another run");
+const MARK: Binding<A, W> = bind(List, W::Marked, lines!(A::Line), Some(("choose", 2)), "mark another run")
+    .each(marks!("run"));
 
 /// The list of runs.
 #[rustfmt::skip]
@@ -162,11 +163,26 @@ pub const COMPARE: &[Binding<A, W>] = &[
 pub const FORM: &[Binding<A, W>] = &[
     bind(Form, W::Here, &[key(Enter, A::Start)], Some(("start", 1)), "start the run"),
     bind(Form, W::Here, &[key(Down, A::Field(1)), key(Up, A::Field(-1)), key(Tab, A::Field(1)), key(BackTab, A::Field(-1))],
-        Some(("field", 2)), "go to another field"),
+        Some(("field", 2)), "go to another field").each(&["go to the next field", "go to the field before"]),
     bind(Form, W::Here, &[key(Left, A::Value(-1)), key(Right, A::Value(1))], Some(("value", 2)),
-        "choose a value; numbers can be typed as well"),
+        "choose a value; numbers can be typed as well").each(&[
+        "choose the value before; numbers can be typed as well", "choose the next value; numbers can be typed as well",
+        ]),
     bind(Form, W::Here, &[key(Backspace, A::Erase)], None, "take a digit back"),
     BACK,
+];
+
+/// What the keys of the charts do, in the order of the quantities.
+const SHOW: &[&str] = &[
+    "show or hide the mean reward",
+    "show or hide the mean Q-value",
+    "show or hide the critic loss",
+    "show or hide the held-out success",
+    "show or hide the actor loss",
+    "show or hide the best-of-k success",
+    "show or hide the shots a second",
+    "show or hide the updates a second",
+    "show or hide the exploration",
 ];
 
 /// A run that is watched.
@@ -181,22 +197,25 @@ pub const WATCH: &[Binding<A, W>] = &[
     bind(Charts, W::Charts, &[key(Enter, A::Enlarge), letter('z', A::Enlarge)], Some(("enlarge", 1)),
         "enlarge the selected chart, and back"),
     bind(Charts, W::Charts, &[letter('+', A::Zoom(1)), letter('-', A::Zoom(-1)), letter('=', A::Zoom(1))],
-        Some(("zoom", 2)), "show fewer shots, or more"),
-    bind(Charts, W::Charts, &[key(Tab, A::Chart(1)), key(BackTab, A::Chart(-1))], Some(("chart", 1)), "select a chart"),
+        Some(("zoom", 2)), "show fewer shots, or more").each(&["show fewer shots", "show more shots"]),
+    bind(Charts, W::Charts, &[key(Tab, A::Chart(1)), key(BackTab, A::Chart(-1))], Some(("chart", 1)), "select a chart")
+        .each(&["select the next chart", "select the chart before"]),
     bind(Charts, W::Charts, &[letter('l', A::Log)], Some(("log", 1)), "logarithmic scale for the selected chart"),
     bind(Charts, W::Charts, &[letter('s', A::Smooth)], Some(("smooth", 1)), "smooth over 1, 3 or 10 % of what is shown, or not"),
     bind(Charts, W::Here, &[
         letter('1', A::Show(0)), letter('2', A::Show(1)), letter('3', A::Show(2)), letter('4', A::Show(3)),
         letter('5', A::Show(4)), letter('6', A::Show(5)), letter('7', A::Show(6)), letter('8', A::Show(7)),
         letter('9', A::Show(8)),
-        ], None, "show or hide the chart of a quantity, see below"),
-    bind(Charts, W::Zoomed, &[key(Left, A::Pan(-1)), key(Right, A::Pan(1))], Some(("pan", 2)), "show earlier shots, or later ones"),
+        ], None, "show or hide the chart of a quantity, see below").each(SHOW),
+    bind(Charts, W::Zoomed, &[key(Left, A::Pan(-1)), key(Right, A::Pan(1))], Some(("pan", 2)), "show earlier shots, or later ones")
+        .each(&["show earlier shots", "show later shots"]),
     bind(Charts, W::Zoomed, &[letter('0', A::All)], None, "show all of the run"),
     bind(Charts, W::Zoomed, &[key(End, A::Follow)], None, "follow the end of the run"),
     bind(Run, W::HasPolicy, &[letter('k', A::Keep)], Some(("keep", 1)), "keep these networks under a name"),
     bind(Run, W::AtWork, &[letter('A', A::Abandon)], None, "end a run at work and delete it; asks first"),
     bind(Replay, W::Shots, &[letter(' ', A::Play)], Some(("replay", 1)), "play and pause the latest shots on held-out layouts"),
-    bind(Replay, W::Shots, &[letter(',', A::Shot(-1)), letter('.', A::Shot(1))], None, "the shot before, the next shot"),
+    bind(Replay, W::Shots, &[letter(',', A::Shot(-1)), letter('.', A::Shot(1))], None, "the shot before, the next shot")
+        .each(&["the shot before", "the next shot"]),
     BACK,
 ];
 
@@ -214,35 +233,6 @@ pub const NAME: &[Binding<A, W>] = &[
     bind(Run, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "do not keep them"),
 ];
 
-/// The words of `action` by itself, where its binding does several things.
-pub const fn words(action: TrainingAction, _section: Section) -> Option<&'static str> {
-    Some(match action {
-        A::Line(lines) => return mark!(lines, "run"),
-        A::Field(1) => "go to the next field",
-        A::Field(-1) => "go to the field before",
-        A::Value(1) => "choose the next value; numbers can be typed as well",
-        A::Value(-1) => "choose the value before; numbers can be typed as well",
-        A::Zoom(1) => "show fewer shots",
-        A::Zoom(-1) => "show more shots",
-        A::Chart(1) => "select the next chart",
-        A::Chart(-1) => "select the chart before",
-        A::Show(0) => "show or hide the mean reward",
-        A::Show(1) => "show or hide the mean Q-value",
-        A::Show(2) => "show or hide the critic loss",
-        A::Show(3) => "show or hide the held-out success",
-        A::Show(4) => "show or hide the actor loss",
-        A::Show(5) => "show or hide the best-of-k success",
-        A::Show(6) => "show or hide the shots a second",
-        A::Show(7) => "show or hide the updates a second",
-        A::Show(8) => "show or hide the exploration",
-        A::Pan(1) => "show later shots",
-        A::Pan(-1) => "show earlier shots",
-        A::Shot(1) => "the next shot",
-        A::Shot(-1) => "the shot before",
-        _ => return None,
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -250,8 +240,8 @@ mod tests {
 
     #[test]
     fn the_charts_have_the_names_of_what_they_show() {
-        for (n, quantity) in Quantity::ALL.iter().enumerate() {
-            let words = words(TrainingAction::Show(n), Charts).unwrap();
+        assert_eq!(SHOW.len(), Quantity::ALL.len());
+        for (words, quantity) in SHOW.iter().zip(Quantity::ALL) {
             assert!(words.ends_with(quantity.name()), "{words}: {}", quantity.name());
         }
     }

@@ -19,8 +19,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-use ratatui::layout::Position;
-
 use crate::{
     game::Reward,
     learning::{
@@ -35,8 +33,8 @@ use crate::{
     table::Table,
     terminal::{
         CoachQuery, Failure, Keeping, Kept, Report, Slot, Subscriptions, TrainingContext,
-        pages::{Page, PageArea, Target},
-        ui::{Message, TextField, Typed, Ui},
+        pages::Page,
+        ui::{Message, TextField, Typed},
     },
 };
 
@@ -273,23 +271,12 @@ impl TrainingPage {
                     CoachQuery { policy: Some((watch.own.name.clone(), policy)), rule, ..CoachQuery::default() },
                 ))
             }
-            Err(sentence) => {
-                self.message = Some(Message::warning(sentence));
-                None
-            }
+            Err(sentence) => self.refuse(sentence),
         }
     }
 }
 
 impl Page for TrainingPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
-        view::draw(self, area, ui)
-    }
-
-    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
-        view::target(self, area, at)
-    }
-
     fn message_mut(&mut self) -> &mut Option<Message> {
         &mut self.message
     }

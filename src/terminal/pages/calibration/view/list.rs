@@ -46,9 +46,7 @@ fn draw_tests(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
             () if is_out || entered >= times => ui.theme.faint(),
             () => ui.theme.text(),
         };
-        if is_marked {
-            ui.buffer.set_string(area.x, y, ui.caps.pick("▸", ">"), ui.theme.accent());
-        }
+        list::draw_mark(is_marked, area.x, y, ui);
         ui.buffer.set_stringn(area.x + 2, y, test.name, usize::from(area.width - 2), style);
         if is_odd(page, test) {
             ui.buffer.set_string(area.x + 14, y, "!", ui.theme.warning());
@@ -102,9 +100,7 @@ fn draw_strokes(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
             () if is_marked => ui.theme.accent(),
             () => ui.theme.text(),
         };
-        if is_marked {
-            ui.buffer.set_string(inner.x, y, ui.caps.pick("▸", ">"), ui.theme.accent());
-        }
+        list::draw_mark(is_marked, inner.x, y, ui);
         let marks = test.asked().map(|name| entry.typed(name));
         let marks: Vec<String> = marks.map(|mark| if mark.is_empty() { "-".to_owned() } else { mark }).collect();
         let sign = if is_doubtful { "! " } else { "" };

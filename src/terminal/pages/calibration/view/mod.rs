@@ -12,7 +12,7 @@ use ratatui::{
 
 use crate::terminal::{
     pages::{
-        PageArea, Target,
+        PageArea, Picture, Target,
         calibration::{CalibrationPage, Input, Side},
     },
     ui::{Message, TextField, Ui, columns, draw_question, draw_status, shorten, write_right},
@@ -24,23 +24,34 @@ const LIST_WIDE: u16 = 41;
 /// Columns of the screen from which on there is.
 const WIDE: u16 = 110;
 
-/// Draws the page; gives the first row of what stands below it.
-pub fn draw(page: &CalibrationPage, area: &PageArea, ui: &mut Ui) -> u16 {
-    draw_header(page, area.header, ui);
-    // At 80 columns what is asked of a mark takes two rows: no other mark may stand behind the first of them.
-    let is_asked = matches!(page.input, Some(Input::Marks(_))) && area.body.width < WIDE;
-    let body = Rect { height: area.body.height.saturating_sub(u16::from(is_asked)), ..area.body };
-    let [left, right] = halves(body);
-    list::draw(page, left, ui);
-    match page.side {
-        Side::Test => test::draw(page, right, ui),
-        Side::Values => values::draw(page, right, ui),
+impl Picture for CalibrationPage {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+        draw_header(self, area.header, ui);
+        // At 80 columns what is asked of a mark takes two rows: no other mark may stand behind the first of them.
+        let is_asked = matches!(self.input, Some(Input::Marks(_))) && area.body.width < WIDE;
+        let body = Rect { height: area.body.height.saturating_sub(u16::from(is_asked)), ..area.body };
+        let [left, right] = halves(body);
+        list::draw(self, left, ui);
+        match self.side {
+            Side::Test => test::draw(self, right, ui),
+            Side::Values => values::draw(self, right, ui),
+        }
+        let message = self.message.clone();
+        let Some((question, field)) = question(self) else {
+            return draw_status(&message.unwrap_or_else(|| status_line(self)), area.status, ui);
+        };
+        draw_question(&Message::plain(question), field, area.status, ui)
     }
-    let message = page.message.clone();
-    let Some((question, field)) = question(page) else {
-        return draw_status(&message.unwrap_or_else(|| status_line(page)), area.status, ui);
-    };
-    draw_question(&Message::plain(question), field, area.status, ui)
+
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
+        let [left, _] = halves(area.body);
+        let sheet = self.sheet();
+        let rows = sheet.tests().count() as u16;
+        let list = Rect { height: left.height.min(rows + 1), ..left };
+        // The first row is the title's.
+        let line = at.y.checked_sub(left.y + 1).map(usize::from);
+        (self.input.is_none() && list.contains(at)).then(|| Target::list(line, sheet.mark))
+    }
 }
 
 /// What is asked, and what is typed behind it.
@@ -116,15 +127,4 @@ fn draw_header(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
 fn halves(area: Rect) -> [Rect; 2] {
     let list = Rect { width: if area.width >= WIDE { LIST_WIDE } else { LIST }, ..area };
     [list, Rect { x: list.right() + 1, width: area.width.saturating_sub(list.width + 1), ..area }]
-}
-
-/// What the mouse points at.
-pub fn target(page: &CalibrationPage, area: &PageArea, at: Position) -> Option<Target> {
-    let [left, _] = halves(area.body);
-    let sheet = page.sheet();
-    let rows = sheet.tests().count() as u16;
-    let list = Rect { height: left.height.min(rows + 1), ..left };
-    // The first row is the title's.
-    let line = at.y.checked_sub(left.y + 1).map(usize::from);
-    (page.input.is_none() && list.contains(at)).then(|| Target::list(line, sheet.mark))
 }

@@ -43,9 +43,7 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
         let is_chosen = n == advised.chosen;
         let style = if is_chosen { ui.theme.accent() } else { ui.theme.text() };
         let proposal = &advised.choices[n].proposal;
-        if is_chosen {
-            ui.buffer.set_string(inner.x, row, ui.caps.pick("▸", ">"), ui.theme.accent());
-        }
+        list::draw_mark(is_chosen, inner.x, row, ui);
         write_right(ui.buffer, inner.x, inner.x + NUMBER_END, row, &(n + 1).to_string(), ui.theme.faint());
         let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate) + " %");
         write_right(ui.buffer, inner.x, inner.x + CHANCE_END, row, &chance, style);

@@ -23,7 +23,7 @@ use crate::{
     terminal::{
         AdviceState, Mapping, Mode, Shot, View,
         pages::{
-            PageArea, Target,
+            PageArea, Picture, Target,
             coach::{
                 CoachPage, Followed,
                 view::{
@@ -52,61 +52,80 @@ use crate::{
     },
 };
 
-/// Draws the screen; gives the first row of what stands below the picture.
-pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
-    draw_header(coach, area.header, ui);
-    if let Some(words) = coach.followed().and_then(Followed::emptiness) {
-        let [style, place] = [ui.theme.text(), ui.theme.faint()];
-        let hint = "q ends it.".to_owned();
-        write_paragraphs(&[(words, style), (hint, place)], area.body.inner(Margin::new(2, 2)), ui);
-        return area.status.y;
+impl Picture for CoachPage {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+        draw_header(self, area.header, ui);
+        if let Some(words) = self.followed().and_then(Followed::emptiness) {
+            let [style, place] = [ui.theme.text(), ui.theme.faint()];
+            let hint = "q ends it.".to_owned();
+            write_paragraphs(&[(words, style), (hint, place)], area.body.inner(Margin::new(2, 2)), ui);
+            return area.status.y;
+        }
+        let profile = self.profile();
+        let (panes, side) = panes(self, area.screen);
+        let choice = self.shown().map(AdviceState::choice);
+        let planned = choice.filter(|_| self.view == View::Plan && self.what_if().is_none());
+        let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
+        let lesson = self.lesson.as_ref();
+        if let Some(lesson) = lesson {
+            spots = lesson_spots(lesson, ui.theme);
+        }
+        let kiss = kiss_note(self);
+        let view = TableView {
+            // An example is not of these balls.
+            shot: self.shot().map(AsRef::as_ref).filter(|_| lesson.is_none_or(|lesson| lesson.is_of_shot)),
+            time: self.playback.time,
+            is_moving: self.mode == Mode::Watching,
+            front: self.selected,
+            other: self.what_if().map(|what_if| &*what_if.coach),
+            other_name: COACH,
+            // While the coach thinks each better shot would move them all.
+            is_lean: planned.is_some() || lesson.is_some() || self.spinner().is_some(),
+            // Those of a system are there then.
+            is_numbered: lesson.is_none(),
+            spots: &spots,
+            note: kiss.as_ref().map(|(place, words)| (*place, words.as_str())),
+            ..TableView::new(self.table(), self.layout(), ui)
+        };
+        draw_table(&view, panes.table, ui);
+        if let Some(lesson) = lesson {
+            draw_numbers(lesson, self.table(), &Mapping::fit(self.table(), panes.table), ui);
+        }
+        let says_why = draw_panels(self, &panes, ui);
+        if let Some(profile) = profile {
+            let time = self.watched().map(|_| self.playback.time);
+            draw_profile(profile, time, self.units.length, side, ui);
+        }
+        let message = self.message.clone();
+        if let Some((question, field)) = self.asked() {
+            let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
+            return draw_question(&Message::plain(before + &question), field, area.status, ui);
+        }
+        let room = usize::from(area.status.width.saturating_sub(2));
+        // The chance alone stands above, too; why the shot leads may stand nowhere else.
+        let message =
+            message.filter(|message| says_why || !self.is_bare_chance(message) || why_told(self, room, ui).is_none());
+        let message = message.unwrap_or_else(|| status_line(self, says_why, room, ui));
+        draw_status(&self.marked(message), area.status, ui)
     }
-    let profile = coach.profile();
-    let (panes, side) = panes(coach, area.screen);
-    let choice = coach.shown().map(AdviceState::choice);
-    let planned = choice.filter(|_| coach.view == View::Plan && coach.what_if().is_none());
-    let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
-    let lesson = coach.lesson.as_ref();
-    if let Some(lesson) = lesson {
-        spots = lesson_spots(lesson, ui.theme);
+
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
+        if self.question().is_some() || self.followed().is_some() {
+            return None;
+        }
+        let area = area.screen;
+        let mapping = table_mapping(self, area);
+        if mapping.bed.contains(at) {
+            return Some(Target::Table(mapping));
+        }
+        let (panes, side) = panes(self, area);
+        if side.contains(at) {
+            return None;
+        }
+        let (_, panel) = views(self.view, &panes).find(|(view, _)| *view == View::Chances)?;
+        let advised = self.shown().filter(|_| panel.contains(at) && self.what_if().is_none())?;
+        choice_at(advised, panel, at.y).map(Target::Shot)
     }
-    let kiss = kiss_note(coach);
-    let view = TableView {
-        // An example is not of these balls.
-        shot: coach.shot().map(AsRef::as_ref).filter(|_| lesson.is_none_or(|lesson| lesson.is_of_shot)),
-        time: coach.playback.time,
-        is_moving: coach.mode == Mode::Watching,
-        front: coach.selected,
-        other: coach.what_if().map(|what_if| &*what_if.coach),
-        other_name: COACH,
-        // While the coach thinks each better shot would move them all.
-        is_lean: planned.is_some() || lesson.is_some() || coach.spinner().is_some(),
-        // Those of a system are there then.
-        is_numbered: lesson.is_none(),
-        spots: &spots,
-        note: kiss.as_ref().map(|(place, words)| (*place, words.as_str())),
-        ..TableView::new(coach.table(), coach.layout(), ui)
-    };
-    draw_table(&view, panes.table, ui);
-    if let Some(lesson) = lesson {
-        draw_numbers(lesson, coach.table(), &Mapping::fit(coach.table(), panes.table), ui);
-    }
-    let says_why = draw_panels(coach, &panes, ui);
-    if let Some(profile) = profile {
-        let time = coach.watched().map(|_| coach.playback.time);
-        draw_profile(profile, time, coach.units.length, side, ui);
-    }
-    let message = coach.message.clone();
-    if let Some((question, field)) = coach.asked() {
-        let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-        return draw_question(&Message::plain(before + &question), field, area.status, ui);
-    }
-    let room = usize::from(area.status.width.saturating_sub(2));
-    // The chance alone stands above, too; why the shot leads may stand nowhere else.
-    let message =
-        message.filter(|message| says_why || !coach.is_bare_chance(message) || why_told(coach, room, ui).is_none());
-    let message = message.unwrap_or_else(|| status_line(coach, says_why, room, ui));
-    draw_status(&coach.marked(message), area.status, ui)
 }
 
 /// Where the kiss lies in wait that spoils most strokes, and how many, before the shot that it is known of is played.
@@ -212,25 +231,6 @@ fn views(chosen: View, panes: &Panes) -> impl Iterator<Item = (View, Rect)> {
 /// Where the table is drawn.
 pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
     Mapping::fit(coach.table(), panes(coach, area).0.table)
-}
-
-/// What the mouse points at; nothing while something is asked.
-pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target> {
-    if coach.question().is_some() || coach.followed().is_some() {
-        return None;
-    }
-    let area = area.screen;
-    let mapping = table_mapping(coach, area);
-    if mapping.bed.contains(at) {
-        return Some(Target::Table(mapping));
-    }
-    let (panes, side) = panes(coach, area);
-    if side.contains(at) {
-        return None;
-    }
-    let (_, panel) = views(coach.view, &panes).find(|(view, _)| *view == View::Chances)?;
-    let advised = coach.shown().filter(|_| panel.contains(at) && coach.what_if().is_none())?;
-    choice_at(advised, panel, at.y).map(Target::Shot)
 }
 
 /// Draws what one of the views tells; the chances say why the first shot leads, if nothing else does.

@@ -15,8 +15,9 @@ use crate::{
 };
 
 /// Draws the page; gives what the status line says while there is no news.
-pub fn draw(drills: &DrillsPage, turn: &Turn, level: u8, header: Rect, area: Rect, ui: &mut Ui) -> Message {
+pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     draw_header(drills, "exam", "", header, ui);
+    let level = drills.exam_level;
     let inner = draw_title(format!("An exam of level {level}"), area, ui);
     let text = Rect { x: inner.x + 2, y: inner.y + 1, width: READABLE.min(inner.width - 3), height: inner.height - 1 };
     let count = turn.session.exercises.len();

@@ -75,9 +75,7 @@ fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     for (n, y) in list::shown(mark, listed().len(), inner) {
         let listed = &listed()[n];
         let style = if n == mark { ui.theme.accent() } else { ui.theme.text() };
-        if n == mark {
-            ui.buffer.set_string(inner.x, y, ui.caps.pick("▸", ">"), style);
-        }
+        list::draw_mark(n == mark, inner.x, y, ui);
         let filmed = &listed.filmed;
         write_right(ui.buffer, inner.x, inner.x + NUMBER_END, y, &format!("shot {:>3}", filmed.number), style);
         if listed.is_point {

@@ -20,10 +20,7 @@ use crate::{
     drills::Record,
     terminal::{
         Capabilities, DrillContext,
-        pages::{
-            PageArea, Target,
-            drills::{DrillsPage, Screen},
-        },
+        pages::{PageArea, Picture, Target, drills::DrillsPage},
         ui::{Message, Ui, columns, draw_question, draw_status, shorten, write_right},
         words::{self, skill_word},
     },
@@ -32,34 +29,34 @@ use crate::{
 /// Most columns of a line that is good to read.
 const READABLE: u16 = 80;
 
-/// Draws the page that is open; gives the first row of what stands below it.
-pub fn draw(drills: &DrillsPage, area: &PageArea, ui: &mut Ui) -> u16 {
-    let (header, body, status) = (area.header, area.body, area.status);
-    let status_line = match (drills.page(), &drills.turn) {
-        (Screen::Exam(level), Some(turn)) => exam::draw(drills, turn, level, header, body, ui),
-        (Screen::Exercise, Some(turn)) => exercise::draw(drills, turn, header, body, ui),
-        (Screen::Result, Some(turn)) => result::draw(drills, turn, header, body, ui),
-        (Screen::Record, _) => record::draw(drills, header, body, ui),
-        (Screen::Films, _) => films::draw(drills, header, body, ui),
-        (Screen::Film, _) => film::draw(drills, header, body, ui),
-        _ => library::draw(drills, header, body, ui),
-    };
-    let message = drills.message.clone();
-    match &drills.question {
-        Some(question) => {
-            let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-            draw_question(&Message::plain(before + &question.text()), question.field(), status, ui)
+impl Picture for DrillsPage {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+        let (header, body, status) = (area.header, area.body, area.status);
+        let status_line = match (self.page(), &self.turn) {
+            (DrillContext::Exam, Some(turn)) => exam::draw(self, turn, header, body, ui),
+            (DrillContext::Exercise, Some(turn)) => exercise::draw(self, turn, header, body, ui),
+            (DrillContext::Result, Some(turn)) => result::draw(self, turn, header, body, ui),
+            (DrillContext::Record, _) => record::draw(self, header, body, ui),
+            (DrillContext::Films, _) => films::draw(self, header, body, ui),
+            (DrillContext::Film, _) => film::draw(self, header, body, ui),
+            _ => library::draw(self, header, body, ui),
+        };
+        let message = self.message.clone();
+        match &self.question {
+            Some(question) => {
+                let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
+                draw_question(&Message::plain(before + &question.text()), question.field(), status, ui)
+            }
+            None => draw_status(&message.unwrap_or(status_line), status, ui),
         }
-        None => draw_status(&message.unwrap_or(status_line), status, ui),
     }
-}
 
-/// What the mouse points at.
-pub fn target(drills: &DrillsPage, area: &PageArea, at: Position) -> Option<Target> {
-    match drills.place() {
-        DrillContext::Library | DrillContext::Search => library::target(drills, area.body, at),
-        DrillContext::Films => films::target(drills, area.body, at),
-        _ => None,
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
+        match self.place() {
+            DrillContext::Library | DrillContext::Search => library::target(self, area.body, at),
+            DrillContext::Films => films::target(self, area.body, at),
+            _ => None,
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use ratatui::{
 
 use crate::terminal::{
     Capabilities, SettingsContext, SettingsPage,
-    pages::{PageArea, Target, settings::Input},
+    pages::{PageArea, Picture, Target, settings::Input},
     ui::{Message, Ui, draw_question, draw_status, end_of, write_paragraphs},
 };
 
@@ -22,22 +22,34 @@ const BELOW: u16 = 7;
 /// Rows from which on paragraphs stand apart.
 const APART: u16 = 10;
 
-/// Draws the page that is open; gives the first row of what stands below it.
-pub fn draw(settings: &SettingsPage, area: &PageArea, ui: &mut Ui) -> u16 {
-    let (rest, status) = (area.header, area.status);
-    let path = end_of(&settings.path.display().to_string(), usize::from(rest.width.saturating_sub(2)), ui.caps);
-    ui.buffer.set_string(rest.x + 1, rest.y, path, ui.theme.faint());
-    let [list, words] = halves(settings.page, area.body);
-    let status_line = match settings.page {
-        SettingsContext::Keys => keys::draw(settings, list, words, ui),
-        _ => values::draw(settings, list, words, ui),
-    };
-    if let Some(question) = question(settings, ui.caps) {
-        let field = if let Some(Input::Value(typed)) = &settings.input { Some(typed) } else { None };
-        return draw_question(&Message::plain(question), field, status, ui);
+impl Picture for SettingsPage {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+        let (rest, status) = (area.header, area.status);
+        let path = end_of(&self.path.display().to_string(), usize::from(rest.width.saturating_sub(2)), ui.caps);
+        ui.buffer.set_string(rest.x + 1, rest.y, path, ui.theme.faint());
+        let [list, words] = halves(self.page, area.body);
+        let status_line = match self.page {
+            SettingsContext::Keys => keys::draw(self, list, words, ui),
+            _ => values::draw(self, list, words, ui),
+        };
+        if let Some(question) = question(self, ui.caps) {
+            let field = if let Some(Input::Value(typed)) = &self.input { Some(typed) } else { None };
+            return draw_question(&Message::plain(question), field, status, ui);
+        }
+        let message = self.message.clone().unwrap_or(Message::plain(status_line));
+        draw_status(&message, status, ui)
     }
-    let message = settings.message.clone().unwrap_or(Message::plain(status_line));
-    draw_status(&message, status, ui)
+
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
+        let [list, _] = halves(self.page, area.body);
+        // The first row is the title's.
+        let below = Rect { y: list.y + 1, height: list.height.saturating_sub(1), ..list };
+        let (line, mark) = match self.page {
+            SettingsContext::Keys => (keys::list(self).entry_at(below, at.y), self.keys.mark),
+            _ => (values::list(self).entry_at(below, at.y), self.mark),
+        };
+        list.contains(at).then(|| Target::list(line, mark))
+    }
 }
 
 /// What is being put in, as it stands on the status line, without what is typed.
@@ -65,18 +77,6 @@ fn halves(page: SettingsContext, area: Rect) -> [Rect; 2] {
     }
     let list = Rect { width: (area.width * LIST.0 / 100).min(LIST.1), ..area };
     [list, Rect { x: list.right() + 1, width: area.width - list.width - 1, ..area }]
-}
-
-/// What the mouse points at.
-pub fn target(settings: &SettingsPage, area: &PageArea, at: Position) -> Option<Target> {
-    let [list, _] = halves(settings.page, area.body);
-    // The first row is the title's.
-    let below = Rect { y: list.y + 1, height: list.height.saturating_sub(1), ..list };
-    let (line, mark) = match settings.page {
-        SettingsContext::Keys => (keys::list(settings).entry_at(below, at.y), settings.keys.mark),
-        _ => (values::list(settings).entry_at(below, at.y), settings.mark),
-    };
-    list.contains(at).then(|| Target::list(line, mark))
 }
 
 /// Writes the words on what is marked into a panel, with blank rows between the paragraphs where there is room.

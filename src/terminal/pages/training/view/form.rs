@@ -10,7 +10,7 @@ use crate::{
     learning::{agents::AGENTS, run::Schedule},
     terminal::{
         pages::training::{Field, Form, TrainingPage},
-        ui::{Ui, columns, draw_lines, draw_title, wrap},
+        ui::{Ui, columns, draw_lines, draw_title, list, wrap},
         words::count,
     },
 };
@@ -27,9 +27,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
         let is_marked = field == form.field;
         let (value, note) = words(form, field);
         let style = if is_marked { ui.theme.accent() } else { ui.theme.text() };
-        if is_marked {
-            ui.buffer.set_string(area.x + 1, y, ui.caps.pick("▸", ">"), ui.theme.accent());
-        }
+        list::draw_mark(is_marked, area.x + 1, y, ui);
         ui.buffer.set_string(area.x + 3, y, field.name(), ui.theme.faint());
         let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
         let x = area.x + 3 + NAME;

@@ -15,55 +15,55 @@ use crate::{
     terminal::{
         TrainingContext,
         pages::{
-            PageArea, Target,
+            PageArea, Picture, Target,
             training::{TrainingPage, view::panes::Panes},
         },
         ui::{Message, Ui, draw_question, draw_status},
     },
 };
 
-/// Draws the page that is open; gives the first row of what stands below it.
-pub fn draw(training: &TrainingPage, area: &PageArea, ui: &mut Ui) -> u16 {
-    let (head, body, status) = (area.header, area.body, area.status);
-    let status_line = match (training.page(), &training.watch) {
-        (TrainingContext::Watch, Some(watch)) => {
-            header::draw(watch, head, ui);
-            // A table has the same shape everywhere, so that nothing jumps when the run's own is known.
-            let panes = Panes::new(watch.table().unwrap_or(&Table::default()), body);
-            charts::draw(watch, panes.charts, ui);
-            numbers::draw(training, watch, panes.numbers, ui);
-            replay::draw(watch, panes.replay, ui);
-            let (sentence, is_bad) = watch.advice();
-            if is_bad { Message::warning(sentence) } else { Message::plain(sentence) }
+impl Picture for TrainingPage {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+        let (head, body, status) = (area.header, area.body, area.status);
+        let status_line = match (self.page(), &self.watch) {
+            (TrainingContext::Watch, Some(watch)) => {
+                header::draw(watch, head, ui);
+                // A table has the same shape everywhere, so that nothing jumps when the run's own is known.
+                let panes = Panes::new(watch.table().unwrap_or(&Table::default()), body);
+                charts::draw(watch, panes.charts, ui);
+                numbers::draw(self, watch, panes.numbers, ui);
+                replay::draw(watch, panes.replay, ui);
+                let (sentence, is_bad) = watch.advice();
+                if is_bad { Message::warning(sentence) } else { Message::plain(sentence) }
+            }
+            (TrainingContext::Form, _) => {
+                title("a new run", head, ui);
+                form::draw(self, body, ui);
+                Message::plain(form::status_line(self))
+            }
+            (open, _) => {
+                let words = if open == TrainingContext::Compare { "compare with" } else { "training runs" };
+                title(words, head, ui);
+                runs::draw(self, body, ui);
+                runs::status_line(self)
+            }
+        };
+        let message = self.message.clone();
+        match &self.question {
+            Some(question) => {
+                let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
+                let words = Message::warning(before + &question.text(self.watch.as_ref()));
+                draw_question(&words, question.field(), status, ui)
+            }
+            None => draw_status(&message.unwrap_or(status_line), status, ui),
         }
-        (TrainingContext::Form, _) => {
-            title("a new run", head, ui);
-            form::draw(training, body, ui);
-            Message::plain(form::status_line(training))
-        }
-        (open, _) => {
-            let words = if open == TrainingContext::Compare { "compare with" } else { "training runs" };
-            title(words, head, ui);
-            runs::draw(training, body, ui);
-            runs::status_line(training)
-        }
-    };
-    let message = training.message.clone();
-    match &training.question {
-        Some(question) => {
-            let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-            let words = Message::warning(before + &question.text(training.watch.as_ref()));
-            draw_question(&words, question.field(), status, ui)
-        }
-        None => draw_status(&message.unwrap_or(status_line), status, ui),
     }
-}
 
-/// What the mouse points at.
-pub fn target(training: &TrainingPage, area: &PageArea, at: Position) -> Option<Target> {
-    match training.place() {
-        TrainingContext::Runs | TrainingContext::Compare => runs::target(training, area.body, at),
-        _ => None,
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
+        match self.place() {
+            TrainingContext::Runs | TrainingContext::Compare => runs::target(self, area.body, at),
+            _ => None,
+        }
     }
 }
 

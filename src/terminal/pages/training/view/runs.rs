@@ -90,9 +90,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
             state if state.is_at_work() => ui.theme.good(),
             _ => ui.theme.text(),
         };
-        if n == mark {
-            ui.buffer.set_string(area.x + 1, y, ui.caps.pick("▸", ">"), ui.theme.accent());
-        }
+        list::draw_mark(n == mark, area.x + 1, y, ui);
         put(ui.buffer, y, style, &|column| (column.text)(run));
     }
     draw_marked(training, &runs[mark], mark, Rect { y: area.bottom() - 3, height: 3, ..area }, ui);
