@@ -151,7 +151,8 @@ impl Entry {
         let (mut readings, mut odd) = (Vec::new(), Vec::new());
         let names: Vec<&str> = test.marks.iter().map(|mark| mark.name).collect();
         for name in self.marks.keys().chain(self.sure.keys()).filter(|name| !names.contains(&name.as_str())) {
-            odd.push(format!("it has no mark \"{name}\"; its marks are {}", names.join(", ")));
+            let asked: Vec<&str> = test.asked().collect();
+            odd.push(format!("it has no mark \"{name}\"; its marks are {}", asked.join(", ")));
         }
         for (index, mark) in test.marks.iter().enumerate() {
             let Some(written) = self.marks.get(mark.name) else { continue };

@@ -262,6 +262,8 @@ impl Why {
                 format!("made {own} of the time, about as often as the second shot ({its})")
             }
         }));
+        let alone = self.make_probability.filter(|_| other.is_none());
+        parts.extend(alone.map(|rate| format!("made {} of the time", percent(rate))));
         parts.extend(plan.clone().filter(|_| self.is_by_plan()));
         parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
             Some(other) => {

@@ -30,8 +30,9 @@ use crate::{
 pub fn table_named(name: &str) -> Result<Table, Failure> {
     match Table::preset(name) {
         Err(error @ TableError::Unknown(_)) => {
-            let path = Some(PathBuf::from(name)).filter(|path| path.exists() && !path.is_dir());
-            let path = path.or_else(|| Places::of_this_user().own_table(name));
+            let here = Some(PathBuf::from(name)).filter(|path| path.exists());
+            let file = here.clone().filter(|path| !path.is_dir());
+            let path = file.or_else(|| Places::of_this_user().own_table(name)).or(here);
             table_in(&path.ok_or_else(|| Failure::failed(error))?)
         }
         table => table.map_err(Failure::wrong_input),

@@ -140,6 +140,10 @@ impl Cli {
 
     /// The terminal program, with the player's settings.
     fn open(self) -> Result<(), Failure> {
+        // A player's folder is made for whoever can play.
+        if !self.plain && !crate::terminal::is_there() {
+            return Err(failure(TerminalError::NoTerminal));
+        }
         let seat = self.seat()?;
         // A table on the command line is that of whoever runs the machine.
         let named = self.table.as_deref().map(input::table_named).transpose()?;

@@ -26,7 +26,8 @@ pub struct Args {
     /// Only this figure: q-learning, 21, 22, 23, 24, 25, 28, r2, 29, 30, noise or future-work. May be given several times.
     #[arg(long = "figure", value_name = "NAME")]
     figures: Vec<String>,
-    /// Shots of every training. Default: 50,000 for q-learning, 200,000 to 400,000 for the others
+    /// Shots of a training whose episodes are one shot; games get a quarter of them. Default: 50,000 for q-learning, 200,000 to
+    /// 400,000 for the others
     #[arg(long, value_name = "SHOTS", value_parser = whole_from(1_u64))]
     episodes: Option<u64>,
     /// Seed of everything random: the same seed gives the same curves.

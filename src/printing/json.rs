@@ -7,17 +7,14 @@ use serde_json::{Serializer, ser::Formatter};
 
 use super::is_hidden;
 
-/// Writes `value` as a line of JSON.
+/// Writes `value` as a line of JSON, or nothing of it.
 ///
 /// # Errors
 /// What the output answers, or a value that JSON has no form for.
 pub fn json_line(out: &mut impl Write, value: &impl Serialize) -> io::Result<()> {
-    json(out, value)?;
+    let text = json_text(value)?;
+    out.write_all(text.as_bytes())?;
     out.write_all(b"\n")
-}
-
-fn json(out: &mut impl Write, value: &impl Serialize) -> io::Result<()> {
-    value.serialize(&mut Serializer::with_formatter(out, Escaping)).map_err(io::Error::from)
 }
 
 /// `value` as JSON, for outputs that take a line at once.
@@ -26,7 +23,7 @@ fn json(out: &mut impl Write, value: &impl Serialize) -> io::Result<()> {
 /// A value that JSON has no form for.
 pub fn json_text(value: &impl Serialize) -> io::Result<String> {
     let mut bytes = Vec::new();
-    json(&mut bytes, value)?;
+    value.serialize(&mut Serializer::with_formatter(&mut bytes, Escaping)).map_err(io::Error::from)?;
     String::from_utf8(bytes).map_err(io::Error::other)
 }
 
@@ -60,6 +57,14 @@ mod tests {
     fn c1_and_bidirectional_marks_are_escaped() {
         let text = json_text(&"a\u{1b}\u{9b}\u{202e}\u{7f}\u{e0041}é\n").unwrap();
         assert_eq!(text, r#""a\u001b\u009b\u202e\u007f\udb40\udc41é\n""#);
+    }
+
+    #[test]
+    fn of_what_json_has_no_form_for_nothing_is_written() {
+        let mut out = Vec::new();
+        let no_key = std::collections::BTreeMap::from([((1, 2), 3)]);
+        assert!(json_line(&mut out, &("before", no_key)).is_err());
+        assert!(out.is_empty(), "{out:?}");
     }
 
     proptest! {

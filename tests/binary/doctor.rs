@@ -33,6 +33,20 @@ fn a_new_user_has_nothing_wrong_and_nothing_is_made() {
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0, "the doctor changes nothing");
 }
 
+/// Half an object came, and the output was blamed.
+#[cfg(unix)]
+#[test]
+fn folders_whose_names_are_no_text_are_told_as_far_as_they_can_be() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    let home = folder.path().join(std::ffi::OsStr::from_bytes(b"z\xff"));
+    fs::create_dir_all(&home).unwrap();
+    let said = carom(&home, &["doctor", "--json"]);
+    assert_eq!(said.code, Some(0), "{}{}", said.out, said.err);
+    let path = said.json()[0]["places"][1]["path"].as_str().unwrap().to_owned();
+    assert!(path.contains("z\u{fffd}"), "{path}");
+}
+
 #[test]
 fn what_is_wrong_is_named_and_the_exit_code_says_so() {
     let home = tempfile::tempdir().unwrap();

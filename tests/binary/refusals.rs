@@ -182,3 +182,19 @@ fn where_nothing_is_to_be_taken_back_other_programs_may_go_on() {
     drop(words);
     assert_eq!(log.wait().unwrap().code(), Some(0));
 }
+
+#[test]
+fn of_a_guest_at_no_terminal_nothing_is_made() {
+    let home = tempfile::tempdir().unwrap();
+    let said = carom(home.path(), &["--guest", "--player", "anna"]);
+    assert!(said.code == Some(2) && said.err.contains("this is no terminal"), "{}", said.err);
+    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_folder_in_a_tables_place_is_called_one() {
+    let home = tempfile::tempdir().unwrap();
+    fs::create_dir(home.path().join("dir")).unwrap();
+    let said = carom(home.path(), &["simulate", "--table", "dir", "--shot", "0,0.3,1,1,4"]);
+    assert!(said.code == Some(1) && said.err.contains("it is a folder"), "{:?} {}", said.code, said.err);
+}

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::{
     calibration::kept_entries,
@@ -20,6 +20,7 @@ const LITTLE: u64 = 50 << 20;
 #[derive(Serialize)]
 pub struct Place {
     pub what: &'static str,
+    #[serde(serialize_with = "lossy")]
     pub path: PathBuf,
     /// It is made when something is kept.
     pub exists: bool,
@@ -27,6 +28,11 @@ pub struct Place {
     pub refusal: Option<String>,
     /// None where the system does not tell.
     pub free_bytes: Option<u64>,
+}
+
+/// A path as it can be told: JSON has no form for one that is no text.
+fn lossy<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
+    to.collect_str(&path.display())
 }
 
 impl Place {
@@ -81,6 +87,7 @@ pub struct Kept {
 /// How much there is of something, and what of it cannot be used.
 #[derive(Serialize)]
 pub struct Found {
+    #[serde(serialize_with = "lossy")]
     pub path: PathBuf,
     pub count: usize,
     pub wrong: Vec<String>,
@@ -94,7 +101,7 @@ impl Kept {
         Self {
             settings: Found {
                 path: places.settings.clone(),
-                count: usize::from(places.settings.exists()),
+                count: usize::from(places.settings.is_file()),
                 wrong: Complaint::sentences(&places.settings, complaints),
             },
             tables: tables(places),

@@ -34,7 +34,11 @@ fn rows(report: &Report) -> Vec<[String; 2]> {
     let environment = screen.environment.iter().map(|(name, value)| format!("{name}={value}"));
     rows.push(("environment", environment.collect::<Vec<_>>().join(" ")));
     let file = if kept.settings.count == 0 { "no file, all as by default" } else { "as in the file" };
-    rows.push(("settings", format!("{file}, {} mistakes", kept.settings.wrong.len())));
+    let mistakes = match kept.settings.wrong.len() {
+        1 => "1 mistake".to_owned(),
+        many => format!("{many} mistakes"),
+    };
+    rows.push(("settings", format!("{file}, {mistakes}")));
     let kinds = [
         ("tables", &kept.tables),
         ("runs", &kept.runs),

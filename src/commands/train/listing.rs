@@ -26,12 +26,12 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
         tell(format_args!("note: {}", OneLine(sentence)));
     }
     let mut out = printing::stdout().exact(json);
-    if json {
+    if runs.is_empty() {
+        tell(format_args!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display()));
+    } else if json {
         for run in &runs {
             printing::json_line(&mut out, run)?;
         }
-    } else if runs.is_empty() {
-        tell(format_args!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display()));
     } else {
         for row in table(&runs) {
             writeln!(out, "{row}")?;

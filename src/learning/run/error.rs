@@ -2,18 +2,21 @@
 
 use std::path::Path;
 
-use crate::learning::{
-    PolicyError,
-    agents::UnknownAgent,
-    learner::StartError,
-    nn::{first_line, weights::WeightsError},
+use crate::{
+    learning::{
+        PolicyError,
+        agents::UnknownAgent,
+        learner::StartError,
+        nn::{first_line, weights::WeightsError},
+    },
+    printing::shell_word,
 };
 
 /// Why a run cannot start, go on or be saved.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The folder already holds a run.
-    #[error("{0} already holds a run; go on with it by --resume {0}, or choose another folder by --run")]
+    #[error("{0} already holds a run; go on with it by --resume {call}, or choose another folder by --run", call = shell_word(.0))]
     Occupied(String),
     /// The folder holds something else.
     #[error("{folder} is not empty and holds no run: \"{entry}\" is in it; choose a new folder by --run")]
@@ -137,4 +140,15 @@ pub const fn advice(error: &WeightsError) -> &'static str {
 /// The error of a file, for `map_err`.
 pub fn file(path: &Path) -> impl FnOnce(std::io::Error) -> RunError {
     move |reason| RunError::File { path: path.display().to_string(), reason }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_that_goes_on_with_a_run_can_be_pasted() {
+        let said = RunError::Occupied("d b/my run".to_owned()).to_string();
+        assert!(said.starts_with("d b/my run already") && said.contains("--resume 'd b/my run', or"), "{said}");
+    }
 }

@@ -227,7 +227,9 @@ fn runs_are_found_by_name_or_as_the_latest_and_listed_where_none_is_named() {
     assert_eq!(none.code, Some(1));
     assert!(none.err.contains("carom train"), "{}", none.err);
     assert!(carom(here, "train --resume latest").err.contains("there are no runs in"));
-    assert!(done(here, "watch").err.contains("no runs in"));
+    for call in ["watch", "watch --json"] {
+        assert!(done(here, call).err.contains("no runs in"), "{call}");
+    }
     let unknown = carom(here, "watch nowhere");
     assert_eq!(unknown.code, Some(1));
     assert!(unknown.err.contains("there is no run nowhere"), "{}", unknown.err);
