@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{
     belief::Belief,
-    estimate::{Trial, estimate, off},
+    estimate::{Estimate, Trial, estimate, off},
     forward::{Hand, STROKE},
     information::information,
     protocol::{PROTOCOL, Quantity, Test},
@@ -35,6 +35,8 @@ pub struct Calibration {
     pub constants: Vec<Change>,
     /// The marks, in the order of the trials.
     pub verdicts: Vec<Verdict>,
+    /// Trials, from 1 on, of which most marks look misread: nothing of them counts.
+    pub left_out: Vec<usize>,
     /// Strokes that must have been far from what the tests ask for, if the marks are right.
     pub strange: Vec<Strange>,
     /// All tests, the one that tells most first.
@@ -134,8 +136,7 @@ pub fn calibrate(
     doubt: &TableDoubt,
     trials: &[(usize, Trial)],
 ) -> Result<Calibration, CalibrationError> {
-    let belief = Belief::new(table, doubt)?;
-    if belief.count() == 0 {
+    if Belief::new(table, doubt)?.count() == 0 {
         return Err(CalibrationError::Certain(table.name.clone()));
     }
     if trials.is_empty() {
@@ -146,28 +147,17 @@ pub fn calibrate(
     }
     let (numbers, trials): (Vec<usize>, Vec<Trial>) = trials.iter().cloned().unzip();
     let hand = Hand::ASSUMED;
-    let (belief, found) = if let Some(apart) = told_apart(table, doubt, &hand, &trials)? {
-        apart
-    } else {
-        let found = estimate(&belief, &hand, &trials);
-        (belief, found)
-    };
-    let covariance = belief.covariance(&found.covariance);
+    let (belief, found) = fit(table, doubt, &hand, &trials)?;
     let fitted = belief.table(&found.likely);
-    let doubt = Some(belief.doubt(&covariance));
-    let after = Table { name: name.to_owned(), doubt, ..belief.table(&found.unknowns) };
-    let after = Table::from_toml(&toml::to_string(&after).map_err(|error| TableError::Syntax(error.to_string()))?)?;
-    let change = |(index, (name, before, before_deviation)): (usize, (&str, f64, f64))| Change {
-        name: name.to_owned(),
-        before,
-        before_deviation,
-        after: TableDoubt::value(&after, name).unwrap_or(before),
-        after_deviation: covariance[index][index].max(0.0).sqrt(),
-    };
-    let constants = belief.told().enumerate().map(change).collect();
-    let mut verdicts = Vec::new();
+    let (mut verdicts, mut kept, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
     for (index, trial) in trials.iter().enumerate() {
         let all = off(&fitted, &hand, trial, &found.strokes[index]);
+        // Where most marks of a stroke are wrong, it was another stroke, and the others say nothing.
+        if 2 * all.iter().filter(|off| misread(**off) > 0.5).count() > all.len() {
+            left_out.push(numbers[index] + 1);
+        } else {
+            kept.push(trial.clone());
+        }
         for (reading, off) in trial.readings.iter().zip(all) {
             let mark = &trial.test.marks[reading.mark];
             let is_misread = misread(off) > 0.5;
@@ -192,8 +182,36 @@ pub fn calibrate(
         let far = stroke.iter().zip(STROKES).filter(|(off, _)| off.abs() > FAR);
         strange.extend(far.map(|(off, what)| Strange { trial: number + 1, test: trial.test.name, what, off: *off }));
     }
+    let (belief, found) = if left_out.is_empty() { (belief, found) } else { fit(table, doubt, &hand, &kept)? };
+    let covariance = belief.covariance(&found.covariance);
+    let doubt = Some(belief.doubt(&covariance));
+    let after = Table { name: name.to_owned(), doubt, ..belief.table(&found.unknowns) };
+    let after = Table::from_toml(&toml::to_string(&after).map_err(|error| TableError::Syntax(error.to_string()))?)?;
+    let change = |(index, (name, before, before_deviation)): (usize, (&str, f64, f64))| Change {
+        name: name.to_owned(),
+        before,
+        before_deviation,
+        after: TableDoubt::value(&after, name).unwrap_or(before),
+        after_deviation: covariance[index][index].max(0.0).sqrt(),
+    };
+    let constants = belief.told().enumerate().map(change).collect();
     let next = next(&belief, &found.unknowns, &found.covariance);
-    Ok(Calibration { table: after, constants, verdicts, strange, next })
+    Ok(Calibration { table: after, constants, verdicts, left_out, strange, next })
+}
+
+/// What the trials say, with rails of their own where these differ.
+fn fit(
+    table: &Table,
+    doubt: &TableDoubt,
+    hand: &Hand,
+    trials: &[Trial],
+) -> Result<(Belief, Estimate), CalibrationError> {
+    if let Some(apart) = told_apart(table, doubt, hand, trials)? {
+        return Ok(apart);
+    }
+    let belief = Belief::new(table, doubt)?;
+    let found = estimate(&belief, hand, trials);
+    Ok((belief, found))
 }
 
 /// What is not known of a table before it is calibrated: what its file says, or as much as tables differ by. The constants of

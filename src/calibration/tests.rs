@@ -116,6 +116,28 @@ fn a_misread_mark_is_named_with_what_was_expected_and_hardly_counts() {
     }
 }
 
+/// The marks of a stroke that was another one counted wherever they did not contradict the others: the constants seemed surer for it.
+#[test]
+fn of_a_stroke_whose_marks_are_mostly_misread_nothing_counts() {
+    let (table, doubt) = base();
+    let lag = exact(&other(&table)).into_iter().find(|(_, trial)| trial.test.name == "lag").unwrap();
+    let alone = calibrate("club", &table, &doubt, std::slice::from_ref(&lag)).unwrap();
+    assert!(alone.left_out.is_empty());
+    let mut wrong = lag.clone();
+    wrong.0 += 1;
+    (wrong.1.readings[0].value, wrong.1.readings[1].value) = (0.5, 60.0);
+    let both = calibrate("club", &table, &doubt, &[lag, wrong.clone()]).unwrap();
+    assert_eq!(both.left_out, [wrong.0 + 1]);
+    assert_eq!((&both.constants, &both.next), (&alone.constants, &alone.next));
+    let said = both.agreement(|trial, test| format!("stroke {trial} of {test}"));
+    assert!(said.ends_with(&format!("most marks of stroke {} of lag are wrong, so nothing of it counts", wrong.0 + 1)));
+    // Nor where there is no other.
+    let nothing = calibrate("club", &table, &doubt, &[wrong]).unwrap();
+    for change in &nothing.constants {
+        assert!((change.after_deviation / change.before_deviation - 1.0).abs() < 1e-6, "{change:?}");
+    }
+}
+
 #[test]
 fn a_mark_that_only_another_stroke_explains_is_told() {
     let (table, doubt) = base();

@@ -164,7 +164,15 @@ impl Calibration {
         } else {
             "the other marks agree with each other; those above hardly count"
         };
-        words.to_owned()
+        let left_out = self.verdicts.iter().filter(|one| self.left_out.contains(&one.trial));
+        let mut strokes: Vec<String> = left_out.map(|one| called(one.trial, one.test)).collect();
+        strokes.dedup();
+        match &strokes[..] {
+            [] => words.to_owned(),
+            strokes => {
+                format!("{words}; most marks of {} are wrong, so nothing of it counts", strokes.join(" and of "))
+            }
+        }
     }
 }
 
