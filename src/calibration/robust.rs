@@ -29,8 +29,15 @@ pub fn misread(off: f64) -> f64 {
     bad / (good + bad)
 }
 
-/// How much such a mark counts, against one that is certainly good.
+/// How much a mark counts that no stroke comes near: nothing, up to what keeps matrices regular.
+const NOTHING: f64 = 1e-9;
+
+/// How much such a mark counts, against one that is certainly good. From [`NEVER`] on it counts nothing, for [`soften`] is flat there:
+/// however far off it is, it draws the constants no farther.
 pub fn weight(off: f64) -> f64 {
+    if off.abs() >= NEVER {
+        return NOTHING;
+    }
     let misread = misread(off);
     1.0 - misread + misread / (WIDTH * WIDTH)
 }
@@ -44,5 +51,6 @@ mod tests {
         assert!((soften(1.0) - 1.0).abs() < 5e-3 && (soften(-2.0) + 2.0).abs() < 3e-2);
         assert!(soften(10.0) < 4.0 && soften(30.0) > soften(10.0) && soften(1e9) == soften(NEVER));
         assert!(misread(2.0) < 0.05 && misread(4.5) > 0.9);
+        assert!(weight(1.0) > 0.99 && weight(8.0) < 0.02 && weight(-1e3) < 1e-6);
     }
 }

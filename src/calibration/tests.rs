@@ -138,6 +138,27 @@ fn of_a_stroke_whose_marks_are_mostly_misread_nothing_counts() {
     }
 }
 
+/// A watch that was left running for a minute drew the constants to it, and made them less sure than they were without the stroke.
+#[test]
+fn one_absurd_mark_draws_nothing_to_it_and_takes_nothing_away() {
+    let (table, doubt) = base();
+    let found = |rests: &[f64]| {
+        let lag = |rest: &f64| {
+            let marks = [("lap", 4.5), ("rest", *rest), ("stop", 3.4)];
+            let marks = marks.map(|(name, value)| (name.to_owned(), Written::Number(value))).into();
+            Entry { test: "lag".into(), marks, ..Entry::default() }
+        };
+        let entries = Entries { name: None, trials: rests.iter().map(lag).collect() };
+        calibrate("club", &table, &doubt, &entries.trials(&table).0).unwrap()
+    };
+    let (alone, late) = (found(&[8.2]), found(&[8.2, 60.0]));
+    assert_eq!((late.misread(), &late.left_out), (vec![2], &Vec::new()));
+    for (one, other) in late.constants.iter().zip(&alone.constants) {
+        assert!((one.after - other.after).abs() < 0.3 * other.after_deviation, "{one:?} {other:?}");
+        assert!(one.after_deviation < 1.05 * other.after_deviation, "{one:?} {other:?}");
+    }
+}
+
 #[test]
 fn a_mark_that_only_another_stroke_explains_is_told() {
     let (table, doubt) = base();
