@@ -64,7 +64,11 @@ impl Toasts {
         self.shown.push(Toast { text, is_answer, left });
     }
 
+    /// Keeps it to be read again; what a key that is held down says over and over is one message.
     fn keep(&mut self, text: String) {
+        if self.past.front() == Some(&text) {
+            return;
+        }
         self.past.push_front(text.clone());
         self.past.truncate(KEPT);
         self.unwritten.push(text);
@@ -110,6 +114,19 @@ mod tests {
 
     fn texts(toasts: &Toasts) -> Vec<&str> {
         toasts.shown.iter().map(|toast| toast.text.as_str()).collect()
+    }
+
+    #[test]
+    fn what_is_said_again_and_again_is_kept_once() {
+        let mut toasts = Toasts::default();
+        for _ in 0..5 {
+            toasts.push("white stops at the rail".to_owned(), true);
+            toasts.go_on();
+        }
+        toasts.push("white stops at the rail".to_owned(), true);
+        assert_eq!(texts(&toasts), ["white stops at the rail"], "it is shown all the same");
+        assert_eq!(toasts.past().len(), 1);
+        assert_eq!(toasts.take_unwritten().len(), 1);
     }
 
     #[test]
