@@ -174,7 +174,7 @@ pub fn skill_called(name: &str) -> Result<Skill, Failure> {
         SkillError::Unknown(_) => {
             Failure::wrong_input(format_args!("{error}; \"{OWN}\" is what carom drill skill --keep kept"))
         }
-        SkillError::Range { .. } => Failure::wrong_input(error),
+        SkillError::Range { .. } | SkillError::Average(_) => Failure::wrong_input(error),
     })
 }
 

@@ -47,7 +47,7 @@ pub struct Args {
     rule: Rule,
     /// Who plays the shot: perfect, expert, world-class, national, club, beginner or own.
     ///
-    /// "own" is what `carom drill skill --keep` kept. Standard errors are accepted too, in mm, degrees and m/s, like
+    /// "own" is what `carom drill skill --keep` kept. An average at three-cushion like 0.6 is accepted too, and standard errors in mm, degrees and m/s, like
     /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The shot that this player makes most often is recommended; to a perfect one the
     /// first that makes the point.
     #[arg(long, default_value_t = Skill::EXPERT, value_parser = skill_called)]

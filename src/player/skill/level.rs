@@ -28,6 +28,23 @@ impl Skill {
         Self { growth: Growth::USUAL, ..Self::EXPERT.scaled(scale) }
     }
 
+    /// The averages at three-cushion that were measured, about; beyond them nobody knows which errors a player has.
+    pub const AVERAGES: (f64, f64) = (0.1, 2.5);
+
+    /// The level that averages so much at three-cushion; `None` where none was measured.
+    pub fn of_average(average: f64) -> Option<Self> {
+        let (least, most) = Self::AVERAGES;
+        let scale = (AVERAGE_OF_EXPERTS_ERRORS / average).powf(1.0 / FALL);
+        (least..=most).contains(&average).then(|| Self::level(scale))
+    }
+
+    /// The average of which [`Skill::of_average`] makes this player.
+    pub(super) fn as_average(&self) -> Option<f64> {
+        // Nobody knows more digits of his own.
+        let average = (1e4 * Self::average(self.scale())).round() / 1e4;
+        (Self::of_average(average) == Some(*self)).then_some(average)
+    }
+
     /// What such a player averages at three-cushion.
     pub fn average(scale: f64) -> f64 {
         AVERAGE_OF_EXPERTS_ERRORS * scale.powf(-FALL)

@@ -10,11 +10,17 @@ use crate::printing::number;
 pub enum SkillError {
     /// Neither a name nor five numbers.
     #[error(
-        "there is no skill \"{0}\"; use perfect, expert, world-class, national, club or beginner, or a player's own \
-         standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\", where \"V=5%\" is a \
-         share of the speed, and \",growth=0.5,raised=1\" how they grow"
+        "there is no skill \"{0}\"; use perfect, expert, world-class, national, club or beginner, an average at \
+         three-cushion like 0.6, or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\""
     )]
     Unknown(String),
+    /// An average that no level was measured to have.
+    #[error(
+        "no player was measured who averages {}; accepted are {} to {} points an inning at three-cushion, or world-class \
+         (about 2), national (1), club (0.5) and beginner (0.15)",
+        number(*_0), Skill::AVERAGES.0, Skill::AVERAGES.1
+    )]
+    Average(f64),
     /// An error that nobody has.
     #[error("the skill has {name} = {}; accepted is 0 to {most} {unit}", number(*value))]
     Range {
@@ -39,6 +45,9 @@ pub(super) const FORMS: [(&str, &str, f64, f64); 5] = [
     ("V", "m/s", 1.0, 5.0),
 ];
 
+/// What stands before an average at three-cushion; it may be left out.
+const AVERAGE: &str = "average=";
+
 /// The name of the speed, whose error may be a share.
 const SPEED: &str = "V";
 
@@ -52,6 +61,9 @@ impl fmt::Display for Skill {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some((name, _)) = Self::NAMED.iter().find(|(_, skill)| skill == self) {
             return formatter.pad(name);
+        }
+        if let Some(average) = self.as_average() {
+            return formatter.pad(&format!("{AVERAGE}{average}"));
         }
         // Twelve digits: what was read in degrees is written as it was.
         let rounded = |value: f64| (value * 1e12).round() / 1e12;
@@ -82,6 +94,9 @@ impl FromStr for Skill {
     fn from_str(text: &str) -> Result<Self, SkillError> {
         if let Some((_, skill)) = Self::NAMED.iter().find(|(name, _)| *name == text) {
             return Ok(*skill);
+        }
+        if let Ok(average) = text.strip_prefix(AVERAGE).unwrap_or(text).trim().parse() {
+            return Self::of_average(average).ok_or(SkillError::Average(average));
         }
         let unknown = || SkillError::Unknown(text.to_owned());
         let number = |text: &str| text.trim().parse::<f64>().map_err(|_| unknown());
@@ -142,6 +157,22 @@ mod tests {
         assert_eq!("V=0.1, phi=0.15,a=0.7,b=0.6,theta=0.2".parse(), Ok(skill));
         for (name, skill) in Skill::NAMED {
             assert_eq!((skill.to_string().as_str(), name.parse()), (name, Ok(skill)));
+        }
+    }
+
+    #[test]
+    fn a_player_may_be_named_by_an_average_that_was_measured() {
+        let skill: Skill = "0.6".parse().unwrap();
+        assert!((Skill::average(skill.scale()) - 0.6).abs() < 1e-9 && skill.growth == Growth::USUAL);
+        assert_eq!(skill.to_string(), "average=0.6");
+        for text in ["0.1", "0.123", "0.5", "1", "1.37", "2.5"] {
+            let skill: Skill = text.parse().unwrap();
+            assert_eq!(skill.to_string().parse(), Ok(skill), "{text}");
+            assert_eq!(skill.to_string(), format!("average={text}"));
+        }
+        for bad in ["0.05", "3", "-1", "0", "NaN", "inf"] {
+            let said = bad.parse::<Skill>().unwrap_err().to_string();
+            assert!(said.contains("0.1 to 2.5 points an inning") && said.contains("club (0.5)"), "{said}");
         }
     }
 
