@@ -31,6 +31,8 @@ const STROKES: [&str; STROKE] =
 pub struct Calibration {
     /// The table, with its doubt.
     pub table: Table,
+    /// What the table was called that it was held to be before.
+    pub before: String,
     /// Its constants.
     pub constants: Vec<Change>,
     /// The marks, in the order of the trials.
@@ -196,10 +198,10 @@ pub fn calibrate(
     };
     let constants = belief.told().enumerate().map(change).collect();
     let next = next(&belief, &found.unknowns, &found.covariance);
-    Ok(Calibration { table: after, constants, verdicts, left_out, strange, next })
+    Ok(Calibration { table: after, before: table.name.clone(), constants, verdicts, left_out, strange, next })
 }
 
-/// What the trials say, with rails of their own where these differ.
+/// The belief about the table and its estimate from the trials; a rail that differs from the others gets constants of its own.
 fn fit(
     table: &Table,
     doubt: &TableDoubt,

@@ -39,3 +39,4 @@ pub use saved::{SaveError, may_save_table, save_table};
 pub use simulated::{Coverage, calibrated, coverage};
 pub use sketch::Sketch;
 pub use typed::{FAR_END, RAILS, TAPED};
+pub use words::NO_BETTER;

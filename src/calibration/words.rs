@@ -6,14 +6,61 @@ use super::{
 };
 use crate::table::Rail;
 
+/// What is said of a constant of which the tests tell next to nothing.
+pub const NO_BETTER: &str = "no better";
+
+/// A value and its error, with as many decimals as the error has for two digits: others say nothing.
+fn to_the_error(value: f64, error: f64) -> [String; 2] {
+    let first = error.abs().log10().floor();
+    let decimals = if first.is_finite() { (1.0 - first).clamp(0.0, 9.0) as usize } else { 5 };
+    [value, error].map(|number| format!("{number:.decimals$}"))
+}
+
 impl Change {
     /// In a word, how much the marks have told, if they agree.
     fn known(&self) -> &'static str {
         match self.after_deviation / self.before_deviation {
             left if left < 0.5 => "well",
             left if left < 0.9 => "better",
-            _ => "as before",
+            _ => NO_BETTER,
         }
+    }
+
+    /// What was held of it, and how far that could be off.
+    pub fn told_before(&self) -> [String; 2] {
+        to_the_error(self.before, self.before_deviation)
+    }
+
+    /// What the trials say, and how far that can be off.
+    pub fn told(&self) -> [String; 2] {
+        to_the_error(self.after, self.after_deviation)
+    }
+
+    /// What it means at the table, against what was held of one that is called `before`; `None` where the tests tell next to
+    /// nothing of it, or where a player sees nothing of it.
+    fn meaning(&self, before: &str) -> Option<String> {
+        let (what, [less, same, more], is_inverse) = match self.name.as_str() {
+            // What resists less lets a ball roll farther, in the same proportion.
+            "mu_r" => ("the cloth is", ["slower than", "as fast as", "faster than"], true),
+            "e_rail" => ("the rails give back", ["less speed than", "as much speed as", "more speed than"], false),
+            "mu_rail" => ("the rails grip", ["less than", "as much as", "more than"], false),
+            "mu_sp" => ("side is lost", ["later than", "as soon as", "sooner than"], false),
+            _ => return None,
+        };
+        let known = match self.known() {
+            "well" => "known well",
+            "better" => "known better than before",
+            _ => return None,
+        };
+        let ratio = if is_inverse { self.before / self.after } else { self.after / self.before };
+        let (change, error) = (100.0 * (ratio - 1.0), 100.0 * (ratio * self.after_deviation / self.after).abs());
+        let number = |share: f64| if share < 0.95 { format!("{share:.1}") } else { format!("{share:.0}") };
+        let end = format!("on {before} (± {} %): {known}", number(error));
+        Some(match change {
+            // What the error may hide is no difference.
+            _ if change.abs() < error => format!("{what} {same} {end}"),
+            _ => format!("{what} {} % {} {end}", number(change.abs()), if change > 0.0 { more } else { less }),
+        })
     }
 
     /// What the constant is, in twelve characters at most; nothing of one that no test measures.
@@ -130,7 +177,8 @@ impl Calibration {
             let part = |own: &str, common: &str, [less, more]: [&str; 2]| {
                 let (own, all) = (constant(&format!("rail.{}.{own}", rail.name()))?, constant(common)?);
                 let word = if own.after < all.after { less } else { more };
-                Some(format!("{word} ({:.3} ± {:.3}, the others {:.3})", own.after, own.after_deviation, all.after))
+                let ([value, deviation], [others, _]) = (own.told(), all.told());
+                Some(format!("{word} ({value} ± {deviation}, the others {others})"))
             };
             let parts = [
                 part("e", "e_rail", ["gives back less", "gives back more"]),
@@ -148,6 +196,14 @@ impl Calibration {
         if self.is_contradictory() { "unsure" } else { change.known() }
     }
 
+    /// What the constants mean at the table that the marks have told something of.
+    pub fn meanings(&self) -> Vec<String> {
+        if self.is_contradictory() {
+            return Vec::new();
+        }
+        self.constants.iter().filter_map(|change| change.meaning(&self.before)).collect()
+    }
+
     /// Whether the marks agree, of strokes that `called` has names for.
     pub fn agreement(&self, called: impl Fn(usize, &str) -> String) -> String {
         if self.is_contradictory() {
@@ -159,20 +215,27 @@ impl Calibration {
                 strokes.join(", ")
             );
         }
-        let words = if self.misread().is_empty() {
-            "all marks agree with each other"
-        } else {
-            "the other marks agree with each other; those above hardly count"
-        };
-        let left_out = self.verdicts.iter().filter(|one| self.left_out.contains(&one.trial));
-        let mut strokes: Vec<String> = left_out.map(|one| called(one.trial, one.test)).collect();
-        strokes.dedup();
-        match &strokes[..] {
-            [] => words.to_owned(),
-            strokes => {
-                format!("{words}; most marks of {} are wrong, so nothing of it counts", strokes.join(" and of "))
-            }
+        if self.misread().is_empty() {
+            return "all marks agree with each other".to_owned();
         }
+        let (left_out, counted): (Vec<_>, Vec<_>) =
+            self.verdicts.iter().partition(|one| self.left_out.contains(&one.trial));
+        let mut parts = Vec::new();
+        if counted.iter().any(|one| !one.misread) {
+            parts.push("the other marks agree with each other".to_owned());
+        }
+        if counted.iter().any(|one| one.misread) {
+            parts.push("those above hardly count".to_owned());
+        }
+        let mut strokes: Vec<String> = left_out.iter().map(|one| called(one.trial, one.test)).collect();
+        strokes.dedup();
+        let [it_was, it] =
+            if strokes.len() > 1 { ["they were other strokes", "them"] } else { ["it was another stroke", "it"] };
+        if !strokes.is_empty() {
+            let strokes = strokes.join(" and of ");
+            parts.push(format!("most marks of {strokes} look misread: {it_was}, and nothing of {it} counts"));
+        }
+        parts.join("; ")
     }
 }
 
@@ -180,6 +243,38 @@ impl Calibration {
 mod tests {
     use super::*;
     use crate::table::{Table, TableDoubt};
+
+    #[test]
+    fn a_value_has_as_many_digits_as_its_error_supports() {
+        let told = |value, error| to_the_error(value, error).join(" ");
+        assert_eq!(told(1.27419, 0.17394), "1.27 0.17");
+        assert_eq!(told(0.00493, 0.00039), "0.00493 0.00039");
+        assert_eq!(told(0.118, 0.03), "0.118 0.030");
+        assert_eq!(told(153.2, 24.7), "153 25");
+        assert_eq!(told(0.25, 0.0), "0.25000 0.00000");
+    }
+
+    #[test]
+    fn what_is_known_of_a_constant_is_told_in_a_players_words() {
+        let change = |name: &str, after: f64, after_deviation: f64| Change {
+            name: name.to_owned(),
+            before: 0.005,
+            before_deviation: 0.001,
+            after,
+            after_deviation,
+        };
+        let told = |name: &str, after: f64, deviation: f64| change(name, after, deviation).meaning("match");
+        assert_eq!(told("mu_r", 0.004, 0.0002).unwrap(), "the cloth is 25 % faster than on match (± 6 %): known well");
+        assert_eq!(
+            told("mu_r", 0.0051, 0.0008).unwrap(),
+            "the cloth is as fast as on match (± 15 %): known better than before"
+        );
+        assert_eq!(
+            told("mu_rail", 0.004, 0.0004).unwrap(),
+            "the rails grip 20 % less than on match (± 8 %): known well"
+        );
+        assert_eq!((told("mu_r", 0.005, 0.00095), told("tilt.x", 0.1, 0.0001)), (None, None));
+    }
 
     #[test]
     fn every_constant_has_words_and_short_ones_of_its_own() {

@@ -24,8 +24,7 @@ fn a_file_of_entries_becomes_a_table_that_every_command_plays_on() {
     fs::write(home.path().join("entries.toml"), ENTRIES).unwrap();
     let said = run(&["calibrate", "entries.toml", "--out", "mine.toml"]).assert().success();
     let said = String::from_utf8_lossy(&said.get_output().stdout).into_owned();
-    for part in ["mu_r", "well", "all marks agree", "not entered yet: slow-roll (1), slow-back (1)", "would tell most"]
-    {
+    for part in ["mu_r", "well", "all marks agree", "not entered yet: slow-roll (1), slow-back (1)", "helps most"] {
         assert!(said.contains(part), "{part}: {said}");
     }
     run(&["table", "check", "mine.toml"]).assert().success();

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::{
-    calibration::{Calibration, Change, Entries, Next, Oddity, Play, Strange, Verdict},
+    calibration::{Calibration, Change, Entries, NO_BETTER, Next, Oddity, Play, Strange, Verdict},
     commands::{
         Failure,
         output::{columns, json_line, line},
@@ -70,9 +70,12 @@ impl<'a> Report<'a> {
         let row = |one: &Change| {
             [
                 one.name.clone(),
-                format!("{:.5} ± {:.5}", one.before, one.before_deviation),
-                format!("{:.5} ± {:.5}", one.after, one.after_deviation),
-                self.found.known(one).to_owned(),
+                one.told_before().join(" ± "),
+                one.told().join(" ± "),
+                match self.found.known(one) {
+                    NO_BETTER => format!("{NO_BETTER} than before"),
+                    known => known.to_owned(),
+                },
             ]
         };
         let rows: Vec<_> = std::iter::once(heads).chain(self.constants.iter().map(row)).collect();
@@ -86,6 +89,7 @@ impl<'a> Report<'a> {
         }
         self.found.rails_apart().iter().try_for_each(line)?;
         line(self.found.agreement(in_file))?;
+        self.found.meanings().iter().try_for_each(line)?;
         if let Some([before, now]) = &self.play {
             return line(format_args!("today {}", now.against(before)));
         }
@@ -95,8 +99,8 @@ impl<'a> Report<'a> {
             line(format_args!("not entered yet: {}", all.join(", ")))?;
         }
         let told: Vec<String> =
-            self.next.iter().take(NEXT).map(|next| format!("{} ({:.2} bits)", next.test, next.bits)).collect();
-        line(format_args!("what one more stroke would tell most: {}", told.join(", ")))
+            self.next.iter().take(NEXT).map(|next| format!("{} ({:.1} bits)", next.test, next.bits)).collect();
+        line(format_args!("next, one more stroke of these helps most (1 bit halves a doubt): {}", told.join(", ")))
     }
 }
 

@@ -53,7 +53,7 @@ fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
     let corner = player.press("Down Down Down Down");
     corner.shows(&["Corner-5, 50 to 20", "3 tips right", "first", "third", "fourth"]);
     let best = corner.press("n");
-    best.says("would tell most");
+    best.says("helps most");
     let out = best.press("Home x");
     out.says("slow-roll is left out").says("0 of 18 strokes");
     assert!(out.press("x").text(120, 40).contains("0 of 20 strokes"));
@@ -124,7 +124,7 @@ fn a_stroke_is_kept_at_once_and_its_values_are_shown_with_how_sure_they_are() {
     assert_eq!(kept(&player).trials.len(), 1);
     player.shows(&["1/2", "9.6, 5.4, 725 mm", "mu_r"]);
     let values = player.press("Tab");
-    values.shows(&["mu_r", "well", "as before", "all marks agree with each other", "would tell most"]);
+    values.shows(&["mu_r", "well", "no better", "all marks agree with each other", "helps most"]);
     let again = enter(values, &["9.3", "5.1 ~ 0.2", "2", ""]);
     assert_eq!(kept(&again).trials[1].typed("stop"), "5.1 ~ 0.2");
     // Both strokes are there: the next test is marked.

@@ -162,7 +162,7 @@ impl CalibrationPage {
     fn mark_best(&mut self) {
         self.message = Some(if self.sheet_mut().mark_best() {
             let test = self.sheet().test().name;
-            Message::plain(format!("one more stroke of {test} would tell most"))
+            Message::plain(format!("next: {test} helps most"))
         } else {
             Message::plain("nothing more is asked for")
         });

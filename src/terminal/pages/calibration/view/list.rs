@@ -3,19 +3,18 @@
 use ratatui::layout::{Position, Rect};
 
 use crate::{
-    calibration::{Calibration, Change, Entry, Test},
+    calibration::{Calibration, Change, Entry, NO_BETTER, Test},
     terminal::{
         pages::calibration::{CalibrationPage, view::values::draw_called},
-        ui::{Ui, draw_title, list, shorten, write_right},
+        ui::{Ui, columns, draw_title, list, shorten, write_right},
     },
 };
 
 /// Columns, from the right, at which the strokes and the bits of a test end.
 const STROKES_END: u16 = 8;
 const BITS_END: u16 = 1;
-/// Columns of what a constant is called, at least, and of its value.
+/// Columns of what a constant is called, at least.
 const NAME: usize = 12;
-const VALUE: usize = 16;
 
 /// Draws it.
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
@@ -129,10 +128,10 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     for (one, y) in constants.into_iter().zip(inner.y..inner.bottom()) {
         // As wide as each other, so that the name has a blank behind it.
         let sign = ui.caps.pick("± ", "+-");
-        let room = NAME.max(usize::from(inner.width).saturating_sub(VALUE + 4));
-        let style = if found.known(one) == "as before" { ui.theme.faint() } else { ui.theme.text() };
-        draw_called(one, room, style, Position::new(inner.x + 2, y), ui);
         let value = format!("{:.4} {sign}{:.4}", one.after, one.after_deviation);
+        let room = NAME.max(usize::from(inner.width).saturating_sub(columns(&value) + 4));
+        let style = if found.known(one) == NO_BETTER { ui.theme.faint() } else { ui.theme.text() };
+        draw_called(one, room, style, Position::new(inner.x + 2, y), ui);
         write_right(ui.buffer, inner.x, inner.right() - 1, y, &value, style);
     }
 }

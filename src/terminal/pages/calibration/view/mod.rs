@@ -12,7 +12,7 @@ use ratatui::{
 
 use crate::terminal::{
     pages::{
-        PageArea, Picture, Target,
+        PageArea, PageView, Target,
         calibration::{CalibrationPage, Input, Side},
     },
     ui::{Message, TextField, Ui, columns, draw_question, draw_status, shorten, write_right},
@@ -24,7 +24,7 @@ const LIST_WIDE: u16 = 41;
 /// Columns of the screen from which on there is.
 const WIDE: u16 = 110;
 
-impl Picture for CalibrationPage {
+impl PageView for CalibrationPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
         draw_header(self, area.header, ui);
         // At 80 columns what is asked of a mark takes two rows: no other mark may stand behind the first of them.
@@ -84,13 +84,13 @@ fn status_line(page: &CalibrationPage) -> Message {
     match sheet.best() {
         _ if sheet.is_asking() => Message::plain("working out what the marks say"),
         Some(best) if entered == 0 => {
-            Message::plain(format!("play a test, then Enter; {} tells most ({})", best.test, bits_words(best.bits)))
+            Message::plain(format!("play a test, then Enter; {} helps most ({})", best.test, bits_words(best.bits)))
         }
         Some(best) if entered < wanted => {
-            Message::plain(format!("one more stroke of {} would tell most ({})", best.test, bits_words(best.bits)))
+            Message::plain(format!("next: {} helps most ({})", best.test, bits_words(best.bits)))
         }
         Some(best) => Message::good(format!(
-            "all is entered: s saves the table; {} would still tell most ({:.1} bits)",
+            "all is entered: s saves the table; {} would still help most ({:.1} bits)",
             best.test, best.bits
         )),
         None if page.is_daily => {

@@ -84,7 +84,7 @@ fn draw_constant(one: &Change, known: &str, area: Rect, ui: &mut Ui) {
         "better" => ui.theme.text(),
         _ => ui.theme.faint(),
     };
-    let value = format!("{:.5} {} {:.5}", one.after, ui.caps.pick("±", "+-"), one.after_deviation);
+    let value = one.told().join(ui.caps.pick(" ± ", " +- "));
     let room = usize::from(area.width.saturating_sub(WORDS));
     let has_words = room >= WORDS_ROOM;
     let (value_end, known_end) = if has_words { (VALUE_END, KNOWN_END) } else { (NARROW_VALUE_END, NARROW_KNOWN_END) };
@@ -135,11 +135,12 @@ pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(S
         ui.theme.text()
     };
     said.push((found.agreement(stroke), agreement));
+    said.extend(found.meanings().into_iter().map(|sentence| (sentence, ui.theme.text())));
     if let Some([before, now]) = page.sheet().judged.as_ref().and_then(|judged| judged.play) {
         said.push((format!("today {}", now.against(&before)), ui.theme.accent()));
     }
     if let Some(best) = page.sheet().best() {
-        let words = format!("one more stroke of {} would tell most: {:.1} bits", best.test, best.bits);
+        let words = format!("next: {} helps most, with {:.1} bits; each bit halves one doubt", best.test, best.bits);
         said.push((words, ui.theme.text()));
     }
     if !ui.caps.unicode {
