@@ -17,6 +17,9 @@ pub struct Risk {
     pub placing: f64,
 }
 
+/// Share of attempts from which on a cause is told.
+const LEAST: f64 = 0.02;
+
 /// One of the three.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cause {
@@ -43,29 +46,33 @@ impl Cause {
 }
 
 impl Risk {
-    /// What misses the shot most often by itself; `None` where nothing does in two of a hundred attempts.
-    pub fn main_cause(&self) -> Option<Cause> {
+    /// What misses the shot most often by itself, of one that is missed so often in all; `None` where nothing does in two of a
+    /// hundred attempts, or where it is at the edge.
+    pub fn main_cause(&self, missed: Option<f64>) -> Option<Cause> {
         let all = [(Cause::Hand, self.hand), (Cause::Table, self.table), (Cause::Placing, self.placing)];
         let [first, ..] = all;
         let largest = all.into_iter().fold(first, |largest, other| if other.1 > largest.1 { other } else { largest });
-        (largest.1 >= 0.02).then_some(largest.0)
+        (largest.1 >= LEAST && !self.is_at_edge(missed)).then_some(largest.0)
+    }
+
+    /// Whether the stroke as it is meant is at the edge of what makes the point: then any error misses, so that two of them alone
+    /// miss as often as all together.
+    fn is_at_edge(&self, missed: Option<f64>) -> bool {
+        let mut shares = [self.hand, self.table, self.placing];
+        shares.sort_by(f64::total_cmp);
+        missed.is_some_and(|missed| shares[1] >= LEAST && shares[1] > 0.9 * missed)
     }
 
     /// In a sentence, of a shot that is missed so often in all.
     pub fn words(&self, missed: Option<f64>) -> String {
-        let mut shares = [self.hand, self.table, self.placing];
-        let [hand, table, placing] = shares.map(|share| 100.0 * share);
+        let [hand, table, placing] = [self.hand, self.table, self.placing].map(|share| 100.0 * share);
         let alone = format!(
             "missed by the hand alone {hand:.0} %, by what is not known of the table {table:.0} %, of the balls' places {placing:.0} %"
         );
-        shares.sort_by(f64::total_cmp);
-        // Where two of them miss as often as all together, any error does: the stroke as it is meant is at the edge.
-        if missed.is_some_and(|missed| shares[1] >= 0.02 && shares[1] > 0.9 * missed) {
-            return format!(
-                "{alone}; one alone misses as often as all together, for the stroke is at the edge of what makes the point"
-            );
-        }
-        match self.main_cause() {
+        match self.main_cause(missed) {
+            _ if self.is_at_edge(missed) => format!(
+                "{alone}; two of these alone miss as often as all together: the stroke is at the edge of what makes the point"
+            ),
             Some(Cause::Table) => format!("{alone}; mostly the table, which carom calibrate measures"),
             Some(cause) => format!("{alone}; mostly {cause}"),
             None => alone,
@@ -90,16 +97,17 @@ mod tests {
     #[test]
     fn the_main_cause_is_the_one_that_misses_most_by_itself() {
         let risk = |hand, table, placing| Risk { hand, table, placing };
-        assert_eq!(risk(0.3, 0.4, 0.1).main_cause(), Some(Cause::Table));
-        assert_eq!(risk(0.3, 0.1, 0.31).main_cause(), Some(Cause::Placing));
-        assert_eq!(risk(0.02, 0.0, 0.0).main_cause(), Some(Cause::Hand));
-        assert_eq!(risk(0.01, 0.0, 0.005).main_cause(), None, "a shot that hardly ever misses");
+        assert_eq!(risk(0.3, 0.4, 0.1).main_cause(None), Some(Cause::Table));
+        assert_eq!(risk(0.3, 0.1, 0.31).main_cause(None), Some(Cause::Placing));
+        assert_eq!(risk(0.02, 0.0, 0.0).main_cause(None), Some(Cause::Hand));
+        assert_eq!(risk(0.01, 0.0, 0.005).main_cause(None), None, "a shot that hardly ever misses");
     }
 
     #[test]
-    fn where_one_error_misses_as_often_as_all_together_none_is_the_main_cause() {
+    fn where_two_errors_miss_as_often_as_all_together_none_is_the_main_cause() {
         let risk = Risk { hand: 0.37, table: 0.36, placing: 0.39 };
-        assert!(risk.words(Some(0.354)).contains("one alone misses as often as all together"));
+        assert!(risk.words(Some(0.354)).contains("two of these alone miss as often as all together"));
+        assert_eq!((risk.main_cause(Some(0.354)), risk.main_cause(Some(0.7))), (None, Some(Cause::Placing)));
         assert!(
             risk.words(Some(0.7)).ends_with("mostly the places") && risk.words(None).ends_with("mostly the places")
         );

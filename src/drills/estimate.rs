@@ -99,10 +99,7 @@ fn openings(low: f64, high: f64) -> [bool; 2] {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoEstimate {
     /// Too few attempts, or shots.
-    #[error(
-        "the skill cannot be estimated yet: so far attempts {attempts} ({FEWEST} needed), different shots {shots} ({FEWEST_SHOTS} \
-         needed); only model shots with no ball shifted and hinted shots at a real table count, and no games"
-    )]
+    #[error("the skill is not known yet: {}. {COUNTED}", so_far(*attempts, *shots))]
     TooFew {
         /// Attempts there are.
         attempts: usize,
@@ -115,6 +112,18 @@ pub enum NoEstimate {
         /// Attempts there are.
         attempts: usize,
     },
+}
+
+/// Which attempts tell something of the hand alone.
+const COUNTED: &str = "Only model shots with no ball shifted and hinted shots at a real table count, and no games";
+
+/// What there is of what an estimate needs.
+fn so_far(attempts: usize, shots: usize) -> String {
+    match (attempts < FEWEST, shots < FEWEST_SHOTS) {
+        (true, true) => format!("{attempts} of {FEWEST} attempts, at {shots} of {FEWEST_SHOTS} different shots"),
+        (true, false) => format!("{attempts} of {FEWEST} attempts"),
+        (false, _) => format!("{attempts} attempts are enough, but at {shots} of {FEWEST_SHOTS} different shots"),
+    }
 }
 
 /// A shot, and how often it was attempted and made.

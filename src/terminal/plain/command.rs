@@ -33,10 +33,16 @@ pub enum Command {
     OwnSkill,
     /// Whether the next point counts too.
     Plan(bool),
+    /// Whether it does now, and what the shot leaves.
+    PlanNow,
     /// A shot.
     Shot,
     /// The next of the other shots.
     Other,
+    /// How often each of the shots is made.
+    Chances,
+    /// Why the first shot leads.
+    Why,
     /// How far off it may be.
     Margins,
     /// Where the tip meets the ball, the speed and the direction, in numbers.
@@ -62,9 +68,11 @@ pub enum Command {
 }
 
 /// What may be said, and what it does.
-pub const HELP: &[(&str, &str)] = &[
+const HELP: &[(&str, &str)] = &[
     ("shot", "ask the coach for a shot; ask and an empty line do the same"),
     ("other", "the next of the other shots; so does next"),
+    ("chances", "how often each of the shots is made"),
+    ("why", "why the first of the shots leads"),
     ("numbers", "the shot in numbers: small distances, speed and degrees"),
     ("system", "what a player counts on the diamonds for the shot, and what that is on this table"),
     ("words", "what the words for a shot mean: tips, o'clock, full, table lengths, diamonds"),
@@ -84,14 +92,20 @@ pub const HELP: &[(&str, &str)] = &[
     ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
     (
         "skill club",
-        "who plays: perfect, expert, world-class, national, club, beginner, own (your own skill, once it is kept) or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
+        "who plays: perfect, expert, world-class, national, club, beginner, own (your own skill, once it is kept), an average at three-cushion like 0.6, or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
     ),
-    ("plan off", "whether the coach has the next point in mind: on or off"),
+    ("plan", "whether the coach has the next point in mind, and what the shot leaves"),
+    ("plan off", "whether the coach has the next point in mind from now on: on or off"),
     ("film", "which filmed shots there are"),
     ("film 12", "that filmed shot, and how far the simulated balls are from the filmed ones"),
     ("undo", "take the last change of the balls back"),
     ("quit", "end; so do exit and the end of the input"),
 ];
+
+/// All of it, a line each.
+pub fn help() -> String {
+    HELP.iter().map(|(line, about)| format!("{line}: {about}.")).collect::<Vec<_>>().join("\n")
+}
 
 impl FromStr for Command {
     type Err = String;
@@ -122,11 +136,19 @@ impl FromStr for Command {
             ),
             ["help" | "?"] => Self::Help,
             ["quit" | "exit"] => Self::Quit,
+            ["chances"] => Self::Chances,
+            ["why"] => Self::Why,
+            ["plan"] => Self::PlanNow,
             ["plan", "on"] => Self::Plan(true),
             ["plan", "off"] => Self::Plan(false),
-            ["rule", name] => Self::Rule(name.parse().map_err(|error| format!("{error}"))?),
+            ["rule", ref name @ ..] if !name.is_empty() => {
+                Self::Rule(name.join("-").parse().map_err(|error| format!("{error}"))?)
+            }
             ["skill", "own"] => Self::OwnSkill,
-            ["skill", name] => Self::Skill(name.parse().map_err(|error| format!("{error}"))?),
+            ["skill", ref name @ ..] if !name.is_empty() => {
+                let between = if line.contains('=') { " " } else { "-" };
+                Self::Skill(name.join(between).parse().map_err(|error| format!("{error}"))?)
+            }
             ["balls", ref places @ ..] => Self::Balls(places.join(" ")),
             ["move", ball, direction, distance] => Self::Move(ball_named(ball)?, step(direction, distance)?),
             _ => return Err(format!("\"{}\" means nothing here; help says what may be said", line.trim())),
@@ -170,6 +192,12 @@ mod tests {
         assert_eq!("balls".parse(), Ok(Command::Where));
         assert_eq!("?".parse(), Ok(Command::Help));
         assert_eq!("exit".parse(), Ok(Command::Quit));
+        assert_eq!(["plan on", "plan off"].map(str::parse), [true, false].map(|plan| Ok(Command::Plan(plan))));
+        for rule in ["rule one-cushion", "rule one cushion"] {
+            assert_eq!(rule.parse(), Ok(Command::Rule(Rule::OneCushion)));
+        }
+        assert_eq!("skill world class".parse(), Ok(Command::Skill(Skill::WORLD_CLASS)));
+        assert_eq!("skill 0.6".parse(), Ok(Command::Skill(Skill::of_average(0.6).unwrap())));
     }
 
     #[test]

@@ -25,7 +25,7 @@ use crate::{
     table::{CueBall, Layout, Side, Table},
     terminal::{
         Settings,
-        plain::command::{Command, HELP},
+        plain::command::Command,
         shot::{History, placing::slide},
     },
 };
@@ -36,6 +36,8 @@ struct Found {
     cue: CueInputs,
     kind: Option<Kind>,
     rate: Option<SuccessRate>,
+    /// How often the point after it is made, where that is known.
+    next: Option<f64>,
 }
 
 /// A conversation on its way.
@@ -153,8 +155,8 @@ impl Conversation {
             Command::Move(colour, step) => {
                 let ball = self.cue_ball().ordered([0, 1, 2])[colour];
                 let moved = slide(self.table(), self.layout(), ball, step);
-                let stopped =
-                    moved.stopped.map_or(String::new(), |reason| format!("\nIt stops there: beyond, {reason}."));
+                let stopped = moved.stop_words(ball, self.cue_ball().names());
+                let stopped = stopped.map_or(String::new(), |place| format!("\nIt stops there, {place}."));
                 self.place(moved.layout) + &stopped
             }
             Command::Opening(side) => self.open(side),
@@ -168,23 +170,29 @@ impl Conversation {
             }
             Command::Skill(skill) => {
                 self.request.skill = skill;
-                self.forget(format!("The player is {skill}."))
+                self.forget(speech::now_plays(skill))
             }
-            Command::OwnSkill => match self.own {
-                Some(skill) => {
-                    self.request.skill = skill;
-                    self.forget(format!("The player is you: {skill}."))
-                }
-                None => {
-                    return Err(
-                        "No skill of your own is kept yet; carom drill skill --keep estimates and keeps it.".to_owned()
-                    );
-                }
-            },
+            Command::OwnSkill => {
+                let skill = self
+                    .own
+                    .ok_or("No skill of your own is kept yet; carom drill skill --keep estimates and keeps it.")?;
+                self.request.skill = skill;
+                self.forget(format!("The player is you: {skill}."))
+            }
             Command::Plan(plan) => {
                 self.request.plan = plan;
                 self.forget(format!("The next point {}.", if plan { "counts too" } else { "does not count" }))
             }
+            Command::PlanNow => speech::plan(self.request.plan, self.shots.get(self.chosen).and_then(|shot| shot.next)),
+            Command::Chances => self.about_the_shot(|talk, _| {
+                let of = |shot: &Found| speech::chance(shot.kind, shot.rate, talk.request.skill).join(" ");
+                let line = |(number, shot): (usize, &Found)| format!("Shot {number}. {}", of(shot));
+                Ok((1..).zip(&talk.shots).map(line).collect::<Vec<_>>().join("\n"))
+            })?,
+            Command::Why => self.about_the_shot(|talk, _| {
+                let why = talk.why.as_ref().ok_or("No reason is known why the first shot leads.")?;
+                Ok(format!("The first shot. {}", why.words(talk.cue_ball(), talk.units)))
+            })?,
             Command::Shot => self.ask()?,
             Command::Other if self.shots.len() > 1 => {
                 self.chosen = (self.chosen + 1) % self.shots.len();
@@ -226,9 +234,7 @@ impl Conversation {
                     return Err("There is nothing to take back.".to_owned());
                 }
             }
-            Command::Help => {
-                HELP.iter().map(|(line, about)| format!("{line}: {about}.")).collect::<Vec<_>>().join("\n")
-            }
+            Command::Help => command::help(),
             Command::Quit => String::new(),
         })
     }
@@ -258,17 +264,17 @@ impl Conversation {
         let shooter = self.request.shooter();
         self.why =
             why(shooter, self.request.rule, self.table(), self.layout(), &advice, 0).ok().filter(|_| advice.solved);
-        let best = Found { cue: advice.cue, kind: advice.kind, rate: advice.make_probability };
+        let best =
+            Found { cue: advice.cue, kind: advice.kind, rate: advice.make_probability, next: advice.next_probability };
         let others = advice.alternatives.iter().map(|shot| Found {
             cue: shot.cue,
             kind: Some(shot.kind),
             rate: shot.make_probability,
+            next: shot.next_probability,
         });
         self.shots = std::iter::once(best).chain(others).collect();
         self.chosen = 0;
-        let next = advice.next_probability.map_or(String::new(), |next| {
-            format!("\nThe point after it is made about {:.0} percent of the time.", 100.0 * next)
-        });
+        let next = best.next.map_or(String::new(), |next| format!("\n{}", speech::next_point(next)));
         let others = match self.shots.len() - 1 {
             0 => "There is no other shot.".to_owned(),
             1 => "There is 1 other shot.".to_owned(),
@@ -292,7 +298,7 @@ impl Conversation {
                     pattern.map(|pattern| format!("Pattern: {}: {}.", pattern.name, pattern.course_of(&technique))),
                 );
             }
-            lines.push(speech::chance(shot.kind, shot.rate, talk.request.skill, cue_ball, units.length));
+            lines.extend(speech::chance(shot.kind, shot.rate, talk.request.skill));
             let why = talk.why.as_ref().filter(|_| talk.chosen == 0);
             lines.extend(why.map(|why| why.words(cue_ball, units)));
             let system = recording.filter(|_| shot.kind.is_some()).and_then(|shot| guide(talk.table(), &shot));
@@ -368,7 +374,7 @@ mod tests {
         {
             assert!(said.contains(words), "{words}: {said}");
         }
-        assert!(said.contains(" ft/s") && !said.contains("m/s") && !said.contains("metres a second"), "{said}");
+        assert!(!said.contains("m/s") && !said.contains("metres a second"), "{said}");
         assert!(!said.contains("millimetres"), "{said}");
     }
 
@@ -439,20 +445,46 @@ mod tests {
     fn the_skill_that_is_kept_plays_and_where_none_is_that_is_said() {
         assert!(talk("skill own").contains("No skill of your own is kept yet"));
         let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
-        let said = talk_of(own.parse().ok(), "skill own\n");
-        assert!(said.contains(&format!("The player is you: {own}.")), "{said}");
+        let said = talk_of(own.parse().ok(), "skill own\nskill 0.6\nshot\nskill 7\n");
+        for words in [
+            &format!("The player is you: {own}."),
+            "The player averages 0.6 points an inning at three-cushion.",
+            "\nA player who averages 0.6 makes it ",
+            "accepted are 0.1 to 2.5 points an inning at three-cushion, or world-class",
+        ] {
+            assert!(said.contains(words), "{words}: {said}");
+        }
+    }
+
+    #[test]
+    fn why_chances_and_plan_are_answered_in_sentences_without_the_course_again() {
+        assert!(talk("why").contains("There is no shot yet") && talk("chances").contains("There is no shot yet"));
+        let said = talk("skill club\nshot\nwhy\nchances\nplan\nplan off\nplan");
+        for words in [
+            "The first shot. It is made ",
+            "Shot 1. Player club makes it ",
+            "\nThe next point ",
+            "Say plan on to change",
+        ] {
+            assert!(said.contains(words), "{words}: {said}");
+        }
+        let reasons = said.lines().find(|line| line.starts_with("It is made ")).unwrap();
+        assert!(!reasons.contains(';') && !said.contains("cushions in all") && !said.contains(" and more."), "{said}");
     }
 
     #[test]
     fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
-        let said = talk("tell\nother\ngo on\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nrule one-cushion\n");
+        let said = talk(
+            "tell\nother\ngo on\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nmove red right 9000\nrule one-cushion\n",
+        );
         for words in [
             "no shot yet",
             "no other shot",
             "nothing to take back",
             "fly",
             "0.0000 m apart",
-            "It stops there",
+            "It stops there, in contact with yellow.",
+            "It stops there, at the rail.",
             "The rule is one-cushion",
         ] {
             assert!(said.contains(words), "{words}: {said}");

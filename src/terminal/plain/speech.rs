@@ -2,14 +2,14 @@
 
 use crate::{
     coach::{
-        Aim, Input, Kind, Margin, Skill, Way, jump_words,
+        Aim, Input, Kind, Margin, Skill, jump_words,
         systems::Guide,
         words::{LengthUnit, TIP, TipUnit, Units},
     },
     physics::CueInputs,
     simulation::{Event, EventKind, Recording},
     statistics::SuccessRate,
-    table::{BALLS, CueBall, Layout, Table},
+    table::{CueBall, Layout, Table},
     terminal::words::{event_words, fixed, in_diamonds, percent, rail_name},
 };
 
@@ -122,38 +122,42 @@ pub fn words(table: &Table, unit: LengthUnit) -> String {
     )
 }
 
-/// What sort of shot, and how often the player makes it.
-pub fn chance(
-    kind: Option<Kind>,
-    rate: Option<SuccessRate>,
-    skill: Skill,
-    cue_ball: CueBall,
-    unit: LengthUnit,
-) -> String {
-    let kind =
-        kind.map_or("No point was found; this is the best attempt".to_owned(), |kind| sort(kind, cue_ball, unit));
-    match rate {
-        Some(rate) => format!(
-            "{kind}. Player {skill} makes it {} percent of the time, between {} and {}.",
-            percent(rate.rate),
-            percent(rate.low),
-            percent(rate.high)
-        ),
-        None => format!("{kind}."),
-    }
+/// How often the player makes a shot; that it makes no point, where it makes none.
+pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill) -> Vec<String> {
+    let none = kind.is_none().then(|| "No point was found; this is the best attempt.".to_owned());
+    let rate = rate.map(|rate| {
+        let [middle, low, high] = [rate.rate, rate.low, rate.high].map(percent);
+        format!("{} makes it {middle} percent of the time, between {low} and {high}.", player(skill))
+    });
+    none.into_iter().chain(rate).collect()
 }
 
-/// What sort of shot it is.
-fn sort(kind: Kind, cue_ball: CueBall, unit: LengthUnit) -> String {
-    let (first, names) = (kind.first_ball.clamp(1, BALLS - 1), cue_ball.names());
-    let (first, other) = (names[first], names[BALLS - first]);
-    let start = if kind.cushion_first { "a cushion, then " } else { "" };
-    let way = match kind.way {
-        Way::Direct => "without a cushion",
-        Way::OffCushion => "over one or two cushions in all",
-        Way::AroundTheTable => "over three cushions or more in all",
-    };
-    format!("First {start}{first}, then {other}, {way}, {}", kind.pace.words(unit))
+/// Who plays, at the beginning of a sentence.
+pub fn player(skill: Skill) -> String {
+    let name = skill.to_string();
+    name.strip_prefix("average=")
+        .map_or_else(|| format!("Player {name}"), |average| format!("A player who averages {average}"))
+}
+
+/// Who plays from now on.
+pub fn now_plays(skill: Skill) -> String {
+    let name = skill.to_string();
+    name.strip_prefix("average=").map_or_else(
+        || format!("The player is {name}."),
+        |average| format!("The player averages {average} points an inning at three-cushion."),
+    )
+}
+
+/// What the shot leaves.
+pub fn next_point(next: f64) -> String {
+    format!("The point after it is made about {:.0} percent of the time.", 100.0 * next)
+}
+
+/// Whether the next point counts too, and what the shot leaves.
+pub fn plan(counts: bool, next: Option<f64>) -> String {
+    let [now, other] = if counts { ["counts too", "off"] } else { ["does not count", "on"] };
+    let next = next.map_or_else(String::new, |next| format!("{} ", next_point(next)));
+    format!("The next point {now}. {next}Say plan {other} to change that.")
 }
 
 /// How far off each input may be.

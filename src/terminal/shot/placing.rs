@@ -16,6 +16,16 @@ pub struct Slide {
     pub stopped: Option<LayoutError>,
 }
 
+impl Slide {
+    /// Where `ball` stopped before it had gone all the way, for who calls the balls by these names: "at the rail".
+    pub fn stop_words(&self, ball: usize, names: [&str; BALLS]) -> Option<String> {
+        Some(match self.stopped.as_ref()? {
+            LayoutError::Overlap { first, second, .. } => format!("in contact with {}", names[first + second - ball]),
+            _ => "at the rail".to_owned(),
+        })
+    }
+}
+
 /// Moves `ball` by `step`, m, as far as the table and the other balls allow.
 pub fn slide(table: &Table, layout: &Layout, ball: usize, step: DVec2) -> Slide {
     let start = layout.balls[ball];
@@ -77,6 +87,7 @@ pub fn quarters(table: &Table, place: DVec2, count: DVec2) -> DVec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::BALL_NAMES;
     use proptest::prelude::*;
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
@@ -98,6 +109,7 @@ mod tests {
         assert!(gap.abs() < 1e-12, "{gap}");
         let again = slide(&table, &moved.layout, 0, DVec2::new(0.0, 0.001));
         assert!(again.stopped.is_some() && again.layout == moved.layout);
+        assert_eq!(again.stop_words(0, BALL_NAMES).unwrap(), "in contact with yellow");
         let away = slide(&table, &moved.layout, 0, DVec2::new(0.0, -0.001));
         assert_eq!(away.stopped, None);
     }
@@ -106,6 +118,7 @@ mod tests {
     fn a_ball_stops_at_the_cushion_and_slides_along_it() {
         let table = Table::default();
         let moved = slide(&table, &Layout::opening(&table), 0, DVec2::new(-5.0, 0.0));
+        assert_eq!(moved.stop_words(0, BALL_NAMES).unwrap(), "at the rail");
         assert!(moved.stopped.unwrap().to_string().contains("outside the table"));
         assert_eq!(moved.layout.balls[0].x, -table.half_length());
         assert_eq!(slide(&table, &moved.layout, 0, DVec2::new(0.0, -0.01)).stopped, None);

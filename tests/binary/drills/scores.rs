@@ -136,14 +136,19 @@ fn a_coach_without_a_point_is_one_line_refused_and_no_end() {
 fn enough_results_tell_a_skill_that_every_command_takes() {
     let folder = folder();
     let early = drill(folder.path(), &["skill"]);
-    assert!(early.code == Some(1) && early.err.contains("attempts 0 (20 needed)"), "{}", early.err);
+    assert!(
+        early.code == Some(1) && early.err.contains("0 of 20 attempts, at 0 of 3 different shots"),
+        "{}",
+        early.err
+    );
     let own = |args: &[&str]| carom(folder.path(), &[args, &["--skill", "own"]].concat());
     let none = own(&["recommend"]);
     assert!(none.code == Some(1) && none.err.contains("carom drill skill --keep"), "{}", none.err);
     drill(folder.path(), &["log", "half-ball", "--made", "60", "--of", "60"]);
     let one = drill(folder.path(), &["skill", "--keep"]);
     assert!(
-        one.code == Some(1) && one.err.contains("attempts 60 (20 needed), different shots 1 (3 needed)"),
+        one.code == Some(1)
+            && one.err.contains("60 attempts are enough, but at 1 of 3 different shots. Only model shots"),
         "{}",
         one.err
     );

@@ -2,14 +2,13 @@
 
 use super::{
     keys::key,
-    player::{ASCII, NO_COLOUR, OTHERS, Player, TRUE_COLOUR, check_at, places},
+    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at, places},
     practice::{exercise, history, many, session},
 };
 use carom::{
     coach::Skill,
     drills::{Goal, Venue, decode, store::Store},
     game::Rule,
-    physics::CueInputs,
     table::Layout,
     terminal::{Condition, DrillCondition, DrillContext, DrillReport, DrillTask, Effect, KeyContext},
 };
@@ -17,12 +16,13 @@ use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
 
 /// Compares the pictures of what rests.
-fn check(name: &str, player: &Player) {
+pub fn check(name: &str, player: &Player) {
     assert_eq!(player.app.frame_interval(), None, "nothing moves by itself");
     super::player::check(name, player);
 }
 
-fn played() -> Player {
+/// At the library of one who has played 37 attempts at the opening.
+pub fn played() -> Player {
     Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history())
 }
 
@@ -246,7 +246,7 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter");
     for n in 1..=20 {
         player.says(&format!("exercise {n} of 20"));
-        let hint = player.app.disabled_reason(Condition::Drill(DrillCondition::AdviceState));
+        let hint = player.app.disabled_reason(Condition::Drill(DrillCondition::Taught));
         assert_eq!(hint, Some("an exam gives no hints"));
         player = player.press("Space Enter Enter");
     }
@@ -259,48 +259,6 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
     assert_eq!(stays.app.place(), KeyContext::Drill(DrillContext::Exercise), "the coach would give the answer");
     stays.says("an exam is under way");
     assert_eq!(stays.press("Esc y").app.place(), KeyContext::Drill(DrillContext::Library));
-}
-
-#[test]
-fn the_records() {
-    let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("r");
-    // Why there is no estimate yet is told to its end.
-    let told = played().press("r").text(80, 24);
-    assert!(told.contains("no games"), "{told}");
-    none.shows(&["all exercises", "attempts  0", "attempts 0 (20 needed)", "nothing is played yet"]);
-    // 37 attempts at one shot tell how that shot is made, and too little of the player.
-    let few = played().press("r");
-    few.shows(&["attempts 37 (20 needed)", "different shots 1 (3"]);
-    few.press("w").says("no estimate of your skill yet");
-    let others = OTHERS.iter().zip([7, 8]).map(|(shot, number)| {
-        let mut other = session(number, "other", Goal::Free, "x-x");
-        other.exercises[0].shot = Some(CueInputs::parse(shot).unwrap());
-        other
-    });
-    let sessions: Vec<_> = history().into_iter().chain(others).collect();
-    let one =
-        Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &sessions).press("Left Enter r");
-    check("record", &one);
-    one.says("37").says("high run").says("7");
-    let figures = ["attempts  37", "made      27, 73 % (57-85)", "average   2.25 an inning", "high run  7"];
-    played().press("r").shows(&figures).shows(&["all exercises", "session by session"]);
-    Player::at_library(ASCII, &[exercise("opening", "x")], &history()).press("r").is_plain().shows(&figures);
-    let large = played().press("r").text(200, 60);
-    assert!(figures.iter().all(|part| large.contains(part)), "{large}");
-    one.says("you play like an average of");
-    let kept = one.press("w");
-    kept.says("my skill");
-    let skill = kept.store().own_skill().unwrap().unwrap().skill;
-    let played = kept.app.drills.player.skill;
-    assert_eq!(played.to_string(), skill.to_string());
-    assert_eq!(kept.press("Esc Esc Esc").app.coach.query.skill, played, "the same player everywhere");
-}
-
-#[test]
-fn the_record_has_what_another_program_has_noted_meanwhile() {
-    let player = played();
-    player.store().save(&session(7, "opening", Goal::Free, "xxx"), &[]).unwrap();
-    player.press("r").shows(&["attempts  40"]);
 }
 
 #[test]

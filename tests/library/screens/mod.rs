@@ -15,6 +15,7 @@ mod mouse;
 mod player;
 mod positions;
 mod practice;
+mod records;
 mod runs;
 mod settings;
 mod sides;

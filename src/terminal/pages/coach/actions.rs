@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::{
     game::Point,
-    table::{BALLS, CueBall, Layout, LayoutError, Opening, Side},
+    table::{BALLS, CueBall, Layout, Opening, Side},
     terminal::{
         CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode, Terms,
         pages::coach::{CoachPage, Position},
@@ -193,16 +193,9 @@ impl CoachPage {
         if slide.layout != *self.layout() {
             self.place(slide.layout);
         }
-        if let Some(reason) = slide.stopped {
-            let names = self.cue_ball().names();
-            let name = names[self.selected];
-            let place = match &reason {
-                LayoutError::Overlap { first, second, .. } => {
-                    format!("in contact with {}", names[first + second - self.selected])
-                }
-                _ => "at the rail".to_owned(),
-            };
-            self.message = Some(Message::warning(format!("{name} stops {place}: beyond, {reason}")));
+        let names = self.cue_ball().names();
+        if let Some(place) = slide.stop_words(self.selected, names) {
+            self.message = Some(Message::warning(format!("{} stops {place}", names[self.selected])));
         }
     }
 

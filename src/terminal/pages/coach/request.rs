@@ -279,7 +279,7 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Mess
     let Some(chance) = chance(proposal, query) else {
         return Message::good(format!("makes the point ({}{took})", shot.source));
     };
-    let cause = match proposal.risk.and_then(|risk| risk.main_cause()) {
+    let cause = match proposal.risk.and_then(|risk| risk.main_cause(proposal.made.map(|made| 1.0 - made.rate))) {
         Some(Cause::Table) => "; the table is the main risk: F7 measures it",
         Some(Cause::Placing) => "; the balls' places are the main risk",
         Some(Cause::Hand) | None => "",

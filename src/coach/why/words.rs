@@ -1,0 +1,247 @@
+//! Why a shot leads, in sentences.
+
+use super::{Difference, Kiss, Why};
+use crate::{
+    coach::{
+        Units,
+        words::{PlaceUnit, capital, short},
+    },
+    table::CueBall,
+};
+
+/// Difference of make probabilities from which on attempts tell which shot is the better one: the standard error of it where half of a
+/// thousand and of four hundred attempts make the point.
+const TOLD_APART: f64 = 0.03;
+
+/// Differences of fullness and of table lengths that are told.
+const FULLER: f64 = 0.06;
+const HARDER: f64 = 0.3;
+
+impl Why {
+    /// In sentences, for who plays with `cue_ball`.
+    pub fn words(&self, cue_ball: CueBall, units: Units) -> String {
+        let names = cue_ball.names();
+        let mut parts = Vec::new();
+        let second = self.second.as_ref();
+        let other = second.and_then(|second| second.make_probability);
+        let plan = self.plan_words("the second shot");
+        parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
+            let [own, its] = [rate, other].map(percent);
+            if (rate - other).abs() > TOLD_APART {
+                let luck = if self.is_unsure() { ", which is not surely more" } else { "" };
+                format!("it is made {own} of the time, the second shot {its}{luck}")
+            } else {
+                format!("it is made {own} of the time, about as often as the second shot ({its})")
+            }
+        }));
+        let alone = self.make_probability.filter(|_| other.is_none());
+        parts.extend(alone.map(|rate| format!("it is made {} of the time", percent(rate))));
+        parts.extend(plan.clone().filter(|_| self.is_by_plan()));
+        parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
+            Some(other) => {
+                format!("its aim may be {} off in all, that of the second shot {}", degrees(width), degrees(other))
+            }
+            None => format!("its aim may be {} off in all", degrees(width)),
+        }));
+        parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], place }| {
+            let (diamond, middle) = self.scale;
+            let at = (place + middle).to_array().map(|along| match units.place {
+                PlaceUnit::Diamonds => short(along / diamond, 1),
+                PlaceUnit::Mm => format!("{} mm", short(1e3 * along, 0)),
+            });
+            let [along, up] = at;
+            format!(
+                "{} and {} kiss in {} of the strokes, at {along} along and {up} up",
+                names[one],
+                names[other],
+                percent(share)
+            )
+        }));
+        parts.extend(plan.filter(|_| !self.is_by_plan()));
+        parts.push(second.map_or_else(
+            || "nothing else was found that makes the point".to_owned(),
+            |second| format!("the second shot is {}", second.parts(names)),
+        ));
+        parts.iter().map(|part| format!("{}.", capital(part))).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Whether the second-best shot is made more often, and this one leads because the next point counts too: as far as that is known, both
+    /// together are more likely after it.
+    fn is_by_plan(&self) -> bool {
+        let second = self.second.as_ref();
+        let made = self.make_probability.zip(second.and_then(|second| second.make_probability));
+        let next = self.next_probability.zip(second.and_then(|second| second.next_probability));
+        self.is_planned
+            && made.is_some_and(|(own, other)| {
+                own < other && next.is_none_or(|(after, after_other)| own * after > other * after_other)
+            })
+    }
+
+    /// Whether the second-best shot seems to be made more often, which luck may explain, and no plan decides.
+    fn is_unsure(&self) -> bool {
+        self.unsure.contains(&2) && !self.is_by_plan()
+    }
+
+    /// How the next point is left, beside how the second-best shot, which is called `other`, leaves it.
+    fn plan_words(&self, other: &str) -> Option<String> {
+        let there = self.second.as_ref().and_then(|second| second.next_probability);
+        let there = there.map_or_else(String::new, |there| format!(" (after {other}: {})", percent(there)));
+        let left = self.next_probability.map(|next| format!("it leaves the next point at {}{there}", percent(next)));
+        match left {
+            Some(left) if self.is_by_plan() => Some(format!("the plan decides: {left}")),
+            None if self.is_by_plan() => Some("the plan decides: the next point counts too".to_owned()),
+            left => left,
+        }
+    }
+
+    /// The same in few words beside the chance that it is made, for who plays with `cue_ball`: how the second-best shot differs first,
+    /// and that the plan decides where it does. What comes first says all; every further sentence is a fact shorter.
+    pub fn brief(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
+        let names = cue_ball.names();
+        let second = self.second.as_ref().map_or_else(
+            || "no other was found".to_owned(),
+            |second| {
+                let made = second.make_probability.map_or_else(String::new, |rate| format!(": {}", percent(rate)));
+                let luck = if self.is_unsure() { ", not surely more" } else { "" };
+                format!("shot 2 ({}){made}{luck}", second.parts(names))
+            },
+        );
+        let mut facts = self.facts(cue_ball);
+        let first = if self.is_by_plan() { format!("{second}; {}", facts.remove(0)) } else { second };
+        ever_shorter(std::iter::once(first).chain(facts).collect())
+    }
+
+    /// The part of it that a list of the shots with their chances does not say, ever shorter; nothing where there is nothing.
+    pub fn beside_the_list(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
+        let luck = match &self.unsure[..] {
+            [] => None,
+            // The plan ranks them by more than that.
+            _ if self.is_by_plan() => None,
+            [number] => Some(format!("shot {number} is not surely made more often")),
+            [numbers @ .., last] => {
+                let numbers: Vec<_> = numbers.iter().map(usize::to_string).collect();
+                Some(format!("shots {} and {last} are not surely made more often", numbers.join(", ")))
+            }
+        };
+        ever_shorter(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| capital(&sentence))
+    }
+
+    /// What the list of the shots does not say. That the plan decides comes first, where it does.
+    fn facts(&self, cue_ball: CueBall) -> Vec<String> {
+        let names = cue_ball.names();
+        let mut parts = Vec::new();
+        parts.extend(self.aim_deg.map(|width| {
+            let other = self.second.as_ref().and_then(|second| second.aim_deg);
+            let there = other.map_or_else(String::new, |width| format!(", shot 2's {}", degrees(width)));
+            format!("the aim may be {} off in all{there}", degrees(width))
+        }));
+        parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
+            format!("{} and {} kiss in {}", names[one], names[other], percent(share))
+        }));
+        if let Some(plan) = self.plan_words("shot 2") {
+            let place = if self.is_by_plan() { 0 } else { parts.len() };
+            parts.insert(place, plan);
+        }
+        parts
+    }
+}
+
+/// Sentences of these parts, the first with all, every further one without the last of the one before.
+fn ever_shorter(parts: Vec<String>) -> impl Iterator<Item = String> {
+    (1..=parts.len()).rev().map(move |many| format!("{}.", parts[..many].join("; ")))
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+fn degrees(width: f64) -> String {
+    format!("{}\u{b0}", short(width, 2))
+}
+
+impl Difference {
+    fn parts(&self, names: [&'static str; 3]) -> String {
+        let mut parts = vec![self.pattern.unwrap_or("another shot").to_owned()];
+        parts.extend(self.first_ball.map(|ball| format!("off {}", names[ball])));
+        parts
+            .extend((self.fuller.abs() > FULLER).then(|| if self.fuller > 0.0 { "thicker" } else { "thinner" }.into()));
+        parts.extend((self.harder.abs() > HARDER).then(|| if self.harder > 0.0 { "harder" } else { "softer" }.into()));
+        parts.join(", ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        coach::{Coach, Request, Skill, why},
+        table::{Layout, Table},
+    };
+
+    #[test]
+    fn the_reasons_are_facts_of_the_two_best_shots() {
+        let table = Table::default();
+        let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
+        let coach = Coach::without_policy(table.clone());
+        let request = Request {
+            skill: Skill::CLUB,
+            simulations: 3000,
+            budget: std::time::Duration::from_secs(60),
+            ..Request::default()
+        };
+        let advice = coach.recommend(&layout, &request).unwrap();
+        let why = why(request.shooter(), request.rule, &table, &layout, &advice, 1).unwrap();
+        assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));
+        assert!(why.second.is_some() && !advice.alternatives.is_empty());
+        let sentences: Vec<String> = why.brief(CueBall::White).collect();
+        let [brief, .., least] = &sentences[..] else { panic!("{sentences:?}") };
+        assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
+        assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("off in all"), "{least}");
+        let said = why.words(CueBall::White, Units::default());
+        assert!(said.ends_with('.') && said.contains("The second shot is ") && !said.contains(';'), "{said}");
+        // Where the next point counts too, a shot may lead that is made less often.
+        let second = why.second.clone().map(|second| Difference {
+            make_probability: Some(0.9),
+            next_probability: Some(0.31),
+            ..second
+        });
+        let planned = Why {
+            make_probability: Some(0.8),
+            next_probability: Some(0.62),
+            second,
+            is_planned: true,
+            unsure: vec![2, 3],
+            ..why.clone()
+        };
+        let reason = "the plan decides: it leaves the next point at 62 %";
+        let said = planned.words(CueBall::White, Units::default());
+        assert!(said.contains(&format!("{} (after the second shot: 31 %).", capital(reason))), "{said}");
+        for sentence in planned.brief(CueBall::White) {
+            assert!(sentence.contains(&format!("{reason} (after shot 2: 31 %)")), "{sentence}");
+        }
+        assert!(planned.beside_the_list(CueBall::White).all(|sentence| sentence.starts_with("The plan decides")));
+        let unknown = Why { next_probability: None, ..planned }.words(CueBall::White, Units::default());
+        assert!(unknown.contains("The plan decides: the next point counts too."), "{unknown}");
+        // By luck alone the second may seem to be made more often; then that is no reason against the first.
+        let second = |unsure: &[usize]| {
+            let second = why.second.clone().map(|second| Difference { make_probability: Some(0.54), ..second });
+            Why { make_probability: Some(0.48), second, is_planned: false, unsure: unsure.to_vec(), ..why.clone() }
+        };
+        let said = second(&[2]).words(CueBall::White, Units::default());
+        assert!(said.contains("made 48 % of the time, the second shot 54 %, which is not surely more. "), "{said}");
+        for sentence in second(&[2]).brief(CueBall::White) {
+            assert!(sentence.contains("%, not surely more"), "{sentence}");
+        }
+        let first = second(&[2]).beside_the_list(CueBall::White).next().unwrap();
+        assert!(first.starts_with("Shot 2 is not surely made more often"), "{first}");
+        for (unsure, words) in [(&[3][..], "Shot 3 is not surely"), (&[2, 3], "Shots 2 and 3 are not surely")] {
+            let first = second(unsure).beside_the_list(CueBall::White).next().unwrap();
+            assert!(first.starts_with(words), "{first}");
+        }
+        let said = second(&[]).words(CueBall::White, Units::default());
+        assert!(said.starts_with("It is made 48 % of the time, the second shot 54 %. "), "{said}");
+        let alone = Why { second: None, ..why }.words(CueBall::White, Units::default());
+        assert!(alone.ends_with('.') && !alone.contains("second shot"), "{alone}");
+        assert!(alone.ends_with("Nothing else was found that makes the point."), "{alone}");
+    }
+}

@@ -1,0 +1,50 @@
+//! The record of a player: what the results say of the hand, and what of it is shown.
+
+use super::{
+    drills::{check, played},
+    player::{ASCII, OTHERS, Player, TRUE_COLOUR},
+    practice::{exercise, history, session},
+};
+use carom::{drills::Goal, physics::CueInputs};
+
+#[test]
+fn the_records() {
+    let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("r");
+    // Why there is no estimate yet is told to its end.
+    let told = played().press("r").text(80, 24);
+    assert!(told.contains("no games"), "{told}");
+    none.shows(&["all exercises", "attempts  0", "0 of 20", "nothing is played yet"]);
+    // 37 attempts at one shot tell how that shot is made, and too little of the player.
+    let few = played().press("r");
+    few.shows(&["enough, but at 1 of 3"]);
+    few.press("w").says("no estimate of your skill yet");
+    let others = OTHERS.iter().zip([7, 8]).map(|(shot, number)| {
+        let mut other = session(number, "other", Goal::Free, "x-x");
+        other.exercises[0].shot = Some(CueInputs::parse(shot).unwrap());
+        other
+    });
+    let sessions: Vec<_> = history().into_iter().chain(others).collect();
+    let one =
+        Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &sessions).press("Left Enter r");
+    check("record", &one);
+    one.says("37").says("high run").says("7");
+    let figures = ["attempts  37", "made      27, 73 % (57-85)", "average   2.25 an inning", "high run  7"];
+    played().press("r").shows(&figures).shows(&["all exercises", "session by session"]);
+    Player::at_library(ASCII, &[exercise("opening", "x")], &history()).press("r").is_plain().shows(&figures);
+    let large = played().press("r").text(200, 60);
+    assert!(figures.iter().all(|part| large.contains(part)), "{large}");
+    one.says("you play like an average of");
+    let kept = one.press("w");
+    kept.says("my skill");
+    let skill = kept.store().own_skill().unwrap().unwrap().skill;
+    let played = kept.app.drills.player.skill;
+    assert_eq!(played.to_string(), skill.to_string());
+    assert_eq!(kept.press("Esc Esc Esc").app.coach.query.skill, played, "the same player everywhere");
+}
+
+#[test]
+fn the_record_has_what_another_program_has_noted_meanwhile() {
+    let player = played();
+    player.store().save(&session(7, "opening", Goal::Free, "xxx"), &[]).unwrap();
+    player.press("r").shows(&["attempts  40"]);
+}
