@@ -1,5 +1,7 @@
 //! `carom follow`: look on while another player plays.
 
+use std::sync::atomic::Ordering;
+
 use super::{
     Failure, failure,
     output::{json_line, line, tell},
@@ -51,7 +53,9 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
         &stop,
         &mut printing::stdout().exact(args.json),
     )?;
-    tell(format_args!("{player} shows the table no more"));
+    if !stop.load(Ordering::Relaxed) {
+        tell(format_args!("{player} shows the table no more"));
+    }
     Ok(())
 }
 

@@ -141,8 +141,8 @@ impl Cli {
     /// The terminal program, with the player's settings.
     fn open(self) -> Result<(), Failure> {
         // A player's folder is made for whoever can play.
-        if !self.plain && !crate::terminal::is_there() {
-            return Err(failure(TerminalError::NoTerminal));
+        if !self.plain {
+            crate::terminal::need_terminal().map_err(failure)?;
         }
         let seat = self.seat()?;
         // A table on the command line is that of whoever runs the machine.

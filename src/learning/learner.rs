@@ -167,12 +167,12 @@ pub struct Iteration {
     pub actor_loss: Option<f64>,
 }
 
-/// What an update saw.
+/// What one update reports.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UpdateStats {
-    /// Loss of whatever judges actions.
+    /// Loss of the critic or the Q-function before the step: mean cross entropy, nats, for `ddpg`; squared error for the thesis' agents.
     pub loss: f64,
-    /// Mean value that it gives the agent's own choices.
+    /// Mean value of the agent's own choices: probability of success for `ddpg`, Q for the others.
     pub value: f64,
 }
 

@@ -12,9 +12,7 @@ use super::is_hidden;
 /// # Errors
 /// What the output answers, or a value that JSON has no form for.
 pub fn json_line(out: &mut impl Write, value: &impl Serialize) -> io::Result<()> {
-    let text = json_text(value)?;
-    out.write_all(text.as_bytes())?;
-    out.write_all(b"\n")
+    writeln!(out, "{}", json_text(value)?)
 }
 
 /// `value` as JSON, for outputs that take a line at once.
@@ -23,7 +21,7 @@ pub fn json_line(out: &mut impl Write, value: &impl Serialize) -> io::Result<()>
 /// A value that JSON has no form for.
 pub fn json_text(value: &impl Serialize) -> io::Result<String> {
     let mut bytes = Vec::new();
-    value.serialize(&mut Serializer::with_formatter(&mut bytes, Escaping)).map_err(io::Error::from)?;
+    value.serialize(&mut Serializer::with_formatter(&mut bytes, Escaping))?;
     String::from_utf8(bytes).map_err(io::Error::other)
 }
 

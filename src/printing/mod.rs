@@ -18,7 +18,7 @@ mod visible;
 pub use self::{
     calendar::{moment, now, timestamp},
     json::{json_line, json_text},
-    number::number,
+    number::{fixed, number},
     progress::ProgressLine,
     shell::shell_word,
     shown::{Shown, clear_line, is_watched, redraw_line, stderr, stdout},

@@ -6,9 +6,26 @@ pub fn number(value: f64) -> String {
     text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
 }
 
+/// The number with `decimals` digits, never as minus zero.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    if text.starts_with('-') && !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte)) {
+        text[1..].to_owned()
+    } else {
+        text
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_number_is_minus_zero() {
+        assert_eq!(fixed(-0.000_4, 3), "0.000");
+        assert_eq!(fixed(-0.000_6, 3), "-0.001");
+        assert_eq!(fixed(f64::NAN, 1), "NaN");
+    }
 
     #[test]
     fn no_number_is_a_line_of_zeros() {

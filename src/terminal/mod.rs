@@ -164,7 +164,11 @@ fn seed() -> u64 {
     SystemTime::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_nanos() as u64)
 }
 
-fn need_terminal() -> Result<(), TerminalError> {
+/// That there is a terminal to draw on.
+///
+/// # Errors
+/// [`TerminalError::NoTerminal`].
+pub fn need_terminal() -> Result<(), TerminalError> {
     if is_there() { Ok(()) } else { Err(TerminalError::NoTerminal) }
 }
 

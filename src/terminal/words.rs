@@ -3,6 +3,7 @@
 use glam::DVec2;
 use indicatif::HumanCount;
 
+pub use crate::printing::fixed;
 use crate::{
     coach::{
         Skill,
@@ -74,16 +75,6 @@ pub fn percent(probability: f64) -> String {
 pub fn chance_words(rate: &SuccessRate) -> String {
     let [rate, low, high] = [rate.rate, rate.low, rate.high].map(percent);
     if low == high { format!("{rate} %") } else { format!("{rate} % ({low}-{high})") }
-}
-
-/// The number with `decimals` digits, never as minus zero.
-pub fn fixed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    if text.starts_with('-') && !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte)) {
-        text[1..].to_owned()
-    } else {
-        text
-    }
 }
 
 /// A whole number with its thousands set off, like 1,234,567.
@@ -166,17 +157,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_number_is_minus_zero() {
-        assert_eq!(fixed(-0.000_4, 3), "0.000");
-        assert_eq!(fixed(-0.000_6, 3), "-0.001");
-        assert_eq!(fine(-0.71, LengthUnit::Metres), "-710.0");
-        assert_eq!(fixed(f64::NAN, 1), "NaN");
-    }
-
-    #[test]
     fn places_steps_and_speeds_are_told_in_the_players_unit() {
         assert_eq!(LengthUnit::NAMED.map(|(_, unit)| speed_words(2.5, unit, 2)), ["2.50 m/s", "8.20 ft/s"]);
-        assert_eq!(fine(-0.71, LengthUnit::Feet), "-27.95");
+        assert_eq!(LengthUnit::NAMED.map(|(_, unit)| fine(-0.71, unit)), ["-710.0", "-27.95"]);
         assert_eq!([1.0, 10.0, 50.0].map(|mm| step_words(mm, LengthUnit::Metres)), ["1 mm", "10 mm", "50 mm"]);
         assert_eq!([1.0, 10.0, 50.0].map(|mm| step_words(mm, LengthUnit::Feet)), ["0.04 in", "0.39 in", "1.97 in"]);
     }

@@ -85,7 +85,7 @@ impl Shift {
             let path = path_beside(table, leg, -by)?;
             let arrival = along(path[3], third);
             let third = arrival + turned * by;
-            // Nor does a ball come to a place beyond it.
+            // No ball arrives beyond a corner, either.
             let is_there = (0.0..=last).contains(&third) && (third - table_third).abs() <= NEAR;
             is_there.then_some(Self {
                 name: "parallel-shift",
@@ -186,7 +186,7 @@ mod tests {
         assert!(shifts.len() > 20, "{}", shifts.len());
         for shift in &shifts {
             let last = if is_long(shift.rails[0]) { 8.0 } else { 4.0 };
-            assert!((0.0..=last).contains(&shift.diamond), "{shift:?}");
+            assert!((0.0..=last).contains(&shift.diamond) && (0.0..=last).contains(&shift.third), "{shift:?}");
         }
         let shift = Shift {
             name: "parallel-shift",

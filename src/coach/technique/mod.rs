@@ -262,6 +262,18 @@ mod tests {
     }
 
     #[test]
+    fn a_pattern_that_is_told_by_three_cushions_says_where_there_are_more() {
+        let bank = technique("-1,-0.5 1.3,-0.5 1.3,0.5", "-0.3,0,0,45,3");
+        let with = |many| Technique { between: vec![bank.before[0]; many], before: Vec::new(), ..bank.clone() };
+        let called = |name: &str| PATTERNS.iter().find(|pattern| pattern.name == name).unwrap();
+        let natural = called("natural");
+        assert_eq!(natural.course_of(&with(3)), natural.course);
+        assert_eq!(natural.course_of(&with(5)), format!("{}; here 5 cushions in all", natural.course));
+        let around = called("around the table");
+        assert_eq!(around.course_of(&with(5)), around.course);
+    }
+
+    #[test]
     fn a_cue_that_is_raised_high_bends_the_way() {
         let bent = technique("-0.3,-0.3 0.5,0.5 1,0.3", "0.3,-0.2,60,0,3");
         assert!(bent.bend > 0.2, "{}", bent.bend);

@@ -228,7 +228,7 @@ impl Pattern {
         PATTERNS.iter().find(|pattern| (pattern.is_it)(technique))
     }
 
-    /// Its course in words for this shot: what goes by the first three cushions may have more of them.
+    /// Its course in words for this shot. Patterns that are told by their first three cushions may have more; then their number is added.
     pub fn course_of(&self, technique: &Technique) -> String {
         let says_all =
             !technique.before.is_empty() || ["jump", "masse", "time", "around-the-table"].contains(&self.tag);

@@ -1,7 +1,10 @@
 //! The sentence of known shots.
 
 use super::*;
-use crate::{physics::with_room, table::CueBall};
+use crate::{
+    physics::with_room,
+    table::{CueBall, Rail},
+};
 
 fn words(layout: &str, cue: &str) -> ShotWords {
     let table = Table::preset("textbook").unwrap();
@@ -16,6 +19,16 @@ fn a_shot_is_told_as_a_player_says_it() {
     assert!(sentence.starts_with("Red, half full on the left; two tips of "), "{sentence}");
     assert!(sentence.contains("right at 2 o'clock, one tip above centre; "), "{sentence}");
     assert!(sentence.ends_with("table lengths), level cue."), "{sentence}");
+}
+
+#[test]
+fn all_cushions_before_the_first_ball_are_named() {
+    let cushion = words("-1,-0.5 1.3,-0.5 1.3,0.5", "-0.3,0,0,45,3").before[0];
+    let before = [Rail::Top, Rail::Right].map(|rail| Cushion { rail, ..cushion }).to_vec();
+    let words = ShotWords { before, ..words("-0.7,0 0.9,0.5 0,-0.03075", "-0.2,0.1,0,0,3") };
+    let sentence = words.sentence(CueBall::White, Units::default());
+    assert!(sentence.starts_with("Top long rail first at "), "{sentence}");
+    assert!(sentence.contains(", then right short rail, then red, half full on the left; "), "{sentence}");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::{Report, kept::Place, screen::Screen};
 use crate::{
-    commands::output::columns,
+    commands::output::{columns, plural},
     printing::{FULL_VERSION, OneLine},
 };
 
@@ -34,11 +34,7 @@ fn rows(report: &Report) -> Vec<[String; 2]> {
     let environment = screen.environment.iter().map(|(name, value)| format!("{name}={value}"));
     rows.push(("environment", environment.collect::<Vec<_>>().join(" ")));
     let file = if kept.settings.count == 0 { "no file, all as by default" } else { "as in the file" };
-    let mistakes = match kept.settings.wrong.len() {
-        1 => "1 mistake".to_owned(),
-        many => format!("{many} mistakes"),
-    };
-    rows.push(("settings", format!("{file}, {mistakes}")));
+    rows.push(("settings", format!("{file}, {}", plural(kept.settings.wrong.len(), "mistake"))));
     let kinds = [
         ("tables", &kept.tables),
         ("runs", &kept.runs),

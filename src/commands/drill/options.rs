@@ -18,8 +18,9 @@ const COACH: &str = "coach";
 /// Who plays, and how results are printed.
 #[derive(Debug, clap::Args)]
 pub struct PlayOptions {
-    /// Who plays: perfect, expert, world-class, national, club, beginner, own, an average at three-cushion like 0.6, or standard errors in mm, degrees and m/s like
-    /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". Default: own where `carom drill skill --keep` has kept one, else expert.
+    /// Who plays: perfect, expert, world-class, national, club, beginner, own, an average at three-cushion like 0.6, or
+    /// standard errors in mm, degrees and m/s like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1".
+    /// Default: own where `carom drill skill --keep` has kept one, else expert.
     #[arg(long, value_parser = skill_called)]
     skill: Option<Skill>,
     /// Seed of the errors; without it they are others every time.

@@ -72,8 +72,9 @@ pub struct Args {
     #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"],
         value_parser = whole_from(1_u32))]
     random_search: Option<u32>,
-    /// Who plays the shots: perfect, expert, world-class, national, club, beginner, own (what `carom drill skill --keep` kept), an average at three-cushion like 0.6, or a player's own standard errors in mm, degrees and m/s like
-    /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The make probability is measured too, on independent errors.
+    /// Who plays the shots: perfect, expert, world-class, national, club, beginner, own (what
+    /// `carom drill skill --keep` kept), an average at three-cushion like 0.6, or a player's own standard errors in mm, degrees and
+    /// m/s like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The make probability is measured too, on independent errors.
     #[arg(long, value_parser = skill_called, conflicts_with_all = ["random_search", "reward"])]
     skill: Option<Skill>,
     /// What is not known besides the hand's errors: full, none, or like "table=1,placing=3". Shots are chosen with it and

@@ -30,7 +30,7 @@ use crate::{
     game::Rule,
     learning::{Proposal, policy::kept::BUNDLED},
     physics::{CueInputs, strike},
-    printing,
+    printing::{self, fixed},
     simulation::ShotError,
     statistics::SuccessRate,
     table::{Layout, Table},
@@ -47,9 +47,9 @@ pub struct Args {
     rule: Rule,
     /// Who plays the shot: perfect, expert, world-class, national, club, beginner or own.
     ///
-    /// "own" is what `carom drill skill --keep` kept. An average at three-cushion like 0.6 is accepted too, and standard errors in mm, degrees and m/s, like
-    /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The shot that this player makes most often is recommended; to a perfect one the
-    /// first that makes the point.
+    /// "own" is what `carom drill skill --keep` kept. An average at three-cushion like 0.6 is accepted too, and standard
+    /// errors in mm, degrees and m/s, like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The shot that this player makes most often is
+    /// recommended; to a perfect one the first that makes the point.
     #[arg(long, default_value_t = Skill::EXPERT, value_parser = skill_called)]
     skill: Skill,
     /// What is not known besides the hand's errors: full or none.
@@ -348,10 +348,8 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         a if a <= -5e-4 => " (right of centre)",
         _ => "",
     };
-    // Without a sign where it is told as nought.
-    let told = |place: f64| (1e3 * place).round() / 1e3 + 0.0;
-    writeln!(out, "a      {:>8.3} R{side}", told(a))?;
-    writeln!(out, "b      {:>8.3} R", told(b))?;
+    writeln!(out, "a      {:>8} R{side}", fixed(a, 3))?;
+    writeln!(out, "b      {:>8} R", fixed(b, 3))?;
     writeln!(out, "theta  {:>8.3} degrees", theta.to_degrees())?;
     writeln!(out, "phi    {:>8} degrees", answer.cue.phi_text(3))?;
     let (factor, symbol) = units().length.speed();
@@ -382,9 +380,9 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     }
     for Alternative { cue, chance, sort, told, .. } in &answer.alternatives {
         let CueInputs { a, b, theta, speed, .. } = *cue;
-        let (theta, phi) = (theta.to_degrees(), cue.phi_text(3));
+        let ([a, b], theta, phi) = ([a, b].map(|place| fixed(place, 3)), theta.to_degrees(), cue.phi_text(3));
         let pattern = told.as_ref().and_then(Told::pattern).map_or_else(String::new, |name| format!("{name}; "));
-        writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi},{speed:.3}: {pattern}{}", words(sort, chance, args))?;
+        writeln!(out, "or {a},{b},{theta:.3},{phi},{speed:.3}: {pattern}{}", words(sort, chance, args))?;
         if let Some(told) = told {
             writeln!(out, "   {}", told.sentence(units()))?;
         }

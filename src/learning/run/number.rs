@@ -21,8 +21,10 @@ pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D:
     match Number::deserialize(deserializer)? {
         Number::Finite(number) => Ok(number),
         Number::None(()) => Ok(f64::NAN),
-        // Rust reads these names as numbers.
-        Number::Name(name) => name.parse().map_err(|_| D::Error::invalid_value(Unexpected::Str(&name), &EXPECTED)),
+        // Rust reads these names as numbers, and others too.
+        Number::Name(name) => (name.parse().ok())
+            .filter(|number: &f64| !number.is_finite())
+            .ok_or_else(|| D::Error::invalid_value(Unexpected::Str(&name), &EXPECTED)),
     }
 }
 

@@ -123,6 +123,30 @@ fn a_run_that_is_stopped_saves_before_it_is_measured() {
     assert_eq!(Run::resume(folder.path()).unwrap().0.learner().shots(), 48);
 }
 
+/// What each warning said, and the checkpoint that was there then.
+struct Witness(PathBuf, Vec<(String, Vec<u8>)>);
+
+impl Watcher for Witness {
+    fn line(&mut self, _: &Record) {}
+
+    fn warn(&mut self, sentence: &str) {
+        self.1.push((sentence.to_owned(), fs::read(&self.0).unwrap()));
+    }
+}
+
+#[test]
+fn a_checkpoint_is_written_only_after_its_policy() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = small_run(folder.path());
+    fs::create_dir(folder.path().join(POLICY)).unwrap();
+    let path = folder.path().join(checkpoint::CURRENT);
+    let before = fs::read(&path).unwrap();
+    let mut witness = Witness(path, Vec::new());
+    assert!(run.train(&FOREVER, &mut witness).unwrap_err().to_string().contains(POLICY));
+    let (sentence, then) = &witness.1[0];
+    assert!(sentence.contains(POLICY) && *then == before, "{sentence}");
+}
+
 #[test]
 fn a_folder_belongs_to_one_run_at_a_time() {
     let folder = tempfile::tempdir().unwrap();

@@ -14,9 +14,9 @@ pub use text::SkillError;
 /// A player's standard errors in the five cue inputs at a level stroke of [`Skill::REFERENCE_SPEED`], and how they grow with
 /// the stroke. They are independent and normally distributed.
 ///
-/// On the command line and in JSON it is a name, an average at three-cushion like `average=0.6`, or five numbers as people say them: millimetres, degrees and m/s, like
-/// `a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1`. Five numbers alone do not grow. `V=5%` is a share of the stroke's speed, and
-/// `growth=0.5` and `raised=1` may follow: see [`Growth`].
+/// On the command line and in JSON it is a name, an average at three-cushion like `average=0.6`, or five numbers as people say
+/// them: millimetres, degrees and m/s, like `a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1`. Five numbers alone do not grow. `V=5%` is a
+/// share of the stroke's speed, and `growth=0.5` and `raised=1` may follow: see [`Growth`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct Skill {

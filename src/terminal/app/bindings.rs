@@ -118,11 +118,11 @@ fn take<B: Copy + PartialEq, W: Copy>(
     all.extend(table.iter().map(|binding| {
         let mut actions: Vec<B> = Vec::new();
         let mut words = |of: B| {
-            if !actions.contains(&of) {
+            let place = actions.iter().position(|known| *known == of).unwrap_or_else(|| {
                 actions.push(of);
-            }
-            let place = actions.iter().position(|known| *known == of);
-            place.and_then(|place| binding.each.get(place)).copied().unwrap_or(binding.description)
+                actions.len() - 1
+            });
+            binding.each.get(place).copied().unwrap_or(binding.description)
         };
         Bound {
             keys: binding.keys.iter().map(|(chord, of)| (*chord, action(*of), words(*of))).collect(),

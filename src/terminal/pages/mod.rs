@@ -15,7 +15,7 @@ use super::ui::{TextField, Typed, Ui, geometry::Mapping, message::Message};
 use crate::{coach::Skill, table::CueBall};
 
 /// How a page is drawn, and what of it answers to the mouse: what its `view` does.
-pub trait Picture {
+pub trait PageView {
     /// Draws the page; gives the first row of what stands below its picture.
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16;
 
@@ -24,7 +24,7 @@ pub trait Picture {
 }
 
 /// What the app asks of every page. What its keys do is typed: each page has actions of its own.
-pub trait Page: Picture {
+pub trait Page: PageView {
     /// What the status line says, to be changed.
     fn message_mut(&mut self) -> &mut Option<Message>;
 

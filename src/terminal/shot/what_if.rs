@@ -108,15 +108,15 @@ impl WhatIf {
         self.verdict.words(cue_ball, units.length).replacen(": ", ", if played exactly: ", 1)
     }
 
-    /// How it differs from that of the coach, whom `teacher` names, which the player makes so often, if that is known; and whether there is
-    /// room for the cue. What the player makes as often has no fault, even where it misses if it is played exactly.
+    /// How the stroke differs from the coach's, who is called `teacher`, and whether there is room for the cue. `coach_made` is how often the
+    /// player makes the coach's, if known: a stroke that is made as often is not called wrong, even where it misses if played exactly.
     pub fn difference(&self, teacher: &str, coach_made: Option<f64>, cue_ball: CueBall, units: Units) -> String {
         let misses = !self.is_made() && self.coach.solved;
         let is_as_good = misses && self.made.zip(coach_made).is_some_and(|(own, made)| own.rate >= made);
         let parts = self.shot.words.differences(&self.coach.words, misses && !is_as_good, cue_ball, units);
         let room = match (self.has_room, is_as_good) {
             (false, _) => "; no room for the cue",
-            (true, true) => "; with your errors as good",
+            (true, true) => "; with your errors made as often",
             (true, false) => "",
         };
         if parts.is_empty() {
@@ -159,6 +159,11 @@ mod tests {
             assert!(what_if.outcome(CueBall::White, units).starts_with("No point, if played exactly: "));
             let told = what_if.difference("coach", None, CueBall::White, units);
             assert!(told.starts_with("You: ") && told.contains("softer by "), "{told}");
+            // With the player's errors it may be as good, even where it misses if it is played exactly.
+            what_if.made = Some(SuccessRate::new(90, 100));
+            let as_good = what_if.difference("coach", Some(0.5), CueBall::White, units);
+            assert!(as_good.ends_with("; with your errors made as often"), "{as_good}");
+            assert_eq!(what_if.difference("coach", Some(0.95), CueBall::White, units), told);
         });
     }
 

@@ -144,7 +144,7 @@ pub enum DrillReport {
     /// Of [`DrillTask::Load`].
     Loaded(Box<Loaded>),
     /// Of [`DrillTask::Advise`]: with the question's number; `None` where no point was found.
-    AdviceState(u64, Result<Option<Taught>, String>),
+    Taught(u64, Result<Option<Taught>, String>),
     /// Of [`DrillTask::Play`], and whether it could be saved.
     Played(Result<Box<Outcome>, String>, Result<(), String>),
     /// How often the player makes what was meant: the session's identity, the number of the attempt, the share.

@@ -46,7 +46,7 @@ impl PracticeWorker {
             DrillTask::Advise(position) => {
                 if !position.cancel.load(Ordering::Relaxed) {
                     let taught = catch_unwind(AssertUnwindSafe(|| self.teach(&position)));
-                    reply(DrillReport::AdviceState(position.id, taught.unwrap_or_else(|_| Err(failed.to_owned()))));
+                    reply(DrillReport::Taught(position.id, taught.unwrap_or_else(|_| Err(failed.to_owned()))));
                 }
             }
             DrillTask::Play(stroke) => {

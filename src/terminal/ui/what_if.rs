@@ -32,7 +32,7 @@ pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) 
     let own = match what_if.made {
         Some(rate) => format!(" {} %", percent(rate.rate)),
         None if what_if.is_asked() => ui.caps.pick(" … %", " ... %").to_owned(),
-        None => if what_if.is_made() { " makes it" } else { " misses" }.to_owned(),
+        None => if what_if.is_made() { " make it" } else { " miss" }.to_owned(),
     };
     title.push(Span::styled(own, ui.theme.text()));
     title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));

@@ -117,10 +117,6 @@ proptest! {
         fs::write(&path, bytes).unwrap();
         let _ = Policy::load(&path);
     }
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
     fn runs_that_are_followed(states in prop::collection::vec((one_of_run(), any::<bool>()), 1..6)) {

@@ -3,13 +3,14 @@
 use proptest::prelude::*;
 
 /// What stands where a number, a name or a bracket stood.
-const TOKENS: [&str; 24] = [
+const TOKENS: [&str; 25] = [
     "0",
     "-1",
     "-0.0",
     "1e308",
     "-1e400",
     "1e-320",
+    "18446744073709551615",
     "18446744073709551616",
     "NaN",
     "inf",

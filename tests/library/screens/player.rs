@@ -239,7 +239,7 @@ impl Player {
             match task {
                 // What the coach finds depends on how fast the machine is.
                 DrillTask::Advise(position) if position.own.is_none() => {
-                    reports.push(DrillReport::AdviceState(position.id, Ok(None)));
+                    reports.push(DrillReport::Taught(position.id, Ok(None)));
                 }
                 task => self.practice.run(task, &mut |report| reports.push(report)),
             }

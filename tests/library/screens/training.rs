@@ -42,6 +42,9 @@ fn the_list_of_runs() {
         "r go on with it",
         "1 run is at work",
     ]);
+    let mut more = listing();
+    more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::Is(Phase::Paused)));
+    Player::listing(TRUE_COLOUR).report(Report::Runs(Ok(more))).shows(&["1 run is at work; 1 is paused"]);
     let effects = down.press("r").effects;
     let folder = Path::new(RUNS).join("20261118-three-cushions/seed-1");
     assert!(matches!(&effects[..], [Effect::Train(launch)] if **launch == Launch::resume(&folder)), "{effects:?}");

@@ -143,3 +143,10 @@ fn an_exam_gives_no_shot_to_take_over() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter w");
     player.says("an exam gives no hints");
 }
+
+#[test]
+fn who_has_no_errors_makes_a_stroke_or_misses() {
+    let player = Player::with_settings(TRUE_COLOUR, "skill = \"perfect\"\n").press("Enter").answer().press("w");
+    player.shows(&["You make it"]);
+    player.press("S-Up l l S-Right").shows(&["You miss"]);
+}

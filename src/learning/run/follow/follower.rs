@@ -134,7 +134,8 @@ impl Follower {
                 update.status = Some(status);
             }
             Err(_) if stamp.is_none() => {
-                self.signs.phase = None;
+                // A run that goes on has cut lines off that its checkpoint does not know, and will say how many there are.
+                (self.signs.phase, self.logged) = (None, 0);
                 self.troubles[1] = None;
             }
             Err(error) => self.troubles[1] = Some(format!("{} cannot be read: {error}", status::FILE)),
@@ -206,5 +207,12 @@ mod tests {
             notices(960, 2880),
             ["metrics.jsonl has been emptied or cut off: it ends after 960 of the 3072 shots played"]
         );
+        // Before a run says something that goes on, lines that it has cut off are not missed.
+        let (mut follower, mut followed) = (Follower::new(folder.path()), Followed::new(folder.path()));
+        followed.apply(follower.look().unwrap());
+        assert_eq!(followed.notices.len(), 1);
+        fs::remove_file(folder.path().join(status::FILE)).unwrap();
+        followed.apply(follower.look().unwrap());
+        assert_eq!(followed.notices, Vec::<String>::new());
     }
 }

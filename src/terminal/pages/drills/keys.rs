@@ -123,9 +123,9 @@ pub enum DrillCondition {
     /// While a shot is watched that has come to its end.
     Ended,
     /// Where the model shot is known.
-    AdviceState,
+    Taught,
     /// The same while the stroke is set, and the model shot is not beside it.
-    Adopted,
+    Adoptable,
     /// While the model shot is on the table beside the stroke.
     Compared,
     /// While it is not.
@@ -253,9 +253,9 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Aiming, &[letter(' ', A::Play), key(Enter, A::Play)], Some(("play", 1)),
         "play the stroke, with the player's errors"),
 ], [
-    bind(Stroke, W::AdviceState, &[letter('v', A::Hint)], Some(("hint", 1)),
+    bind(Stroke, W::Taught, &[letter('v', A::Hint)], Some(("hint", 1)),
         "show the model shot, and hide it; the attempt then counts as one with a hint"),
-    bind(Stroke, W::Adopted, &[letter('w', A::WhatIf)], Some(("what if", 1)),
+    bind(Stroke, W::Adoptable, &[letter('w', A::WhatIf)], Some(("what if", 1)),
         "take the model shot over into your stroke, to change it and see what comes of it; the attempt then counts as one \
          with a hint").known_as("adopt compare try hint"),
     bind(Stroke, W::Here, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),

@@ -17,6 +17,9 @@ mod turn_actions;
 mod view;
 mod watched;
 
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
 use crate::{
     coach::{Skill, Units},
     drills::{Goal, Library, Session},
@@ -29,8 +32,6 @@ use crate::{
         ui::{Message, TextField, Typed},
     },
 };
-use rand::{RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub use book::{Book, record_of};
 pub use catalogue::Catalogue;

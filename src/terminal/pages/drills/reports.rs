@@ -25,7 +25,7 @@ impl DrillsPage {
                 }
                 return tasks;
             }
-            DrillReport::AdviceState(id, answer) => {
+            DrillReport::Taught(id, answer) => {
                 let taught = answer.unwrap_or_else(|sentence| self.refuse(sentence));
                 if let Some(turn) = &mut self.turn {
                     turn.advised(id, taught);

@@ -34,7 +34,7 @@ impl Turn {
                 | Condition::Free
                 | Condition::Restart
                 | Condition::Counted
-                | Condition::Adopted,
+                | Condition::Adoptable,
             ) => Some("the stroke is being played"),
             (_, Condition::Aiming) => refuse(!self.is_aiming(), "a shot is being watched; Enter goes on"),
             (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
@@ -51,12 +51,12 @@ impl Turn {
             (_, Condition::Counted) => {
                 refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
             }
-            (_, Condition::AdviceState) => refuse(self.is_exam(), "an exam gives no hints")
+            (_, Condition::Taught) => refuse(self.is_exam(), "an exam gives no hints")
                 .or(refuse(matches!(self.lesson, Lesson::Pending), "the coach is still thinking"))
                 .or(refuse(self.taught().is_none(), "the coach has found no shot that makes the point")),
             (_, Condition::Alone) => refuse(self.what_if().is_some(), "Esc takes the model shot off the table first"),
-            (_, Condition::Adopted) => self
-                .disabled_reason(Condition::AdviceState)
+            (_, Condition::Adoptable) => self
+                .disabled_reason(Condition::Taught)
                 .or_else(|| self.disabled_reason(Condition::Aiming))
                 .or_else(|| self.disabled_reason(Condition::Alone)),
             (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not beside your stroke"),

@@ -114,8 +114,11 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
     let hit = words.first.map_or_else(
         || "no ball".to_owned(),
         |hit| {
-            let side = if hit.left { "left" } else { "right" };
-            format!("{} {}, {side}", coach.cue_ball().names()[hit.ball], fraction(hit.fullness))
+            let (name, side) = (coach.cue_ball().names()[hit.ball], if hit.left { "left" } else { "right" });
+            match fraction(hit.fullness).as_str() {
+                full @ "full" => format!("{name} {full}"),
+                part => format!("{name} {part}, {side}"),
+            }
         },
     );
     // All cushions before the ball have a row of their own.
@@ -139,7 +142,7 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
     let speed = format!("{lengths}, {}", speed_words(proposal.shot.cue.speed, coach.units.length, 2));
     let whole_speed = format!("{}, {speed}", pace_word(words.table_lengths));
     let aim = [("from", mark(words.behind)), ("to", mark(words.ahead))];
-    let mut rows: Vec<Row> = cushions.map(|cushions| ("first", cushions)).into_iter().collect();
+    let mut rows: Vec<Row> = cushions.map(|cushions| ("rails", cushions)).into_iter().collect();
     rows.extend([
         ("hit", hit),
         ("side", tip_side_words(proposal, coach) + english),

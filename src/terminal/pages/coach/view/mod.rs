@@ -23,7 +23,7 @@ use crate::{
     terminal::{
         AdviceState, Mapping, Mode, Shot, View,
         pages::{
-            PageArea, Picture, Target,
+            PageArea, PageView, Target,
             coach::{
                 CoachPage, Followed,
                 view::{
@@ -52,7 +52,7 @@ use crate::{
     },
 };
 
-impl Picture for CoachPage {
+impl PageView for CoachPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
         draw_header(self, area.header, ui);
         if let Some(words) = self.followed().and_then(Followed::emptiness) {

@@ -16,7 +16,7 @@ use crate::{
         },
         shot::WhatIf,
         ui::{Beside, Ui, draw_lines, draw_sight, draw_spin, draw_tip, draw_title, draw_what_if, pair, stroke_rows},
-        words::fixed,
+        words::{fixed, speed_words},
     },
 };
 
@@ -55,15 +55,14 @@ pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &
 /// Draws the panel of the stroke as the keys change it, and whether it makes the point.
 fn draw_set(shot: &Shot, coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title(shot_title(shot, ui), area, ui);
-    let (in_a_metre, a_second) = coach.units.length.speed();
-    let speed = in_a_metre * shot.cue.speed;
+    let (unit, speed) = (coach.units.length, shot.cue.speed);
     let rows = stroke_rows(&shot.cue, coach.units, coach.table().radius, ui.caps);
     let (indent, columns) = if area.width >= WIDE { (1, 7) } else { (0, 6) };
     let lines = rows.map(|(name, value)| {
         // The longest name has no blank of its own in a narrow column, and the whole word for an angle no room.
         let value = match name {
             // Two digits before the point leave one behind it.
-            "speed" if columns <= 6 && speed >= 9.995 => format!("{} {a_second}", fixed(speed, 1)),
+            "speed" if columns <= 6 && unit.speed().0 * speed >= 9.995 => speed_words(speed, unit, 1),
             "speed" if columns > 6 => format!("{value}, {}", lengths_words(shot.words.table_lengths)),
             // As the coach's words call it.
             "cue" if shot.words.has_level_cue() && value != "level" => level_words(shot, columns > 6, ui),

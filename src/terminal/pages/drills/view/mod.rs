@@ -20,7 +20,7 @@ use crate::{
     drills::Record,
     terminal::{
         Capabilities, DrillContext,
-        pages::{PageArea, Picture, Target, drills::DrillsPage},
+        pages::{PageArea, PageView, Target, drills::DrillsPage},
         ui::{Message, Ui, columns, draw_question, draw_status, shorten, write_right},
         words::{self, skill_word},
     },
@@ -29,7 +29,7 @@ use crate::{
 /// Most columns of a line that is good to read.
 const READABLE: u16 = 80;
 
-impl Picture for DrillsPage {
+impl PageView for DrillsPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
         let (header, body, status) = (area.header, area.body, area.status);
         let status_line = match (self.page(), &self.turn) {

@@ -10,7 +10,7 @@ use ratatui::{
 
 use crate::terminal::{
     Capabilities, SettingsContext, SettingsPage,
-    pages::{PageArea, Picture, Target, settings::Input},
+    pages::{PageArea, PageView, Target, settings::Input},
     ui::{Message, Ui, draw_question, draw_status, end_of, write_paragraphs},
 };
 
@@ -22,7 +22,7 @@ const BELOW: u16 = 7;
 /// Rows from which on paragraphs stand apart.
 const APART: u16 = 10;
 
-impl Picture for SettingsPage {
+impl PageView for SettingsPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
         let (rest, status) = (area.header, area.status);
         let path = end_of(&self.path.display().to_string(), usize::from(rest.width.saturating_sub(2)), ui.caps);

@@ -15,14 +15,14 @@ use crate::{
     terminal::{
         TrainingContext,
         pages::{
-            PageArea, Picture, Target,
+            PageArea, PageView, Target,
             training::{TrainingPage, view::panes::Panes},
         },
         ui::{Message, Ui, draw_question, draw_status},
     },
 };
 
-impl Picture for TrainingPage {
+impl PageView for TrainingPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
         let (head, body, status) = (area.header, area.body, area.status);
         let status_line = match (self.page(), &self.watch) {

@@ -176,10 +176,17 @@ pub fn status_line(training: &TrainingPage) -> Message {
     if !list.unreadable.is_empty() {
         return Message::warning(list.unreadable.join("; "));
     }
-    let running = list.runs().iter().filter(|run| run.state.is_at_work()).count();
-    Message::plain(match running {
+    let paused = list.runs().iter().filter(|run| run.state == Condition::Is(Phase::Paused)).count();
+    let working = list.runs().iter().filter(|run| run.state.is_at_work()).count() - paused;
+    let working = match working {
         0 => "no run is at work".to_owned(),
         1 => "1 run is at work".to_owned(),
-        _ => format!("{running} runs are at work"),
-    })
+        _ => format!("{working} runs are at work"),
+    };
+    let paused = match paused {
+        0 => String::new(),
+        1 => "; 1 is paused".to_owned(),
+        _ => format!("; {paused} are paused"),
+    };
+    Message::plain(working + &paused)
 }
