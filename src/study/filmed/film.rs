@@ -6,7 +6,7 @@ use serde::Deserialize;
 use crate::table::{BALLS, Table};
 
 /// The bundled half of the film.
-const FILM: &str = include_str!("../../../tests/data/filmed/shots.jsonl");
+static FILM: &str = include_str!("../../../tests/data/filmed/shots.jsonl");
 
 /// A ball moves once it is farther than this from where it lay, m: ten times the noise.
 const MOVED: f64 = 0.003;

@@ -17,8 +17,8 @@ use crate::{
 };
 
 /// The bundled policies by their names (`models/README.md`): the table, or `context` for those that are told table and player, for all
-/// tables like `match`; and what was rewarded.
-const BUNDLED: [(&str, &[u8]); 9] = [
+/// tables like `match`; and what was rewarded. A constant would stand in the program once for every codegen unit that reads it.
+static BUNDLED: [(&str, &[u8]); 9] = [
     ("match-r3", include_bytes!("../../../../models/match-r3.safetensors")),
     ("match-one-cushion", include_bytes!("../../../../models/match-one-cushion.safetensors")),
     ("match-three-cushion", include_bytes!("../../../../models/match-three-cushion.safetensors")),
@@ -37,12 +37,12 @@ fn bundled_file(whose: &str, rule: Rule) -> Option<&'static [u8]> {
 
 /// The names of the bundled policies.
 pub fn bundled_names() -> impl Iterator<Item = &'static str> {
-    BUNDLED.into_iter().map(|(name, _)| name)
+    BUNDLED.iter().map(|(name, _)| *name)
 }
 
 /// The bundled file of this name.
 pub(in crate::learning) fn bundled_bytes(name: &str) -> Option<&'static [u8]> {
-    BUNDLED.into_iter().find(|(bundled, _)| *bundled == name).map(|(_, bytes)| bytes)
+    BUNDLED.iter().find(|(bundled, _)| *bundled == name).map(|(_, bytes)| *bytes)
 }
 
 /// Where a policy comes from.
@@ -167,7 +167,7 @@ impl Policy {
         // Seed, shots and settings tell them apart.
         let is_this =
             |bytes| Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin));
-        BUNDLED.into_iter().find(|(_, bytes)| is_this(bytes)).map(|(name, _)| name)
+        BUNDLED.iter().find(|(_, bytes)| is_this(bytes)).map(|(name, _)| *name)
     }
 
     /// A checksum of the networks and of what their file says of them: equal ones play equally.
