@@ -8,7 +8,7 @@ use std::{
 use super::{
     Failure,
     input::{seed, table_named, whole},
-    output::{check_place, tell},
+    output::{check_place, plural, tell},
 };
 use crate::{
     printing::{self, ProgressLine},
@@ -221,7 +221,10 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     if let Some(folder) = &args.out {
         write_file(folder, STABILITY, &stability::page(&plan, &rows))?;
     }
-    Ok(())
+    match rows.iter().filter(|row| row.failed > 0).count() {
+        0 => Ok(()),
+        failing => Err(Failure::failed(format_args!("{} of the stability table failed", plural(failing, "row")))),
+    }
 }
 
 /// The tables that are judged where none is named: two with usual strokes, and one with steep ones whose balls fly.

@@ -111,7 +111,7 @@ pub enum ImpulseError {
         y: f64,
     },
     /// The upward velocity is not a number, downwards, or too large.
-    #[error("{lift} m/s upwards are not accepted; accepted are 0 to {MAX_BALL_SPEED} m/s")]
+    #[error("velocity has {lift} m/s upwards; accepted are 0 to {MAX_BALL_SPEED} m/s")]
     Lift {
         /// It, m/s.
         lift: f64,

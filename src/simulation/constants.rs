@@ -27,7 +27,7 @@ pub struct Constants {
     pub slide_time: f64,
     /// What slows a rolling ball.
     pub rolling: Rolling,
-    /// Time that a ball needs to lose each m/s of its speed where that is constant (thesis equation 26), s²/m.
+    /// Time in which a rolling ball loses 1 m/s where it slows down evenly (thesis equation 26), s²/m.
     pub roll_time: f64,
     /// Whether the table is level and a rolling ball slows down evenly, as in the thesis.
     pub even: bool,

@@ -22,9 +22,9 @@ use crate::{
     table::{BALLS, Layout, PAIRS, Table},
 };
 
-/// Impacts that follow each other within this time are at the same moment, s: two roundings of a time of two seconds. Their gaps tell
-/// which of them collide together: up to 10 m/s a ball on `match` moves by less than one that counts as none meanwhile. What
-/// a faster ball meets may be found apart, and then collides in turn.
+/// Impacts that follow each other within this time are at the same moment, s: two roundings of a time of two seconds. Which of them
+/// collide together their gaps tell: in this time a ball of up to 10 m/s on `match` moves less than the gap that counts as closed.
+/// What a faster ball meets may be found later, and then collides in turn.
 pub(super) const MOMENT: f64 = 1e-15;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.

@@ -4,7 +4,7 @@ use glam::DVec2;
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-use super::{Opening, Side, Table};
+use super::{CueBall, Opening, Side, Table};
 
 /// Number of balls in carom billiards.
 pub const BALLS: usize = 3;
@@ -82,6 +82,20 @@ pub enum LayoutError {
          from the lower left corner like \"2d,2d 6d,2d 2d,2.5d\""
     )]
     Text(String),
+}
+
+impl LayoutError {
+    /// The same with the names that the balls have for who plays with `cue_ball`: ball 0 is theirs.
+    #[must_use]
+    pub fn told_to(mut self, cue_ball: CueBall) -> Self {
+        let colours = cue_ball.ordered([0, 1, 2]);
+        match &mut self {
+            Self::NotFinite { ball, .. } | Self::Outside { ball, .. } => *ball = colours[*ball],
+            Self::Overlap { first, second, .. } => (*first, *second) = (colours[*first], colours[*second]),
+            Self::Text(_) => {}
+        }
+        self
+    }
 }
 
 /// Two lengths, in m, to a tenth of a millimetre, or with as many decimals as tell them apart.

@@ -87,7 +87,7 @@ impl Layout {
                 let [y, up] = [y, max_y].map(|y| (0.5 * table.width + y) / table.diamond());
                 PositionsError::Outside { name: names[ball], x, y, least, along, up }
             }
-            error => error.into(),
+            error => error.told_to(cue_ball).into(),
         })?;
         Ok(layout)
     }
@@ -135,6 +135,8 @@ mod tests {
             ("9d,1d", "red at 9.00d,1.00d is outside the table; accepted are 0.09d to 7.91d, and 0.09d to 3.91d"),
             ("1.5,0.1", "|x| <= 1.389"),
             ("nan,1", "finite"),
+            ("w 1.5,0.1", "white at (1.5"),
+            ("y 1.5,0.1", "yellow at (1.5"),
         ] {
             let error = typed(text).unwrap_err();
             assert!(error.contains(part), "{text}: {error}");

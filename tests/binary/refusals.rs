@@ -51,7 +51,7 @@ fn settings_of_an_agent_are_refused_in_plain_words() {
         ("ddpg", "head_speeds = [[1, 2], [5, 1]]", "head_speeds = [5, 1] is outside its range; accepted is [low, h"),
         ("ddpg", "head_speeds = [[0.1, 2]]", "head_speeds = [0.1, 2] is outside its range"),
         ("ddpg", "head_speeds = [[3, 7]]", "head_speeds = [3, 7] is outside its range"),
-        ("ddpg", "target_rate = \"low\"", "string \"low\", expected a number; accepted is 0 to 1"),
+        ("ddpg", "target_rate = \"low\"", "string \"low\", expected a number; accepted is more than 0, up to 1"),
         ("ddpg", "heads = 2\nranking = \"abc\"", "ranking = \"abc\": invalid type"),
         ("ddpg", "batch = 16777216", "accepted is 1 to 65536"),
         ("ddpg", "exploration = 1", "expected noise and uniform"),

@@ -46,12 +46,12 @@ fn rows(report: &Report) -> Vec<[String; 2]> {
         rows.push((name, format!("{} of your own, {} cannot be read", found.count, found.wrong.len())));
     }
     for (name, what, found) in [
-        ("calibration", "strokes", &kept.calibration),
-        ("daily check", "strokes", &kept.daily_check),
-        ("last session", "to be gone on with", &kept.last),
+        ("calibration", plural(kept.calibration.count, "stroke"), &kept.calibration),
+        ("daily check", plural(kept.daily_check.count, "stroke"), &kept.daily_check),
+        ("last session", format!("{} to be gone on with", kept.last.count), &kept.last),
     ] {
         let unread = if found.wrong.is_empty() { "" } else { "; the file cannot be read" };
-        rows.push((name, format!("{} {what}{unread}", found.count)));
+        rows.push((name, what + unread));
     }
     if let Some(engine) = &self_test.engine {
         let word = if engine.is_right { "as on other machines" } else { "WRONG" };

@@ -36,6 +36,9 @@ use crate::{
     table::{Layout, Table},
 };
 
+/// Time to look for a shot, ms, where neither a time nor simulations are given.
+const BUDGET_MS: u64 = 500;
+
 /// Recommend a shot for a layout, or for a file of layouts.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
@@ -67,12 +70,12 @@ pub struct Args {
     /// Say also how far off each input may be, with maps of the outcome, and where to aim.
     #[arg(long)]
     margins: bool,
-    /// Time to look for a shot, ms.
-    #[arg(long, default_value_t = 500, value_parser = whole(0..=3_600_000_u64))]
-    budget_ms: u64,
-    /// Simulations after which the search begins nothing new, if time has not ended it.
+    /// Time to look for a shot, ms. Default: 500, and without end where --simulations is given.
+    #[arg(long, value_parser = whole(0..=3_600_000_u64))]
+    budget_ms: Option<u64>,
+    /// Simulations after which the search begins nothing new.
     ///
-    /// The answer is the same on every machine then. It is no limit: a least search and judging the shots that were found come
+    /// Without --budget-ms the answer is the same on every machine then; with it both share the search out. It is no limit: a least search and judging the shots that were found come
     /// on top, thousands of simulations.
     #[arg(long, value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
@@ -205,8 +208,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if answer.solved == Some(false) {
         let without = if args.no_jumps { " without jumps and massés" } else { "" };
         return Err(Failure::failed(format_args!(
-            "no point was found{without} in {} ms; this is the best attempt, a larger --budget-ms may do",
-            args.budget_ms
+            "no point was found{without} in {:.0} ms; this is the best attempt, a larger {} may do",
+            answer.elapsed_ms,
+            if args.simulations.is_some() { "--simulations" } else { "--budget-ms" }
         )));
     }
     Ok(())
@@ -267,7 +271,11 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         doubt: args.doubt,
         plan: args.plan,
         jumps: !args.no_jumps,
-        budget: Duration::from_millis(args.budget_ms),
+        budget: match (args.budget_ms, args.simulations) {
+            (Some(budget), _) => Duration::from_millis(budget),
+            (None, Some(_)) => Duration::MAX,
+            (None, None) => Duration::from_millis(BUDGET_MS),
+        },
         simulations: args.simulations.unwrap_or(u64::MAX),
         seed: args.seed,
         ..Request::default()

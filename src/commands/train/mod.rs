@@ -12,6 +12,8 @@ use std::{
     time::Duration,
 };
 
+use serde_json::Value;
+
 use self::progress::Progress;
 pub(super) use self::{listing::print as print_runs, progress::line};
 use super::{
@@ -24,6 +26,7 @@ use crate::{
     game::Reward,
     learning::{
         agents::AGENTS,
+        ddpg::learner::STANDING_STILL,
         evaluation::Score,
         learner::StartError,
         run::{Ending, Limits, Run, RunError, discard, holds_checkpoints, seeds::is_group},
@@ -154,6 +157,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return resume(folder, args.jobs, &options);
     }
     let read = spec::read(args)?;
+    let rate = read.spec.settings.get("actor_learning_rate").and_then(Value::as_f64);
+    if let Some((rate, from)) = rate.filter(|rate| *rate < STANDING_STILL).zip(args.from.as_ref()) {
+        let from = from.display();
+        tell(format_args!(
+            "note: the actor stays as it is, for actor_learning_rate is {rate:e} as {from} has it; --set actor_learning_rate=0.0004 lets it learn"
+        ));
+    }
     if let Some(seeds) = args.seeds {
         let last = u64::MAX - (seeds - 1);
         if args.seed > last {

@@ -23,7 +23,7 @@ const TRIED: usize = 2048;
 const SCREENED: usize = 64;
 const SCREENED_OF_ONE_WAY: usize = 12;
 
-/// Attempts at each stroke in the rounds of the race, and how many strokes stay for the next, so many of one way.
+/// Attempts at each stroke by the end of each round of the race, and how many strokes stay for the next, so many of one way.
 const ROUNDS: [(usize, usize); 3] = [(16, 24), (32, 8), (64, 6)];
 const LEFT_OF_ONE_WAY: usize = 2;
 

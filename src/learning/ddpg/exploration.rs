@@ -28,7 +28,7 @@ impl Exploration {
     pub fn stray(&self, space: ActionSpace, choice: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
         let mut action = choice;
         let used = &mut action[..space.actions()];
-        if self.noise.is_empty() || rng.random_bool(self.uniform.clamp(0.0, 1.0)) {
+        if rng.random_bool(self.uniform.clamp(0.0, 1.0)) {
             used.fill_with(|| rng.random_range(-1.0..=1.0));
         } else {
             let scale = self.noise[rng.random_range(0..self.noise.len())];

@@ -65,7 +65,7 @@ pub struct Hyperparameters {
     /// left behind.
     pub replay: usize,
     /// Layouts before every update on which a search finds strokes that a player who errs makes often (expert iteration). Each takes
-    /// two thirds of the time of an update and its shots.
+    /// about as long as an update and its shots (1.2 times on one core).
     pub searched: usize,
     /// Weight of behaviour cloning with a Q-filter (Nair et al. 2018): of the squared distance from a searched stroke to the nearest
     /// head's, as long as the critic does not think the head's to be better. Heads that climb from where they began reach few of the
@@ -167,7 +167,12 @@ impl Hyperparameters {
         check_positive("critic_learning_rate", self.critic_learning_rate)?;
         check_positive("actor_learning_rate", self.actor_learning_rate)?;
         check_positive("gradient_clip", self.gradient_clip)?;
-        check_share("target_rate", self.target_rate)?;
+        check(
+            "target_rate",
+            self.target_rate,
+            0.0 < self.target_rate && self.target_rate <= 1.0,
+            "more than 0, up to 1",
+        )?;
         check_share("critic_chooses", self.critic_chooses)?;
         check_share("perfect", self.perfect)?;
         check_share("ranking", self.ranking)?;
@@ -180,7 +185,9 @@ impl Hyperparameters {
         check_share("logit_weight", self.logit_weight)?;
         check_share("saturation_penalty", self.saturation_penalty)?;
         check_share("exploration.uniform", self.exploration.uniform)?;
-        self.exploration.noise.iter().try_for_each(|scale| check_share("exploration.noise", f64::from(*scale)))
+        let noise = &self.exploration.noise;
+        check("exploration.noise", "[]", !noise.is_empty(), "a list of standard deviations, like [0.015, 0.05]")?;
+        noise.iter().try_for_each(|scale| check_share("exploration.noise", f64::from(*scale)))
     }
 }
 

@@ -27,7 +27,7 @@ use crate::{
 };
 
 /// An actor with a lower learning rate stays as it is.
-const STANDING_STILL: f64 = 1e-6;
+pub const STANDING_STILL: f64 = 1e-6;
 
 /// Places of the networks among sizes.
 const ACTOR: usize = 0;

@@ -23,7 +23,7 @@ const REAL: usize = 4;
 const OWN: usize = 8;
 const TEXTBOOK: usize = 8;
 
-/// One in so many of the latter is one on which balls stay on the cloth, as those were that were calibrated before they flew.
+/// On one in so many tables, but for the run's own, balls stay on the cloth, as on tables that were calibrated before balls could fly.
 const ON_CLOTH: usize = 8;
 
 /// Between which multiples of an expert's the errors of players who err lie, the logarithms alike. World-class is 1.55, a beginner 8.8.

@@ -42,7 +42,9 @@ impl Trainer {
         let Hyperparameters { shots_per_update, critic_chooses, ranking, .. } = self.task.hyperparameters;
         let part = |share: f64, of: usize| ((of as f64 * share).round() as usize).min(of);
         let ranked = part(ranking, shots_per_update) / RANKED;
-        let scenes: Vec<Scene> = (0..shots_per_update - ranked * RANKED + ranked).map(|_| self.scene()).collect();
+        // A layout whose proposals are ranked takes so many shots; every other takes one.
+        let layouts = ranked + (shots_per_update - ranked * RANKED);
+        let scenes: Vec<Scene> = (0..layouts).map(|_| self.scene()).collect();
         let (ranked, scenes) = scenes.split_at(ranked);
         let (chosen, any) = scenes.split_at(part(critic_chooses, scenes.len()));
         self.search()?;

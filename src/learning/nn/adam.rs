@@ -68,7 +68,9 @@ impl Optimizer for Adam {
         let AdamConfig { learning_rate, gradient_clip } = self.config;
         // Such a step would destroy the network.
         if !length.is_finite() {
-            bail!("the gradient is not finite: the learning rate {learning_rate} may be too high");
+            bail!(
+                "the gradient is not finite: the learning rate {learning_rate} may be too high, and a new run may have a lower one"
+            );
         }
         let scale = (gradient_clip / length).min(1.0) as f32;
         self.steps += 1;

@@ -129,8 +129,10 @@ impl Run {
         if !learner.is_finished() {
             notices.extend(config.other_program());
         }
-        // What an earlier process said of itself holds no more, now that one goes on.
-        let _ = std::fs::remove_file(folder.join(status::FILE));
+        if !learner.is_finished() {
+            // What an earlier process said of itself holds no more, now that one goes on.
+            let _ = std::fs::remove_file(folder.join(status::FILE));
+        }
         let folder = folder.to_owned();
         Ok((Self { folder, config, learner, state, checkpoints, _lock: lock }, notices))
     }

@@ -144,7 +144,7 @@ impl Conversation {
             Command::Where => self.places(),
             Command::Balls(text) => {
                 let layout = Layout::parse(&text, self.table()).map_err(|error| error.to_string())?;
-                layout.validate(self.table()).map_err(|error| error.to_string())?;
+                layout.validate(self.table()).map_err(|error| error.told_to(self.cue_ball()).to_string())?;
                 self.place(layout)
             }
             Command::CueBall(cue_ball) if cue_ball == self.cue_ball() => format!("The cue ball is {cue_ball} already."),

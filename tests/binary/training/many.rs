@@ -132,6 +132,11 @@ fn weights_are_found_by_the_names_that_policies_have() {
         assert!(config["from"]["path"].as_str().unwrap().ends_with(path), "{from}: {}", config["from"]);
         assert_eq!(config["reward"], reward, "{from}");
     }
+    // The last rounds of this file trained the critic alone.
+    let line = format!("train --from match-three-cushion --reward three-cushion {short} --run e");
+    assert!(done(here, &line).err.contains("the actor stays as it is"));
+    let lively = done(here, &(line + " --set actor_learning_rate=0.0004").replace("run e", "run f"));
+    assert!(!lively.err.contains("stays as it is"), "{}", lively.err);
     let report: Value = serde_json::from_str(
         &done(here, "evaluate --policy match-one-cushion --policy-only --rule one-cushion --layouts 5 --json").out,
     )

@@ -216,6 +216,8 @@ fn draw_mark(
     let usual = test.rails.map_or_else(String::new, |rails| format!(", if not {rails}"));
     let mark = test.marks.iter().find(|mark| mark.name == name);
     let words = match mark {
+        // What is typed has its unit.
+        Some(mark) if typed.ends_with(" s") => mark.words.replacen("seconds ", "", 1),
         Some(mark) => mark.words.to_owned(),
         None if name == RAILS => format!("how many short rails it has met{usual}"),
         None => String::new(),

@@ -52,8 +52,13 @@ pub fn draw_margins(
     let inner = draw_title(title, area, ui);
     let (margins, skill, shot) = match studied {
         None => return draw_nothing(&[empty], inner, ui),
-        Some((ShotAnalysis { margins: None, .. }, _)) => {
-            return draw_nothing(&["none: this shot makes no point"], inner, ui);
+        Some((ShotAnalysis { margins: None, .. }, shot)) => {
+            let why = if shot.solved {
+                "none: on the tables drawn, it makes no point as meant"
+            } else {
+                "none: this shot makes no point"
+            };
+            return draw_nothing(&[why], inner, ui);
         }
         Some((ShotAnalysis { margins: Some(margins), hand, .. }, shot)) => (margins, *hand, shot),
     };
