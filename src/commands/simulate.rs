@@ -144,7 +144,9 @@ impl BatchLine {
         match (&self.cue, &self.impulse) {
             (Some(cue), None) => {
                 let played = play(table, &self.layout, cue, steps)?;
-                Ok(SimulateAnswer::of(&played, &outcome(&played), CueRoom::of(table, &self.layout, cue), &args.at))
+                let cue_room = CueRoom::of(table, &self.layout, cue);
+                let answer = SimulateAnswer::of(&played, &outcome(&played), cue_room, &args.at);
+                Ok(SimulateAnswer { miscue: is_miscue(table, cue), ..answer })
             }
             (None, Some(_)) if steps.is_some() => {
                 Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
@@ -247,6 +249,9 @@ struct SimulateAnswer {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     off_table: Vec<BallOff>,
     duration: f64,
+    /// Whether a real tip slips off; the stroke is played all the same.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    miscue: bool,
     /// On a table that says how much room the cue needs.
     #[serde(skip_serializing_if = "Option::is_none")]
     cue_room: Option<CueRoom>,
@@ -305,6 +310,7 @@ impl SimulateAnswer {
             point: verdict.is_made(),
             foul: verdict.foul(CueBall::White),
             cushions_before_second: verdict.tally.met_both().then_some(verdict.tally.cushions_before_second),
+            miscue: false,
             cue_room,
             impulse: GivenImpulse::of(recording.impulse()),
             moments: moments.iter().map(|&t| Moment::of(recording, t)).collect(),
@@ -327,6 +333,11 @@ impl SimulateAnswer {
 /// A shot, and what the steps did if there were any.
 type Played = (Recording, Option<Stepped>);
 
+/// Whether a real tip slips off the ball.
+fn is_miscue(table: &Table, cue: &CueInputs) -> bool {
+    cue.validate_tip(table.miscue_limit).is_err()
+}
+
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let steps = steps_of(args)?;
     if let Some(file) = &args.batch {
@@ -340,7 +351,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     // clap demands a shot where there is no batch.
     let cue = shot_typed(args.shot.as_deref().unwrap_or_default())?;
     let played = play(&table, &layout, &cue, steps)?;
-    if cue.validate_tip(table.miscue_limit).is_err() {
+    let miscue = is_miscue(&table, &cue);
+    if miscue {
         tell(format_args!(
             "note: a real tip slips off here: a² + b² is {:.3}, on \"{}\" it holds up to {}",
             cue.tip_offset_squared(),
@@ -355,7 +367,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let verdict = Verdict::of(args.rule, &table, &layout, &played.0);
     let mut out = printing::stdout().exact(args.json);
     if args.json {
-        printing::json_line(&mut out, &SimulateAnswer::of(&played, &verdict, cue_room, &args.at))?;
+        let answer = SimulateAnswer::of(&played, &verdict, cue_room, &args.at);
+        printing::json_line(&mut out, &SimulateAnswer { miscue, ..answer })?;
     } else {
         describe(&mut out, args, &played, &verdict)?;
     }

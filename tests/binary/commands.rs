@@ -408,3 +408,15 @@ fn a_batch_takes_upward_velocities_where_balls_may_fly_and_says_elsewhere_which_
     assert!(refused.contains("1 m/s upwards") && refused.contains("[flight]"), "{refused}");
     assert!(answers[2]["error"].as_str().unwrap().contains("-1 m/s upwards"), "{}", answers[2]);
 }
+
+#[test]
+fn a_stroke_at_which_the_tip_slips_off_is_played_and_called_a_miscue() {
+    let miscue = |shot: &str| json(&["simulate", "--layout", LAYOUT, "--shot", shot, "--json"])["miscue"].clone();
+    assert_eq!((miscue("0.6,0,0,0,3"), miscue(SHOT)), (Value::Bool(true), Value::Null));
+    let line = format!(
+        r#"{{"preset": "match", "layout": [[-0.5,0],[0,0],[0.5,0.03]], "cue": {}}}"#,
+        r#"{"a": 0.6, "b": 0, "theta_deg": 0, "phi_deg": 0, "speed": 3}"#
+    );
+    let output = carom(&["simulate", "--batch", "-"]).write_stdin(line).assert().success();
+    assert_eq!(lines(&output.get_output().stdout)[0]["miscue"], true);
+}

@@ -174,6 +174,8 @@ pub fn margins(margins: &[Margin], unit: LengthUnit) -> String {
         let (factor, _) = margin.told_in(unit);
         let end = |end: Option<f64>, way: &str| match end {
             Some(end) => format!("up to {} {word} {way}", fixed(factor * end, 2)),
+            // There is an end to that for every cue.
+            None if way == "flatter" => "down to level".to_owned(),
             None => format!("far {way}"),
         };
         format!("{name}: {}, {}.", end(margin.less, less), end(margin.more, more))
