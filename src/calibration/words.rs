@@ -47,15 +47,11 @@ impl Change {
             "mu_sp" => ("side is lost", ["later than", "as soon as", "sooner than"], false),
             _ => return None,
         };
-        let known = match self.known() {
-            "well" => "known well",
-            "better" => "known better than before",
-            _ => return None,
-        };
+        let known = Some(self.known()).filter(|known| *known != NO_BETTER)?;
         let ratio = if is_inverse { self.before / self.after } else { self.after / self.before };
         let (change, error) = (100.0 * (ratio - 1.0), 100.0 * (ratio * self.after_deviation / self.after).abs());
         let number = |share: f64| if share < 0.95 { format!("{share:.1}") } else { format!("{share:.0}") };
-        let end = format!("on {before} (± {} %): {known}", number(error));
+        let end = format!("on {before} (± {} %), known {known}", number(error));
         Some(match change {
             // What the error may hide is no difference.
             _ if change.abs() < error => format!("{what} {same} {end}"),
@@ -264,14 +260,11 @@ mod tests {
             after_deviation,
         };
         let told = |name: &str, after: f64, deviation: f64| change(name, after, deviation).meaning("match");
-        assert_eq!(told("mu_r", 0.004, 0.0002).unwrap(), "the cloth is 25 % faster than on match (± 6 %): known well");
-        assert_eq!(
-            told("mu_r", 0.0051, 0.0008).unwrap(),
-            "the cloth is as fast as on match (± 15 %): known better than before"
-        );
+        assert_eq!(told("mu_r", 0.004, 0.0002).unwrap(), "the cloth is 25 % faster than on match (± 6 %), known well");
+        assert_eq!(told("mu_r", 0.0051, 0.0008).unwrap(), "the cloth is as fast as on match (± 15 %), known better");
         assert_eq!(
             told("mu_rail", 0.004, 0.0004).unwrap(),
-            "the rails grip 20 % less than on match (± 8 %): known well"
+            "the rails grip 20 % less than on match (± 8 %), known well"
         );
         assert_eq!((told("mu_r", 0.005, 0.00095), told("tilt.x", 0.1, 0.0001)), (None, None));
     }

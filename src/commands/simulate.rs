@@ -145,15 +145,14 @@ impl BatchLine {
             (Some(cue), None) => {
                 let played = play(table, &self.layout, cue, steps)?;
                 let cue_room = CueRoom::of(table, &self.layout, cue);
-                let answer = SimulateAnswer::of(&played, &outcome(&played), cue_room, &args.at);
-                Ok(SimulateAnswer { miscue: is_miscue(table, cue), ..answer })
+                Ok(SimulateAnswer::of(&played, &outcome(&played), cue.is_miscue(table), cue_room, &args.at))
             }
             (None, Some(_)) if steps.is_some() => {
                 Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
             }
             (None, Some(given)) => {
                 let played = (bounded::play_impulse(table, &self.layout, &given.impulse(table)?)?, None);
-                Ok(SimulateAnswer::of(&played, &outcome(&played), None, &args.at))
+                Ok(SimulateAnswer::of(&played, &outcome(&played), false, None, &args.at))
             }
             (Some(_), Some(_)) => Err(Failure::wrong_input("a line has cue and impulse; accepted is one of them")),
             (None, None) => Err(Failure::wrong_input("a line has neither cue nor impulse; it needs one of them")),
@@ -304,13 +303,19 @@ struct StepsAnswer {
 }
 
 impl SimulateAnswer {
-    fn of((recording, stepped): &Played, verdict: &Verdict, cue_room: Option<CueRoom>, moments: &[f64]) -> Self {
+    fn of(
+        (recording, stepped): &Played,
+        verdict: &Verdict,
+        miscue: bool,
+        cue_room: Option<CueRoom>,
+        moments: &[f64],
+    ) -> Self {
         Self {
             rule: verdict.point.rule,
             point: verdict.is_made(),
             foul: verdict.foul(CueBall::White),
             cushions_before_second: verdict.tally.met_both().then_some(verdict.tally.cushions_before_second),
-            miscue: false,
+            miscue,
             cue_room,
             impulse: GivenImpulse::of(recording.impulse()),
             moments: moments.iter().map(|&t| Moment::of(recording, t)).collect(),
@@ -333,11 +338,6 @@ impl SimulateAnswer {
 /// A shot, and what the steps did if there were any.
 type Played = (Recording, Option<Stepped>);
 
-/// Whether a real tip slips off the ball.
-fn is_miscue(table: &Table, cue: &CueInputs) -> bool {
-    cue.validate_tip(table.miscue_limit).is_err()
-}
-
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let steps = steps_of(args)?;
     if let Some(file) = &args.batch {
@@ -351,7 +351,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     // clap demands a shot where there is no batch.
     let cue = shot_typed(args.shot.as_deref().unwrap_or_default())?;
     let played = play(&table, &layout, &cue, steps)?;
-    let miscue = is_miscue(&table, &cue);
+    let miscue = cue.is_miscue(&table);
     if miscue {
         tell(format_args!(
             "note: a real tip slips off here: a² + b² is {:.3}, on \"{}\" it holds up to {}",
@@ -367,8 +367,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let verdict = Verdict::of(args.rule, &table, &layout, &played.0);
     let mut out = printing::stdout().exact(args.json);
     if args.json {
-        let answer = SimulateAnswer::of(&played, &verdict, cue_room, &args.at);
-        printing::json_line(&mut out, &SimulateAnswer { miscue, ..answer })?;
+        printing::json_line(&mut out, &SimulateAnswer::of(&played, &verdict, miscue, cue_room, &args.at))?;
     } else {
         describe(&mut out, args, &played, &verdict)?;
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::{
-    calibration::{Calibration, Change, Entries, NO_BETTER, Next, Oddity, Play, Strange, Verdict},
+    calibration::{Calibration, Change, Entries, Next, Oddity, Play, Strange, Verdict},
     commands::{
         Failure,
         output::{columns, json_line, line},
@@ -68,15 +68,7 @@ impl<'a> Report<'a> {
     pub fn text(&self) -> Result<(), Failure> {
         let heads = ["constant", "before", "after", "known"].map(str::to_owned);
         let row = |one: &Change| {
-            [
-                one.name.clone(),
-                one.told_before().join(" ± "),
-                one.told().join(" ± "),
-                match self.found.known(one) {
-                    NO_BETTER => format!("{NO_BETTER} than before"),
-                    known => known.to_owned(),
-                },
-            ]
+            [one.name.clone(), one.told_before().join(" ± "), one.told().join(" ± "), self.found.known(one).to_owned()]
         };
         let rows: Vec<_> = std::iter::once(heads).chain(self.constants.iter().map(row)).collect();
         columns(&rows, &[1, 2]).iter().try_for_each(line)?;

@@ -75,8 +75,8 @@ pub struct Args {
     budget_ms: Option<u64>,
     /// Simulations after which the search begins nothing new.
     ///
-    /// Without --budget-ms the answer is the same on every machine then; with it both share the search out. It is no limit: a least search and judging the shots that were found come
-    /// on top, thousands of simulations.
+    /// Without --budget-ms the answer is the same on every machine then; with it both share the search out. It is no limit: a
+    /// least search and judging the shots that were found come on top, thousands of simulations.
     #[arg(long, value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
     /// Give the networks' own shot, without any search.

@@ -158,10 +158,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let read = spec::read(args)?;
     let rate = read.spec.settings.get("actor_learning_rate").and_then(Value::as_f64);
-    if let Some((rate, from)) = rate.filter(|rate| *rate < STANDING_STILL).zip(args.from.as_ref()) {
-        let from = from.display();
+    if let Some(rate) = rate.filter(|rate| *rate < STANDING_STILL && args.from.is_some()) {
         tell(format_args!(
-            "note: the actor stays as it is, for actor_learning_rate is {rate:e} as {from} has it; --set actor_learning_rate=0.0004 lets it learn"
+            "note: the actor stays as it is, for actor_learning_rate is {rate:e}, as --from may bring along; --set \
+             actor_learning_rate=0.0004 lets it learn"
         ));
     }
     if let Some(seeds) = args.seeds {

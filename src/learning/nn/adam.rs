@@ -69,7 +69,7 @@ impl Optimizer for Adam {
         // Such a step would destroy the network.
         if !length.is_finite() {
             bail!(
-                "the gradient is not finite: the learning rate {learning_rate} may be too high, and a new run may have a lower one"
+                "the gradient is not finite: the learning rate {learning_rate} may be too high; start a new run with a lower one"
             );
         }
         let scale = (gradient_clip / length).min(1.0) as f32;

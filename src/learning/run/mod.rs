@@ -128,8 +128,6 @@ impl Run {
         })?;
         if !learner.is_finished() {
             notices.extend(config.other_program());
-        }
-        if !learner.is_finished() {
             // What an earlier process said of itself holds no more, now that one goes on.
             let _ = std::fs::remove_file(folder.join(status::FILE));
         }

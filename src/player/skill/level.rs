@@ -38,8 +38,8 @@ impl Skill {
         (least..=most).contains(&average).then(|| Self::level(scale))
     }
 
-    /// The average of which [`Skill::of_average`] makes this player.
-    pub(super) fn as_average(&self) -> Option<f64> {
+    /// The average of which [`Skill::of_average`] makes this player; the named ones have none.
+    pub fn as_average(&self) -> Option<f64> {
         // Nobody knows more digits of his own.
         let average = (1e4 * Self::average(self.scale())).round() / 1e4;
         (Self::of_average(average) == Some(*self)).then_some(average)

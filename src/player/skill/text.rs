@@ -170,6 +170,7 @@ mod tests {
             assert_eq!(skill.to_string().parse(), Ok(skill), "{text}");
             assert_eq!(skill.to_string(), format!("average={text}"));
         }
+        assert!(Skill::NAMED.iter().all(|(_, named)| named.as_average().is_none()));
         for bad in ["0.05", "3", "-1", "0", "NaN", "inf"] {
             let said = bad.parse::<Skill>().unwrap_err().to_string();
             assert!(said.contains("0.1 to 2.5 points an inning") && said.contains("club (0.5)"), "{said}");

@@ -134,16 +134,13 @@ pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill) -> Ve
 
 /// Who plays, at the beginning of a sentence.
 pub fn player(skill: Skill) -> String {
-    let name = skill.to_string();
-    name.strip_prefix("average=")
-        .map_or_else(|| format!("Player {name}"), |average| format!("A player who averages {average}"))
+    skill.as_average().map_or_else(|| format!("Player {skill}"), |average| format!("A player who averages {average}"))
 }
 
 /// Who plays from now on.
 pub fn now_plays(skill: Skill) -> String {
-    let name = skill.to_string();
-    name.strip_prefix("average=").map_or_else(
-        || format!("The player is {name}."),
+    skill.as_average().map_or_else(
+        || format!("The player is {skill}."),
         |average| format!("The player averages {average} points an inning at three-cushion."),
     )
 }
