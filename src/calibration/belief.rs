@@ -36,7 +36,10 @@ impl Belief {
     /// Where its correlations contradict each other.
     pub fn new(table: &Table, doubt: &TableDoubt) -> Result<Self, DoubtError> {
         let mut table = Table { doubt: None, ..table.clone() };
-        if table.tilt == DVec2::ZERO {
+        let may_lean = ["tilt.x", "tilt.y"]
+            .iter()
+            .any(|name| doubt.deviations.get(*name).is_some_and(|deviation| *deviation > 0.0));
+        if may_lean && table.tilt == DVec2::ZERO {
             table.tilt = DVec2::splat(LEVEL);
         }
         let known = |(name, deviation): (&String, &f64)| {

@@ -13,9 +13,6 @@ use super::{
 };
 use crate::table::{DoubtError, Table, TableDoubt, TableError};
 
-/// From this share of misread tests on, they contradict each other.
-const CONTRADICTION: f64 = 0.34;
-
 /// Most trials: the time that the fit takes grows with their cube.
 const MOST: usize = 60;
 
@@ -259,6 +256,6 @@ impl Calibration {
         let mut trials: Vec<usize> = self.verdicts.iter().map(|one| one.trial).collect();
         trials.dedup();
         let misread = self.misread().len();
-        misread > 1 && misread as f64 >= CONTRADICTION * trials.len() as f64
+        misread > 1 && 3 * misread >= trials.len()
     }
 }

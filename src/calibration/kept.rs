@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::entries::{Entries, Entry};
-use crate::storage::{self, target_of, write_atomic};
+use crate::storage::{self, Lock, target_of, write_atomic};
 
 /// A change of the entries.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,6 +65,7 @@ pub fn kept_entries(path: &Path) -> Result<Entries, KeptError> {
 /// # Errors
 /// Where the file cannot be read or written, or does not hold what was to be changed: then it stays as it is.
 pub fn edit_entries(path: &Path, edit: &Edit) -> Result<(Entries, Edit), KeptError> {
+    let _lock = lock(path)?;
     let mut entries = kept_entries(path)?;
     let place = |trials: &[Entry], place: usize, entry: &Entry| {
         let is_there = trials.get(place) == Some(entry);
@@ -120,12 +121,19 @@ const MOST_KEPT: usize = 9;
 /// # Errors
 /// Where it cannot be moved: then it stays.
 pub fn put_aside_unread(path: &Path) -> Result<(), KeptError> {
+    let _lock = lock(path)?;
     // Another program may have mended it, or put it aside.
     if kept_entries(path).is_ok() {
         return Ok(());
     }
     make_room_beside(path)?;
     std::fs::rename(path, beside(path)).map_err(|error| KeptError::Unwritten(beside(path), error))
+}
+
+/// The right to change the file, which one program has at a time.
+fn lock(path: &Path) -> Result<Lock, KeptError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    Lock::wait(folder).map_err(|error| KeptError::Unwritten(path.to_owned(), error))
 }
 
 /// Keeps entries beside the file.

@@ -18,7 +18,7 @@ use super::{
 use crate::{
     game::Rule,
     learning::Policy,
-    physics::CueInputs,
+    physics::{CueInputs, turn},
     platform::parallel,
     statistics::SuccessRate,
     table::{Layout, LayoutError, Table},
@@ -169,7 +169,8 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     keep_one_of_each(&mut pool, task.skill, task.table.radius);
     pool.truncate(1 + ALTERNATIVES);
     // Drawn by whoever is the first to need them: where there is no time for them, neither is there for their drawing.
-    let attempts: Vec<OnceLock<Draws>> = (0..ATTEMPTS).step_by(PIECE).map(|_| OnceLock::new()).collect();
+    let drawn = ATTEMPTS + ATTEMPTS_AT_ALTERNATIVE;
+    let attempts: Vec<OnceLock<Draws>> = (0..drawn).step_by(PIECE).map(|_| OnceLock::new()).collect();
     let pieces: Vec<(usize, usize)> = (0..pool.len())
         .flat_map(|index| {
             let count = if index == 0 { ATTEMPTS } else { ATTEMPTS_AT_ALTERNATIVE };
@@ -187,12 +188,12 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         let (made, tried) = own.fold((0, 0), |sum, (_, part)| (sum.0 + part.made, sum.1 + part.tried));
         (tried > 0).then(|| SuccessRate::new(made, tried))
     };
-    let mut made = judged(&pieces);
+    let made = judged(&pieces);
     let mut rates: Vec<_> = (0..pool.len()).map(|candidate| rate(&made, candidate)).collect();
     if let Some(better) = made_more_often(&pool, &rates).filter(|_| !request.plan) {
-        let rest = (ATTEMPTS_AT_ALTERNATIVE..ATTEMPTS).step_by(PIECE).map(|attempt| (better, attempt / PIECE));
-        made.extend(judged(&rest.collect::<Vec<_>>()));
-        rates[better] = rate(&made, better);
+        // Without the attempts that have chosen it: they flatter it.
+        let others = (ATTEMPTS_AT_ALTERNATIVE..drawn).step_by(PIECE).map(|attempt| (better, attempt / PIECE));
+        rates[better] = rate(&judged(&others.collect::<Vec<_>>()), better);
         rates.swap(0, better);
         pool.swap(0, better);
     }
@@ -268,7 +269,7 @@ fn keep_one_of_each(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
             let is_the_same = (one.a - cue.a).abs() <= a / radius
                 && (one.b - cue.b).abs() <= b / radius
                 && (one.theta - cue.theta).abs() <= theta
-                && (one.phi - cue.phi).abs() <= phi
+                && turn(one.phi, cue.phi).abs() <= phi
                 && (one.speed - cue.speed).abs() <= speed;
             other.kind != candidate.kind && !is_the_same
         };

@@ -6,7 +6,12 @@
 //! is made most often.
 
 use super::{Skill, candidates::towards, draws::Size};
-use crate::{physics::CueInputs, player::errors::Errors, statistics::SuccessRate, table::Table};
+use crate::{
+    physics::{CueInputs, turn},
+    player::errors::Errors,
+    statistics::SuccessRate,
+    table::Table,
+};
 
 /// Rounds of expectation maximization from one round of attempts to the next: more would climb what is chance.
 const CLIMBING_ROUNDS: usize = 2;
@@ -48,7 +53,9 @@ impl Distribution {
 
     /// An outcome's or another stroke's place, in standard errors from this one.
     fn errors_to(&self, place: &Place) -> Errors {
-        std::array::from_fn(|input| (place[input] - self.at[input]) * self.inverse_deviations[input])
+        let mut errors: Errors = std::array::from_fn(|input| place[input] - self.at[input]);
+        errors[3] = turn(self.at[3], place[3]);
+        std::array::from_fn(|input| errors[input] * self.inverse_deviations[input])
     }
 
     /// How far another stroke is meant from this one, in standard errors.
@@ -159,12 +166,13 @@ impl Evidence {
             for sample in self.samples.iter().filter(|sample| sample.made) {
                 let weight = climber.densities(&sample.outcome)[0] / sample.density;
                 weights += weight;
-                sum.iter_mut().zip(sample.outcome).for_each(|(sum, input)| *sum += weight * input);
+                let own = stroke.errors_to(&sample.outcome);
+                sum.iter_mut().zip(own).for_each(|(sum, error)| *sum += weight * error);
             }
             if weights <= 0.0 {
                 break;
             }
-            errors = stroke.errors_to(&sum.map(|sum| sum / weights));
+            errors = sum.map(|sum| sum / weights);
             let distance = squared(&errors).sqrt();
             if distance > FARTHEST {
                 return errors.map(|error| error * FARTHEST / distance);

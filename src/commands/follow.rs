@@ -44,7 +44,7 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
     if !args.plain && !args.json && terminal::is_there() {
         return terminal::follow(player.name(), &folder, &settings, seat).map_err(failure);
     }
-    let stop = stop_when_told(false).map_err(Failure::failed)?;
+    let stop = stop_when_told(None).map_err(Failure::failed)?;
     follow_in_lines(
         player.name(),
         &folder,

@@ -59,7 +59,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         threads: args.jobs.map_or_else(processors, usize::from),
         table: table_named(&args.table)?,
     };
-    let stop = stop_when_told(true).map_err(Failure::failed)?;
+    let stop = stop_when_told(Some(1)).map_err(Failure::failed)?;
     let bar = progress(session.shots());
     let mut done = 0;
     let played = |shots| {

@@ -72,7 +72,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Prints what the run does until it has ended.
 fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
-    let stop = stop_when_told(false).map_err(Failure::failed)?;
+    let stop = stop_when_told(None).map_err(Failure::failed)?;
     let (mut follower, mut followed) = (Follower::new(folder), Followed::new(folder));
     let (mut before, mut over) = (Condition::Unknown, None::<Instant>);
     while !stop.load(Ordering::Relaxed) {

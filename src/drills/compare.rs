@@ -1,11 +1,9 @@
 //! What a player meant beside what the coach would have played.
 
-use std::f64::consts::PI;
-
 use crate::{
     coach::{Coach, Request, Shooter, make_probability},
     game::Rule,
-    physics::CueInputs,
+    physics::{CueInputs, turn},
     statistics::SuccessRate,
     table::{Layout, LayoutError, Table},
 };
@@ -42,19 +40,18 @@ pub fn advise(coach: &Coach, layout: &Layout, request: &Request) -> Result<Optio
 
 /// What `meant` has more than `advised` in every input; the direction is turned by the smaller angle, from -π to π.
 pub fn difference(meant: &CueInputs, advised: &CueInputs) -> CueInputs {
-    let turn = (meant.phi - advised.phi).rem_euclid(2.0 * PI);
     CueInputs {
         a: meant.a - advised.a,
         b: meant.b - advised.b,
         theta: meant.theta - advised.theta,
-        phi: if turn > PI { turn - 2.0 * PI } else { turn },
+        phi: turn(advised.phi, meant.phi),
         speed: meant.speed - advised.speed,
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
+    use std::{f64::consts::PI, time::Duration};
 
     use super::*;
     use crate::coach::{Doubt, Skill};

@@ -22,8 +22,8 @@ pub const GATHERED: f64 = 0.6;
 /// What the shot of an exercise fails to show of what is taught, as sentences; none where all is well. An own exercise and
 /// one without a shot promise nothing.
 ///
-/// Every bundled shot meets yellow first, once, and makes the point by its rule; the rest depends on the category, and in
-/// three-cushion on the pattern that the first tag names.
+/// Every bundled shot meets yellow first, or red in the opening, once, and makes the point by its rule; the rest depends on the
+/// category, and in three-cushion on the pattern that the first tag names.
 ///
 /// # Errors
 /// Where the exercise cannot be played.
@@ -35,10 +35,12 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     let technique = Technique::of(&table, layout, &cue)?;
     let misses = |changed: CueInputs| !scores(exercise.rule, &table, layout, &changed);
     let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
+    let point = Point::of(exercise.rule, &table, layout);
+    let first = if point.red_first { 2 } else { 1 };
     let mut checks = vec![
         ("the cue has room for it", has_room(&table, layout, &cue)),
-        ("it makes the point by its rule", Point::of(exercise.rule, &table, layout).is_made(&technique.tally)),
-        ("it meets yellow first", technique.first.is_some_and(|hit| hit.ball == 1)),
+        ("it makes the point by its rule", point.is_made(&technique.tally)),
+        ("it meets yellow first, or red in the opening", technique.first.is_some_and(|hit| hit.ball == first)),
         ("it meets yellow only once before red", technique.again.is_none()),
         ("it covers at least a twentieth of yellow", technique.fullness() >= 0.05),
         ("yellow stays away from red but in a time shot", technique.drives_second == is_tagged("time")),

@@ -1,5 +1,7 @@
 //! The cue strike: from the player's five inputs to the ball's velocity and spin (thesis 2.2.1).
 
+use std::f64::consts::TAU;
+
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -126,6 +128,12 @@ pub enum ImpulseError {
         /// Its part about the vertical, rad/s.
         z: f64,
     },
+}
+
+/// How far one direction is turned from another, rad, from -π to π however many whole turns are between them.
+pub fn turn(from: f64, to: f64) -> f64 {
+    let turn = to - from;
+    turn - TAU * (turn / TAU).round()
 }
 
 impl CueInputs {

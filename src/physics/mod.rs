@@ -13,7 +13,7 @@ pub use contact::{
     ActiveSet, Contact, Contacts, Effort, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Resolved, accelerations,
     factorize, forces, resolve, sought, stop_by_impulses, substitute,
 };
-pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
+pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike, turn};
 #[cfg(test)]
 pub use cue_room::tests::collides;
 pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};

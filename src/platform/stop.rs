@@ -13,15 +13,15 @@ use signal_hook::{
 /// The exit code of a command whose work can go on by the same command, as schedulers know it (`EX_TEMPFAIL` of sysexits.h).
 pub const UNFINISHED: u8 = 75;
 
-/// A flag that Ctrl-C and TERM set. With `at_once`, a second one ends the process, with exit code [`UNFINISHED`].
+/// A flag that Ctrl-C and TERM set. With a code, a second one ends the process at once, with that.
 ///
 /// # Errors
 /// Where the system refuses a handler.
-pub fn stop_when_told(at_once: bool) -> io::Result<Arc<AtomicBool>> {
+pub fn stop_when_told(at_once: Option<u8>) -> io::Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        if at_once {
-            flag::register_conditional_shutdown(signal, UNFINISHED.into(), Arc::clone(&stop))?;
+        if let Some(code) = at_once {
+            flag::register_conditional_shutdown(signal, code.into(), Arc::clone(&stop))?;
         }
         flag::register(signal, Arc::clone(&stop))?;
     }

@@ -11,6 +11,9 @@ use std::{
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(10);
 
+/// How often [`Lock::wait`] tries to take it, a fifth of a second each.
+const WAITS: u32 = 50;
+
 /// The right to write into a folder, until it is dropped.
 #[derive(Debug)]
 pub struct Lock {
@@ -47,6 +50,20 @@ impl Lock {
             }
         }
         Ok(None)
+    }
+
+    /// The same, but waits for another process; the folder is made where it is not there.
+    ///
+    /// # Errors
+    /// Where the other keeps it for long, or whatever the file system reports.
+    pub fn wait(folder: &Path) -> io::Result<Self> {
+        std::fs::create_dir_all(folder)?;
+        for _ in 0..WAITS {
+            if let Some(lock) = Self::take(folder)? {
+                return Ok(lock);
+            }
+        }
+        Err(io::Error::new(io::ErrorKind::WouldBlock, "another program is changing what is kept; try again"))
     }
 
     /// Whether a process has the lock of a folder; `None` where that cannot be known: there is no lock, or the file system

@@ -200,11 +200,9 @@ pub enum DoubtError {
     /// A standard deviation that is none.
     #[error("the doubt has {0} = {1}; accepted is a standard deviation from 0 in the unit of the table's file")]
     Deviation(String, f64),
-    /// A value that no constant can have.
-    #[error(
-        "the doubt has {0} = {1} under another law of the rails; accepted is a finite number in the unit of the table's file"
-    )]
-    Value(String, f64),
+    /// A constant and its value, which it cannot have, and what is accepted.
+    #[error("the doubt has {} under another law of the rails; accepted are numbers {}", .0[0], .0[1])]
+    Value(Box<[String; 2]>),
     /// A weight that no law can have.
     #[error(
         "the doubt gives its laws of rails the weight {0} in all; accepted are weights from 0 that come to less than 1"
@@ -309,8 +307,14 @@ impl TableDoubt {
             return Err(DoubtError::Weight(others));
         }
         self.laws.iter().try_for_each(|law| {
-            if let Some((name, value)) = law.values.iter().find(|(_, value)| !value.is_finite()) {
-                return Err(DoubtError::Value(name.clone(), *value));
+            for (name, value) in &law.values {
+                let known = CONSTANTS.iter().find(|constant| constant.name == *name);
+                let (low, high) = known.map_or((f64::MIN, f64::MAX), |constant| constant.limits);
+                if !(low..=high).contains(value) {
+                    let accepted =
+                        if high < f64::MAX { format!("from {low} to {high}") } else { format!("from {low} on") };
+                    return Err(DoubtError::Value(Box::new([format!("{name} = {value}"), accepted])));
+                }
             }
             let mut deviations = self.deviations.clone();
             deviations.extend(law.deviations.clone());

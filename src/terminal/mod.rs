@@ -111,6 +111,18 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
     need_terminal()?;
     let layout = Layout::opening(&table);
     let places = &seat.places;
+    let app = App::new(table, layout, detect(settings), seed())?
+        .with_detection(detect)
+        .with_seat(&seat)
+        .with_settings(settings)
+        .with_notice(storage::notice(places))
+        .with_notice(seat.warning().as_deref());
+    let app = with_what_was_left(app, places).with_complaints(&places.settings, complaints);
+    Ok(host::runner::run(app, seat.places)?)
+}
+
+/// The program with what the user's last session has left: where it ended, what was typed in part, and the skill.
+fn with_what_was_left(app: App, places: &Places) -> App {
     // A file that cannot be read is named by the drill screens.
     let own = Store::new(places).own_skill().unwrap_or_default();
     let (last, unread) = match SavedSession::load_or_put_aside(&places.last) {
@@ -121,19 +133,11 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
         Ok(draft) => (draft, None),
         Err(sentence) => (None, Some(sentence)),
     };
-    let app = App::new(table, layout, detect(settings), seed())?
-        .with_detection(detect)
-        .with_seat(&seat)
-        .with_settings(settings)
-        .with_last(last)
+    app.with_last(last)
         .with_draft(draft)
         .with_own_skill(own.map(|own| own.skill))
-        .with_notice(storage::notice(places))
-        .with_notice(seat.warning().as_deref())
         .with_notice(unread.as_deref())
         .with_notice(torn.as_deref())
-        .with_complaints(&places.settings, complaints);
-    Ok(host::runner::run(app, seat.places)?)
 }
 
 /// The coach as a conversation in lines, on the standard input and output, for the player whose files are at `places`. Returns how many
@@ -196,9 +200,11 @@ pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Res
 pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalError> {
     need_terminal()?;
     let (settings, complaints) = Settings::load(&Settings::path());
+    let places = Places::of_this_user();
     let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?
         .with_detection(detect)
-        .with_settings(&settings)
-        .with_complaints(&Settings::path(), &complaints);
-    Ok(host::runner::run(app, Places::of_this_user())?)
+        .with_settings(&settings);
+    // From there one may come to the coach, who would write his own over it.
+    let app = with_what_was_left(app, &places).with_complaints(&Settings::path(), &complaints);
+    Ok(host::runner::run(app, places)?)
 }

@@ -127,8 +127,12 @@ pub enum Sight {
 }
 
 impl ShownTable {
-    /// A table with balls on it, and nothing else yet.
-    pub fn new(doing: Doing, table: Table, layout: Layout, rule: Rule, skill: Skill) -> Self {
+    /// A table with balls on it, and nothing else yet. A long name is shown as far as others accept it.
+    pub fn new(doing: Doing, mut table: Table, layout: Layout, rule: Rule, skill: Skill) -> Self {
+        let is_too_much = |(at, letter): &(usize, char)| at + letter.len_utf8() > LONGEST_NAME;
+        if let Some((end, _)) = table.name.char_indices().find(is_too_much) {
+            table.name.truncate(end);
+        }
         let (cue_ball, selected, shot) = (CueBall::White, 0, None);
         Self { version: VERSION, doing, table, layout, cue_ball, rule, skill, selected, shot }
     }

@@ -9,7 +9,10 @@ use super::{
     shift::Shift,
     system::{Numbers, System},
 };
-use crate::{simulation::Recording, table::Table};
+use crate::{
+    simulation::Recording,
+    table::{Rail, Table},
+};
 
 /// Least side at the first cushion that is running side, `R w / v`; where a system supposes none it is less.
 const RUNNING: f64 = 0.15;
@@ -41,6 +44,8 @@ pub struct Applied {
     /// The system.
     #[serde(rename = "name")]
     pub system: System,
+    /// The cushions that the ball meets, in order.
+    pub rails: [Rail; 3],
     /// The numbers of the line that the system gives from where the ball comes from to where it is to arrive: where the shot
     /// arrives on the third cushion.
     #[serde(flatten)]
@@ -109,6 +114,7 @@ impl Applied {
         let on_table = solve(system, counted, JUMPS[0], |along| Some(played(&aimed(along))? - arrival)).map(aimed);
         Some(Self {
             system,
+            rails: system.rails().map(|rail| mirror.rail(rail)),
             numbers: system.numbers(&line)?,
             table_first: on_table.and_then(|line| system.numbers(&line)).map(|numbers| numbers.first),
             table_third: played(&line).and_then(|along| system.third_number(along)),

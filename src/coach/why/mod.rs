@@ -176,7 +176,8 @@ fn worst_kiss(task: &Task, cue: &CueInputs, seed: u64) -> Option<Kiss> {
         }
     }
     let count = |pair: [usize; 2]| found.iter().filter(|kiss| kiss.0 == pair).count();
-    let (balls, stroke, real, layout, time) = found.iter().max_by_key(|kiss| count(kiss.0))?;
+    let most = found.iter().map(|kiss| kiss.0).max_by_key(|pair| count(*pair))?;
+    let (balls, stroke, real, layout, time) = found.iter().find(|kiss| kiss.0 == most)?;
     let share = count(*balls) as f64 / ATTEMPTS as f64;
     if share < NAMED {
         return None;

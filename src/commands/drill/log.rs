@@ -103,13 +103,17 @@ struct Log {
     json: bool,
     /// The attempts that the session's file is known to have.
     known: Vec<Attempt>,
-    /// Of the sessions, from the first note that is taken back: another program's would be lost or come back.
+    /// Of the sessions, once something is on the disk: what another program has noted would be lost, or what it has taken back
+    /// come back.
     lock: Option<Lock>,
 }
 
 impl Log {
     /// Does what a word says; `false` where there is nothing to take back.
     fn take(&mut self, word: &Word) -> Result<bool, Failure> {
+        if !self.known.is_empty() {
+            self.lock()?;
+        }
         match word {
             Word::Make => self.session.log(true).map_err(Failure::failed)?,
             Word::Miss => self.session.log(false).map_err(Failure::failed)?,
@@ -125,13 +129,7 @@ impl Log {
     /// Takes the last note back; where there is none in this session, that of the last session at a table, which then goes on.
     /// `false` where there is none at all.
     fn undo(&mut self) -> Result<bool, Failure> {
-        if self.lock.is_none() {
-            self.lock = Some(self.workspace.store.lock().map_err(Failure::failed)?);
-            // Another program may have taken something of it back meanwhile.
-            if let Some(known) = self.workspace.sessions().into_iter().find(|known| known.id == self.session.id) {
-                self.go_on_with(known);
-            }
-        }
+        self.lock()?;
         if self.session.attempts.is_empty() {
             let is_noted = |earlier: &Session| {
                 (earlier.venue, earlier.goal) == (Venue::Table, Goal::Free)
@@ -152,6 +150,17 @@ impl Log {
         self.save().map(|()| true)
     }
 
+    /// Keeps other programs from changing what is noted, and goes on with what they have made of the session.
+    fn lock(&mut self) -> Result<(), Failure> {
+        if self.lock.is_none() {
+            self.lock = Some(self.workspace.store.lock().map_err(Failure::failed)?);
+            if let Some(known) = self.workspace.store.session(&self.session.id).map_err(Failure::failed)? {
+                self.go_on_with(known);
+            }
+        }
+        Ok(())
+    }
+
     /// Goes on with a session as it is on the disk.
     fn go_on_with(&mut self, session: Session) {
         self.known.clone_from(&session.attempts);
@@ -161,8 +170,8 @@ impl Log {
     fn save(&mut self) -> Result<(), Failure> {
         let Self { workspace, session, known, lock, .. } = self;
         let saved = match lock {
-            Some(lock) => workspace.store.save_locked(lock, session, known),
-            None => workspace.store.save(session, known),
+            Some(lock) => workspace.store.save_locked(lock, session, known, known.len()),
+            None => workspace.store.save(session, known, known.len()),
         };
         saved.map_err(Failure::failed)?;
         known.clone_from(&session.attempts);

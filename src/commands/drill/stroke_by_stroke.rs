@@ -204,7 +204,8 @@ impl<'a> StrokeByStroke<'a> {
             attempt.advised_chance = advice.map(|advice| advice.chance.rate);
         }
         let attempts = &self.session.attempts;
-        if let Err(error) = self.store.save(&self.session, &attempts[..attempts.len() - 1]) {
+        let before = &attempts[..attempts.len() - 1];
+        if let Err(error) = self.store.save(&self.session, before, before.len()) {
             // The score counts what is kept.
             self.session.undo();
             return Err(Failure::failed(error));

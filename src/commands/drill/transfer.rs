@@ -28,8 +28,8 @@ pub struct ExportArgs {
 
 /// Take in a file that `carom drill export` wrote, or a library of exercises.
 ///
-/// Nothing that is here is lost: of a session on both sides the one with more attempts is kept, and a position whose name is
-/// that of another is refused.
+/// Nothing that is here is lost: of a session on both sides the longer version is kept; one that has gone on on both, and a
+/// position whose name is that of another, are refused.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
     /// The file; "-" reads the standard input.
@@ -48,7 +48,7 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
             let refuse = |error: io::Error| Failure::failed(format_args!("{}: {error}", file.display()));
             let target = target_of(file);
             need_folder(&target)?;
-            let is_export = |text: String| text.is_empty() || Practice::parse(&text).is_ok();
+            let is_export = |text: String| text.is_empty() || Practice::is_export(&text);
             if target.exists() && !storage::read_text(&target, storage::PRACTICE).is_ok_and(is_export) {
                 let file = file.display();
                 return Err(Failure::failed(format_args!(

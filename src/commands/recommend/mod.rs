@@ -151,6 +151,9 @@ struct Alternative {
     cue: CueInputs,
     #[serde(flatten)]
     chance: Chance,
+    /// Of the next point, where it was looked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    next_probability: Option<f64>,
     source: Source,
     #[serde(flatten)]
     sort: Sort,
@@ -311,6 +314,7 @@ impl From<Recommendation> for RecommendAnswer {
         let alternatives = advice.alternatives.into_iter().map(|shot| Alternative {
             cue: shot.cue,
             chance: shot.make_probability.into(),
+            next_probability: shot.next_probability,
             source: shot.source,
             sort: Some(shot.kind).into(),
             told: None,
@@ -386,11 +390,12 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     if let Some(margins) = &answer.margins {
         margins.describe(out, table, units())?;
     }
-    for Alternative { cue, chance, sort, told, .. } in &answer.alternatives {
+    for Alternative { cue, chance, sort, told, next_probability: next, .. } in &answer.alternatives {
         let CueInputs { a, b, theta, speed, .. } = *cue;
         let ([a, b], theta, phi) = ([a, b].map(|place| fixed(place, 3)), theta.to_degrees(), cue.phi_text(3));
         let pattern = told.as_ref().and_then(Told::pattern).map_or_else(String::new, |name| format!("{name}; "));
-        writeln!(out, "or {a},{b},{theta:.3},{phi},{speed:.3}: {pattern}{}", words(sort, chance, args))?;
+        let next = next.map_or_else(String::new, |next| format!(", the next point {:.0} %", 100.0 * next));
+        writeln!(out, "or {a},{b},{theta:.3},{phi},{speed:.3}: {pattern}{}{next}", words(sort, chance, args))?;
         if let Some(told) = told {
             writeln!(out, "   {}", told.sentence(units()))?;
         }

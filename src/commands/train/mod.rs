@@ -31,7 +31,7 @@ use crate::{
         learner::StartError,
         run::{Ending, Limits, Run, RunError, discard, holds_checkpoints, seeds::is_group},
     },
-    platform::{outlive_hang_up, stop_when_told},
+    platform::{UNFINISHED, outlive_hang_up, stop_when_told},
     printing::{self, shell_word},
 };
 
@@ -143,7 +143,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let limit = args.minutes.map(minutes).transpose()?;
     // The first signal waits for the iteration and a measurement that is due, saves, and measures; the second ends that.
-    let stop = stop_when_told(true).map_err(Failure::failed)?;
+    let stop = stop_when_told(Some(UNFINISHED)).map_err(Failure::failed)?;
     // The run can be watched and stopped from the next terminal.
     outlive_hang_up().map_err(Failure::failed)?;
     let options =
@@ -221,7 +221,8 @@ fn train(mut run: Run, options: &TrainOptions<'_>) -> Result<(), Failure> {
             say_result(&run, score, options)?;
         }
         Ending::Stopped(score) => {
-            say_result(&run, score, options)?;
+            // Whether or not it can be told: who called has to know that this is not the end.
+            let _ = say_result(&run, score, options);
             return Err(how_to_go_on(run.folder()));
         }
         Ending::Abandoned => return Err(abandon(run).map_err(failure)?),

@@ -9,7 +9,10 @@ use std::{
 use super::{TrainOptions, abandon, failure, how_to_go_on, progress::Progress, spec::Read};
 use crate::{
     commands::{Failure, output::tell},
-    learning::run::{Ending, RunError, seeds::Group},
+    learning::run::{
+        Ending, RunError,
+        seeds::{Group, Spread},
+    },
     platform::parallel,
     printing,
 };
@@ -39,9 +42,25 @@ fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fai
     });
     let spread = group.write_spread().map_err(failure)?;
     let finished = outcomes.iter().all(|outcome| *outcome == Ok(true));
+    // Whether or not it can be told: who called has to know of errors, and that this is not the end.
+    let told = tell_spread(group, spread, finished, options);
+    let errors: Vec<String> = outcomes.into_iter().filter_map(Result::err).collect();
+    if !errors.is_empty() {
+        return Err(Failure::failed(errors.join("; ")));
+    }
+    if finished { told } else { Err(how_to_go_on(group.folder())) }
+}
+
+/// Says what the seeds have reached.
+fn tell_spread(
+    group: &Group,
+    spread: Option<Spread>,
+    finished: bool,
+    options: &TrainOptions<'_>,
+) -> Result<(), Failure> {
     if options.objective {
         // Seeds that stand at other shots are not to be compared with those of another run.
-        let last = spread.filter(|spread| finished && spread.seeds == seeds.len());
+        let last = spread.filter(|spread| finished && spread.seeds == group.seeds().count());
         if let Some(spread) = last {
             writeln!(printing::stdout(), "{}", spread.mean)?;
         } else if finished {
@@ -60,11 +79,7 @@ fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fai
             spread.shots
         )?;
     }
-    let errors: Vec<String> = outcomes.into_iter().filter_map(Result::err).collect();
-    if !errors.is_empty() {
-        return Err(Failure::failed(errors.join("; ")));
-    }
-    if finished { Ok(()) } else { Err(how_to_go_on(group.folder())) }
+    Ok(())
 }
 
 /// Trains the run with this seed and returns whether it is finished.

@@ -72,6 +72,9 @@ pub enum StoreError {
     /// Another program has noted something in this session or taken it back; it is given as it stands now.
     #[error("another program has changed the session \"{}\" meanwhile; nothing of yours was written over it", .0.id)]
     Changed(Box<Session>),
+    /// A session has gone on here and elsewhere.
+    #[error("the session \"{0}\" has gone on both here and in the file, so it stays as it is here")]
+    Diverged(String),
     /// An exercise cannot be played.
     #[error(transparent)]
     Exercise(#[from] ExerciseError),

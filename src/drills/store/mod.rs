@@ -28,9 +28,6 @@ use crate::storage::{self, Lock, Places, create_atomic, is_name, remove_abandone
 /// What a session's file says that it is.
 const SESSION: &str = "carom-session";
 
-/// Times to ask for the lock, a fifth of a second each.
-const LOCK_ATTEMPTS: u32 = 50;
-
 /// What the files are called after their names.
 const EXTENSION: &str = "json";
 
@@ -65,27 +62,42 @@ impl Store {
         found
     }
 
-    /// Writes a session's file, or replaces it, where it has no other attempts than those that were known `before`. When this
-    /// returns, the session is safe on the disk.
+    /// The session of this name, if there is one.
+    ///
+    /// # Errors
+    /// Where its file cannot be read.
+    pub fn session(&self, id: &str) -> Result<Option<Session>, StoreError> {
+        let path = file(&self.sessions, id)?;
+        if path.exists() { read_session(&path).map(Some) } else { Ok(None) }
+    }
+
+    /// Writes a session's file, or replaces it, where it has no other attempts than those that were known `before`, and still has
+    /// the first `safe` of them, which are known to have been written. When this returns, the session is safe on the disk.
     ///
     /// # Errors
     /// [`StoreError::Changed`] where another program has noted something in it or taken it back; where writing fails, or a file
     /// of this name holds something else or is of a newer version. The file is then what it was.
-    pub fn save(&self, session: &Session, before: &[Attempt]) -> Result<(), StoreError> {
-        self.save_locked(&self.lock()?, session, before)
+    pub fn save(&self, session: &Session, before: &[Attempt], safe: usize) -> Result<(), StoreError> {
+        self.save_locked(&self.lock()?, session, before, safe)
     }
 
     /// The same for who has the lock already.
     ///
     /// # Errors
     /// As [`Store::save`].
-    pub fn save_locked(&self, lock: &Lock, session: &Session, before: &[Attempt]) -> Result<(), StoreError> {
+    pub fn save_locked(
+        &self,
+        lock: &Lock,
+        session: &Session,
+        before: &[Attempt],
+        safe: usize,
+    ) -> Result<(), StoreError> {
         let path = file(&self.sessions, &session.id)?;
         if path.exists() {
             let kept: Kept = read_marked(&path)?;
             is_called(&path, &kept.id)?;
-            // It may have fewer: what the disk has refused is only known here.
-            if !Attempt::is_prefix(&kept.attempts, before) {
+            // It may have fewer than `before`: what the disk has refused is only known here.
+            if kept.attempts.len() < safe || !Attempt::is_prefix(&kept.attempts, before) {
                 return Err(StoreError::Changed(Box::new(read_session(&path)?)));
             }
         }
@@ -112,14 +124,7 @@ impl Store {
     /// # Errors
     /// Where another keeps it for long, or whatever the file system reports.
     pub fn lock(&self) -> Result<Lock, StoreError> {
-        let refuse = |error| StoreError::file(&self.sessions, error);
-        fs::create_dir_all(&self.sessions).map_err(refuse)?;
-        for _ in 0..LOCK_ATTEMPTS {
-            if let Some(lock) = Lock::take(&self.sessions).map_err(refuse)? {
-                return Ok(lock);
-            }
-        }
-        Err(refuse(io::Error::new(io::ErrorKind::WouldBlock, "another program is changing what is noted; try again")))
+        Lock::wait(&self.sessions).map_err(|error| StoreError::file(&self.sessions, error))
     }
 
     /// The player's own positions, by name.

@@ -28,13 +28,13 @@ fn a_session_grows_in_its_own_file_and_shrinks_when_an_attempt_is_taken_back() {
     assert!(store.sessions().items.is_empty() && store.sessions().notes.is_empty(), "nobody has practised yet");
     let mut session = session(Goal::Free, "x");
     for _ in 0..3 {
-        store.save(&session, &session.attempts[..session.attempts.len() - 1]).unwrap();
+        store.save(&session, &session.attempts[..session.attempts.len() - 1], 0).unwrap();
         session.log(false).unwrap();
     }
     let before = session.attempts.clone();
     session.undo();
     session.undo();
-    store.save(&session, &before).unwrap();
+    store.save(&session, &before, 0).unwrap();
     assert_eq!(store.sessions().items, [session]);
     let files = fs::read_dir(&store.sessions).unwrap().filter(|file| file.as_ref().unwrap().file_name() != Lock::FILE);
     assert_eq!(files.count(), 1);
@@ -45,17 +45,17 @@ fn what_another_program_has_noted_in_a_session_is_not_written_over() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     let known = session(Goal::Run(9), "x");
-    store.save(&known, &[]).unwrap();
+    store.save(&known, &[], 0).unwrap();
     let [mut here, mut there] = [(); 2].map(|()| known.clone());
     there.log(true).unwrap();
-    store.save(&there, &known.attempts).unwrap();
+    store.save(&there, &known.attempts, 0).unwrap();
     // As many, and the same as far as one can tell: they are two attempts all the same.
     here.attempts.push(there.attempts[1].clone());
     here.log(false).unwrap();
     let mut shorter = known.clone();
     shorter.undo();
     for refused in [&here, &shorter] {
-        match store.save(refused, &known.attempts) {
+        match store.save(refused, &known.attempts, 0) {
             Err(StoreError::Changed(stored)) => assert_eq!(*stored, there),
             other => panic!("{other:?}"),
         }
@@ -67,8 +67,15 @@ fn what_another_program_has_noted_in_a_session_is_not_written_over() {
     ahead.log(true).unwrap();
     let before = ahead.attempts.clone();
     ahead.log(false).unwrap();
-    store.save(&ahead, &before).unwrap();
-    assert_eq!(store.sessions().items, [ahead]);
+    store.save(&ahead, &before, 2).unwrap();
+    assert_eq!(store.sessions().items, [ahead.clone()]);
+    // What another program has taken back does not come back.
+    let mut shorter = ahead.clone();
+    shorter.undo();
+    store.save(&shorter, &ahead.attempts, 4).unwrap();
+    let before = ahead.attempts.clone();
+    ahead.log(true).unwrap();
+    assert!(matches!(store.save(&ahead, &before, 4), Err(StoreError::Changed(stored)) if *stored == shorter));
 }
 
 #[test]
@@ -76,7 +83,7 @@ fn files_of_a_newer_version_and_damaged_ones_are_told_and_never_written() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     let session = session(Goal::Free, "x-");
-    store.save(&session, &[]).unwrap();
+    store.save(&session, &[], 0).unwrap();
     let path = file(&store.sessions, &session.id).unwrap();
     let text = fs::read_to_string(&path).unwrap().replace("\"version\":1", "\"version\":2");
     fs::write(&path, &text).unwrap();
@@ -86,7 +93,7 @@ fn files_of_a_newer_version_and_damaged_ones_are_told_and_never_written() {
     assert_eq!((found.items.len(), found.notes.len()), (0, 2), "{:?}", found.notes);
     assert!(found.notes.iter().any(|note| note.contains("version 2") && note.contains("newer")), "{:?}", found.notes);
     assert!(found.notes.iter().any(|note| note.contains("half.json") && note.contains("damaged")), "{:?}", found.notes);
-    assert!(store.save(&session, &session.attempts).is_err());
+    assert!(store.save(&session, &session.attempts, 0).is_err());
     assert_eq!(fs::read_to_string(&path).unwrap(), text);
 
     let newer = write(&store.positions, "mine.json", r#"{"format":"carom-library","version":2,"exercises":3}"#);
@@ -118,7 +125,7 @@ fn a_copy_of_a_file_under_another_name_counts_nothing_twice() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     let session = session(Goal::Free, "xx");
-    store.save(&session, &[]).unwrap();
+    store.save(&session, &[], 0).unwrap();
     fs::copy(file(&store.sessions, &session.id).unwrap(), store.sessions.join("copy.json")).unwrap();
     let found = store.sessions();
     assert!(found.items == [session] && found.notes[0].contains("copy.json"), "{:?}", found.notes);
@@ -129,10 +136,10 @@ fn what_is_exported_here_is_imported_there_once_and_the_longer_session_wins() {
     let [here, there] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let [here, there] = [&here, &there].map(store);
     let mut session = session(Goal::Free, "x");
-    here.save(&session, &[]).unwrap();
-    there.save(&session, &[]).unwrap();
+    here.save(&session, &[], 0).unwrap();
+    there.save(&session, &[], 0).unwrap();
     session.log(true).unwrap();
-    here.save(&session, &session.attempts[..1]).unwrap();
+    here.save(&session, &session.attempts[..1], 0).unwrap();
     here.save_position(&exercise("mine"), false).unwrap();
     here.save_position(&exercise("ours"), false).unwrap();
     there.save_position(&Exercise { title: "Mine".to_owned(), ..exercise("mine") }, false).unwrap();
@@ -145,12 +152,24 @@ fn what_is_exported_here_is_imported_there_once_and_the_longer_session_wins() {
     let imported = there.import(&practice);
     let refused = vec![StoreError::Taken("mine".to_owned()).to_string()];
     assert_eq!(imported, Imported { positions: 1, longer: 1, refused, ..Imported::default() });
-    assert_eq!(there.sessions().items, [session]);
+    assert_eq!(there.sessions().items, [session.clone()]);
     assert_eq!(there.own_skill().unwrap().unwrap().skill, Skill::CLUB);
     let again = there.import(&practice);
     assert_eq!((again.known, again.positions, again.longer, again.refused.len()), (2, 0, 0, 1));
     // And back: the shorter one here would lose nothing.
     assert_eq!(here.import(&there.export().0).longer, 0);
+    // Where both have gone on, neither is written over.
+    let [mut mine, mut yours] = [(); 2].map(|()| session.clone());
+    for (store, session, made) in [(&here, &mut mine, true), (&there, &mut yours, false)] {
+        session.log(made).unwrap();
+        session.log(made).unwrap();
+        store.save(session, &session.attempts[..2], 2).unwrap();
+    }
+    yours.log(false).unwrap();
+    there.save(&yours, &yours.attempts[..4], 4).unwrap();
+    let refused = here.import(&there.export().0).refused;
+    assert!(refused.iter().any(|one| one.contains("gone on both here")), "{refused:?}");
+    assert_eq!((here.sessions().items, there.sessions().items), (vec![mine], vec![yours]));
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{OwnSkill, Store, StoreError, file, position_text, read_position, read_session, validate};
-use crate::drills::{Exercise, LibraryFile, LibraryFileError, Session};
+use super::{OwnSkill, Store, StoreError, file, position_text, read_position, validate};
+use crate::drills::{Attempt, Exercise, LibraryFile, LibraryFileError, Session};
 
 /// All of a player's practice. Its file is one of exercises that holds more, so that one takes the other's place.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,7 +26,7 @@ pub struct Imported {
     pub positions: usize,
     /// Sessions that are new.
     pub sessions: usize,
-    /// Sessions that were there with fewer attempts.
+    /// Sessions that were there with the first of their attempts.
     pub longer: usize,
     /// What was there already.
     pub known: usize,
@@ -43,6 +43,12 @@ impl Practice {
         LibraryFile::parse(text)?;
         Ok(serde_json::from_str(text)?)
     }
+
+    /// Whether a file's text is what [`Store::export`] gave: a library of exercises, which may be somebody's work, has no sessions.
+    pub fn is_export(text: &str) -> bool {
+        let keys: Option<serde_json::Value> = serde_json::from_str(text).ok();
+        Self::parse(text).is_ok() && keys.is_some_and(|keys| keys.get("sessions").is_some())
+    }
 }
 
 impl Store {
@@ -57,9 +63,9 @@ impl Store {
         (Practice { library: LibraryFile::new(positions.items), sessions: sessions.items, player }, notes)
     }
 
-    /// Takes in what is not here yet. Of a session that is on both sides the one with more attempts is kept; a position whose
-    /// name is that of another is refused; a skill is taken where there is none. Nothing is removed, and what is refused or
-    /// cannot be written does not keep the rest out.
+    /// Takes in what is not here yet. A session that is on both sides is replaced by one that goes on with it, and refused where
+    /// both have attempts that the other has not; a position whose name is that of another is refused; a skill is taken where
+    /// there is none. Nothing is removed, and what is refused or cannot be written does not keep the rest out.
     pub fn import(&self, practice: &Practice) -> Imported {
         let mut imported = Imported::default();
         for position in &practice.library.exercises {
@@ -100,14 +106,13 @@ impl Store {
     }
 
     fn import_session(&self, session: &Session) -> Result<Taken, StoreError> {
-        let path = file(&self.sessions, &session.id)?;
         validate(session)?;
         let lock = self.lock()?;
-        let here = if path.exists() { Some(read_session(&path)?) } else { None };
-        let taken = match here {
+        let taken = match self.session(&session.id)? {
             None => Taken::New,
-            Some(here) if here.attempts.len() < session.attempts.len() => Taken::Longer,
-            Some(_) => return Ok(Taken::Known),
+            Some(here) if Attempt::is_prefix(&session.attempts, &here.attempts) => return Ok(Taken::Known),
+            Some(here) if Attempt::is_prefix(&here.attempts, &session.attempts) => Taken::Longer,
+            Some(_) => return Err(StoreError::Diverged(session.id.clone())),
         };
         self.write(&lock, session)?;
         Ok(taken)

@@ -92,7 +92,9 @@ impl RunsFolder {
     /// Looks once.
     pub fn look(&mut self) -> io::Result<Listing> {
         let mut listing = Listing::default();
-        for (name, folder) in run_folders(&self.folder)? {
+        let folders = run_folders(&self.folder)?;
+        self.known.retain(|known, _| folders.iter().any(|(_, folder)| folder == known));
+        for (name, folder) in folders {
             match Config::read(&folder) {
                 Ok(config) => listing.runs.push(self.summary(&folder, name, config)),
                 Err(error) => listing.unreadable.push(format!("{name}: {}", config::unreadable(&folder, &error))),

@@ -29,6 +29,7 @@ use ratatui::{
 
 use crate::{
     coach::Skill,
+    drills::Session,
     storage::Places,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
@@ -238,7 +239,16 @@ impl App {
 
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
     pub fn last(&self) -> Option<SavedSession<'_>> {
-        self.coach.last(if self.screen == PageId::Drills { self.drills.unfinished() } else { None })
+        // An exam is gone on with whatever was done after it.
+        let is_open = |session: &&Session| self.screen == PageId::Drills || session.is_exam();
+        self.coach.last(self.drills.unfinished().filter(is_open))
+    }
+
+    /// The coach's page goes on with an exam that was left.
+    fn keep_left_exam(&mut self) {
+        if let Some(exam) = self.drills.take_left_exam() {
+            self.coach.keep_exam(exam);
+        }
     }
 
     /// Says what has changed since the user was here before.
@@ -288,7 +298,9 @@ impl App {
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;
                 self.screen = PageId::Drills;
-                return Some(self.drills.resume(practice, self.coach.query.skill));
+                let effect = self.drills.resume(practice, self.coach.query.skill);
+                self.keep_left_exam();
+                return Some(effect);
             }
             Action::Coach(action) => {
                 return match self.coach.update(action) {
@@ -302,9 +314,7 @@ impl App {
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
                 let balls = self.drills.take_for_coach();
-                if let Some(exam) = self.drills.take_left_exam() {
-                    self.coach.left_exam = Some(exam);
-                }
+                self.keep_left_exam();
                 if balls.is_some() || self.drills.is_left() {
                     self.open(PageId::Coach);
                 }

@@ -30,9 +30,12 @@ impl App {
         if let Some((table, query)) = self.training.receive(report) {
             self.coach.take_query(&table, query);
             self.training.alone = false;
-            self.screen = PageId::Coach;
-            self.help = None;
-            self.command_palette = None;
+            // Who has gone elsewhere meanwhile stays there.
+            if self.screen == PageId::Training {
+                self.screen = PageId::Coach;
+                self.help = None;
+                self.command_palette = None;
+            }
         }
         self.gather(false);
     }

@@ -92,7 +92,13 @@ impl App {
     /// The next characters that the terminal can show, for this session.
     pub(super) fn next_glyphs(&mut self) {
         let caps = self.caps.with_next_glyphs(self.finest);
-        if caps != self.caps && self.palette != Palette::Mono {
+        if self.palette == Palette::Mono {
+            let said = Message::plain("the theme mono draws with letters: T chooses another");
+            *self.page_mut().message_mut() = Some(said);
+        } else if caps == self.caps {
+            let said = Message::plain("letters are all that this terminal shows: TERM or the locale says so");
+            *self.page_mut().message_mut() = Some(said);
+        } else {
             (self.caps, self.full_look) = (caps, caps);
             self.in_force.glyphs = Some(caps.glyphs);
             self.show_session();

@@ -69,5 +69,9 @@ mod tests {
         assert!(said.contains("draft.json: it is damaged") && said.contains("draft.unread.json"), "{said}");
         assert_eq!(fs::read(path.with_extension("unread.json")).unwrap(), b"{");
         assert_eq!(StrokeDraft::read_or_put_aside(&path), Ok(None));
+        fs::write(&path, "[").unwrap();
+        let said = StrokeDraft::read_or_put_aside(&path).unwrap_err();
+        assert!(said.contains("draft.unread-2.json"), "{said}");
+        assert_eq!(fs::read(path.with_extension("unread.json")).unwrap(), b"{", "the first is still kept");
     }
 }

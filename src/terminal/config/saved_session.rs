@@ -83,8 +83,14 @@ impl<'a> SavedSession<'a> {
 
     /// The same after former sessions that were not gone on with, the latest first.
     #[must_use]
-    pub fn after(mut self, former: &'a [SavedSession<'static>]) -> Self {
-        self.former = Cow::Borrowed(&former[..former.len().min(MOST_FORMER)]);
+    pub fn after(mut self, former: Cow<'a, [SavedSession<'static>]>) -> Self {
+        self.former = match former {
+            Cow::Borrowed(former) => Cow::Borrowed(&former[..former.len().min(MOST_FORMER)]),
+            Cow::Owned(mut former) => {
+                former.truncate(MOST_FORMER);
+                Cow::Owned(former)
+            }
+        };
         self
     }
 
@@ -241,7 +247,7 @@ mod tests {
         };
         for number in 1..=9 {
             let former = SavedSession::load(&path).unwrap().map_or_else(Vec::new, SavedSession::with_former);
-            by(number).after(&former).save(&path).unwrap();
+            by(number).after(Cow::Borrowed(&former)).save(&path).unwrap();
         }
         let kept = SavedSession::load(&path).unwrap().unwrap().with_former();
         assert_eq!(kept, (1..=9).rev().take(1 + MOST_FORMER).map(by).collect::<Vec<_>>());

@@ -248,6 +248,10 @@ impl Conversation {
 
     /// Puts the balls elsewhere.
     fn place(&mut self, layout: Layout) -> String {
+        // What moves nothing is no step that could be taken back.
+        if layout == *self.layout() {
+            return self.places();
+        }
         self.balls.push((layout, self.cue_ball()));
         self.forget(self.places())
     }

@@ -22,7 +22,7 @@ use std::{
         atomic::{AtomicBool, Ordering},
         mpsc::Sender,
     },
-    thread,
+    thread::{self, JoinHandle},
     time::Duration,
 };
 
@@ -66,6 +66,8 @@ pub struct Tasks {
     /// The thread that keeps what is measured at a table, and that of what follows from it.
     kept: Option<Worker<CalibrationTask>>,
     judged: Option<Worker<CalibrationTask>>,
+    /// Threads that write something, each once.
+    writing: Vec<JoinHandle<()>>,
     /// Set when answers are no longer wanted.
     is_closing: Arc<AtomicBool>,
 }
@@ -84,6 +86,7 @@ impl Tasks {
             settings: None,
             kept: None,
             judged: None,
+            writing: Vec::new(),
             is_closing: Arc::default(),
         }
     }
@@ -208,7 +211,7 @@ impl Tasks {
         Ok(())
     }
 
-    /// Waits until what the player has noted is on the disk: the screen may close before.
+    /// Waits until what the player has noted, set or asked of a run is on the disk: the screen may close before.
     pub fn finish(self) {
         self.is_closing.store(true, Ordering::Relaxed);
         if let Some(practice) = self.practice {
@@ -217,6 +220,13 @@ impl Tasks {
         if let Some(kept) = self.kept {
             kept.finish();
         }
+        if let Some(settings) = self.settings {
+            settings.finish();
+        }
+        for thread in self.writing {
+            // A panic there was reported when it happened.
+            let _ = thread.join();
+        }
     }
 
     /// Starts a process that trains.
@@ -224,18 +234,21 @@ impl Tasks {
     /// # Errors
     /// A thread that could not be started, here and below.
     pub fn train(&self, launch: Launch) -> io::Result<()> {
+        // Here and not on the thread, which may not come to it before the screen closes.
+        let started = trainer::start(&launch.arguments);
         self.spawn("trainer", move || {
-            let failure = trainer::run(&launch.arguments).err()?;
+            let failure = started.and_then(trainer::wait).err()?;
             Some(Report::TrainerFailed(launch.folder, failure))
-        })
+        })?;
+        Ok(())
     }
 
     /// Asks a run for something.
     ///
     /// # Errors
     /// As [`Tasks::train`].
-    pub fn send(&self, request: Request, folder: PathBuf) -> io::Result<()> {
-        self.spawn("request", move || {
+    pub fn send(&mut self, request: Request, folder: PathBuf) -> io::Result<()> {
+        self.write("request", move || {
             Some(Report::Sent(request, request.send(&folder).map_err(|error| error.to_string())))
         })
     }
@@ -244,8 +257,8 @@ impl Tasks {
     ///
     /// # Errors
     /// As [`Tasks::train`].
-    pub fn keep(&self, keeping: Keeping) -> io::Result<()> {
-        self.spawn("keep", move || {
+    pub fn keep(&mut self, keeping: Keeping) -> io::Result<()> {
+        self.write("keep", move || {
             let outcome = policies::keep(&keeping);
             Some(Report::Kept(keeping, outcome))
         })
@@ -259,18 +272,26 @@ impl Tasks {
         self.spawn("policy", move || {
             let policy = policies::load(&folder);
             Some(Report::Policy(folder, policy))
-        })
+        })?;
+        Ok(())
     }
 
-    fn spawn(&self, name: &str, work: impl FnOnce() -> Option<Report> + Send + 'static) -> io::Result<()> {
+    /// Does what writes something: the program does not end before.
+    fn write(&mut self, name: &str, work: impl FnOnce() -> Option<Report> + Send + 'static) -> io::Result<()> {
+        self.writing.retain(|thread| !thread.is_finished());
+        let thread = self.spawn(name, work)?;
+        self.writing.push(thread);
+        Ok(())
+    }
+
+    fn spawn(&self, name: &str, work: impl FnOnce() -> Option<Report> + Send + 'static) -> io::Result<JoinHandle<()>> {
         let to_screen = self.to_screen.clone();
         thread::Builder::new().name(name.into()).spawn(move || {
             if let Some(report) = work() {
                 // A screen that is gone needs no answer.
                 let _ = to_screen.send(Event::Report(report));
             }
-        })?;
-        Ok(())
+        })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Practice: strokes are played and judged, and files written, one thing after the other on a thread of its own.
 
 use std::{
+    collections::HashMap,
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{Arc, atomic::Ordering, mpsc::Sender},
     time::Duration,
@@ -32,6 +33,8 @@ pub struct PracticeWorker {
     taught: Option<(u64, Advice)>,
     /// The session that was played last: it knows of strokes that were judged meanwhile.
     last: Option<Session>,
+    /// How many attempts of each session are known to be on the disk.
+    safe: HashMap<String, usize>,
 }
 
 impl PracticeWorker {
@@ -113,11 +116,20 @@ impl PracticeWorker {
 
     /// Saves a session that had these attempts before; gives why it is not saved, or how it stands if another program has
     /// changed it.
-    fn save(&self, session: &Session, before: &[Attempt]) -> Result<Result<(), String>, Box<Session>> {
-        match self.store.as_ref().map(|store| store.save(session, before)) {
-            Some(Err(StoreError::Changed(stored))) => Err(stored),
-            Some(saved) => Ok(saved.map_err(|error| error.to_string())),
-            None => Ok(Err(UNKNOWN.to_owned())),
+    fn save(&mut self, session: &Session, before: &[Attempt]) -> Result<Result<(), String>, Box<Session>> {
+        let Some(store) = &self.store else { return Ok(Err(UNKNOWN.to_owned())) };
+        // What a session has when it is first heard of was read from the disk.
+        let safe = self.safe.entry(session.id.clone()).or_insert(before.len());
+        match store.save(session, before, *safe) {
+            Err(StoreError::Changed(stored)) => {
+                *safe = stored.attempts.len();
+                Err(stored)
+            }
+            Err(error) => Ok(Err(error.to_string())),
+            Ok(()) => {
+                *safe = session.attempts.len();
+                Ok(Ok(()))
+            }
         }
     }
 

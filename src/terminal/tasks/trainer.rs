@@ -4,7 +4,7 @@ use std::{
     ffi::OsString,
     fs::File,
     io::{Read, Seek, SeekFrom},
-    process::{Command, Stdio},
+    process::{Child, Command, Stdio},
 };
 
 use crate::{
@@ -15,11 +15,14 @@ use crate::{
 /// Bytes at the end of what a process says in which its last sentence is looked for.
 const LAST_BYTES: i64 = 4096;
 
-/// Runs this program with `arguments` until it ends.
+/// A process that trains, and the file of what it says.
+pub type Trainer = (Child, File);
+
+/// Starts this program with `arguments`.
 ///
 /// # Errors
-/// Where it cannot be started or fails: with its own sentence where it says one.
-pub fn run(arguments: &[OsString]) -> Result<(), Failure> {
+/// Where it cannot be started.
+pub fn start(arguments: &[OsString]) -> Result<Trainer, Failure> {
     let start = || {
         let program = std::env::current_exe()?;
         // What it says goes to a file that has no name. A pipe would break with the end of this screen, and a write to
@@ -30,10 +33,17 @@ pub fn run(arguments: &[OsString]) -> Result<(), Failure> {
         // Signals of the terminal go to a group of processes: not to this one.
         Ok((platform::own_group(&mut command).spawn()?, said))
     };
-    let (mut process, said) = start().map_err(|error: std::io::Error| Failure {
+    start().map_err(|error: std::io::Error| Failure {
         process: None,
         sentence: format!("training cannot be started: {error}"),
-    })?;
+    })
+}
+
+/// Waits until it ends.
+///
+/// # Errors
+/// Where it fails: with its own sentence where it says one.
+pub fn wait((mut process, said): Trainer) -> Result<(), Failure> {
     let failure = {
         let process = Some(process.id());
         move |sentence| Failure { process, sentence }

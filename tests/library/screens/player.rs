@@ -134,7 +134,7 @@ impl Player {
             store.save_position(position, false).unwrap();
         }
         for session in sessions {
-            store.save(session, &[]).unwrap();
+            store.save(session, &[], 0).unwrap();
         }
         Self::in_folder(caps, folder).press("d")
     }

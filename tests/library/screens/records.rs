@@ -45,6 +45,6 @@ fn the_records() {
 #[test]
 fn the_record_has_what_another_program_has_noted_meanwhile() {
     let player = played();
-    player.store().save(&session(7, "opening", Goal::Free, "xxx"), &[]).unwrap();
+    player.store().save(&session(7, "opening", Goal::Free, "xxx"), &[], 0).unwrap();
     player.press("r").shows(&["attempts  40"]);
 }

@@ -76,7 +76,8 @@ impl Form {
             .amends
             .as_ref()
             .map_or_else(|| Self::new(self.test), |(place, entry)| Self::of(self.test, *place, entry));
-        self.fields.iter().zip(&before.fields).any(|((_, typed), (_, known))| typed.text() != known.text())
+        self.far_end != before.far_end
+            || self.fields.iter().zip(&before.fields).any(|((_, typed), (_, known))| typed.text() != known.text())
     }
 
     /// Whether the last field is typed into.

@@ -57,8 +57,8 @@ pub struct CalibrationPage {
     pub units: Units,
     /// What is typed or asked.
     pub input: Option<Input>,
-    /// A stroke whose form was left when it was typed in part.
-    aside: Option<StrokeDraft>,
+    /// Strokes whose forms were left when they were typed in part; the last one is the latest.
+    aside: Vec<StrokeDraft>,
     /// What is shown beside the list of tests.
     pub side: Side,
     /// The page of the table's values, from 0 on, where they have several; further ones are the first again.
@@ -85,7 +85,7 @@ impl CalibrationPage {
             table: Table::default(),
             units: Units::default(),
             input: None,
-            aside: None,
+            aside: Vec::new(),
             side: Side::Test,
             values_page: 0,
             message: None,
@@ -140,16 +140,17 @@ impl CalibrationPage {
     pub fn draft(&self) -> Option<StrokeDraft> {
         match &self.input {
             Some(Input::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.draft(self.is_daily)),
-            _ => self.aside.clone(),
+            _ => self.aside.last().cloned(),
         }
     }
 
     /// Opens `form`, as it was left where that was when it was typed in part.
     fn open_form(&mut self, form: Form) {
-        let is_same = |draft: &mut StrokeDraft| {
+        let is_same = |draft: &StrokeDraft| {
             draft.is_daily == self.is_daily && draft.test == form.test.name && draft.amends == form.amends
         };
-        let left = self.aside.take_if(is_same).and_then(Form::from_draft);
+        let left = self.aside.iter().position(is_same).map(|place| self.aside.remove(place));
+        let left = left.and_then(Form::from_draft);
         self.side = Side::Test;
         self.input = Some(Input::Marks(left.unwrap_or(form)));
     }

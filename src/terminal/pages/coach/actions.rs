@@ -47,7 +47,7 @@ impl CoachPage {
             ),
             CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
             CoachCondition::Interrupted => refuse(
-                self.before.is_empty() && self.left_exam.is_none(),
+                self.before.is_empty() && self.left_exams.is_empty(),
                 "no exam was left and no earlier session waits; what is practised now is behind F3",
             ),
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled networks are asked already"),
@@ -118,7 +118,9 @@ impl CoachPage {
             Action::StrokeAgain => return self.travel_stroke(OwnStroke::redo),
             // The app goes on with what was practised.
             Action::Resume => drop(self.resume()),
-            Action::Bundled => self.take_query(&self.table().clone(), CoachQuery::default()),
+            Action::Bundled => {
+                self.take_query(&self.table().clone(), CoachQuery { policy: None, ..self.query.clone() });
+            }
             other => self.play(other),
         }
         None
@@ -233,6 +235,9 @@ impl CoachPage {
         if (&left.table, left.layout, left.cue_ball) == (&present.table, present.layout, present.cue_ball) {
             // The balls are the same, and so is all that was answered about them.
             present.advised = left.advised;
+        }
+        if left.cue_ball != present.cue_ball {
+            self.selected = CueBall::Yellow.ordered([0, 1, 2])[self.selected];
         }
         self.query.policy.clone_from(&present.policy);
         let before = self.query.terms();

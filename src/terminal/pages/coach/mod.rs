@@ -143,8 +143,8 @@ pub struct CoachPage {
     before: Vec<SavedSession<'static>>,
     /// Whether one of them was gone on with.
     has_gone_back: bool,
-    /// The exam that was left before its end, until it is gone on with.
-    pub left_exam: Option<Session>,
+    /// Exams that were left before their end, until they are gone on with; the last one is the latest.
+    left_exams: Vec<Session>,
     /// What is asked before the balls are saved.
     saving: Saving,
     /// Where the balls are to lie, as far as it is typed.
@@ -197,7 +197,7 @@ impl CoachPage {
             of_settings: CoachQuery::default().terms(),
             before: Vec::new(),
             has_gone_back: false,
-            left_exam: None,
+            left_exams: Vec::new(),
             saving: Saving::default(),
             typed: None,
             lesson: None,
@@ -243,13 +243,24 @@ impl CoachPage {
     /// nothing is and the balls lie as at the start.
     pub fn last<'a>(&'a self, practised: Option<&'a Session>) -> Option<SavedSession<'a>> {
         let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
-        let of_before = || self.before.first()?.practice.as_deref().filter(|practice| practice.is_exam());
-        let exam = self.left_exam.as_ref().or_else(of_before);
-        let practice = if practised.is_some_and(Session::is_exam) { practised } else { exam.or(practised) };
-        let last = SavedSession::new(table, layout, cue_ball, self.query.terms(), practice);
-        let last = last.under(self.of_settings).after(&self.before);
-        let is_begun = self.is_begun() || practised.is_some() || self.left_exam.is_some();
-        (self.followed().is_none() && is_begun).then_some(last)
+        let is_begun = self.is_begun() || practised.is_some() || !self.left_exams.is_empty();
+        if self.followed().is_some() || !is_begun {
+            return None;
+        }
+        let of_before = self.before.first().and_then(|before| before.practice.as_deref());
+        let mut exams = practised.into_iter().chain(self.left_exams.iter().rev()).chain(of_before);
+        let practice = exams.by_ref().find(|session| session.is_exam()).or(practised);
+        let ended =
+            |practice| SavedSession::new(table, layout, cue_ball, self.query.terms(), practice).under(self.of_settings);
+        // One a session: any other exam that was left is as if one before had ended there.
+        let others = self.left_exams.iter().rev().filter(|exam| practice.is_none_or(|practice| practice.id != exam.id));
+        let others: Vec<_> = others.map(|exam| ended(Some(exam)).into_owned()).collect();
+        let former = if others.is_empty() {
+            Cow::Borrowed(&self.before[..])
+        } else {
+            Cow::Owned([&others[..], &self.before].concat())
+        };
+        Some(ended(practice).after(former))
     }
 
     /// Whether anything has been done since the start.
@@ -257,9 +268,15 @@ impl CoachPage {
         self.balls.can_undo() || !self.balls.present().advised.is_empty()
     }
 
+    /// Keeps an exam that was left before its end, to be gone on with.
+    pub fn keep_exam(&mut self, exam: Session) {
+        self.left_exams.retain(|left| left.id != exam.id);
+        self.left_exams.push(exam);
+    }
+
     /// Goes on with the exam that was left, or from where the last session ended; gives what was practised there.
     pub fn resume(&mut self) -> Option<Session> {
-        if let Some(exam) = self.left_exam.take() {
+        if let Some(exam) = self.left_exams.pop() {
             return Some(exam);
         }
         if self.before.is_empty() {

@@ -6,14 +6,14 @@ use std::sync::{
 };
 
 use crate::{
-    coach::Cause,
+    coach::{Cause, Why},
     game::Rule,
     physics::CueInputs,
     terminal::{
         Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot, Terms,
         pages::{
             Page, after,
-            coach::{CoachPage, Position},
+            coach::{Choice, CoachPage, Position},
             next_skill,
         },
         ui::Message,
@@ -110,13 +110,13 @@ impl CoachPage {
                 self.message = Some(Message::warning(sentence));
             }
             (CoachNews::Why(why), _) if is_study => {
-                if let Some(advised) = self.advised_mut() {
-                    advised.why = Some(*why);
+                if let Some((reason, _)) = self.studied() {
+                    *reason = Some(*why);
                 }
             }
             (CoachNews::Study(study), _) if is_study => {
-                if let Some(advised) = self.advised_mut() {
-                    advised.choice_mut().study = Some(study);
+                if let Some((_, choice)) = self.studied() {
+                    choice.study = Some(study);
                 }
             }
             (CoachNews::Judged(made), _) => {
@@ -125,16 +125,24 @@ impl CoachPage {
                 }
             }
             (CoachNews::Next(next), _) if is_study => {
-                self.studying = None;
-                if let Some(advised) = self.advised_mut() {
-                    let choice = advised.choice_mut();
+                if let Some((_, choice)) = self.studied() {
                     (choice.next, choice.is_studied) = (next, true);
                 }
+                self.studying = None;
             }
             _ => {}
         }
         self.renew_lesson();
         self.study()
+    }
+
+    /// The shot that is being studied, and why its advice's first shot leads: another may be shown meanwhile, and the advice may be
+    /// gone.
+    fn studied(&mut self) -> Option<(&mut Option<Why>, &mut Choice)> {
+        let shot = &self.studying.as_ref()?.shot;
+        self.balls.present_mut().advised.iter_mut().find_map(|AdviceState { why, choices, .. }| {
+            Some((why, choices.iter_mut().find(|choice| Arc::ptr_eq(&choice.proposal.shot, shot))?))
+        })
     }
 
     /// Whether this says no more than how often the first shot is made.

@@ -83,8 +83,12 @@ impl DrillsPage {
         let exam = self.turn.as_mut().filter(|turn| is_exercise && turn.is_exam() && !turn.session.is_over());
         if let Some(exam) = exam {
             exam.finish_watching();
-            self.question = Some(Question::Leave(exam.session.attempts.len(), exam.session.exercises.len()));
-            return;
+            // One that has not begun is left as it is.
+            let made = exam.newest().attempts.len();
+            if made > 0 {
+                self.question = Some(Question::Leave(made, exam.session.exercises.len()));
+                return;
+            }
         }
         self.pages.pop();
         self.film.playback.pause();
@@ -230,7 +234,9 @@ impl DrillsPage {
             Question::Leave(..) => {
                 self.left_exam = self.unfinished().cloned();
                 self.leave_page();
-                self.message = Some(Message::plain("the exam is kept; c on the coach's page (F2) goes on with it"));
+                let kept =
+                    self.left_exam.as_ref().map(|_| "the exam is kept; c on the coach's page (F2) goes on with it");
+                self.message = kept.map(Message::plain);
                 return None;
             }
             Question::GiveUp(action, ..) => return self.act(*action),

@@ -177,6 +177,7 @@ impl DrillsPage {
 
     /// Goes on with a session that an earlier one of the program has left.
     pub fn resume(&mut self, session: Session, skill: Skill) -> Effect {
+        self.left_exam = self.unfinished().filter(|open| open.is_exam() && open.id != session.id).cloned();
         self.leave_turn();
         self.player.at_coach = skill;
         self.player.skill = session.skill;

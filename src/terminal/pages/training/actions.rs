@@ -12,7 +12,7 @@ use crate::{
         Effect, Keeping, Launch, TrainingAction as Action, TrainingCondition as Condition, TrainingContext,
         pages::{
             Page,
-            training::{Form, Question, TrainingPage, Watch, watch::Named},
+            training::{Form, Named, Question, TrainingPage, Watch, name_in},
         },
         tasks::training::NO_POLICY,
         ui::Message,
@@ -174,7 +174,7 @@ impl TrainingPage {
             Action::Follow => charts.follow_end(),
             Action::Compare if watch.other.is_some() => watch.other = None,
             Action::Compare => {
-                self.list.mark_beside(&watch.own.name);
+                self.list.mark_beside(&name_in(&self.folder, watch.folder()));
                 self.pages.push(TrainingContext::Compare);
             }
             Action::Pause => {

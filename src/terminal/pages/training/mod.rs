@@ -41,7 +41,7 @@ use crate::{
 pub use form::{Field, Form};
 pub use question::Question;
 pub use runs::RunList;
-pub use watch::{Named, Watch};
+pub use watch::{Named, Watch, name_in};
 
 /// Time for which a run that is started is believed to come: within it nothing else is started in its folder.
 const LAUNCHING: Duration = Duration::from_secs(5);
@@ -114,9 +114,8 @@ impl TrainingPage {
 
     /// Opens the page of the run in `folder`.
     fn show(&mut self, folder: &Path) {
-        let watch = Watch::new(folder, &self.places.runs);
-        self.list.mark_named(&watch.own.name);
-        self.watch = Some(watch);
+        self.list.mark_named(&name_in(&self.folder, folder));
+        self.watch = Some(Watch::new(folder, &self.places.runs));
         self.pages.retain(|page| *page == TrainingContext::Runs);
         self.pages.push(TrainingContext::Watch);
     }
@@ -205,6 +204,7 @@ impl TrainingPage {
     fn followed(&mut self, folder: &Path, update: Update) {
         let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) else { return };
         let before = watch.condition();
+        watch.replay.is_outdated |= update.begins;
         watch.own.run.apply(update);
         let has_changed = !watch.condition().is_like(before);
         // Before it is seen for the first time it may have been as it was still.

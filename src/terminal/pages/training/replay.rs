@@ -36,15 +36,19 @@ pub struct Replay {
     motion: Motion,
     /// Whether the user has stopped it: then nothing moves until it is started again.
     held: bool,
+    /// Whether the run has gone on from before the shown set: then the next one is newer, whatever its number.
+    pub is_outdated: bool,
 }
 
 impl Replay {
     /// Takes a new set; it plays at once, or after the one that is playing. A set that is not newer than the one that is
     /// shown is no news.
     pub fn offer(&mut self, reel: Reel) {
-        if reel.scenes.is_empty() || self.reel.as_ref().is_some_and(|shown| shown.after >= reel.after) {
+        let is_old = self.reel.as_ref().is_some_and(|shown| shown.after >= reel.after) && !self.is_outdated;
+        if reel.scenes.is_empty() || is_old {
             return;
         }
+        self.is_outdated = false;
         if self.reel.is_some() && (self.motion != Motion::Stopped || self.held) {
             self.waiting = Some(reel);
         } else {

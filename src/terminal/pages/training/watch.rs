@@ -17,6 +17,11 @@ use crate::{
     },
 };
 
+/// What a run is called among those in the folder `runs`.
+pub fn name_in(runs: &Path, run: &Path) -> String {
+    run.strip_prefix(runs).unwrap_or(run).display().to_string()
+}
+
 /// A run and its name.
 #[derive(Debug)]
 pub struct Named {
@@ -29,8 +34,7 @@ pub struct Named {
 impl Named {
     /// The run in `folder`, of which nothing is known yet. Runs in `runs` are called by what follows.
     pub fn new(folder: &Path, runs: &Path) -> Self {
-        let name = folder.strip_prefix(runs).unwrap_or(folder).display().to_string();
-        Self { name, run: Followed::new(folder) }
+        Self { name: name_in(runs, folder), run: Followed::new(folder) }
     }
 
     /// Whether what its shots earn is a success or none; that is not known before its reward is.

@@ -57,7 +57,7 @@ fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
         let mut exam = player.store().sessions().items.remove(0);
         let before = exam.attempts.clone();
         (0..notes).for_each(|_| exam.log(true).unwrap());
-        player.store().save(&exam, &before).unwrap();
+        player.store().save(&exam, &before, 0).unwrap();
     };
     for notes in [2, 1] {
         elsewhere(&player, notes);
