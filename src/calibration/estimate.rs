@@ -10,7 +10,7 @@ use super::{
     robust::{NEVER, soften},
 };
 use crate::{
-    statistics::{Minimum, Problem, cholesky, dot, minimize, solve},
+    statistics::{Minimum, Problem, cholesky, minimize, normal_matrix, solve},
     table::Table,
 };
 
@@ -83,7 +83,7 @@ impl Estimate {
         let valley = |found: &Minimum| {
             let mut residuals = Vec::new();
             problem.residuals(&found.parameters, &mut residuals);
-            let normal = normal(&problem.derivatives(&found.parameters, &residuals));
+            let normal = normal_matrix(&problem.derivatives(&found.parameters, &residuals));
             let half_determinant: f64 =
                 cholesky(&normal, 0.0).ok()?.iter().filter_map(|line| line.last()).map(|entry| entry.ln()).sum();
             Some((-0.5 * found.squares - half_determinant, normal))
@@ -135,7 +135,7 @@ impl Estimate {
             moved[index] += STEP;
             slope[belief.count() + trial * STROKE + index] = (seen(&self.likely, &moved)? - at) / STEP;
         }
-        let spread = solve(self.normal.clone(), slope.clone())?;
+        let spread = solve(&self.normal, &slope)?;
         Some((at, slope.iter().zip(spread).map(|(x, y)| x * y).sum::<f64>().max(0.0).sqrt()))
     }
 }
@@ -197,10 +197,6 @@ fn descend_from(belief: &Belief, hand: &Hand, trials: &[Trial], mut start: Vec<f
     let first = minimize(&start, ROUNDS, &mut problem);
     problem.unsure = 1.0;
     minimize(&first.parameters, ROUNDS, &mut problem)
-}
-
-fn normal(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    columns.iter().map(|one| columns.iter().map(|other| dot(one, other)).collect()).collect()
 }
 
 /// Constants and strokes at once: first the constants' unknowns, then those of each trial's stroke.

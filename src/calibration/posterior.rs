@@ -103,7 +103,7 @@ impl Posterior {
                 }
             }
         }
-        let mean = solve(normal.clone(), right)?;
+        let mean = solve(&normal, &right)?;
         mean.iter().all(|value| value.is_finite()).then_some(Self { mean, normal })
     }
 }

@@ -1,5 +1,6 @@
 //! Known tables found again, and what is said about odd marks.
 
+use glam::DVec2;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -43,6 +44,20 @@ fn exact_from(table: &Table, is_turned: bool) -> Vec<(usize, Trial)> {
         Trial { test, is_turned, readings: readings.collect() }
     };
     tests.map(trial).enumerate().collect()
+}
+
+#[test]
+fn a_level_table_stays_level_where_that_is_in_no_doubt() {
+    let (mut table, mut doubt) = base();
+    table.tilt = DVec2::ZERO;
+    let tilt = |doubt: &TableDoubt| {
+        let belief = Belief::new(&table, doubt).unwrap();
+        belief.table(&vec![0.0; belief.count()]).tilt
+    };
+    assert!(tilt(&doubt).length() > 0.0, "what is not known may be measured");
+    doubt.deviations.retain(|name, _| !name.starts_with("tilt"));
+    doubt.correlations.clear();
+    assert_eq!(tilt(&doubt), DVec2::ZERO);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The recommender: from a layout and a request to the shot that this player makes most often.
 
 use std::{
+    ops::Range,
     sync::{Arc, OnceLock, atomic::AtomicBool},
     time::{Duration, Instant},
 };
@@ -163,20 +164,17 @@ impl Coach {
 }
 
 /// The answer for a player who errs: the head of the pool, which is not empty, judged by errors that took no part in the
-/// choice, and the heads of the other kinds. Where these errors leave no doubt that one of those is made more often, that is the answer: a
-/// search with few attempts may be mistaken.
+/// choice, and the heads of the other kinds. A search with few attempts may be mistaken: where one of those seems to be made more often,
+/// both are judged by as many attempts, and the better one is the answer.
 fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
     keep_one_of_each(&mut pool, task.skill, task.table.radius);
     pool.truncate(1 + ALTERNATIVES);
     // Drawn by whoever is the first to need them: where there is no time for them, neither is there for their drawing.
-    let drawn = ATTEMPTS + ATTEMPTS_AT_ALTERNATIVE;
-    let attempts: Vec<OnceLock<Draws>> = (0..drawn).step_by(PIECE).map(|_| OnceLock::new()).collect();
-    let pieces: Vec<(usize, usize)> = (0..pool.len())
-        .flat_map(|index| {
-            let count = if index == 0 { ATTEMPTS } else { ATTEMPTS_AT_ALTERNATIVE };
-            (0..count / PIECE).map(move |piece| (index, piece))
-        })
-        .collect();
+    let attempts: Vec<OnceLock<Draws>> = (0..2 * ATTEMPTS).step_by(PIECE).map(|_| OnceLock::new()).collect();
+    let pieces_of = |candidates: &[usize], attempts: Range<usize>| -> Vec<(usize, usize)> {
+        let pieces = attempts.step_by(PIECE).map(|attempt| attempt / PIECE);
+        candidates.iter().flat_map(|candidate| pieces.clone().map(|piece| (*candidate, piece))).collect()
+    };
     let judged = |pieces: &[(usize, usize)]| {
         parallel::map(request.threads, pieces, |&(index, piece)| {
             let own = || judging(task.worlds, request.seed, piece);
@@ -188,14 +186,21 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         let (made, tried) = own.fold((0, 0), |sum, (_, part)| (sum.0 + part.made, sum.1 + part.tried));
         (tried > 0).then(|| SuccessRate::new(made, tried))
     };
-    let made = judged(&pieces);
+    let others: Vec<usize> = (1..pool.len()).collect();
+    let first = pieces_of(&[0], 0..ATTEMPTS).into_iter();
+    let mut made = judged(&first.chain(pieces_of(&others, 0..ATTEMPTS_AT_ALTERNATIVE)).collect::<Vec<_>>());
     let mut rates: Vec<_> = (0..pool.len()).map(|candidate| rate(&made, candidate)).collect();
-    if let Some(better) = made_more_often(&pool, &rates).filter(|_| !request.plan) {
-        // Without the attempts that have chosen it: they flatter it.
-        let others = (ATTEMPTS_AT_ALTERNATIVE..drawn).step_by(PIECE).map(|attempt| (better, attempt / PIECE));
-        rates[better] = rate(&judged(&others.collect::<Vec<_>>()), better);
-        rates.swap(0, better);
-        pool.swap(0, better);
+    let better = if request.plan { Vec::new() } else { made_more_often(&pool, &rates) };
+    if !better.is_empty() {
+        made.extend(judged(&pieces_of(&better, ATTEMPTS_AT_ALTERNATIVE..ATTEMPTS)));
+        for candidate in better {
+            rates[candidate] = rate(&made, candidate);
+        }
+        let best = made_more_often(&pool, &rates).first().copied().unwrap_or_default();
+        // Told without the attempts that have chosen it: they flatter it.
+        rates[best] = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
+        rates.swap(0, best);
+        pool.swap(0, best);
     }
     let best = pool[0];
     let told_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
@@ -230,14 +235,13 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     }
 }
 
-/// The shot that is made more often than the first one beyond doubt, most often if there are several: its interval lies above that of the
-/// first, both less what effort costs.
-fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Option<usize> {
-    let worth = |index: usize, of: fn(SuccessRate) -> f64| Some(of(rates[index]?) - pool[index].effort_penalty);
-    let bar = worth(0, |rate| rate.high)?;
-    let better = (1..pool.len()).filter(|index| worth(*index, |rate| rate.low).is_some_and(|low| low > bar));
-    let rate = |index: usize| worth(index, |rate| rate.rate).unwrap_or_default();
-    better.max_by(|one, other| rate(*one).total_cmp(&rate(*other)))
+/// The shots that are made more often than the first one, most often first, each less what its effort costs.
+fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usize> {
+    let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
+    let mut better: Vec<usize> =
+        (1..pool.len()).filter(|index| worth(0).zip(worth(*index)).is_some_and(|(bar, own)| own > bar)).collect();
+    better.sort_by(|one, other| f64::total_cmp(&worth(*other).unwrap_or_default(), &worth(*one).unwrap_or_default()));
+    better
 }
 
 /// What misses a shot by itself; `None` where nothing is in doubt, or time runs out.
@@ -374,6 +378,8 @@ const fn judging_seed(seed: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::coach::{Pace, Source, Suggestion, Way, evidence::Rate};
 
@@ -392,7 +398,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_made_more_often_beyond_doubt_is_found() {
+    fn what_is_made_more_often_is_found() {
         let cue = CueInputs { a: 0.0, b: 0.3, theta: 0.01, phi: 1.0, speed: 3.0 };
         // The first is made 220 times of 1000; of the others each is made so often of 400, and costs so much.
         let better = |others: &[(usize, f64)]| {
@@ -402,10 +408,10 @@ mod tests {
             rates.extend(others.iter().map(|(made, _)| (*made > 0).then(|| SuccessRate::new(*made, 400))));
             made_more_often(&pool, &rates)
         };
-        assert_eq!(better(&[]), None);
-        assert_eq!(better(&[(0, 0.0), (100, 0.0)]), None);
-        assert_eq!(better(&[(133, 0.1)]), None);
-        assert_eq!(better(&[(128, 0.0), (0, 0.0), (133, 0.0)]), Some(3));
+        assert!(better(&[]).is_empty());
+        assert!(better(&[(0, 0.0), (85, 0.0)]).is_empty());
+        assert!(better(&[(133, 0.15)]).is_empty());
+        assert_eq!(better(&[(90, 0.0), (0, 0.0), (133, 0.0)]), [3, 1]);
     }
 
     #[test]
@@ -425,5 +431,12 @@ mod tests {
             kept(&[(Way::OffCushion, 0.0), (Way::AroundTheTable, 2.0), (Way::Direct, 1.5), (Way::OffCushion, 9.0)]),
             [Way::OffCushion, Way::AroundTheTable]
         );
+        let turned = |phi: f64| Candidate {
+            shot: Suggestion { cue: CueInputs { phi, ..meant }, source: Source::Search },
+            ..candidate(if phi > 0.0 { Way::Direct } else { Way::OffCushion }, 0.0)
+        };
+        let mut pool = vec![turned(PI - 1e-5), turned(1e-5 - PI)];
+        keep_one_of_each(&mut pool, Skill::EXPERT, Table::default().radius);
+        assert_eq!(pool.len(), 1, "the same direction");
     }
 }

@@ -195,6 +195,8 @@ impl Evidence {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::player::errors::Halton;
 
@@ -232,6 +234,19 @@ mod tests {
         }
         let best = evidence.climb(&stroke(0.8));
         assert!((-0.8..-0.5).contains(&best[3]) && best[4].abs() < 0.1, "{best:?}");
+    }
+
+    #[test]
+    fn directions_to_either_side_of_half_a_turn_are_near() {
+        let skill = Skill::EXPERT;
+        let stroke = |phi: f64| Distribution::new(&skill, RADIUS, &CueInputs { phi, ..MEANT });
+        let [before, after] = [stroke(PI - 0.25 * skill.phi), stroke(-PI + 0.25 * skill.phi)];
+        assert!((before.distance(&after) - 0.5).abs() < 0.1, "{}", before.distance(&after));
+        let mut evidence = Evidence::default();
+        evidence.add(&before, &attempts(&before, PI, 3000, 1));
+        let [own, _] = evidence.rates(&after);
+        assert!((own.share - evidence.rates(&before)[0].share).abs() < 0.1 && own.attempts > 1000.0, "{own:?}");
+        assert!((0.0..0.5).contains(&evidence.climb(&before)[3]), "{:?}", evidence.climb(&before));
     }
 
     #[test]

@@ -53,7 +53,7 @@ mod tests {
             assert!(!Point::of(Rule::OneCushion, &umb, &layout).red_first);
             assert!(!Point::of(Rule::ThreeCushion, &thesis, &layout).red_first);
             let mut later = layout;
-            later.balls[2].y += 1e-4;
+            later.balls[2].y += 0.01;
             assert!(!Point::of(Rule::ThreeCushion, &umb, &later).red_first);
         }
         assert!(!Point::of(Rule::ThreeCushion, &thesis, &Layout::opening(&thesis)).red_first);

@@ -5,7 +5,7 @@ mod normal;
 mod success_rate;
 mod symmetric;
 
-pub use least_squares::{Fit, Minimum, Problem, fit, minimize, solve};
+pub use least_squares::{Fit, Minimum, Problem, fit, minimize};
 pub use normal::{normal_pair, quantile};
 pub use success_rate::SuccessRate;
-pub use symmetric::{cholesky, dot, inverse, undo};
+pub use symmetric::{cholesky, dot, inverse, normal_matrix, solve, undo};

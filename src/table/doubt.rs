@@ -398,7 +398,9 @@ mod tests {
         assert!(law("weight = 1.5").contains("1.5") && law("weight = -0.1").contains("-0.1"));
         assert!(law("weight = 0.5\nvalues = { mu_x = 0.1 }").contains("mu_x"));
         assert!(law("weight = 0.5\ndeviations = { mu_r = -1 }").contains("mu_r = -1"));
-        assert!(law("weight = 0.5\nvalues = { e_rail = inf }").contains("a finite number"));
+        assert!(law("weight = 0.5\nvalues = { e_rail = inf }").contains("e_rail = inf"));
+        assert!(law("weight = 0.5\nvalues = { e_rail = 5.0 }").contains("accepted are numbers from 0 to 1"));
+        assert!(law("weight = 0.5\nvalues = { mu_r = -3 }").contains("accepted are numbers from 0."));
     }
 
     #[test]

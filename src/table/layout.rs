@@ -131,11 +131,12 @@ impl Layout {
         }
     }
 
-    /// The side on which the cue ball stands if this is the opening position.
+    /// The side on which the cue ball stands if this is the opening position, to a quarter of a ball's radius.
     pub fn opening_side(&self, table: &Table) -> Option<Side> {
         let is_there = |side: &Side| {
             let places = Self::opening_on(table, *side).balls;
-            self.balls.iter().zip(places).all(|(ball, place)| ball.distance(place) <= TOUCHING_TOLERANCE)
+            // Nobody types the places to the millimetre: 2.5 diamonds are meant where 2.51 are right.
+            self.balls.iter().zip(places).all(|(ball, place)| ball.distance(place) <= 0.25 * table.radius)
         };
         [Side::Left, Side::Right].into_iter().find(is_there)
     }
@@ -269,6 +270,10 @@ mod tests {
         assert_eq!(only.balls[0], DVec2::new(-spot, 0.0));
         assert_eq!(Layout::opening_on(&thesis, Side::Right), only);
         assert_eq!(only.opening_side(&umb), None);
+        // As it is typed, to tenths of diamonds; a position that is much like it is another.
+        let typed = |words| Layout::parse(words, &umb).unwrap().opening_side(&umb);
+        assert_eq!(typed("2d,2.5d 2d,2d 6d,2d"), Some(Side::Left));
+        assert_eq!(typed("2d,2.4d 2d,2d 6d,2d"), None);
     }
 
     #[test]

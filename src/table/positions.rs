@@ -17,7 +17,9 @@ pub enum PositionsError {
     #[error("where is {0}? write {0} and x,y after it, like \"{0} 2d,0.5d\"")]
     Missing(&'static str),
     /// Two positions for no ball in particular.
-    #[error("{0} positions without a colour; write one, for the selected ball, or three: cue ball, the other, red")]
+    #[error(
+        "{0} places without a colour; write one like 2d,0.5d, for the selected ball, or three: cue ball, the other, red"
+    )]
     Count(usize),
     /// Some have a colour and some have none.
     #[error("some positions have a colour and some have none; write one before each, or before none")]
@@ -126,8 +128,8 @@ mod tests {
     #[test]
     fn what_cannot_be_taken_is_named_with_what_would_be() {
         for (text, part) in [
-            ("", "0 positions"),
-            ("2d,1d 3d,1d", "2 positions"),
+            ("", "0 places"),
+            ("2d,1d 3d,1d", "2 places"),
             ("blue 2d,1d", "\"blue\""),
             ("2d;1d", "\"2d\""),
             ("red", "where is red?"),

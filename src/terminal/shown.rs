@@ -272,6 +272,14 @@ mod tests {
     }
 
     #[test]
+    fn a_table_of_a_long_name_is_shown_as_far_as_that_is_accepted() {
+        let ShownTable { doing, table, layout, rule, skill, .. } = shown();
+        let long = Table { name: "당구".repeat(30), ..table };
+        let shown = ShownTable::new(doing, long, layout, rule, skill);
+        assert!(shown.is_sound() && shown.table.name.len() == 63, "{}", shown.table.name);
+    }
+
+    #[test]
     fn what_somebody_else_has_written_is_not_taken_on_trust() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(FILE);

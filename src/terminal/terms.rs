@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{coach::Skill, game::Rule, terminal::words::skill_word};
+use crate::{coach::Skill, game::Rule, terminal::words::player_words};
 
 /// What the player turns with a key: what counts, who plays, and whether the next point counts too.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,7 +31,7 @@ impl Terms {
         let plan = if self.plan { "the next point counts too" } else { "only this point counts" };
         let news = [
             (self.rule != before.rule).then(|| format!("what counts: {}", self.rule)),
-            (self.skill != before.skill).then(|| format!("the player: {}", skill_word(self.skill))),
+            (self.skill != before.skill).then(|| format!("the player: {}", player_words(self.skill))),
             (self.plan != before.plan).then(|| plan.to_owned()),
         ];
         news.into_iter().flatten().collect::<Vec<_>>().join("; ")

@@ -65,6 +65,19 @@ pub fn skill_word(skill: Skill) -> &'static str {
     Skill::NAMED.iter().find(|(_, named)| *named == skill).map_or("my skill", |(name, _)| name)
 }
 
+/// The player and what he averages at three-cushion, where that is known.
+pub fn player_words(skill: Skill) -> String {
+    let (name, (_, most)) = (skill_word(skill), Skill::AVERAGES);
+    let average = Skill::average(skill.scale());
+    if skill.is_perfect() {
+        name.to_owned()
+    } else if average > most {
+        format!("{name} (average above {most})")
+    } else {
+        format!("{name} (average {})", (20.0 * average).round() / 20.0)
+    }
+}
+
 /// A probability in per cent, to a tenth where it is almost certain, never 100 before it is.
 pub fn percent(probability: f64) -> String {
     let percent = 100.0 * probability;

@@ -60,6 +60,19 @@ fn strokes_that_contradict_each_other_are_named_and_no_table_is_written() {
 }
 
 #[test]
+fn a_table_that_is_not_found_by_its_name_is_named_instead_of_listed() {
+    let home = tempfile::tempdir().unwrap();
+    let tables = home.path().join("data/carom/tables");
+    fs::create_dir_all(&tables).unwrap();
+    let shown = at_home(home.path(), &["table", "show", "match"]).assert().success();
+    fs::write(tables.join("match.toml"), &shown.get_output().stdout).unwrap();
+    let listed = at_home(home.path(), &["table"]).assert().success();
+    let (out, said) = (&listed.get_output().stdout, String::from_utf8_lossy(&listed.get_output().stderr).into_owned());
+    assert_eq!(String::from_utf8_lossy(out).matches("match:").count(), 1);
+    assert!(said.contains("match.toml is not found by its name"), "{said}");
+}
+
+#[test]
 fn odd_entries_are_named_and_nothing_is_overwritten() {
     let home = tempfile::tempdir().unwrap();
     let refused = |args: &[&str], code: i32| {

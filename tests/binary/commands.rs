@@ -85,11 +85,8 @@ fn recommend_gives_a_shot_that_simulates_to_a_point() {
 
 #[test]
 fn a_recommendation_is_told_as_a_player_says_it() {
-    let args = [
-        &["recommend", "--layout", LAYOUT, "--skill", "club", "--margins"][..],
-        &["--budget-ms", "5000", "--simulations", "4000"],
-    ]
-    .concat();
+    let args =
+        [&["recommend", "--layout", LAYOUT, "--skill", "club", "--margins"][..], &["--simulations", "4000"]].concat();
     let answer = json(&[&args[..], &["--json"]].concat());
     let words = &answer["words"];
     let sentence = words["sentence"].as_str().unwrap();

@@ -42,7 +42,7 @@ impl Ease {
         for (index, row) in equations.iter_mut().enumerate() {
             row[index] += RIDGE * (1.0 + samples.len() as f64);
         }
-        let weights = solve(equations, right).and_then(|found| found.try_into().ok());
+        let weights = solve(&equations, &right).and_then(|found| found.try_into().ok());
         let mut ease = Self { weights: weights.unwrap_or([0.0; NUMBERS]), power: 1.0 };
         let estimates: Vec<f64> = samples.iter().map(|sample| ease.missed(table, &sample.layout)).collect();
         let best: f64 = samples.iter().map(|sample| sample.missed_by_strong).sum();

@@ -242,8 +242,8 @@ mod tests {
         let applied = Applied { numbers, table_first: None, table_third: None, ..example };
         assert_eq!(applied.to_string(), "Corner-5: 66 - 35 = 31, aim at 31 on the wood");
         let on_table = |third| Applied { table_third: Some(third), ..applied.clone() }.correction();
-        assert_eq!(on_table(35.4), "the same on your table");
-        assert_eq!(on_table(41.0), "on your table it comes to 41 instead of 35");
+        assert_eq!(on_table(35.4), "the same on this table");
+        assert_eq!(on_table(41.0), "on this table it comes to 41 instead of 35");
     }
 
     #[test]

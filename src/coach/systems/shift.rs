@@ -201,10 +201,10 @@ mod tests {
         assert_eq!(
             shift.to_string(),
             "Parallel shift: aimed at diamond 3 of the top rail, the ball comes to 5.1 of the bottom rail; aimed at 3.4, as here, to \
-             4.7; on your table to 4.6"
+             4.7; on this table to 4.6"
         );
         let brief =
-            "diamond 3 of the top rail leads to 5.1 of the bottom rail; 3.4, as here, to 4.7; on your table to 4.6";
+            "diamond 3 of the top rail leads to 5.1 of the bottom rail; 3.4, as here, to 4.7; on this table to 4.6";
         assert_eq!(shift.brief(), brief);
         assert!(Shift { table_third: 4.7, ..shift }.brief().ends_with("as here, to 4.7"));
     }

@@ -59,11 +59,11 @@ impl Applied {
     pub fn correction(&self) -> String {
         let said = |value: f64| number(self.system, value);
         match (self.table_first, self.table_third) {
-            (Some(first), _) if said(first) == self.aim() => "the same on your table".to_owned(),
-            (Some(first), _) => format!("on your table {}", said(first)),
-            (None, Some(third)) if said(third) == said(self.numbers.third) => "the same on your table".to_owned(),
+            (Some(first), _) if said(first) == self.aim() => "the same on this table".to_owned(),
+            (Some(first), _) => format!("on this table {}", said(first)),
+            (None, Some(third)) if said(third) == said(self.numbers.third) => "the same on this table".to_owned(),
             (None, Some(third)) => {
-                format!("on your table it comes to {} instead of {}", said(third), said(self.numbers.third))
+                format!("on this table it comes to {} instead of {}", said(third), said(self.numbers.third))
             }
             (None, None) => String::new(),
         }
@@ -93,7 +93,7 @@ impl Shift {
     }
 
     /// The same with what the table says to it, in fewer words: `diamond 3 of the top rail leads to 5.1 of the bottom rail; 3.4, as
-    /// here, to 4.7; on your table to 4.6`.
+    /// here, to 4.7; on this table to 4.6`.
     pub fn brief(&self) -> String {
         let Self { rails: [first, last], diamond, arrival, .. } = self;
         let (first, last) = (first.name(), last.name());
@@ -105,10 +105,10 @@ impl Shift {
         )
     }
 
-    /// What the table says to it: `on your table to 4.6`; `None` where it is the same.
+    /// What the table says to it: `on this table to 4.6`; `None` where it is the same.
     pub fn correction(&self) -> Option<String> {
         let is_other = tenth(self.told_third()) != tenth(self.table_third);
-        is_other.then(|| format!("on your table to {:.1}", self.table_third))
+        is_other.then(|| format!("on this table to {:.1}", self.table_third))
     }
 
     /// Where the ball arrives by the shift, so far from the other arrival as it is told.

@@ -9,7 +9,7 @@ use super::{
     lone::Motion,
 };
 use crate::{
-    statistics::{fit, solve},
+    statistics::{fit, inverse},
     table::{Fade, RailModel, Table},
 };
 
@@ -116,12 +116,7 @@ pub fn fit_constants(table: &Table, model: RailModel, film: &[FilmedShot]) -> Fi
             *motion = begin(&table, stretch, Some(*motion));
         }
     }
-    let covariance: Vec<Vec<f64>> = (0..COUNT)
-        .map(|column| {
-            let unit = (0..COUNT).map(|row| f64::from(u8::from(row == column))).collect();
-            solve(normal.clone(), unit).unwrap_or(vec![f64::NAN; COUNT])
-        })
-        .collect();
+    let covariance = inverse(&normal).unwrap_or(vec![vec![f64::NAN; COUNT]; COUNT]);
     let deviation = |index: usize| covariance[index][index].sqrt();
     let constants = (0..COUNT).map(|i| Constant { name: KNOWN[i].0, value: values[i], deviation: deviation(i) });
     let correlations =

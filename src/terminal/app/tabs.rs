@@ -26,7 +26,7 @@ impl App {
         match screen {
             _ if before == screen => None,
             PageId::Coach => None,
-            PageId::Drills => Some(self.drills.open(self.coach.query.skill)),
+            PageId::Drills => Some(self.drills.open(self.coach.query.skill, self.coach.query.rule)),
             PageId::Training => {
                 self.training.open();
                 None

@@ -108,8 +108,13 @@ fn after<T: Copy + PartialEq>(all: &[T], one: &T) -> T {
     all[place % all.len()]
 }
 
-/// The next of the players there are, with the user's own skill, where one is kept, as the last.
-fn next_skill(now: Skill, own: Option<Skill>) -> Skill {
-    let all: Vec<Skill> = Skill::NAMED.iter().map(|(_, skill)| *skill).chain(own).collect();
+/// The next of the players there are, with those of the user's own as the last.
+fn next_skill(now: Skill, own: &[Skill]) -> Skill {
+    let mut all: Vec<Skill> = Skill::NAMED.iter().map(|(_, skill)| *skill).collect();
+    for skill in own {
+        if !all.contains(skill) {
+            all.push(*skill);
+        }
+    }
     after(&all, &now)
 }

@@ -479,7 +479,7 @@ mod tests {
     #[test]
     fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
         let said = talk(
-            "tell\nother\ngo on\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nmove red right 9000\nrule one-cushion\n",
+            "tell\nother\ngo on\nmove white left 0\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nmove red right 9000\nrule one-cushion\n",
         );
         for words in [
             "no shot yet",

@@ -1,7 +1,7 @@
 //! The stroke that the player sets with keys.
 
 use crate::{
-    physics::CueInputs,
+    physics::{CueInputs, turn},
     table::{Layout, Table},
 };
 
@@ -35,10 +35,12 @@ pub fn at_ball(cue: &CueInputs, layout: &Layout, ball: usize) -> CueInputs {
     CueInputs { phi: rounded(degrees, DEGREES).to_radians(), ..*cue }
 }
 
-/// The object ball that the next press of the key aims at: the other one where the stroke is aimed full at one.
+/// The object ball that the next press of the key aims at: the one that the stroke goes nearer to, or the other one where it is
+/// aimed full at that.
 pub fn next_ball(cue: &CueInputs, layout: &Layout) -> usize {
-    let is_at = |ball| (at_ball(cue, layout, ball).phi - cue.phi).abs() < 1e-9;
-    if is_at(1) { 2 } else { 1 }
+    let off = |ball| turn(at_ball(cue, layout, ball).phi, cue.phi).abs();
+    let nearer = if off(1) <= off(2) { 1 } else { 2 };
+    if off(nearer) < 1e-9 { 3 - nearer } else { nearer }
 }
 
 /// Aimed so many degrees further to the left.
@@ -85,7 +87,7 @@ mod tests {
         assert!((cue.phi.to_degrees() - 21.80).abs() < 1e-9, "{}", cue.phi.to_degrees());
         let other = at_ball(&cue, &layout, next_ball(&cue, &layout));
         assert!((other.phi.to_degrees() - -17.35).abs() < 1e-9);
-        assert_eq!((next_ball(&other, &layout), next_ball(&turned(&other, 1.0), &layout)), (1, 1));
+        assert_eq!([0.0, 1.0, 30.0].map(|degrees| next_ball(&turned(&other, degrees), &layout)), [1, 2, 1]);
     }
 
     #[test]

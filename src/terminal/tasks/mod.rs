@@ -374,6 +374,16 @@ mod tests {
     use std::sync::mpsc::channel;
 
     #[test]
+    fn what_a_key_has_just_begun_is_done_before_the_program_ends() {
+        let (to_screen, events) = channel();
+        let mut tasks = Tasks::new(to_screen);
+        let home = tempfile::tempdir().unwrap();
+        tasks.send(Request::Stop, home.path().to_owned()).unwrap();
+        tasks.finish();
+        assert!(matches!(events.try_recv(), Ok(Event::Report(Report::Sent(Request::Stop, _)))));
+    }
+
+    #[test]
     fn what_writes_nothing_does_not_keep_the_program_from_ending() {
         let (to_screen, events) = channel();
         let mut tasks = Tasks::new(to_screen);

@@ -45,12 +45,14 @@ pub struct TextField {
     cursor: usize,
     /// Most bytes of the text.
     limit: usize,
+    /// Whether the text is offered: then the first letter takes its place, and any other key keeps it.
+    is_offered: bool,
 }
 
 impl TextField {
     /// An empty line that takes `limit` bytes.
     pub const fn new(limit: usize) -> Self {
-        Self { text: String::new(), cursor: 0, limit }
+        Self { text: String::new(), cursor: 0, limit, is_offered: false }
     }
 
     /// The same with `text` in it, as far as that fits, and the cursor behind it.
@@ -60,6 +62,12 @@ impl TextField {
         self
     }
 
+    /// The same with `text` in it that may be taken, changed or typed over.
+    #[must_use]
+    pub fn offering(self, text: &str) -> Self {
+        Self { is_offered: true, ..self.with(text) }
+    }
+
     /// What is typed.
     pub fn text(&self) -> &str {
         &self.text
@@ -67,6 +75,14 @@ impl TextField {
 
     /// Takes what was typed; `false` where a key means nothing here.
     pub fn take(&mut self, typed: Typed) -> bool {
+        let is_text = match typed {
+            Typed::Paste(_) => true,
+            Typed::Key(key) => matches!(Edit::of(key), Some(Edit::Insert(_))),
+        };
+        if std::mem::take(&mut self.is_offered) && is_text {
+            self.text.clear();
+            self.cursor = 0;
+        }
         match typed {
             Typed::Paste(text) => self.insert(text.trim_end_matches(['\n', '\r'])),
             Typed::Key(key) => match Edit::of(key) {
@@ -117,7 +133,8 @@ impl TextField {
         let ahead = columns(after).max(1).min(width / 3 + 1);
         let shown = ending(before, width.saturating_sub(ahead));
         let hidden = before.len() - shown.len();
-        ui.buffer.set_stringn(area.x, area.y, &self.text[hidden..], width, ui.theme.text());
+        let style = if self.is_offered { ui.theme.faint() } else { ui.theme.text() };
+        ui.buffer.set_stringn(area.x, area.y, &self.text[hidden..], width, style);
         let letter = after.graphemes(true).next().map_or(1, |letter| columns(letter).max(1));
         let cursor = Rect { x: area.x + columns(shown) as u16, width: letter as u16, height: 1, ..area };
         ui.buffer.set_style(cursor.intersection(area), ui.theme.text().add_modifier(Modifier::REVERSED));
@@ -223,6 +240,21 @@ mod tests {
     fn a_letter_with_its_accents_is_one() {
         assert_eq!(after("e\u{301}당", &[(NONE, Left), (NONE, Left)]), "|e\u{301}당");
         assert_eq!(after("ae\u{301}", &[(NONE, Backspace)]), "a|");
+    }
+
+    #[test]
+    fn the_first_letter_takes_the_place_of_what_is_offered_and_any_other_key_keeps_it() {
+        let typed = |keys: &[KeyCode]| {
+            let mut field = TextField::new(12).offering("own");
+            for code in keys {
+                field.take(Typed::Key(&KeyEvent::new(*code, NONE)));
+            }
+            field.text().to_owned()
+        };
+        assert_eq!(typed(&[]), "own");
+        assert_eq!(typed(&[Char('c'), Char('d')]), "cd");
+        assert_eq!(typed(&[End, Char('c')]), "ownc");
+        assert_eq!(typed(&[Backspace, Char('c')]), "owc");
     }
 
     #[test]

@@ -95,6 +95,19 @@ fn what_is_no_export_is_refused_in_plain_words() {
 }
 
 #[test]
+fn an_export_takes_the_place_of_an_export_and_of_no_library() {
+    let folder = folder();
+    let library = r#"{"format":"carom-library","version":1,"exercises":[]}"#;
+    fs::write(folder.path().join("library.json"), library).unwrap();
+    let refused = drill(folder.path(), &["export", "library.json"]);
+    assert!(refused.code == Some(1) && refused.err.contains("is no export"), "{}", refused.err);
+    assert_eq!(fs::read_to_string(folder.path().join("library.json")).unwrap(), library);
+    for _ in 0..2 {
+        assert_eq!(drill(folder.path(), &["export", "all.json"]).code, Some(0));
+    }
+}
+
+#[test]
 fn what_is_exported_is_imported_elsewhere_and_once() {
     let (here, there) = (folder(), tempfile::tempdir().unwrap());
     drill(here.path(), &["log", "mine", "make", "miss"]);

@@ -1,10 +1,10 @@
 //! Runs as they should go, and input that is wrong.
 
-use std::{fs, path::Path};
+use std::{fs, path::Path, process::Stdio};
 
 use serde_json::Value;
 
-use super::common::{SHORT, carom, done, folder, start, unfinished, wait_for};
+use super::common::{SHORT, carom, command, done, folder, start, unfinished, wait_for};
 
 #[test]
 fn a_run_trains_a_policy_that_can_be_evaluated() {
@@ -76,6 +76,15 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     assert!(again.err.contains("--resume"), "{}", again.err);
     let finished = done(here, "train --resume one");
     assert!(finished.err.contains("is finished") && finished.out.contains("640 shots"), "{}", finished.err);
+}
+
+#[test]
+fn a_run_whose_result_nobody_reads_is_still_told_to_be_unfinished() {
+    let folder = folder();
+    let mut training = command(folder.path(), &format!("{SHORT} --minutes 0.001 --run mine"));
+    let mut training = training.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+    drop(training.stdout.take());
+    assert_eq!(training.wait().unwrap().code(), Some(75));
 }
 
 #[cfg(unix)]

@@ -7,7 +7,7 @@ use carom::{
     coach::Skill,
     game::Rule,
     physics::CueInputs,
-    terminal::{Answer, CoachNews, CoachWorker, View},
+    terminal::{Answer, CoachNews, CoachWorker, Settings, View},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
@@ -66,7 +66,7 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
     }
     assert!(player.study.is_some());
     assert_eq!(player.app.coach.query.skill, Skill::EXPERT);
-    player.says("the player: expert; the shot for it is known");
+    player.says("the player: expert (average above 2.5); the shot for it is known");
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
     for (keys, words, header) in [
         ("R", "what counts: one-cushion; Enter asks the coach", "R 1-cushion S expert P plan on"),
         ("R R", "what counts: three-cushion; Enter asks the coach", "R 3-cushion S expert P plan on"),
-        ("S", "the player: world-class; Enter asks the coach", "R straight S world-class P plan on"),
+        ("S", "the player: world-class (average 2); Enter asks the coach", "R straight S world-class P plan on"),
         ("R S S S S S", "the player: perfect; Enter asks the coach", "R 1-cushion S perfect P plan on"),
         ("P", "only this point counts; Enter asks the coach", "R straight S expert P plan off"),
     ] {
@@ -88,7 +88,11 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
     }
     let player = Player::new().press("Enter").answer();
     let player = player.press("R S S");
-    player.shows(&["R 1-cushion S national P plan", "placing balls", "the player: national; Enter asks the coach"]);
+    player.shows(&[
+        "R 1-cushion S national P plan",
+        "placing balls",
+        "the player: national (average 1); Enter asks the coach",
+    ]);
     let cancelled = player.study.clone().unwrap().cancel;
     assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
     let player = player.press("R R S S S S");
@@ -101,6 +105,23 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
     );
     let asked = Player::new().press("Enter").answer().press("R R Enter").asked.unwrap();
     assert!(asked.query.rule == Rule::ThreeCushion && asked.former.is_empty());
+}
+
+#[test]
+fn a_closer_look_goes_to_its_own_shot_though_another_answer_is_shown_meanwhile() {
+    let known = Player::new().press("Enter").answer();
+    let set = |player: &Player| Settings { skill: player.app.coach.query.skill, ..Settings::default() };
+    let before = set(&known);
+    let mut other = known.press("S Enter").answer();
+    let study = other.study.clone().unwrap();
+    let now = set(&other);
+    other.app.coach.take_changes(&now, &before).unwrap();
+    let player = other.tell(study.id, CoachNews::Next(None));
+    let is_studied = |player: &Player| player.app.coach.advised().map(|advised| advised.choice().is_studied);
+    assert_eq!(is_studied(&player), Some(false), "this was found out of another answer");
+    let mut player = player;
+    player.app.coach.take_changes(&before, &now).unwrap();
+    assert_eq!(is_studied(&player), Some(true));
 }
 
 #[test]

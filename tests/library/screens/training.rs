@@ -320,7 +320,7 @@ fn the_coach_takes_the_bundled_weights_again() {
     assert_eq!(asked(&player), (NAME.to_owned(), Rule::ThreeCushion));
     player.says("b bundled");
     let player = player.press("b");
-    assert_eq!(asked(&player), ("the bundled networks".to_owned(), Rule::default()));
+    assert_eq!(asked(&player), ("the bundled networks".to_owned(), Rule::ThreeCushion), "the rule stays");
     assert!(!player.text(120, 40).contains("b bundled"));
     player.press("b").says("the bundled networks are asked already");
 }

@@ -61,11 +61,20 @@ fn the_rule_of_an_exercise_goes_with_its_balls_when_they_are_taken_back() {
 }
 
 #[test]
+fn who_takes_the_opponents_ball_back_still_has_the_same_ball_selected() {
+    let places = |player: &Player| player.app.coach.layout().balls;
+    let player = Player::new();
+    let before = places(&player);
+    let after = places(&player.press("x u Right"));
+    assert!(after[0] != before[0] && after[1] == before[1], "{before:?} {after:?}");
+}
+
+#[test]
 fn another_player_rule_or_plan_is_a_step_and_the_shot_comes_back_with_the_one_before() {
     let cue = |player: &Player| player.app.coach.shot().map(|shot| shot.cue);
     let known = CueInputs::parse(SHOT).unwrap();
     for (key, said) in [
-        ("S", "the player: expert; the shot for it is known"),
+        ("S", "the player: expert (average above 2.5); the shot for it is known"),
         ("R", "what counts: straight; the shot for it is known"),
         ("P", "the next point counts too; the shot for it is known"),
     ] {

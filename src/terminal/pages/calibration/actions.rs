@@ -112,7 +112,7 @@ impl CalibrationPage {
                 let today = if self.is_daily { " today" } else { "" };
                 let name = saved
                     .map_or_else(|| self.sheet().name(&self.table) + today, |name| name.to_string_lossy().into_owned());
-                self.input = Some(Input::Name(TextField::new(LONGEST).with(&name)));
+                self.input = Some(Input::Name(TextField::new(LONGEST).offering(&name)));
             }
             Action::Use => {
                 let path = self.saved.clone()?;

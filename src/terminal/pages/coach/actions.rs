@@ -151,6 +151,7 @@ impl CoachPage {
 
     fn play(&mut self, action: Action) {
         let Some(shot) = self.shot().cloned() else { return };
+        self.leave_example();
         let (events, duration) = (self.events(&shot), shot.recording.duration());
         self.mode = Mode::Watching;
         match action {

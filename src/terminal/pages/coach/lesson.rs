@@ -55,6 +55,11 @@ impl CoachPage {
         self.lesson = next.and_then(|system| self.lesson_on(*system));
     }
 
+    /// Closes the lesson on an example, beside which the shot is not drawn.
+    pub(super) fn leave_example(&mut self) {
+        self.lesson.take_if(|lesson| !lesson.is_of_shot);
+    }
+
     /// Keeps the lesson's numbers those of the shot that is shown, on the table that is played on.
     pub(super) fn renew_lesson(&mut self) {
         let Some(lesson) = &self.lesson else { return };

@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use crate::{
-    coach::{Cause, Why},
+    coach::{Cause, Skill, Why},
     game::Rule,
     physics::CueInputs,
     terminal::{
@@ -200,6 +200,7 @@ impl CoachPage {
                 None => news(proposal, None, &advised.query).after(&words),
             });
         }
+        self.leave_example();
         self.watch_from_the_stroke();
     }
 
@@ -222,7 +223,9 @@ impl CoachPage {
     }
 
     pub(super) fn next_skill(&mut self) {
-        let skill = next_skill(self.query.skill, self.own);
+        // What is kept, and what the settings say.
+        let own: Vec<Skill> = self.own.into_iter().chain([self.of_settings.skill]).collect();
+        let skill = next_skill(self.query.skill, &own);
         self.ask_for(Terms { skill, ..self.query.terms() });
     }
 

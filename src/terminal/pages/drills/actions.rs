@@ -9,7 +9,7 @@ use crate::{
             drills::{Balls, DrillsPage, Question, Turn, question::LONGEST},
         },
         ui::{Message, TextField},
-        words::skill_word,
+        words::player_words,
     },
 };
 
@@ -68,7 +68,7 @@ impl DrillsPage {
             }
             Action::Player if self.turn.is_none() => {
                 self.player.choose_next();
-                self.message = Some(Message::plain(format!("the player: {}", skill_word(self.player.skill))));
+                self.message = Some(Message::plain(format!("the player: {}", player_words(self.player.skill))));
             }
             Action::ToCoach => self.send_to_coach(),
             Action::Yes => return self.yes(),

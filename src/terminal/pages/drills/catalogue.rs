@@ -1,6 +1,9 @@
 //! The list of exercises: which of them are shown, and which is marked.
 
-use crate::drills::{Category, Exercise, Filter, Library};
+use crate::{
+    drills::{Category, Exercise, Filter, Library},
+    game::Rule,
+};
 
 /// The library as it is listed.
 #[derive(Debug)]
@@ -17,6 +20,11 @@ impl Catalogue {
     /// All of `library`.
     pub fn new(library: Library) -> Self {
         Self { library, filter: Filter::default(), mark: 0 }
+    }
+
+    /// Marks the first exercise of a rule.
+    pub fn mark_first_of(&mut self, rule: Rule) {
+        self.mark = self.found().iter().position(|exercise| exercise.rule == rule).unwrap_or(0);
     }
 
     /// Takes another library; the mark stays at its exercise where that is still there.

@@ -134,6 +134,8 @@ pub enum DrillCondition {
     Undoable,
     /// Where the stroke was changed.
     StrokeChanged,
+    /// Where the player has set a stroke: Enter goes on after a shot, and one too many shall not play what nobody has aimed.
+    Set,
     /// Where a change of the stroke was taken back.
     StrokeUndone,
     /// Where the page of an exercise is beneath.
@@ -250,8 +252,8 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Watching, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
         key(Down, A::Pace(-1)), key(Up, A::Pace(1))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),
-    bind(Stroke, W::Aiming, &[letter(' ', A::Play), key(Enter, A::Play)], Some(("play", 1)),
-        "play the stroke, with the player's errors"),
+    bind(Stroke, W::Aiming, &[letter(' ', A::Play)], Some(("play", 1)), "play the stroke, with the player's errors"),
+    bind(Stroke, W::Set, &[key(Enter, A::Play)], None, "the same, once the stroke was changed"),
 ], [
     bind(Stroke, W::Taught, &[letter('v', A::Hint)], Some(("hint", 1)),
         "show the model shot, and hide it; the attempt then counts as one with a hint"),

@@ -42,12 +42,14 @@ pub use turn::{Lesson, Stage, Turn};
 pub use watched::Watched;
 
 /// Who plays.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Player {
     /// The standard errors that are played.
     pub skill: Skill,
     /// Those that the user has kept as the own ones.
     pub own: Option<Skill>,
+    /// Those that the settings say.
+    of_settings: Skill,
     /// Those of the coach's player, whom only a choice changes.
     pub at_coach: Skill,
 }
@@ -55,7 +57,8 @@ pub struct Player {
 impl Player {
     /// The next of those there are.
     fn choose_next(&mut self) {
-        self.choose(next_skill(self.skill, self.own));
+        let own: Vec<Skill> = self.own.into_iter().chain([self.of_settings]).collect();
+        self.choose(next_skill(self.skill, &own));
     }
 
     /// Plays with `skill` from now on, at the coach's table too.
@@ -132,7 +135,7 @@ impl DrillsPage {
             turn: None,
             records: Records::default(),
             film: FilmsScreen::default(),
-            player: Player { skill: Skill::default(), own: None, at_coach: Skill::default() },
+            player: Player::default(),
             question: None,
             message: None,
             jumps: true,
@@ -149,15 +152,15 @@ impl DrillsPage {
 
     /// Takes what is set for all pages.
     pub fn take_settings(&mut self, settings: &Settings) {
-        (self.units, self.jumps) = (settings.units, settings.jumps);
+        (self.units, self.jumps, self.player.of_settings) = (settings.units, settings.jumps, settings.skill);
         if let Some(turn) = &mut self.turn {
             turn.jumps = settings.jumps;
         }
     }
 
-    /// Opens the page that was open last, or the library, for the coach's player of `skill`; what is on the disk is read
-    /// again.
-    pub fn open(&mut self, skill: Skill) -> Effect {
+    /// Opens the page that was open last, or the library at the exercises of the coach's rule, for the coach's player of `skill`; what
+    /// is on the disk is read again.
+    pub fn open(&mut self, skill: Skill, rule: Rule) -> Effect {
         self.message = None;
         let mut tasks = vec![self.load()];
         if skill != self.player.at_coach {
@@ -165,6 +168,7 @@ impl DrillsPage {
             tasks.extend(self.change_player());
         }
         if self.pages.is_empty() {
+            self.catalogue.mark_first_of(rule);
             self.pages.push(DrillContext::Library);
         }
         Effect::Drill(tasks)

@@ -8,7 +8,7 @@ use crate::{
         pages::drills::{DrillsPage, Lesson, Question, Stage, Turn},
         shot::OwnStroke,
         ui::Message,
-        words::skill_word,
+        words::player_words,
     },
 };
 
@@ -63,10 +63,15 @@ impl Turn {
             (Stage::Aiming, Condition::StrokeChanged) => {
                 refuse(!self.can_travel().0, "the stroke is as it was at first")
             }
+            (Stage::Aiming, Condition::Set) => {
+                refuse(!self.can_travel().0, "the stroke is as it was at first; Space plays it all the same")
+            }
             (Stage::Aiming, Condition::StrokeUndone) => {
                 refuse(!self.can_travel().1, "no change of the stroke was taken back")
             }
-            (_, Condition::StrokeChanged | Condition::StrokeUndone) => self.disabled_reason(Condition::Aiming),
+            (_, Condition::StrokeChanged | Condition::Set | Condition::StrokeUndone) => {
+                self.disabled_reason(Condition::Aiming)
+            }
             (_, Condition::Undoable) => refuse(!self.can_undo(), "no note from a real table can be taken back"),
             _ => None,
         }
@@ -166,7 +171,7 @@ impl DrillsPage {
             }
             Action::Player => {
                 self.player.choose_next();
-                self.message = Some(Message::plain(format!("the player: {}", skill_word(self.player.skill))));
+                self.message = Some(Message::plain(format!("the player: {}", player_words(self.player.skill))));
                 return some(self.restart(None));
             }
             Action::Log(made) => return self.log(made),

@@ -65,7 +65,7 @@ impl Question {
 
     /// The question under which name the policy of the run called `run` is kept.
     pub fn name(run: &str) -> Self {
-        Self::Name(TextField::new(LONGEST_NAME).with(&proposed_name(run)))
+        Self::Name(TextField::new(LONGEST_NAME).offering(&proposed_name(run)))
     }
 
     /// The text that is typed, where some is.

@@ -43,6 +43,35 @@ fn an_exam_that_was_left_is_there_at_the_next_start_too() {
 }
 
 #[test]
+fn exams_that_were_left_or_are_open_are_all_gone_on_with() {
+    let played = |player: Player, exercises: usize| {
+        (0..exercises).fold(player.press("e Enter"), |player, _| player.press("Space Enter Enter"))
+    };
+    let attempts = |player: &Player| {
+        let sessions = player.app.last().unwrap().into_owned().with_former();
+        sessions.iter().filter_map(|one| one.practice.as_ref().map(|exam| exam.attempts.len())).collect::<Vec<_>>()
+    };
+    // On another page than its own, too, an exam is under way.
+    let open = played(Player::at_library(TRUE_COLOUR, &[], &[]), 1).press("F2 Right");
+    assert_eq!(attempts(&open), [1]);
+    let both = played(open.press("F3 Esc y"), 2).press("Esc y F2");
+    assert_eq!(attempts(&both), [2, 1]);
+    let later = both.press("c");
+    later.says("exercise 3 of 20");
+    // The open one is kept while the other is gone on with.
+    let earlier = later.press("F2 c");
+    earlier.says("exercise 2 of 20");
+    earlier.press("F2 c").says("exercise 3 of 20");
+}
+
+#[test]
+fn an_exam_that_has_not_begun_is_left_without_a_question() {
+    let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Esc");
+    assert_eq!(left.app.place(), LIBRARY);
+    left.is_silent_on("the exam is kept");
+}
+
+#[test]
 fn an_exam_of_which_only_the_first_page_was_seen_has_not_begun() {
     for keys in ["e", "e Enter"] {
         let seen = Player::at_library(TRUE_COLOUR, &[], &[]).press(keys);
