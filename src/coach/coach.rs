@@ -7,12 +7,13 @@ use std::{
 };
 
 use super::{
-    Alternative, Cause, Ease, Improvement, Kind, Recommendation, Request, Risk, Shooter, Skill,
+    Alternative, Cause, Ease, Improvement, Kind, Recommendation, Request, Risk, Shooter, Skill, Source,
     clock::Clock,
     draws::{Draws, Worlds},
     first::{Attempt, Found},
     next::NextValue,
     pool::Candidate,
+    refinement::WORTH_A_CHANGE,
     search::Search,
     trial::{Attempts, CONTACT_STEPS, ENDLESS, Task, unhurried},
 };
@@ -235,11 +236,14 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     }
 }
 
-/// The shots that are made more often than the first one, most often first, each less what its effort costs.
+/// The shots that are made more often than the first one, most often first, each less what its effort costs. Than one that was advised
+/// before, it has to be by enough.
 fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usize> {
     let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
-    let mut better: Vec<usize> =
-        (1..pool.len()).filter(|index| worth(0).zip(worth(*index)).is_some_and(|(bar, own)| own > bar)).collect();
+    let was_advised = pool.first().is_some_and(|first| first.shot.source == Source::Former);
+    let share = if was_advised { 1.0 - WORTH_A_CHANGE } else { 1.0 };
+    let is_better = |index: &usize| worth(0).zip(worth(*index)).is_some_and(|(bar, own)| share * own > bar);
+    let mut better: Vec<usize> = (1..pool.len()).filter(is_better).collect();
     better.sort_by(|one, other| f64::total_cmp(&worth(*other).unwrap_or_default(), &worth(*one).unwrap_or_default()));
     better
 }
@@ -381,7 +385,7 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-    use crate::coach::{Pace, Source, Suggestion, Way, evidence::Rate};
+    use crate::coach::{Pace, Suggestion, Way, evidence::Rate};
 
     fn candidate(cue: CueInputs, way: Way, effort_penalty: f64) -> Candidate {
         let kind = Kind { first_ball: 1, cushion_first: false, way, pace: Pace::Hard, raised: false };

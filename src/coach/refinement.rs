@@ -32,7 +32,7 @@ const ATTEMPTS_A_POINT: usize = 16;
 
 /// What another shot must be better by than the one that was advised, as a share: whoever asks again wants no other shot for next to
 /// nothing, which may be chance.
-const WORTH_A_CHANGE: f64 = 0.02;
+pub const WORTH_A_CHANGE: f64 = 0.02;
 
 /// Blocks of one piece of work.
 const PIECE: usize = 4;
