@@ -36,11 +36,12 @@ impl Belief {
     /// Where its correlations contradict each other.
     pub fn new(table: &Table, doubt: &TableDoubt) -> Result<Self, DoubtError> {
         let mut table = Table { doubt: None, ..table.clone() };
-        let may_lean = ["tilt.x", "tilt.y"]
-            .iter()
-            .any(|name| doubt.deviations.get(*name).is_some_and(|deviation| *deviation > 0.0));
-        if may_lean && table.tilt == DVec2::ZERO {
-            table.tilt = DVec2::splat(LEVEL);
+        let slope = |name: &str| {
+            let may_be = doubt.deviations.get(name).is_some_and(|deviation| *deviation > 0.0);
+            if may_be { LEVEL } else { 0.0 }
+        };
+        if table.tilt == DVec2::ZERO {
+            table.tilt = DVec2::new(slope("tilt.x"), slope("tilt.y"));
         }
         let known = |(name, deviation): (&String, &f64)| {
             let value = TableDoubt::value(&table, name).filter(|_| *deviation > 0.0);

@@ -198,8 +198,9 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
             rates[candidate] = rate(&made, candidate);
         }
         let best = made_more_often(&pool, &rates).first().copied().unwrap_or_default();
-        // Told without the attempts that have chosen it: they flatter it.
-        rates[best] = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
+        // Told without the attempts that have chosen it, which flatter it, if there is time for as many others.
+        let told = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
+        rates[best] = told.filter(|rate| rate.trials == ATTEMPTS).or(rates[best]);
         rates.swap(0, best);
         pool.swap(0, best);
     }
@@ -241,8 +242,8 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
 fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usize> {
     let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
     let was_advised = pool.first().is_some_and(|first| first.shot.source == Source::Former);
-    let share = if was_advised { 1.0 - WORTH_A_CHANGE } else { 1.0 };
-    let is_better = |index: &usize| worth(0).zip(worth(*index)).is_some_and(|(bar, own)| share * own > bar);
+    let least = if was_advised { WORTH_A_CHANGE } else { 0.0 };
+    let is_better = |index: &usize| worth(0).zip(worth(*index)).is_some_and(|(bar, own)| own > bar + least * own.abs());
     let mut better: Vec<usize> = (1..pool.len()).filter(is_better).collect();
     better.sort_by(|one, other| f64::total_cmp(&worth(*other).unwrap_or_default(), &worth(*one).unwrap_or_default()));
     better

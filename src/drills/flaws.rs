@@ -41,8 +41,8 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         ("the cue has room for it", has_room(&table, layout, &cue)),
         ("it makes the point by its rule", point.is_made(&technique.tally)),
         ("it meets yellow first, or red in the opening", technique.first.is_some_and(|hit| hit.ball == first)),
-        ("it meets yellow only once before red", technique.again.is_none()),
-        ("it covers at least a twentieth of yellow", technique.fullness() >= 0.05),
+        ("it meets the first ball only once before the second", technique.again.is_none()),
+        ("it covers at least a twentieth of the first ball", technique.fullness() >= 0.05),
         ("yellow stays away from red but in a time shot", technique.drives_second == is_tagged("time")),
     ];
     checks.extend(match exercise.category {

@@ -24,7 +24,7 @@ impl Point {
     #[inline]
     pub fn of(rule: Rule, table: &Table, layout: &Layout) -> Self {
         let asks = table.opening == Opening::Umb && rule == Rule::ThreeCushion;
-        Self { rule, red_first: asks && layout.opening_side(table).is_some() }
+        Self { rule, red_first: asks && layout.is_opening(table) }
     }
 
     /// Whether a shot that did what `tally` says is a point; it can still become one until both object balls are met.

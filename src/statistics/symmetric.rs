@@ -45,7 +45,7 @@ pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     Some((0..size).map(|one| (0..size).map(|other| entry(one, other)).collect()).collect())
 }
 
-/// `JᵀJ` by rows, where J has these columns. Where an unknown touches few residuals, only those take time.
+/// `JᵀJ` by rows, where J has these columns, which are finite. Where an unknown touches few residuals, only those take time.
 pub fn normal_matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let touched = |column: &Vec<f64>| (0..column.len()).filter(|row| column[*row] != 0.0).collect::<Vec<_>>();
     let touched: Vec<Vec<usize>> = columns.iter().map(touched).collect();
@@ -60,7 +60,7 @@ pub fn normal_matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     normal
 }
 
-/// Solves equations whose matrix is positive definite; `None` where it is not. They are taken from the last on: where the last unknowns
+/// Solves equations whose matrix is symmetric and positive definite; `None` where it is not definite. They are taken from the last on: where the last unknowns
 /// hang together with few others, and the first with all, this takes far less time than the cube of their number.
 pub fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     let turned: Vec<Vec<f64>> = matrix.iter().rev().map(|row| row.iter().rev().copied().collect()).collect();

@@ -59,12 +59,12 @@ pub fn read_if_there(path: &Path, largest: u64) -> io::Result<Option<Vec<u8>>> {
 /// Moves a file that cannot be read out of the way of one that is to be written in its place; gives what came of that, as the end of a
 /// sentence about the file.
 pub fn put_aside(path: &Path) -> String {
-    let mut names = (1..).map(|number| match number {
-        1 => path.with_extension("unread.json"),
-        _ => path.with_extension(format!("unread-{number}.json")),
-    });
+    let (mut aside, mut number) = (path.with_extension("unread.json"), 1);
     // What was kept before stays.
-    let aside = names.find(|name| !name.exists()).unwrap_or_default();
+    while aside.exists() {
+        number += 1;
+        aside = path.with_extension(format!("unread-{number}.json"));
+    }
     match fs::rename(path, &aside) {
         Ok(()) => format!("it is kept as {}", aside.display()),
         Err(error) => format!("it cannot be kept aside: {error}"),

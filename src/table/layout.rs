@@ -131,12 +131,21 @@ impl Layout {
         }
     }
 
-    /// The side on which the cue ball stands if this is the opening position, to a quarter of a ball's radius.
+    /// The side on which the cue ball stands if this is the opening position.
     pub fn opening_side(&self, table: &Table) -> Option<Side> {
+        self.opening_within(table, TOUCHING_TOLERANCE)
+    }
+
+    /// Whether this is meant to be the opening position: nobody types places to the millimetre, and 2.5 diamonds are written where 2.51
+    /// are right.
+    pub fn is_opening(&self, table: &Table) -> bool {
+        self.opening_within(table, 0.25 * table.radius).is_some()
+    }
+
+    fn opening_within(&self, table: &Table, tolerance: f64) -> Option<Side> {
         let is_there = |side: &Side| {
             let places = Self::opening_on(table, *side).balls;
-            // Nobody types the places to the millimetre: 2.5 diamonds are meant where 2.51 are right.
-            self.balls.iter().zip(places).all(|(ball, place)| ball.distance(place) <= 0.25 * table.radius)
+            self.balls.iter().zip(places).all(|(ball, place)| ball.distance(place) <= tolerance)
         };
         [Side::Left, Side::Right].into_iter().find(is_there)
     }
@@ -271,9 +280,14 @@ mod tests {
         assert_eq!(Layout::opening_on(&thesis, Side::Right), only);
         assert_eq!(only.opening_side(&umb), None);
         // As it is typed, to tenths of diamonds; a position that is much like it is another.
-        let typed = |words| Layout::parse(words, &umb).unwrap().opening_side(&umb);
-        assert_eq!(typed("2d,2.5d 2d,2d 6d,2d"), Some(Side::Left));
-        assert_eq!(typed("2d,2.4d 2d,2d 6d,2d"), None);
+        let typed = |words| Layout::parse(words, &umb).unwrap().is_opening(&umb);
+        assert!(typed("2d,2.5d 2d,2d 6d,2d") && !typed("2d,2.4d 2d,2d 6d,2d"));
+        let moved = |by: f64| {
+            let mut layout = Layout::opening(&umb);
+            layout.balls[2].x += by * umb.radius;
+            (layout.is_opening(&umb), layout.opening_side(&umb).is_some())
+        };
+        assert_eq!([0.0, 0.24, 0.26].map(moved), [(true, true), (true, false), (false, false)]);
     }
 
     #[test]

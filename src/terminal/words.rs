@@ -67,12 +67,14 @@ pub fn skill_word(skill: Skill) -> &'static str {
 
 /// The player and what he averages at three-cushion, where that is known.
 pub fn player_words(skill: Skill) -> String {
-    let (name, (_, most)) = (skill_word(skill), Skill::AVERAGES);
+    let (name, (least, most)) = (skill_word(skill), Skill::AVERAGES);
     let average = Skill::average(skill.scale());
     if skill.is_perfect() {
         name.to_owned()
     } else if average > most {
         format!("{name} (average above {most})")
+    } else if average < least {
+        format!("{name} (average below {least})")
     } else {
         format!("{name} (average {})", (20.0 * average).round() / 20.0)
     }

@@ -70,7 +70,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let exercise = workspace.exercise(&args.name)?.clone();
     let name = exercise.name.clone();
     let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
-    let mut log = Log { workspace, session, name, json: args.json, known: Vec::new(), lock: None };
+    let mut log = Log { workspace, session, name, json: args.json, known: Vec::new(), is_kept: false, lock: None };
     if let (Some(made), Some(of)) = (args.made, args.of) {
         if made > of {
             return Err(Failure::wrong_input(format_args!(
@@ -103,6 +103,8 @@ struct Log {
     json: bool,
     /// The attempts that the session's file is known to have.
     known: Vec<Attempt>,
+    /// Whether there is such a file.
+    is_kept: bool,
     /// Of the sessions, once something is on the disk: what another program has noted would be lost, or what it has taken back
     /// come back.
     lock: Option<Lock>,
@@ -111,7 +113,7 @@ struct Log {
 impl Log {
     /// Does what a word says; `false` where there is nothing to take back.
     fn take(&mut self, word: &Word) -> Result<bool, Failure> {
-        if !self.known.is_empty() {
+        if self.is_kept {
             self.lock()?;
         }
         match word {
@@ -164,23 +166,26 @@ impl Log {
     /// Goes on with a session as it is on the disk.
     fn go_on_with(&mut self, session: Session) {
         self.known.clone_from(&session.attempts);
-        self.session = session;
+        (self.session, self.is_kept) = (session, true);
     }
 
     fn save(&mut self) -> Result<(), Failure> {
-        let Self { workspace, session, known, lock, .. } = self;
+        let Self { workspace, session, known, is_kept, lock, .. } = self;
         let saved = match lock {
             Some(lock) => workspace.store.save_locked(lock, session, known, known.len()),
             None => workspace.store.save(session, known, known.len()),
         };
         saved.map_err(Failure::failed)?;
         known.clone_from(&session.attempts);
+        *is_kept = true;
         Ok(())
     }
 
     /// Saves the session and tells the score.
     fn keep(&mut self) -> Result<(), Failure> {
         self.save()?;
+        // Another program may note something before the next word, and need not wait for a reader of this one.
+        self.lock = None;
         let record = self.session.record();
         if self.json {
             return Ok(json_line(&Logged { session: &self.session.id, score: record.into() })?);
@@ -213,10 +218,9 @@ impl Log {
                         // Who reads no more answers still wants every note kept.
                         self.keep().or_else(|failure| if failure.is_silent() { Ok(()) } else { Err(failure) })?;
                     } else {
+                        self.lock = None;
                         tell(self.nothing_to_undo());
                     }
-                    // Another program may note something before the next word.
-                    self.lock = None;
                 }
             }
         }

@@ -28,8 +28,8 @@ pub struct ExportArgs {
 
 /// Take in a file that `carom drill export` wrote, or a library of exercises.
 ///
-/// Nothing that is here is lost: of a session on both sides the longer version is kept; one that has gone on on both, and a
-/// position whose name is that of another, are refused.
+/// Nothing that is here is lost. Of a session on both sides the longer version is kept. One that has gone on on both sides is
+/// refused, and so is a position whose name is that of another.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
     /// The file; "-" reads the standard input.

@@ -71,8 +71,8 @@ impl Store {
         if path.exists() { read_session(&path).map(Some) } else { Ok(None) }
     }
 
-    /// Writes a session's file, or replaces it, where it has no other attempts than those that were known `before`, and still has
-    /// the first `safe` of them, which are known to have been written. When this returns, the session is safe on the disk.
+    /// Writes a session's file, or replaces one that has no other attempts than those that were known `before`, and still has the
+    /// first `safe` of them, which are known to have been written. When this returns, the session is safe on the disk.
     ///
     /// # Errors
     /// [`StoreError::Changed`] where another program has noted something in it or taken it back; where writing fails, or a file

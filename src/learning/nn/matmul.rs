@@ -26,7 +26,10 @@ const SMALL: usize = 1 << 12;
 /// A loop over the indices below a constant of at most eight, written out: what no variable indexes stays in registers at every
 /// level of optimisation.
 macro_rules! written_out {
-    ($index:ident < $count:ident, $body:block) => { written_out!($index < $count, $body, 0 1 2 3 4 5 6 7) };
+    ($index:ident < $count:ident, $body:block) => {
+        const { assert!($count <= 8) };
+        written_out!($index < $count, $body, 0 1 2 3 4 5 6 7)
+    };
     ($index:ident < $count:ident, $body:block, $($value:literal)*) => {
         $(if $value < $count {
             let $index = $value;

@@ -244,13 +244,6 @@ impl App {
         self.coach.last(self.drills.unfinished().filter(is_open))
     }
 
-    /// The coach's page goes on with an exam that was left.
-    fn keep_left_exam(&mut self) {
-        if let Some(exam) = self.drills.take_left_exam() {
-            self.coach.keep_exam(exam);
-        }
-    }
-
     /// Says what has changed since the user was here before.
     #[must_use]
     pub fn with_notice(mut self, notice: Option<&str>) -> Self {
@@ -299,7 +292,9 @@ impl App {
                 let practice = self.coach.resume()?;
                 self.screen = PageId::Drills;
                 let effect = self.drills.resume(practice, self.coach.query.skill);
-                self.keep_left_exam();
+                if let Some(exam) = self.drills.take_left_exam() {
+                    self.coach.keep_exam_for_later(exam);
+                }
                 return Some(effect);
             }
             Action::Coach(action) => {
@@ -314,7 +309,9 @@ impl App {
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
                 let balls = self.drills.take_for_coach();
-                self.keep_left_exam();
+                if let Some(exam) = self.drills.take_left_exam() {
+                    self.coach.keep_exam(exam);
+                }
                 if balls.is_some() || self.drills.is_left() {
                     self.open(PageId::Coach);
                 }

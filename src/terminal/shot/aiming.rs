@@ -1,6 +1,7 @@
 //! The stroke that the player sets with keys.
 
 use crate::{
+    game::Point,
     physics::{CueInputs, turn},
     table::{Layout, Table},
 };
@@ -23,10 +24,10 @@ fn rounded(value: f64, step: f64) -> f64 {
     (value * steps).round() / steps
 }
 
-/// A stroke at the first object ball: full, level, in the middle.
-pub fn first_stroke(layout: &Layout) -> CueInputs {
+/// A stroke at the first object ball, or at red where that has to be met first: full, level, in the middle.
+pub fn first_stroke(point: Point, layout: &Layout) -> CueInputs {
     let level = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: FIRST_SPEED };
-    at_ball(&level, layout, 1)
+    at_ball(&level, layout, if point.red_first { 2 } else { 1 })
 }
 
 /// The same stroke, aimed full at `ball`.
@@ -73,12 +74,21 @@ pub fn tip_moved(table: &Table, cue: &CueInputs, left: f64, up: f64) -> Option<C
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::game::Rule;
 
     fn stroke() -> (Table, Layout, CueInputs) {
         let table = Table::default();
         let layout = Layout::parse("-0.7,0 0.3,0.4 0.9,-0.5", &table).unwrap();
-        let cue = first_stroke(&layout);
+        let cue = first_stroke(Point::default(), &layout);
         (table, layout, cue)
+    }
+
+    #[test]
+    fn the_first_stroke_of_a_match_is_aimed_at_red() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let cue = first_stroke(Point::of(Rule::ThreeCushion, &table, &layout), &layout);
+        assert_eq!(cue, at_ball(&cue, &layout, 2));
     }
 
     #[test]

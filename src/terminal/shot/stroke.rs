@@ -165,12 +165,13 @@ pub(in crate::terminal) use stroke_keys;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::game::Point;
 
     #[test]
     fn one_input_changed_several_times_over_is_one_step_back() {
         let table = Table::default();
         let layout = Layout::opening(&table);
-        let first = aiming::first_stroke(&layout);
+        let first = aiming::first_stroke(Point::default(), &layout);
         let mut stroke = OwnStroke::new(first);
         for _ in 0..3 {
             stroke.change(StrokeChange::Turn(0.2), &table, &layout).unwrap();
@@ -191,7 +192,7 @@ mod tests {
     fn a_tip_that_would_slip_off_and_a_change_that_is_none_leave_all_as_it_is() {
         let table = Table::default();
         let layout = Layout::opening(&table);
-        let mut stroke = OwnStroke::new(aiming::first_stroke(&layout));
+        let mut stroke = OwnStroke::new(aiming::first_stroke(Point::default(), &layout));
         assert_eq!(stroke.change(StrokeChange::Tip(40.0, 0.0), &table, &layout), Err(TipSlips));
         stroke.change(StrokeChange::Centre, &table, &layout).unwrap();
         assert_eq!(stroke.can_travel(), (false, false));

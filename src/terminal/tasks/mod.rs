@@ -20,7 +20,7 @@ use std::{
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
-        mpsc::Sender,
+        mpsc::{Sender, channel},
     },
     thread::{self, JoinHandle},
     time::Duration,
@@ -36,9 +36,9 @@ use crate::{
     },
     table::Table,
     terminal::{
-        CalibrationTask, CoachWorker, DrillTask, Job, Keeping, Launch, Reel, Report, SettingsFile, SettingsTask, Slot,
-        Subscriptions,
-        tasks::{event::Event, onlooker::Onlooker, polling::Poll, worker::Worker},
+        CalibrationTask, CoachWorker, DrillTask, Failure, Job, Keeping, Launch, Reel, Report, SettingsFile,
+        SettingsTask, Slot, Subscriptions,
+        tasks::{event::Event, onlooker::Onlooker, polling::Poll, trainer::Trainer, worker::Worker},
     },
 };
 
@@ -234,12 +234,14 @@ impl Tasks {
     /// # Errors
     /// A thread that could not be started, here and below.
     pub fn train(&self, launch: Launch) -> io::Result<()> {
-        // Here and not on the thread, which may not come to it before the screen closes.
-        let started = trainer::start(&launch.arguments);
+        let (hand_over, started) = channel::<Result<Trainer, Failure>>();
+        let Launch { arguments, folder } = launch;
         self.spawn("trainer", move || {
-            let failure = started.and_then(trainer::wait).err()?;
-            Some(Report::TrainerFailed(launch.folder, failure))
+            let failure = started.recv().ok()?.and_then(trainer::wait).err()?;
+            Some(Report::TrainerFailed(folder, failure))
         })?;
+        // Not on the thread, which may not come to it before the screen closes. It waits for this.
+        let _ = hand_over.send(trainer::start(&arguments));
         Ok(())
     }
 
@@ -371,7 +373,6 @@ fn recorder(folder: PathBuf, to_screen: Sender<Event>) -> io::Result<Worker<(Exa
 mod tests {
     use super::*;
     use crate::{storage::Places, study::filmed::bundled};
-    use std::sync::mpsc::channel;
 
     #[test]
     fn what_a_key_has_just_begun_is_done_before_the_program_ends() {

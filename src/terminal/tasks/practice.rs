@@ -118,8 +118,8 @@ impl PracticeWorker {
     /// changed it.
     fn save(&mut self, session: &Session, before: &[Attempt]) -> Result<Result<(), String>, Box<Session>> {
         let Some(store) = &self.store else { return Ok(Err(UNKNOWN.to_owned())) };
-        // What a session has when it is first heard of was read from the disk.
-        let safe = self.safe.entry(session.id.clone()).or_insert(before.len());
+        // Where a session is gone on with that an earlier program has left, the disk may have refused some of it.
+        let safe = self.safe.entry(session.id.clone()).or_default();
         match store.save(session, before, *safe) {
             Err(StoreError::Changed(stored)) => {
                 *safe = stored.attempts.len();

@@ -76,7 +76,7 @@ impl TextField {
     /// Takes what was typed; `false` where a key means nothing here.
     pub fn take(&mut self, typed: Typed) -> bool {
         let is_text = match typed {
-            Typed::Paste(_) => true,
+            Typed::Paste(text) => !text.is_empty(),
             Typed::Key(key) => matches!(Edit::of(key), Some(Edit::Insert(_))),
         };
         if std::mem::take(&mut self.is_offered) && is_text {

@@ -20,6 +20,30 @@ fn attempts(file: &Path) -> usize {
 }
 
 #[test]
+fn a_note_that_another_program_has_taken_back_does_not_come_back() {
+    let folder = folder();
+    let mut noting = command(folder.path(), &["drill", "log", "mine", "--json"]).stdin(Stdio::piped()).spawn().unwrap();
+    let mut input = noting.stdin.take().unwrap();
+    let mut lines = BufReader::new(noting.stdout.take().unwrap()).lines();
+    let mut tried_after = |word: &str| {
+        writeln!(input, "{word}").unwrap();
+        let answer: serde_json::Value = serde_json::from_str(&lines.next().unwrap().unwrap()).unwrap();
+        answer["tried"].as_u64().unwrap()
+    };
+    let undo = || assert_eq!(drill(folder.path(), &["log", "mine", "undo"]).code, Some(0));
+    assert_eq!([tried_after("make"), tried_after("make")], [1, 2]);
+    undo();
+    assert_eq!(tried_after("miss"), 2);
+    // Until nothing is left of it.
+    undo();
+    undo();
+    assert_eq!(tried_after("make"), 1);
+    drop(input);
+    assert!(noting.wait().unwrap().success());
+    assert_eq!(tried(folder.path()), 1);
+}
+
+#[test]
 fn a_program_that_is_killed_at_any_moment_loses_no_attempt_that_it_has_told() {
     let folder = folder();
     let mut least = 0;

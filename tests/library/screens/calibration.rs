@@ -327,6 +327,9 @@ fn what_is_typed_in_part_is_there_at_the_next_start() {
     assert_eq!(left.press("Down Enter").app.calibration.draft(), draft);
     let again = new().press("Enter 9 Esc Enter");
     assert_eq!(again.press(". 6 Esc").app.calibration.draft().unwrap().typed[0], "9.6");
+    // Each stroke's, though another was typed in part meanwhile.
+    let other = new().press("Enter 9 Esc Down Enter 7 Esc Up Enter . 6 Esc");
+    assert_eq!(other.app.calibration.draft().unwrap().typed[0], "9.6");
     let emptied = new().press("Enter 9 Esc Enter Backspace Esc");
     assert_eq!(emptied.app.calibration.draft(), None);
 }

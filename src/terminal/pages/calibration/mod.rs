@@ -207,11 +207,11 @@ impl CalibrationPage {
             }
             CalibrationReport::Saved(path, Ok(true)) => {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy();
-                let (played, all) = self.sheet().count();
+                let (played, _) = self.sheet().count();
                 let found = self.sheet().judged.as_ref().and_then(|judged| judged.found.as_ref());
                 let misread = found.map_or(0, |found| found.misread().len());
                 let misread = if misread == 0 { String::new() } else { format!(", {misread} of them misread") };
-                let said = format!("saved as {name}, from {played} of {all} strokes{misread}; p plays on it from now on");
+                let said = format!("saved as {name}, from {played} strokes{misread}; p plays on it from now on");
                 self.message = Some(Message::good(said));
                 self.saved = Some(path);
             }

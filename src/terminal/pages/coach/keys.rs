@@ -280,7 +280,7 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Balls, W::Idle, &[letter('r', A::Random)], None, "random position").known_as("shuffle"),
     bind(Balls, W::Idle, &[letter('x', A::OtherBall)], None, "the opponent's turn: play with the other ball"),
     bind(Program, W::Anytime, &[letter('d', A::OpenDrills)], Some(("drills", 1)),
-        "practise: exercises, exams, and my positions"),
+        "practise: exercises, exams, games, matches, and my positions").known_as("play run"),
     bind(Program, W::Anytime, &[letter('f', A::OpenFilms)], None, "filmed shots: watch real balls beside simulated ones"),
     bind(Balls, W::Anytime, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise")
         .known_as("export share keep store"),

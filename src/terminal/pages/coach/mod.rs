@@ -249,7 +249,7 @@ impl CoachPage {
         }
         let of_before = self.before.first().and_then(|before| before.practice.as_deref());
         let mut exams = practised.into_iter().chain(self.left_exams.iter().rev()).chain(of_before);
-        let practice = exams.by_ref().find(|session| session.is_exam()).or(practised);
+        let practice = exams.find(|session| session.is_exam()).or(practised);
         let ended =
             |practice| SavedSession::new(table, layout, cue_ball, self.query.terms(), practice).under(self.of_settings);
         // One a session: any other exam that was left is as if one before had ended there.
@@ -272,6 +272,12 @@ impl CoachPage {
     pub fn keep_exam(&mut self, exam: Session) {
         self.left_exams.retain(|left| left.id != exam.id);
         self.left_exams.push(exam);
+    }
+
+    /// The same after all others: it was open when one of those was asked for.
+    pub fn keep_exam_for_later(&mut self, exam: Session) {
+        self.left_exams.retain(|left| left.id != exam.id);
+        self.left_exams.insert(0, exam);
     }
 
     /// Goes on with the exam that was left, or from where the last session ended; gives what was practised there.

@@ -2,6 +2,7 @@
 
 use crate::{
     drills::{decode, is_code},
+    game::Point,
     terminal::{
         pages::coach::CoachPage,
         ui::{Message, TextField},
@@ -51,7 +52,9 @@ impl CoachPage {
             .map_err(|error| error.to_string())?;
         self.cancel();
         self.place(layout);
-        self.message = Some(Message::good("the balls lie where it was typed; Enter asks the coach"));
+        let is_opening = Point::of(self.query.rule, self.table(), &layout).red_first;
+        let red = if is_opening { ", as a match opens: red has to be met first" } else { "" };
+        self.message = Some(Message::good(format!("the balls lie where it was typed{red}; Enter asks the coach")));
         Ok(())
     }
 

@@ -253,7 +253,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
         key(Down, A::Pace(-1)), key(Up, A::Pace(1))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),
     bind(Stroke, W::Aiming, &[letter(' ', A::Play)], Some(("play", 1)), "play the stroke, with the player's errors"),
-    bind(Stroke, W::Set, &[key(Enter, A::Play)], None, "the same, once the stroke was changed"),
+    bind(Stroke, W::Set, &[key(Enter, A::Play)], None, "play the stroke, once it was changed"),
 ], [
     bind(Stroke, W::Taught, &[letter('v', A::Hint)], Some(("hint", 1)),
         "show the model shot, and hide it; the attempt then counts as one with a hint"),

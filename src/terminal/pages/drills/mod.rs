@@ -112,6 +112,8 @@ pub struct DrillsPage {
     pub units: Units,
     options: RepetitionOptions,
     for_coach: Option<Balls>,
+    /// The coach's rule when the library was opened last.
+    opened_for: Option<Rule>,
     /// The level of the exam that was chosen last.
     exam_level: u8,
     /// The pages one has come through; the last one is open.
@@ -142,6 +144,7 @@ impl DrillsPage {
             units: Units::default(),
             options: RepetitionOptions { goal: Goal::Free, shifted: false },
             for_coach: None,
+            opened_for: None,
             exam_level: 0,
             pages: Vec::new(),
             left_exam: None,
@@ -168,7 +171,9 @@ impl DrillsPage {
             tasks.extend(self.change_player());
         }
         if self.pages.is_empty() {
-            self.catalogue.mark_first_of(rule);
+            if self.opened_for.replace(rule) != Some(rule) {
+                self.catalogue.mark_first_of(rule);
+            }
             self.pages.push(DrillContext::Library);
         }
         Effect::Drill(tasks)

@@ -13,6 +13,7 @@ use crate::{
         words::{LengthUnit, no_jump_words},
     },
     drills::{Attempt, Exercise, ExerciseError, Goal, Session, Venue},
+    game::Point,
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
     statistics::SuccessRate,
     table::{CueBall, Layout, Table},
@@ -100,7 +101,7 @@ impl Turn {
             return Ok(None);
         };
         Ok(Some(Self {
-            stroke: OwnStroke::new(aiming::first_stroke(&layout)),
+            stroke: OwnStroke::new(aiming::first_stroke(Point::of(exercise.rule, &table, &layout), &layout)),
             what_if: None,
             cue_ball: session.cue_ball_now(),
             jumps: true,
@@ -454,7 +455,8 @@ impl Turn {
         let is_other = exercise.name != self.exercise.name;
         let is_moved = is_other || layout != self.layout;
         if is_other || is_moved && self.session.is_game() {
-            self.stroke = OwnStroke::new(aiming::first_stroke(&layout));
+            let point = Point::of(exercise.rule, &table, &layout);
+            self.stroke = OwnStroke::new(aiming::first_stroke(point, &layout));
         }
         (self.exercise, self.table, self.layout) = (exercise, table, layout);
         self.cue_ball = self.session.cue_ball_now();

@@ -44,7 +44,8 @@ impl Replay {
     /// Takes a new set; it plays at once, or after the one that is playing. A set that is not newer than the one that is
     /// shown is no news.
     pub fn offer(&mut self, reel: Reel) {
-        let is_old = self.reel.as_ref().is_some_and(|shown| shown.after >= reel.after) && !self.is_outdated;
+        let newest = self.waiting.as_ref().or(self.reel.as_ref());
+        let is_old = newest.is_some_and(|newest| newest.after >= reel.after) && !self.is_outdated;
         if reel.scenes.is_empty() || is_old {
             return;
         }

@@ -15,6 +15,9 @@ fn an_exam_begins_with_a_page_that_tells_what_comes() {
     let begun = player.press("Enter");
     assert_eq!((begun.app.place(), begun.kept()), (EXERCISE, 0), "the first Enter plays nothing");
     begun.says("exercise 1 of 20").says("set the stroke and play it");
+    let once_more = begun.press("Enter");
+    once_more.says("the stroke is as it was at first; Space plays it all the same");
+    assert_eq!((once_more.kept(), once_more.press("Left Enter").kept()), (0, 1));
     let back = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Esc");
     assert_eq!(back.app.place(), LIBRARY, "nothing has begun: nothing is asked");
 }
@@ -54,14 +57,15 @@ fn exams_that_were_left_or_are_open_are_all_gone_on_with() {
     // On another page than its own, too, an exam is under way.
     let open = played(Player::at_library(TRUE_COLOUR, &[], &[]), 1).press("F2 Right");
     assert_eq!(attempts(&open), [1]);
-    let both = played(open.press("F3 Esc y"), 2).press("Esc y F2");
-    assert_eq!(attempts(&both), [2, 1]);
-    let later = both.press("c");
-    later.says("exercise 3 of 20");
-    // The open one is kept while the other is gone on with.
-    let earlier = later.press("F2 c");
-    earlier.says("exercise 2 of 20");
-    earlier.press("F2 c").says("exercise 3 of 20");
+    let two = played(open.press("F3 Esc y"), 2).press("Esc y");
+    let three = played(two, 3).press("Esc y F2");
+    assert_eq!(attempts(&three), [3, 2, 1]);
+    // The one that is open waits until all others were gone on with.
+    let mut player = three;
+    for exercise in [4, 3, 2, 4, 3] {
+        player = player.press("F2 c");
+        player.says(&format!("exercise {exercise} of 20"));
+    }
 }
 
 #[test]
