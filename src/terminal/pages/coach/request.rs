@@ -17,7 +17,7 @@ use crate::{
             next_skill,
         },
         ui::Message,
-        words::{chance_words, player_words, skill_word},
+        words::{chance_words, skill_word},
     },
 };
 
@@ -100,7 +100,7 @@ impl CoachPage {
                 self.message = if query == self.query {
                     advice.proposals.first().map(|best| news(best, advice.effort, &query))
                 } else {
-                    let [asked, now] = [query.skill, self.query.skill].map(player_words);
+                    let [asked, now] = [query.skill, self.query.skill].map(skill_word);
                     Some(Message::plain(format!("the coach has answered for {asked}; Enter asks it for {now}")))
                 };
                 self.show(query, advice);
