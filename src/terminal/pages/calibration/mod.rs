@@ -211,7 +211,8 @@ impl CalibrationPage {
                 let found = self.sheet().judged.as_ref().and_then(|judged| judged.found.as_ref());
                 let misread = found.map_or(0, |found| found.misread().len());
                 let misread = if misread == 0 { String::new() } else { format!(", {misread} of them misread") };
-                let said = format!("saved as {name}, from {played} strokes{misread}; p plays on it from now on");
+                let strokes = if played == 1 { "one stroke".to_owned() } else { format!("{played} strokes{misread}") };
+                let said = format!("saved as {name}, from {strokes}; p plays on it from now on");
                 self.message = Some(Message::good(said));
                 self.saved = Some(path);
             }

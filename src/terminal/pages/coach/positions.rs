@@ -53,8 +53,12 @@ impl CoachPage {
         self.cancel();
         self.place(layout);
         let is_opening = Point::of(self.query.rule, self.table(), &layout).red_first;
-        let red = if is_opening { ", as a match opens: red has to be met first" } else { "" };
-        self.message = Some(Message::good(format!("the balls lie where it was typed{red}; Enter asks the coach")));
+        let said = if is_opening {
+            "this is the opening: red has to be met first"
+        } else {
+            "the balls lie where it was typed"
+        };
+        self.message = Some(Message::good(format!("{said}; Enter asks the coach")));
         Ok(())
     }
 
