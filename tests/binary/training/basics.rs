@@ -81,7 +81,9 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
 #[test]
 fn a_run_whose_result_nobody_reads_is_still_told_to_be_unfinished() {
     let folder = folder();
-    let mut training = command(folder.path(), &format!("{SHORT} --minutes 0.001 --run mine"));
+    let line =
+        "train --config small.toml --steps 100000000 --evaluate-every 2000 --evaluation-layouts 20 --minutes 0.002";
+    let mut training = command(folder.path(), line);
     let mut training = training.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
     drop(training.stdout.take());
     assert_eq!(training.wait().unwrap().code(), Some(75));
