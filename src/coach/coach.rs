@@ -237,8 +237,8 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     }
 }
 
-/// The shots that are made more often than the first one, most often first, each less what its effort costs. Than one that was advised
-/// before, it has to be by enough.
+/// The shots that are made more often than the first one, most often first, each less what its effort costs. Where the first one was
+/// advised before, another must be better by [`WORTH_A_CHANGE`].
 fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usize> {
     let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
     let was_advised = pool.first().is_some_and(|first| first.shot.source == Source::Former);

@@ -54,6 +54,7 @@ impl Distribution {
     /// An outcome's or another stroke's place, in standard errors from this one.
     fn errors_to(&self, place: &Place) -> Errors {
         let mut errors: Errors = std::array::from_fn(|input| place[input] - self.at[input]);
+        // Half a turn to the left is half a turn to the right.
         errors[3] = turn(self.at[3], place[3]);
         std::array::from_fn(|input| errors[input] * self.inverse_deviations[input])
     }

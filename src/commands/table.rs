@@ -52,9 +52,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             let named = |file: &PathBuf| {
                 let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
                 if PRESETS.contains(&name.as_str()) {
-                    let (file, other) =
-                        (file.display(), "is not found by its name, which is that of a bundled table; rename it");
-                    return Err(Failure::failed(format_args!("{file} {other}")));
+                    return Err(Failure::failed(format_args!(
+                        "{} is not found by its name, which is that of a bundled table; rename it",
+                        file.display()
+                    )));
                 }
                 table_in(file).map(|table| Table { name, ..table })
             };

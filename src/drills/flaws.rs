@@ -36,11 +36,13 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     let misses = |changed: CueInputs| !scores(exercise.rule, &table, layout, &changed);
     let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
     let point = Point::of(exercise.rule, &table, layout);
-    let first = if point.red_first { 2 } else { 1 };
     let mut checks = vec![
         ("the cue has room for it", has_room(&table, layout, &cue)),
         ("it makes the point by its rule", point.is_made(&technique.tally)),
-        ("it meets yellow first, or red in the opening", technique.first.is_some_and(|hit| hit.ball == first)),
+        (
+            "it meets yellow first, or red in the opening",
+            technique.first.is_some_and(|hit| hit.ball == point.first_ball()),
+        ),
         ("it meets the first ball only once before the second", technique.again.is_none()),
         ("it covers at least a twentieth of the first ball", technique.fullness() >= 0.05),
         ("yellow stays away from red but in a time shot", technique.drives_second == is_tagged("time")),

@@ -27,6 +27,11 @@ impl Point {
         Self { rule, red_first: asks && layout.is_opening(table) }
     }
 
+    /// The object ball that has to be met first; where either may be, the first of the two.
+    pub const fn first_ball(self) -> usize {
+        if self.red_first { 2 } else { 1 }
+    }
+
     /// Whether a shot that did what `tally` says is a point; it can still become one until both object balls are met.
     pub fn is_made(self, tally: &Tally) -> bool {
         tally.is_point(self.rule) && (tally.red_first || !self.red_first)

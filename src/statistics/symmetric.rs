@@ -1,7 +1,7 @@
 //! Symmetric positive definite matrices, by rows: covariances and their inverses.
 
-/// The lower triangle L of `L Lᵀ`, each row up to the diagonal (Cholesky). The noughts with which a row begins stay noughts, and cost
-/// no time.
+/// The lower triangle L of `L Lᵀ`, each row up to the diagonal (Cholesky). The zeros at the beginning of a row stay zeros
+/// and cost no time.
 ///
 /// # Errors
 /// The first row of which the rows before leave no more than `least` of the diagonal's entry: the matrix is no covariance.
@@ -60,8 +60,9 @@ pub fn normal_matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     normal
 }
 
-/// Solves equations whose matrix is symmetric and positive definite; `None` where it is not definite. They are taken from the last on: where the last unknowns
-/// hang together with few others, and the first with all, this takes far less time than the cube of their number.
+/// Solves equations whose matrix is symmetric and positive definite; `None` where it is not definite. The unknowns are eliminated
+/// from the last to the first: where the last ones depend on few others, and the first on all, this takes far less time than the
+/// cube of their number.
 pub fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     let turned: Vec<Vec<f64>> = matrix.iter().rev().map(|row| row.iter().rev().copied().collect()).collect();
     let factor = cholesky(&turned, 0.0).ok()?;
@@ -116,8 +117,8 @@ mod tests {
     }
 
     #[test]
-    fn equations_are_solved_whatever_hangs_together() {
-        // The first unknown with all, each other one with the first alone; then with noughts nowhere.
+    fn equations_are_solved_whichever_unknowns_depend_on_each_other() {
+        // The others depend on the first alone; then each on every other.
         for filled in [0.0, 0.1] {
             let entry = |row: usize, column: usize| match (row, column) {
                 _ if row == column => 3.0 + row as f64,

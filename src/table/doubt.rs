@@ -200,9 +200,9 @@ pub enum DoubtError {
     /// A standard deviation that is none.
     #[error("the doubt has {0} = {1}; accepted is a standard deviation from 0 in the unit of the table's file")]
     Deviation(String, f64),
-    /// A constant and its value, which it cannot have, and what is accepted.
-    #[error("the doubt has {} under another law of the rails; accepted are numbers {}", .0[0], .0[1])]
-    Value(Box<[String; 2]>),
+    /// A value that a constant cannot have: both as text, and what is accepted.
+    #[error("the doubt has {0} under another law of the rails; accepted are numbers {1}")]
+    Value(String, String),
     /// A weight that no law can have.
     #[error(
         "the doubt gives its laws of rails the weight {0} in all; accepted are weights from 0 that come to less than 1"
@@ -313,7 +313,7 @@ impl TableDoubt {
                 if !(low..=high).contains(value) {
                     let accepted =
                         if high < f64::MAX { format!("from {low} to {high}") } else { format!("from {low} on") };
-                    return Err(DoubtError::Value(Box::new([format!("{name} = {value}"), accepted])));
+                    return Err(DoubtError::Value(format!("{name} = {value}"), accepted));
                 }
             }
             let mut deviations = self.deviations.clone();

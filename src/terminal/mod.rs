@@ -204,7 +204,7 @@ pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalErro
     let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?
         .with_detection(detect)
         .with_settings(&settings);
-    // From there one may come to the coach, who would write his own over it.
+    // The coach can be opened from there, and then remembers this session in the place of the last one.
     let app = with_what_was_left(app, &places).with_complaints(&Settings::path(), &complaints);
     Ok(host::runner::run(app, places)?)
 }

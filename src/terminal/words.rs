@@ -65,7 +65,7 @@ pub fn skill_word(skill: Skill) -> &'static str {
     Skill::NAMED.iter().find(|(_, named)| *named == skill).map_or("my skill", |(name, _)| name)
 }
 
-/// The player and what he averages at three-cushion, where that is known.
+/// The player, and the average at three-cushion where that is known.
 pub fn player_words(skill: Skill) -> String {
     let (name, (least, most)) = (skill_word(skill), Skill::AVERAGES);
     let average = Skill::average(skill.scale());

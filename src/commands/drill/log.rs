@@ -70,7 +70,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let exercise = workspace.exercise(&args.name)?.clone();
     let name = exercise.name.clone();
     let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
-    let mut log = Log { workspace, session, name, json: args.json, known: Vec::new(), is_kept: false, lock: None };
+    let mut log = Log { workspace, session, name, json: args.json, known: None, lock: None };
     if let (Some(made), Some(of)) = (args.made, args.of) {
         if made > of {
             return Err(Failure::wrong_input(format_args!(
@@ -101,10 +101,8 @@ struct Log {
     /// The exercise's.
     name: String,
     json: bool,
-    /// The attempts that the session's file is known to have.
-    known: Vec<Attempt>,
-    /// Whether there is such a file.
-    is_kept: bool,
+    /// The attempts that the session's file is known to have, once there is one.
+    known: Option<Vec<Attempt>>,
     /// Of the sessions, once something is on the disk: what another program has noted would be lost, or what it has taken back
     /// come back.
     lock: Option<Lock>,
@@ -113,7 +111,7 @@ struct Log {
 impl Log {
     /// Does what a word says; `false` where there is nothing to take back.
     fn take(&mut self, word: &Word) -> Result<bool, Failure> {
-        if self.is_kept {
+        if self.known.is_some() {
             self.lock()?;
         }
         match word {
@@ -165,19 +163,19 @@ impl Log {
 
     /// Goes on with a session as it is on the disk.
     fn go_on_with(&mut self, session: Session) {
-        self.known.clone_from(&session.attempts);
-        (self.session, self.is_kept) = (session, true);
+        self.known = Some(session.attempts.clone());
+        self.session = session;
     }
 
     fn save(&mut self) -> Result<(), Failure> {
-        let Self { workspace, session, known, is_kept, lock, .. } = self;
+        let Self { workspace, session, known, lock, .. } = self;
+        let before = known.as_deref().unwrap_or_default();
         let saved = match lock {
-            Some(lock) => workspace.store.save_locked(lock, session, known, known.len()),
-            None => workspace.store.save(session, known, known.len()),
+            Some(lock) => workspace.store.save_locked(lock, session, before, before.len()),
+            None => workspace.store.save(session, before, before.len()),
         };
         saved.map_err(Failure::failed)?;
-        known.clone_from(&session.attempts);
-        *is_kept = true;
+        *known = Some(session.attempts.clone());
         Ok(())
     }
 

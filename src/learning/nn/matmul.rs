@@ -23,21 +23,6 @@ const SMALL_ROWS: usize = 8;
 /// Most values of a right matrix that is read where it is; it fits into the innermost cache.
 const SMALL: usize = 1 << 12;
 
-/// A loop over the indices below a constant of at most eight, written out: what no variable indexes stays in registers at every
-/// level of optimisation.
-macro_rules! written_out {
-    ($index:ident < $count:ident, $body:block) => {
-        const { assert!($count <= 8) };
-        written_out!($index < $count, $body, 0 1 2 3 4 5 6 7)
-    };
-    ($index:ident < $count:ident, $body:block, $($value:literal)*) => {
-        $(if $value < $count {
-            let $index = $value;
-            $body
-        })*
-    };
-}
-
 /// A matrix inside a slice.
 #[derive(Clone, Copy, Debug)]
 pub struct Matrix<'a> {
@@ -205,12 +190,8 @@ impl Product<'_> {
                     tile(simd, lines.zip(vectors))
                 } else {
                     let lines: [&[f32]; ROWS] = std::array::from_fn(|index| left.row(row + index));
-                    let column = |inner: usize| {
-                        let mut column = [0.0; ROWS];
-                        written_out!(row < ROWS, { column[row] = lines[row][inner] });
-                        column
-                    };
-                    tile(simd, (0..left.columns).map(column).zip(vectors))
+                    let lines = (0..left.columns).map(|inner| std::array::from_fn(|index| lines[index][inner]));
+                    tile(simd, lines.zip(vectors))
                 };
                 for (index, sums) in sums.iter().enumerate() {
                     let to = &mut out[(row + index) * columns + column..];
@@ -233,12 +214,12 @@ fn tile<S: Simd, const ROWS: usize, const WIDTH: usize>(
 ) -> [[S::f32s; WIDTH]; ROWS] {
     let mut sums = [[simd.splat_f32s(0.0); WIDTH]; ROWS];
     for (left, right) in inner {
-        written_out!(row < ROWS, {
-            let value = simd.splat_f32s(left[row]);
-            written_out!(column < WIDTH, {
-                sums[row][column] = simd.mul_add_e_f32s(value, right[column], sums[row][column]);
-            });
-        });
+        for (sums, value) in sums.iter_mut().zip(left) {
+            let value = simd.splat_f32s(value);
+            for (sum, right) in sums.iter_mut().zip(right) {
+                *sum = simd.mul_add_e_f32s(value, right, *sum);
+            }
+        }
     }
     sums
 }

@@ -292,9 +292,8 @@ impl App {
                 let practice = self.coach.resume()?;
                 self.screen = PageId::Drills;
                 let effect = self.drills.resume(practice, self.coach.query.skill);
-                if let Some(exam) = self.drills.take_left_exam() {
-                    self.coach.keep_exam_for_later(exam);
-                }
+                // One that was open waits until all others were gone on with.
+                self.coach.left_exams.splice(0..0, self.drills.take_left_exam());
                 return Some(effect);
             }
             Action::Coach(action) => {
@@ -309,9 +308,7 @@ impl App {
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
                 let balls = self.drills.take_for_coach();
-                if let Some(exam) = self.drills.take_left_exam() {
-                    self.coach.keep_exam(exam);
-                }
+                self.coach.left_exams.extend(self.drills.take_left_exam());
                 if balls.is_some() || self.drills.is_left() {
                     self.open(PageId::Coach);
                 }

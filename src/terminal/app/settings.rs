@@ -92,17 +92,16 @@ impl App {
     /// The next characters that the terminal can show, for this session.
     pub(super) fn next_glyphs(&mut self) {
         let caps = self.caps.with_next_glyphs(self.finest);
-        if self.palette == Palette::Mono {
-            let said = Message::plain("the theme mono draws with letters: T chooses another");
-            *self.page_mut().message_mut() = Some(said);
+        let refused = if self.palette == Palette::Mono {
+            "the theme mono draws with letters: T chooses another"
         } else if caps == self.caps {
-            let said = Message::plain("letters are all that this terminal shows: TERM or the locale says so");
-            *self.page_mut().message_mut() = Some(said);
+            "letters are all that this terminal shows: TERM or the locale says so"
         } else {
             (self.caps, self.full_look) = (caps, caps);
             self.in_force.glyphs = Some(caps.glyphs);
-            self.show_session();
-        }
+            return self.show_session();
+        };
+        *self.page_mut().message_mut() = Some(Message::plain(refused));
     }
 
     /// Draws with these colours from now on.

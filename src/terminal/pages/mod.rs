@@ -108,12 +108,12 @@ fn after<T: Copy + PartialEq>(all: &[T], one: &T) -> T {
     all[place % all.len()]
 }
 
-/// The next of the players there are, with those of the user's own as the last.
-fn next_skill(now: Skill, own: &[Skill]) -> Skill {
+/// The next of the players there are: the named ones, the user's `own` skill where one is kept, and that of the settings.
+fn next_skill(now: Skill, own: Option<Skill>, set: Skill) -> Skill {
     let mut all: Vec<Skill> = Skill::NAMED.iter().map(|(_, skill)| *skill).collect();
-    for skill in own {
-        if !all.contains(skill) {
-            all.push(*skill);
+    for skill in own.into_iter().chain([set]) {
+        if !all.contains(&skill) {
+            all.push(skill);
         }
     }
     after(&all, &now)

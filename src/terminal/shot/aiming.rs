@@ -27,7 +27,7 @@ fn rounded(value: f64, step: f64) -> f64 {
 /// A stroke at the first object ball, or at red where that has to be met first: full, level, in the middle.
 pub fn first_stroke(point: Point, layout: &Layout) -> CueInputs {
     let level = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: FIRST_SPEED };
-    at_ball(&level, layout, if point.red_first { 2 } else { 1 })
+    at_ball(&level, layout, point.first_ball())
 }
 
 /// The same stroke, aimed full at `ball`.

@@ -144,7 +144,7 @@ pub struct CoachPage {
     /// Whether one of them was gone on with.
     has_gone_back: bool,
     /// Exams that were left before their end, until they are gone on with; the last one is the latest.
-    left_exams: Vec<Session>,
+    pub left_exams: Vec<Session>,
     /// What is asked before the balls are saved.
     saving: Saving,
     /// Where the balls are to lie, as far as it is typed.
@@ -266,18 +266,6 @@ impl CoachPage {
     /// Whether anything has been done since the start.
     fn is_begun(&self) -> bool {
         self.balls.can_undo() || !self.balls.present().advised.is_empty()
-    }
-
-    /// Keeps an exam that was left before its end, to be gone on with.
-    pub fn keep_exam(&mut self, exam: Session) {
-        self.left_exams.retain(|left| left.id != exam.id);
-        self.left_exams.push(exam);
-    }
-
-    /// The same after all others: it was open when one of those was asked for.
-    pub fn keep_exam_for_later(&mut self, exam: Session) {
-        self.left_exams.retain(|left| left.id != exam.id);
-        self.left_exams.insert(0, exam);
     }
 
     /// Goes on with the exam that was left, or from where the last session ended; gives what was practised there.

@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use crate::{
-    coach::{Cause, Skill, Why},
+    coach::{Cause, Why},
     game::Rule,
     physics::CueInputs,
     terminal::{
@@ -223,9 +223,7 @@ impl CoachPage {
     }
 
     pub(super) fn next_skill(&mut self) {
-        // What is kept, and what the settings say.
-        let own: Vec<Skill> = self.own.into_iter().chain([self.of_settings.skill]).collect();
-        let skill = next_skill(self.query.skill, &own);
+        let skill = next_skill(self.query.skill, self.own, self.of_settings.skill);
         self.ask_for(Terms { skill, ..self.query.terms() });
     }
 

@@ -57,8 +57,7 @@ pub struct Player {
 impl Player {
     /// The next of those there are.
     fn choose_next(&mut self) {
-        let own: Vec<Skill> = self.own.into_iter().chain([self.of_settings]).collect();
-        self.choose(next_skill(self.skill, &own));
+        self.choose(next_skill(self.skill, self.own, self.of_settings));
     }
 
     /// Plays with `skill` from now on, at the coach's table too.
