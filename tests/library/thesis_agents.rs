@@ -14,8 +14,9 @@ use carom::{
         },
         weights::{Reader, Writer},
     },
-    table::Table,
+    table::{Layout, Table},
 };
+use glam::DVec2;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde_json::{Value, json};
@@ -145,6 +146,25 @@ fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped(
     for name in ["hindsight", "demonstrations"] {
         let (shape, _) = Reader::new(&bytes).unwrap().array(name).unwrap();
         assert_eq!(shape[0], 50, "{name}");
+    }
+}
+
+#[test]
+fn in_the_canonical_frame_every_view_of_a_layout_is_played_alike() {
+    let agent = start("thesis-ddpg", &json!({ "canonical": true }));
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
+    for _ in 0..100 {
+        let layout = Layout::random(agent.table(), &mut rng);
+        let [cue, one, other] = layout.balls;
+        let shot_on = |balls| agent.shots_on(&[Layout::new(balls)]).unwrap()[0];
+        let shot = shot_on(layout.balls);
+        assert_eq!(shot_on([cue, other, one]), shot);
+        for mirror in [DVec2::new(-1.0, 1.0), DVec2::new(1.0, -1.0)] {
+            let mirrored = shot_on(layout.balls.map(|ball| mirror * ball));
+            let directions = [shot.phi, mirrored.phi].map(DVec2::from_angle);
+            assert!((mirror * directions[1]).distance(directions[0]) < 1e-5, "{shot:?} {mirrored:?}");
+            assert_eq!(mirrored.speed, shot.speed);
+        }
     }
 }
 

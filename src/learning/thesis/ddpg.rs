@@ -16,7 +16,7 @@ use super::{
     lessons::{Lessons, LessonsState, Sought},
     q_learning::check_episode,
     replay::{self, Batch, MEMORY, StoredTransition},
-    symmetry::{WAYS, seen},
+    symmetry::{self, WAYS, canonical, seen},
 };
 use crate::learning::{
     learner::{Progress, UpdateStats, note_of},
@@ -81,6 +81,8 @@ pub struct PlainDdpgSettings {
     pub range_pull: f64,
     /// Whether every shot is learnt from in any of the eight ways that a level table's symmetry and equal object balls allow.
     pub symmetric: bool,
+    /// Whether it plays and learns in the one of these ways that all eight have in common, instead.
+    pub canonical: bool,
 }
 
 impl Default for PlainDdpgSettings {
@@ -110,6 +112,7 @@ impl Default for PlainDdpgSettings {
             climbing: 1.0,
             range_pull: 0.0,
             symmetric: false,
+            canonical: false,
         }
     }
 }
@@ -227,8 +230,10 @@ impl PlainDdpg {
         let mut drawn = self.lessons.sample(settings.lesson_rows(), rng);
         let lessons = drawn.len();
         drawn.extend(self.replay.sample(settings.batch - lessons, rng));
-        if settings.symmetric {
-            for shot in &mut drawn {
+        for shot in &mut drawn {
+            if settings.canonical {
+                *shot = canonical(shot);
+            } else if settings.symmetric {
                 *shot = seen(shot, rng.random_range(0..WAYS));
             }
         }
@@ -275,9 +280,10 @@ impl Agent for PlainDdpg {
     }
 
     fn best(&self, seen: &Observation) -> Result<Choice, Error> {
-        let state = Tensor::from_slice(&seen.state, (1, STATES), &Device::Cpu)?;
+        let way = if self.settings.canonical { symmetry::to_canonical(seen.state) } else { 0 };
+        let state = Tensor::from_slice(&symmetry::state(seen.state, way), (1, STATES), &Device::Cpu)?;
         let action = self.networks.act(&state)?.flatten_all()?.to_vec1::<f32>()?;
-        Ok(Choice { action: std::array::from_fn(|index| action[index]), index: 0 })
+        Ok(Choice { action: symmetry::action(std::array::from_fn(|index| action[index]), way), index: 0 })
     }
 
     fn study(

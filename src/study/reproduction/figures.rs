@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::{
     game::Reward,
     learning::thesis::carom::Episode,
-    study::chart::{AZURE, CRIMSON, FOREST, VIOLET},
+    study::chart::{AZURE, CRIMSON, FOREST, INK, VIOLET},
 };
 
 /// What a figure shows over the shots.
@@ -95,7 +95,7 @@ pub const FIGURES: [Figure; 12] = {
         Figure {
             readings: &FUTURE_WORK,
             seeds: 3,
-            ..figure(("future-work", "DDPG, r3, with lessons"), DDPG, Reward::R3, MeanReward, 200_000, Some(0.05))
+            ..figure(("future-work", "DDPG, r3, with lessons"), DDPG, Reward::R3, MeanReward, 400_000, Some(0.05))
         },
     ]
 };
@@ -139,7 +139,9 @@ pub enum Change {
     StrongNoise,
     /// The same, falling to a twentieth.
     FallingNoise,
-    /// Shots that make the point beside its own (thesis 6.1.1 and 6.1.2).
+    /// Layouts seen in their canonical frame.
+    Canonical,
+    /// The same, and shots that make the point beside its own (thesis 6.1.1 and 6.1.2).
     Lessons {
         /// Share of a batch that is shots seen in hindsight.
         hindsight: f64,
@@ -156,14 +158,17 @@ impl Change {
             Self::None => json!({}),
             Self::StrongNoise => json!({ "noise": noise }),
             Self::FallingNoise => json!({ "noise": noise, "noise_falls_to": 0.05, "falls_over": shots }),
+            Self::Canonical => json!({ "canonical": true }),
             Self::Lessons { hindsight, demonstrations } => json!({
                 "hindsight": hindsight,
                 "demonstrations": demonstrations,
                 "climbing": 0.0,
+                "cloning_width": [0.2, 0.004],
                 "range_pull": 0.3,
-                "symmetric": true,
+                "canonical": true,
+                "batch": 64,
                 "noise": noise,
-                "noise_falls_to": 0.05,
+                "noise_falls_to": 0.2,
                 "learning_rate": 2e-3,
                 "learning_rate_falls_to": 0.05,
                 "falls_over": shots,
@@ -200,9 +205,10 @@ const NOISES: [Reading; 3] = [
     changed("0.1 falling to 0.005", FOREST, Change::FallingNoise),
 ];
 
-/// The thesis' future work: neither, each alone, and both.
-const FUTURE_WORK: [Reading; 4] = [
-    changed("neither", CRIMSON, Change::None),
+/// The thesis' future work: neither, nor the canonical frame that the others have; neither; each alone; both.
+const FUTURE_WORK: [Reading; 5] = [
+    changed("the thesis' agent", INK, Change::None),
+    changed("neither", CRIMSON, Change::Canonical),
     changed("hindsight", AZURE, Change::Lessons { hindsight: 1.0, demonstrations: 0.0 }),
     changed("demonstrations", FOREST, Change::Lessons { hindsight: 0.0, demonstrations: 1.0 }),
     changed("both", VIOLET, Change::Lessons { hindsight: 0.5, demonstrations: 0.5 }),
