@@ -5,15 +5,15 @@ use glam::DVec2;
 
 use crate::{
     statistics::dot,
-    table::{DoubtError, Table, TableDoubt},
+    table::{DoubtError, Table, TableDoubt, steepest_tilt},
 };
 
 /// A slope that nobody can see, m/s² along both sides: 0.02 mm a metre. Rolls on a level table are computed in another way,
 /// with other roundings of up to half a percent: marks shall not jump where a slope comes to nothing.
 const LEVEL: f64 = 2e-4;
 
-/// The steepest slope that is considered, as a share of `mu_r g`: just below what a table may have.
-const STEEPEST: f64 = 0.199;
+/// The steepest slope that is considered, as a share of what a table may have.
+const STEEPEST: f64 = 0.995;
 
 /// Correlations up to this are left out of what is told.
 const TOLD: f64 = 0.05;
@@ -62,7 +62,7 @@ impl Belief {
         let change = |table: Table, (name, value): (&String, f64)| TableDoubt::with_value(&table, name, value);
         let table = self.names.iter().zip(self.values(unknowns)).fold(self.table.clone(), change);
         // On a steeper one balls might never stop.
-        let steepest = STEEPEST * table.rolling_friction * table.gravity;
+        let steepest = STEEPEST * steepest_tilt(&table);
         Table { tilt: table.tilt.clamp_length_max(steepest), ..table }
     }
 

@@ -256,6 +256,6 @@ impl Calibration {
         let mut trials: Vec<usize> = self.verdicts.iter().map(|one| one.trial).collect();
         trials.dedup();
         let misread = self.misread().len();
-        misread > 1 && 3 * misread >= trials.len()
+        misread > 0 && misread == trials.len() || misread > 1 && 3 * misread >= trials.len()
     }
 }

@@ -7,24 +7,53 @@ use super::{
 use crate::table::{Table, TableDoubt};
 
 /// By how much constants change from one day to the next with the humidity of cloth and rails: standard deviations. They are
-/// assumptions.
+/// assumptions. A rail's own values change as, and with, those of all rails.
 const DAY: [(&str, f64); 5] =
     [("mu_r", 0.0005), ("mu_s", 0.01), ("e_rail", 0.01), ("mu_rail", 0.03), ("rail.kappa", 0.05)];
 
 /// The tests of a daily check: the first mark that is told of each.
 pub const DAILY: [&str; 2] = ["lag", "corner-five"];
 
+/// Which of them a constant of this name is, or changes with.
+fn of_a_day(name: &str) -> Option<(&'static str, f64)> {
+    let kind = match name.strip_prefix("rail.").and_then(|own| own.split_once('.')) {
+        Some((_, "e")) => "e_rail",
+        Some((_, "mu")) => "mu_rail",
+        _ => name,
+    };
+    DAY.into_iter().find(|(name, _)| *name == kind)
+}
+
 /// The doubt about a table on the day after: what was known of it, and what may have changed since.
 pub fn overnight(table: &Table, doubt: &TableDoubt) -> TableDoubt {
     let mut after = doubt.clone();
-    for (name, change) in DAY {
-        if TableDoubt::value(table, name).is_some() {
-            let deviation = after.deviations.entry(name.to_owned()).or_default();
-            *deviation = deviation.hypot(change);
+    let own = ["left", "right", "bottom", "top"]
+        .iter()
+        .flat_map(|rail| ["e", "mu"].map(|kind| format!("rail.{rail}.{kind}")));
+    let names: Vec<String> = DAY.map(|(name, _)| name.to_owned()).into_iter().chain(own).collect();
+    let changing: Vec<&String> = names.iter().filter(|name| TableDoubt::value(table, name).is_some()).collect();
+    for name in &changing {
+        let change = of_a_day(name).map_or(0.0, |(_, change)| change);
+        let deviation = after.deviations.entry((*name).clone()).or_default();
+        *deviation = deviation.hypot(change);
+    }
+    let deviations = &after.deviations;
+    let share = |name: &String| doubt.deviations.get(name).map_or(0.0, |before| before / deviations[name]);
+    after.correlations.iter_mut().for_each(|(one, other, value)| *value *= share(one) * share(other));
+    for (place, one) in changing.iter().enumerate() {
+        for other in &changing[place + 1..] {
+            let (Some((kind, change)), Some((as_well, _))) = (of_a_day(one), of_a_day(other)) else { continue };
+            if kind != as_well {
+                continue;
+            }
+            let common = change * change / (deviations[*one] * deviations[*other]);
+            let is_theirs = |(a, b, _): &&mut (String, String, f64)| (a, b) == (one, other) || (b, a) == (one, other);
+            match after.correlations.iter_mut().find(is_theirs) {
+                Some((_, _, value)) => *value += common,
+                None => after.correlations.push(((*one).clone(), (*other).clone(), common)),
+            }
         }
     }
-    let share = |name: &String| doubt.deviations.get(name).map_or(0.0, |before| before / after.deviations[name]);
-    after.correlations.iter_mut().for_each(|(one, other, value)| *value *= share(one) * share(other));
     after
 }
 

@@ -81,7 +81,7 @@ impl Written {
             Self::Text(text) => text.trim(),
         };
         let digits = text.trim_end_matches(|letter: char| letter.is_alphabetic());
-        let number: f64 = digits.trim().parse().ok()?;
+        let number: f64 = digits.trim().replace(',', ".").parse().ok()?;
         match (unit, &text[digits.len()..]) {
             (_, "") | (Unit::Diamonds, "d" | "diamonds") | (Unit::Seconds, "s") => Some((number, false)),
             (Unit::Diamonds, "mm") => Some((1e-3 * number / table.diamond(), true)),

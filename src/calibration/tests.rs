@@ -327,6 +327,30 @@ fn a_slower_day_is_told_and_only_what_the_weather_changes_moves_much() {
     assert!(roll.after > 1.1 * roll.before, "{roll:?}");
 }
 
+#[test]
+fn the_weather_changes_rails_of_their_own_as_it_changes_all() {
+    let (mut table, mut doubt) = base();
+    *table.rail.own_mut(Rail::Top) = Some(OneRail { e: Some(0.8), ..OneRail::default() });
+    doubt.deviations.insert("rail.top.e".to_owned(), 0.008);
+    let after = overnight(&table, &doubt);
+    after.validate().unwrap();
+    let [all, own] = ["e_rail", "rail.top.e"].map(|name| after.deviations[name]);
+    assert!((own - 0.008_f64.hypot(0.01)).abs() < 1e-12, "{own}");
+    let together =
+        after.correlations.iter().find(|(one, other, _)| one == "e_rail" && other == "rail.top.e").unwrap().2;
+    assert!((together - 1e-4 / (all * own)).abs() < 1e-12, "{together}");
+}
+
+#[test]
+fn a_single_stroke_of_which_nothing_counts_makes_no_table() {
+    let (table, doubt) = base();
+    let mut trial = exact(&table).into_iter().find(|(_, trial)| trial.test.name == "lag").unwrap();
+    for reading in &mut trial.1.readings {
+        reading.value *= 6.0;
+    }
+    assert!(calibrate("club", &table, &doubt, &[trial]).unwrap().is_contradictory());
+}
+
 /// Every test from both ends.
 fn both(truth: &Table) -> Vec<(usize, Trial)> {
     let trials = [false, true].into_iter().flat_map(|is_turned| exact_from(truth, is_turned));

@@ -137,6 +137,7 @@ impl Coach {
             rule: request.rule,
             skill: request.skill,
             jumps: request.jumps,
+            first: request.first,
             worlds: &level,
             clock: &clock,
             until: clock.moment(1.0),

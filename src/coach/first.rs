@@ -120,11 +120,9 @@ impl<'a> Attempt<'a> {
         // A shot that took too long has at least been thought of.
         let course = Task { patience, ..self.task }.play(&cue).unwrap_or_default();
         let suggestion = Suggestion { cue, source };
-        if self.task.point().is_made(&course.tally) {
-            if self.task.allows(&cue) {
-                self.solutions.push((suggestion, course));
-            }
-        } else {
+        if self.task.suits(&cue, &course) {
+            self.solutions.push((suggestion, course));
+        } else if !self.task.point().is_made(&course.tally) && self.task.first.allows(&course) {
             let merit = merit(&course.tally, self.task.rule);
             if self.best.is_none_or(|(best, _)| merit > best) && self.task.allows(&cue) {
                 self.best = Some((merit, suggestion));

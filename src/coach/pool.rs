@@ -130,8 +130,7 @@ impl Candidate {
         let cue = task.playable(&cue)?;
         let course = task.play(&cue)?;
         task.clock.count(1);
-        let is_good = task.point().is_made(&course.tally) && task.allows(&cue);
-        is_good.then(|| Self::of(Suggestion { cue, source }, &course, weight))
+        task.suits(&cue, &course).then(|| Self::of(Suggestion { cue, source }, &course, weight))
     }
 
     /// A shot that makes the point in this course.

@@ -256,7 +256,7 @@ mod tests {
     use super::*;
     use crate::{
         coach::{
-            Doubt, Skill,
+            Doubt, FirstMet, Skill,
             clock::Clock,
             draws::Worlds,
             evidence::Rate,
@@ -302,6 +302,7 @@ mod tests {
             rule,
             skill,
             jumps: true,
+            first: FirstMet::Any,
             worlds: &worlds,
             clock: &clock,
             until,

@@ -5,7 +5,7 @@ use std::{
     time::Duration,
 };
 
-use super::{Doubt, Skill};
+use super::{Doubt, FirstMet, Skill};
 use crate::{game::Rule, physics::CueInputs, platform};
 
 /// Who plays, and how much of the table and of the balls' places is in doubt.
@@ -46,6 +46,9 @@ pub struct Request {
     pub plan: bool,
     /// Whether jumps over a ball and massés may be advised; most clubs forbid them.
     pub jumps: bool,
+    /// What the shot that is looked for, as it is meant, meets first. An attempt that begins otherwise by mistake and makes the point all the
+    /// same counts.
+    pub first: FirstMet,
     /// Time to look for a shot.
     pub budget: Duration,
     /// Simulations after which the search ends, or a little later: it ends between rounds.
@@ -76,6 +79,7 @@ impl Default for Request {
             doubt: Doubt::NONE,
             plan: false,
             jumps: true,
+            first: FirstMet::Any,
             budget: Duration::from_millis(500),
             simulations: u64::MAX,
             threads: platform::threads(),

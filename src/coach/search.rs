@@ -115,7 +115,7 @@ impl<'a> Search<'a> {
     }
 
     fn sample(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
-        let Task { table, layout, rule, .. } = self.task;
+        let Task { table, layout, rule, first, .. } = self.task;
         let varied = &proposals[..proposals.len().min(FAVOURITES)];
         let variations = |numbers: Range<u64>, rng: &mut Xoshiro256PlusPlus| {
             numbers.map(|n| variation(table, &varied[n as usize % varied.len()], rng)).collect()
@@ -127,7 +127,7 @@ impl<'a> Search<'a> {
             keep(&mut self.pool, SHORTLIST, OF_EACH_KIND_AT_FIRST);
             let one_in = self.elevated_tried(rounds);
             let strokes = |numbers: Range<u64>, rng: &mut Xoshiro256PlusPlus| {
-                let usual = numbers.clone().map(|n| stratified(table, layout, rule, n, softest, rng));
+                let usual = numbers.clone().map(|n| stratified(table, layout, rule, first, n, softest, rng));
                 let mut strokes: Vec<_> = usual.collect();
                 let elevated = numbers.filter(|n| one_in.is_some_and(|one_in| n.is_multiple_of(one_in)));
                 strokes.extend(elevated.filter_map(|_| raised(table, layout, rng)));
@@ -214,7 +214,7 @@ impl<'a> Search<'a> {
 mod tests {
     use super::*;
     use crate::{
-        coach::{Doubt, Skill, clock::Clock, draws::Worlds, first::Attempt, trial::CONTACT_STEPS},
+        coach::{Doubt, FirstMet, Skill, clock::Clock, draws::Worlds, first::Attempt, trial::CONTACT_STEPS},
         game::Rule,
         table::{Layout, Table},
     };
@@ -229,8 +229,8 @@ mod tests {
         clock: &'a Clock<'a>,
     ) -> Task<'a> {
         let until = clock.moment(1.0);
-        let (skill, jumps, patience) = (Skill::EXPERT, true, CONTACT_STEPS);
-        Task { table, layout, rule, skill, jumps, worlds, clock, until, patience }
+        let (skill, jumps, first, patience) = (Skill::EXPERT, true, FirstMet::Any, CONTACT_STEPS);
+        Task { table, layout, rule, skill, jumps, first, worlds, clock, until, patience }
     }
 
     #[test]

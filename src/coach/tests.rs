@@ -408,6 +408,7 @@ fn jumps_are_candidates_where_they_are_allowed_and_on_a_table_that_flies() {
         rule: Rule::StraightRail,
         skill: Skill::EXPERT,
         jumps,
+        first: FirstMet::Any,
         worlds: &worlds,
         clock: &clock,
         until: clock.moment(1.0),
@@ -440,4 +441,25 @@ fn no_shot_that_is_advised_jumps_or_bends_where_that_is_forbidden() {
             assert!(!technique.is_jump_or_masse() && cue.theta <= candidates::MAX_ELEVATION, "{rule}: {cue:?}");
         }
     }
+}
+
+#[test]
+fn a_shot_begins_as_the_player_wants_it_to() {
+    let coach = Coach::without_policy(Table::default());
+    let layout = Layout::parse("-0.9,-0.3 0.2,0.4 0.9,-0.2", coach.table()).unwrap();
+    for skill in [Skill::PERFECT, Skill::CLUB] {
+        for (first, begins) in
+            [(FirstMet::OtherCueBall, (1, false)), (FirstMet::Red, (2, false)), (FirstMet::Cushion, (0, true))]
+        {
+            let advice =
+                coach.recommend(&layout, &Request { skill, first, ..request(Rule::OneCushion, 20_000) }).unwrap();
+            let kinds = advice.kind.into_iter().chain(advice.alternatives.iter().map(|shot| shot.kind));
+            let begun: Vec<_> = kinds.map(|kind| (kind.first_ball, kind.cushion_first)).collect();
+            let is_wanted = |&(ball, cushion): &(usize, bool)| cushion == begins.1 && (cushion || ball == begins.0);
+            assert!(advice.solved && begun.iter().all(is_wanted), "{first:?}, {skill}: {begun:?}");
+        }
+    }
+    // The opening has to meet red first: yellow is wanted in vain.
+    let request = Request { first: FirstMet::OtherCueBall, ..request(Rule::ThreeCushion, 2000) };
+    assert!(!coach.recommend(&Layout::opening(coach.table()), &request).unwrap().solved);
 }

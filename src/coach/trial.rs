@@ -7,7 +7,7 @@ use std::{
 };
 
 use super::{
-    Shooter, Skill,
+    FirstMet, Shooter, Skill,
     candidates::{MAX_ELEVATION, playable},
     clock::Clock,
     draws::{Draw, World, Worlds},
@@ -43,6 +43,8 @@ pub struct Task<'a> {
     pub skill: Skill,
     /// Whether jumps and massés may be played.
     pub jumps: bool,
+    /// What the shot is to meet first.
+    pub first: FirstMet,
     /// What may really be there.
     pub worlds: &'a Worlds,
     /// Counts the shots, and knows whether anybody waits.
@@ -73,7 +75,8 @@ pub fn unhurried<T>(
 ) -> T {
     let clock = Clock::start(Duration::MAX, u64::MAX, cancel);
     let (skill, worlds, until) = (shooter.skill, Worlds::new(table, layout, shooter.doubts()), clock.moment(1.0));
-    play(&Task { table, layout, rule, skill, jumps: true, worlds: &worlds, clock: &clock, until, patience })
+    let (jumps, first) = (true, FirstMet::Any);
+    play(&Task { table, layout, rule, skill, jumps, first, worlds: &worlds, clock: &clock, until, patience })
 }
 
 impl Task<'_> {
@@ -100,6 +103,11 @@ impl Task<'_> {
         } else {
             self.jumps || !is_jump_or_masse(self.table, self.layout, cue)
         }
+    }
+
+    /// Whether a stroke that takes this course is one of those looked for: it makes the point, begins as it should and may be advised.
+    pub fn suits(&self, cue: &CueInputs, course: &Course) -> bool {
+        self.point().is_made(&course.tally) && self.first.allows(course) && self.allows(cue)
     }
 
     /// What makes a shot from here a point.

@@ -16,6 +16,9 @@ const LOOK: f64 = 0.005;
 /// centimetre.
 const STOPPED: f64 = 0.02;
 
+/// A gap below this is a hair, m: a smaller one would be told as nought.
+const HAIR: f64 = 0.001;
+
 /// Speed of a ball that moves, m/s.
 const MOVING: f64 = 0.05;
 
@@ -140,7 +143,8 @@ impl Verdict {
     fn missing(&self, cue_ball: CueBall, unit: LengthUnit) -> Option<String> {
         let (tally, names, wanted) = (&self.tally, cue_ball.names(), self.point.rule.cushions());
         let passed = |miss: Miss| {
-            let (ball, gap) = (names[miss.ball], unit.words(miss.gap));
+            let ball = names[miss.ball];
+            let gap = if miss.gap < HAIR { "a hair".to_owned() } else { unit.words(miss.gap) };
             match miss.passed {
                 Passed::Left => format!("passed {ball} by {gap} on the left"),
                 Passed::Right => format!("passed {ball} by {gap} on the right"),

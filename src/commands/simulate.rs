@@ -16,7 +16,7 @@ use crate::{
     coach::{Verdict, jump_words, words::LengthUnit},
     game::Rule,
     physics::{CueInputs, Impulse, LeastElevation, NoRoom, SpatialState, has_room, least_elevation},
-    printing::{self, number},
+    printing::{self, fixed, number},
     simulation::{Event, Rail, Recording},
     study::{Stepped, Steps},
     table::{BALL_NAMES, BALLS, CueBall, Layout, Table},
@@ -209,8 +209,8 @@ impl Moment {
         let (in_a_metre, per_second) = unit.speed();
         writeln!(out, "after {} s:", number(self.t))?;
         for (name, SpatialState { position, velocity, spin }) in BALL_NAMES.iter().zip(&self.balls) {
-            let [place, speed, turn] =
-                [*position, in_a_metre * *velocity, *spin].map(|v| format!("({:.6}, {:.6}, {:.6})", v.x, v.y, v.z));
+            let words = |vector: DVec3| format!("({})", vector.to_array().map(|part| fixed(part, 6)).join(", "));
+            let [place, speed, turn] = [*position, in_a_metre * *velocity, *spin].map(words);
             writeln!(out, "  {name} at {place} m, velocity {speed} {per_second}, spin {turn} rad/s")?;
         }
         Ok(())

@@ -75,11 +75,17 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
     let stop = stop_when_told(None).map_err(Failure::failed)?;
     let (mut follower, mut followed) = (Follower::new(folder), Followed::new(folder));
     let (mut before, mut over) = (Condition::Unknown, None::<Instant>);
+    // Of a run that goes on from an earlier checkpoint the lines come again, alike.
+    let mut printed = 0;
     while !stop.load(Ordering::Relaxed) {
         if let Some(update) = follower.look() {
-            for record in &update.records {
+            if update.config.is_some() {
+                printed = 0;
+            }
+            for record in update.records.iter().filter(|record| record.shots > printed) {
                 print(record, json)?;
             }
+            printed = update.records.last().map_or(printed, |record| record.shots.max(printed));
             for notice in update.notices.iter().flatten() {
                 tell(format_args!("note: {}", OneLine(notice)));
             }

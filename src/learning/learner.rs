@@ -41,6 +41,8 @@ pub struct AgentKind {
     pub restore: Restore,
     /// Settings that apply only when weights are loaded; `--from` does not pass them on.
     pub of_one_start: &'static [&'static str],
+    /// Settings that say what the networks' inputs and outputs mean: weights that were learnt under others mean something else.
+    pub of_meaning: &'static [&'static str],
 }
 
 /// Why an agent cannot start.
@@ -154,7 +156,7 @@ pub struct TrainingPlan {
 }
 
 /// What one iteration, rollout and update, did.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Iteration {
     /// Mean reward of the shots played, exploration included.
     pub mean_reward: f64,

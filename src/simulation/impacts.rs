@@ -50,7 +50,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         put_at_cushion(&self.constants, n, &mut state.position);
         let c = &self.constants;
         let before = state;
-        let impulse = self.law_at(-state.velocity.dot(n)).cushions.at(rail).resolve(c.radius, n, &mut state);
+        let approach = -state.velocity.dot(n);
+        let cushion = self.law_at(approach).cushions.at(rail);
+        let impulse = cushion.resolve(c.radius, n, &mut state);
+        let [height, _] = cushion.nose();
         if self.micro_collisions.is_some() {
             state.position += c.tolerance.micro_room * n;
         }
@@ -60,12 +63,15 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let mut told = true;
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
             let contact = Contact::with_cushion(index, n);
+            // A dead nose above the centre that does not throw the ball back has stopped it by its own law. A bounce that is too slow to be
+            // followed has not happened.
+            let is_stopped = height > 0.0 && approach > c.tolerance.slow_bounce && state.velocity.dot(n) <= 0.0;
             told = self.slow_bounce(now, &contact)?;
             if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(index, state)]) {
                 return self.end_chatter(
                     now,
                     freed,
-                    &[(index, before)],
+                    &[(index, if is_stopped { state } else { before })],
                     &rests,
                     EventKind::BallRail(index, rail),
                     told,

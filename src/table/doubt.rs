@@ -59,6 +59,9 @@ pub(super) struct Constant {
     limits: (f64, f64),
 }
 
+/// Of a slope, m/s². Who draws or looks for one keeps it below the steepest that the table may have, besides.
+const LEAN: (f64, f64) = (-1.0, 1.0);
+
 /// All of them. A constant that a table's model does not have is left out there. Draws take them in this order: new ones come
 /// last.
 pub(super) const CONSTANTS: [Constant; 22] = [
@@ -124,13 +127,13 @@ pub(super) const CONSTANTS: [Constant; 22] = [
         name: "tilt.x",
         get: |table| Some(table.tilt.x),
         set: |table, value| table.tilt.x = value,
-        limits: (-0.006, 0.006),
+        limits: LEAN,
     },
     Constant {
         name: "tilt.y",
         get: |table| Some(table.tilt.y),
         set: |table, value| table.tilt.y = value,
-        limits: (-0.006, 0.006),
+        limits: LEAN,
     },
     Constant {
         name: "e_ball",
@@ -356,9 +359,10 @@ impl Constant {
         }
     }
 
-    /// Gives a table this value, within the limits.
+    /// Gives a table this value, within the limits; where its own lies beyond them, up to that.
     fn give(&self, table: &mut Table, value: f64) {
-        (self.set)(table, value.clamp(self.limits.0, self.limits.1));
+        let own = (self.get)(table).unwrap_or(value);
+        (self.set)(table, value.clamp(self.limits.0.min(own), self.limits.1.max(own)));
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::{Rail, Table, models::Fade};
 
-/// The steepest slope that courses are computed for, as a share of `mu_r g`, which is where balls would roll by themselves.
+/// The steepest slope that courses are computed for, as a share of `mu_r g`, which is where balls would roll by themselves, and of `mu_s g`,
+/// below which slides do not end by themselves.
 const STEEPEST: f64 = 0.2;
 
 /// Whether this coefficient of friction can be one of a cushion or of two balls.
@@ -18,8 +19,8 @@ pub(super) fn rubs(value: f64) -> bool {
 pub(super) const RUBS: &str = "0 to below 1, where the forces of a contact are unique";
 
 /// The steepest slope that is accepted, m/s².
-pub(super) fn steepest(table: &Table) -> f64 {
-    STEEPEST * table.rolling_friction * table.gravity
+pub fn steepest_tilt(table: &Table) -> f64 {
+    STEEPEST * table.rolling_friction.min(table.sliding_friction) * table.gravity
 }
 
 /// The first value that cannot be, with its key and what would be accepted.
@@ -38,8 +39,8 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
             "tilt",
             table.tilt.length(),
             // Courses on a slope are right to its first order: at this limit to two thousandths of the way.
-            table.tilt.length() <= steepest(table),
-            "at most a fifth of mu_r g in m/s²; a table that slopes by 1 mm a metre has 0.0098",
+            table.tilt.length() <= steepest_tilt(table),
+            "at most a fifth of mu_r g and of mu_s g in m/s²; a table that slopes by 1 mm a metre has 0.0098",
         ),
     ];
     if let Some(kappa) = rail.kappa {

@@ -362,6 +362,15 @@ mod tests {
     }
 
     #[test]
+    fn a_slope_on_which_slides_would_not_end_is_refused() {
+        let (tilt, rolling_friction) = (DVec2::new(0.0588, 0.0), 0.03);
+        let leaning = |sliding_friction| Table { sliding_friction, rolling_friction, tilt, ..Table::default() };
+        assert!(leaning(0.03).validated().is_ok());
+        let refused = leaning(0.0015).validated().unwrap_err().to_string();
+        assert!(refused.contains("a fifth of mu_r g and of mu_s g"), "{refused}");
+    }
+
+    #[test]
     fn masses_and_gravity_that_nobody_could_play_with_are_refused_by_name_and_value() {
         let with = |from: &str, to: &str| {
             assert!(TEXTBOOK.contains(from), "{from}");

@@ -3,7 +3,7 @@
 use super::{
     Table, TableDoubt,
     doubt::{CONSTANTS, Constant},
-    flaws,
+    flaws::steepest_tilt,
 };
 use crate::statistics::quantile;
 
@@ -81,7 +81,7 @@ impl Around {
             let off: f64 = line.iter().zip(&numbers).map(|(entry, number)| entry * number).sum();
             constant.change(&mut table, mean + off);
         }
-        table.tilt = table.tilt.clamp_length_max(0.99 * flaws::steepest(&table));
+        table.tilt = table.tilt.clamp_length_max(0.99 * steepest_tilt(&table));
         table
     }
 }
@@ -92,6 +92,15 @@ mod tests {
     use crate::table::RailModel;
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
+
+    #[test]
+    fn a_value_beyond_those_that_are_drawn_stays_where_it_is() {
+        let table = Table { tilt: glam::DVec2::new(0.0, 0.0098), sliding_friction: 0.0095, ..Table::default() };
+        let deviations = [("tilt.y".to_owned(), 1e-9), ("mu_s".to_owned(), 1e-9)].into();
+        let doubt = TableDoubt { deviations, laws: Vec::new(), correlations: Vec::new() };
+        let drawn = TableSampler::new(&table, &doubt, 1.0).unwrap().draw(|| 0.5);
+        assert!(drawn.tilt.distance(table.tilt) < 1e-8 && (drawn.sliding_friction - 0.0095).abs() < 1e-8, "{drawn:?}");
+    }
 
     #[test]
     fn drawn_tables_are_valid_and_have_the_deviations_and_correlations_of_the_doubt() {

@@ -2,9 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{coach::Skill, game::Rule, terminal::words::player_words};
+use crate::{
+    coach::{FirstMet, Skill},
+    game::Rule,
+    table::BALLS,
+    terminal::words::player_words,
+};
 
-/// What the player turns with a key: what counts, who plays, and whether the next point counts too.
+/// What the player turns with a key: what counts, who plays, whether the next point counts too, and how the shot begins.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Terms {
     /// What counts as a point.
@@ -13,6 +18,9 @@ pub struct Terms {
     pub skill: Skill,
     /// Whether the next point counts too.
     pub plan: bool,
+    /// What the cue ball is to meet first: a wish of the moment, which no file keeps.
+    #[serde(skip)]
+    pub first: FirstMet,
 }
 
 impl Terms {
@@ -23,16 +31,18 @@ impl Terms {
             rule: if self.rule == before.rule { now.rule } else { self.rule },
             skill: if self.skill == before.skill { now.skill } else { self.skill },
             plan: if self.plan == before.plan { now.plan } else { self.plan },
+            first: if self.first == before.first { now.first } else { self.first },
         }
     }
 
-    /// What is otherwise than in `before`, in words; empty where nothing is.
-    pub fn news_since(self, before: Self) -> String {
+    /// What is otherwise than in `before`, in words, where the balls are called so, the cue ball first; empty where nothing is.
+    pub fn news_since(self, before: Self, names: [&'static str; BALLS]) -> String {
         let plan = if self.plan { "the next point counts too" } else { "only this point counts" };
         let news = [
             (self.rule != before.rule).then(|| format!("what counts: {}", self.rule)),
             (self.skill != before.skill).then(|| format!("the player: {}", player_words(self.skill))),
             (self.plan != before.plan).then(|| plan.to_owned()),
+            (self.first != before.first).then(|| format!("met first: {}", self.first.word(names))),
         ];
         news.into_iter().flatten().collect::<Vec<_>>().join("; ")
     }

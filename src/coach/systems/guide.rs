@@ -67,8 +67,15 @@ pub struct Applied {
     pub arrival: f64,
 }
 
-/// What a player counts for a recorded shot; `None` where it has no three cushions in a row, or no system is near.
+/// How far the length of a table may be from twice its width, in widths: on others the diamonds of the rails are not alike.
+const ASPECT: f64 = 0.05;
+
+/// What a player counts for a recorded shot; `None` where it has no three cushions in a row, no system is near, or the table is not
+/// twice as long as wide.
 pub fn guide(table: &Table, recording: &Recording) -> Option<Guide> {
+    if (table.length / table.width - 2.0).abs() > ASPECT {
+        return None;
+    }
     let leg = Leg::of(table, recording)?;
     let system = System::ALL.into_iter().find_map(|system| Applied::of(system, table, &leg)).map(Guide::System);
     system.or_else(|| Shift::of(table, &leg).map(Guide::Shift))

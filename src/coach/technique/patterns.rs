@@ -161,7 +161,7 @@ pub const PATTERNS: [Pattern; 31] = [
     Pattern {
         tag: "draw",
         name: "draw",
-        course: "a ball hit full, from which the cue ball turns back",
+        course: "a ball, from which the cue ball turns back",
         is_it: |t| t.roll < DRAWN && t.turn > FRAC_PI_3,
     },
     Pattern {
@@ -233,6 +233,9 @@ impl Pattern {
         let says_all =
             !technique.before.is_empty() || ["jump", "masse", "time", "around-the-table"].contains(&self.tag);
         match technique.between.len() {
+            many @ 1.. if ["draw", "follow"].contains(&self.tag) => {
+                format!("{}; here by {many} cushion{}", self.course, if many == 1 { "" } else { "s" })
+            }
             many if many > 3 && !says_all => format!("{}; here {many} cushions in all", self.course),
             _ => self.course.to_owned(),
         }

@@ -86,6 +86,9 @@ pub struct Why {
     /// Whether the shots are ranked by this point and the next.
     #[serde(skip)]
     is_planned: bool,
+    /// Whether the first shot that makes the point was taken, and no other looked for.
+    #[serde(skip)]
+    is_the_first: bool,
     /// A diamond, m, and the middle of the table from its lower left corner.
     #[serde(skip)]
     scale: (f64, DVec2),
@@ -133,6 +136,7 @@ pub fn why(
         second: second.transpose()?,
         unsure: numbered.filter(|(_, other)| is_unsure(other)).map(|(number, _)| number).collect(),
         is_planned: advice.is_planned,
+        is_the_first: shooter.skill.is_perfect(),
         scale: (table.diamond(), 0.5 * DVec2::new(table.length, table.width)),
     })
 }

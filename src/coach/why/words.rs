@@ -58,10 +58,14 @@ impl Why {
             )
         }));
         parts.extend(plan.filter(|_| !self.is_by_plan()));
-        parts.push(second.map_or_else(
-            || "nothing else was found that makes the point".to_owned(),
-            |second| format!("the second shot is {}", second.parts(names)),
-        ));
+        let alone = if self.is_the_first {
+            "no other shot was looked for"
+        } else {
+            "nothing else was found that makes the point"
+        };
+        parts.push(
+            second.map_or_else(|| alone.to_owned(), |second| format!("the second shot is {}", second.parts(names))),
+        );
         parts.iter().map(|part| format!("{}.", capital(part))).collect::<Vec<_>>().join(" ")
     }
 
@@ -98,8 +102,9 @@ impl Why {
     /// and that the plan decides where it does. What comes first says all; every further sentence is a fact shorter.
     pub fn brief(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let names = cue_ball.names();
+        let alone = if self.is_the_first { "no other was looked for" } else { "no other was found" };
         let second = self.second.as_ref().map_or_else(
-            || "no other was found".to_owned(),
+            || alone.to_owned(),
             |second| {
                 let made = second.make_probability.map_or_else(String::new, |rate| format!(": {}", percent(rate)));
                 let luck = if self.is_unsure() { ", not surely more" } else { "" };
@@ -156,7 +161,7 @@ fn percent(share: f64) -> String {
 }
 
 fn degrees(width: f64) -> String {
-    format!("{}\u{b0}", short(width, 2))
+    if width < 0.005 { "less than 0.01\u{b0}".to_owned() } else { format!("{}\u{b0}", short(width, 2)) }
 }
 
 impl Difference {

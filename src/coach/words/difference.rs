@@ -58,10 +58,6 @@ impl ShotWords {
     /// What it meets otherwise, or how much more of the same ball.
     fn contact_difference(&self, other: &Self, misses: bool, cue_ball: CueBall) -> Vec<String> {
         let names = cue_ball.names();
-        if self.before.is_empty() != other.before.is_empty() {
-            let first = if self.before.is_empty() { "no cushion first" } else { "a cushion first" };
-            return vec![first.to_owned()];
-        }
         let (Some(hit), Some(others)) = (self.first, other.first) else {
             let met = self.first.map(|hit| format!("meets {}", names[hit.ball]));
             return if self.first.is_none() && other.first.is_none() {
@@ -70,6 +66,10 @@ impl ShotWords {
                 vec![met.unwrap_or_else(|| "meets no ball".to_owned())]
             };
         };
+        if self.before.is_empty() != other.before.is_empty() {
+            let straight = || format!("straight at {}, no cushion first", names[hit.ball]);
+            return vec![if self.before.is_empty() { straight() } else { "a cushion first".to_owned() }];
+        }
         if hit.ball != others.ball {
             return vec![format!("meets {} first", names[hit.ball])];
         }

@@ -154,6 +154,12 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
         let errs = skill.is_some_and(|skill| !skill.is_perfect());
         // None of the drawn tables has a policy of its own.
         let on = if args.drawn_tables { DrawnTables::around(&table, args.seed).of(0) } else { table.clone() };
+        if args.drawn_tables && args.policy == BUNDLED && Policy::bundled_for(&on, Rule::default(), errs).is_none() {
+            return Err(Failure::wrong_input(format_args!(
+                "no bundled policy knows tables like \"{}\"; use --table match or textbook, or --policy FILE",
+                table.name
+            )));
+        }
         let policy = policy_named(&args.policy, &on, reward.rule().unwrap_or_default(), errs)?;
         note_doubts(&policy, &table, reward.rule());
         Player::Policy(Box::new(policy))

@@ -105,7 +105,7 @@ pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: R
         let own = drawn.as_ref().map(|tables| tables.of(index));
         let table = own.as_ref().unwrap_or(&spec.table);
         let start = Instant::now();
-        let decision = decide(spec, player, rule, table, layout, index);
+        let decision = decide(spec, player, rule, reward, table, layout, index);
         let seconds = start.elapsed().as_secs_f64();
         let cue = decision.cue;
         ShotRecord {
@@ -121,7 +121,15 @@ pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: R
     .collect()
 }
 
-fn decide(spec: &Spec, player: &Player, rule: Rule, table: &Table, layout: &Layout, index: u32) -> Decision {
+fn decide(
+    spec: &Spec,
+    player: &Player,
+    rule: Rule,
+    reward: Reward,
+    table: &Table,
+    layout: &Layout,
+    index: u32,
+) -> Decision {
     let shot = |cue| Decision { cue, simulations: None, claimed: None };
     match player {
         Player::Recommender(coach, request) => {
@@ -134,7 +142,9 @@ fn decide(spec: &Spec, player: &Player, rule: Rule, table: &Table, layout: &Layo
         Player::Policy(policy) => {
             let skill = spec.skill.unwrap_or(Skill::PERFECT);
             let Proposal { cue, success } = policy.proposals(table, layout, &skill)[0];
-            Decision { cue, simulations: None, claimed: Some(success) }
+            // What it says of another reward, or of a player whom it is not told, is no probability of what is measured.
+            let is_of_this = policy.origin().reward == reward && (skill.is_perfect() || policy.speaks_of(&skill));
+            Decision { cue, simulations: None, claimed: is_of_this.then_some(success) }
         }
         Player::RandomSearch(shots) => {
             // Numbers of its own for each layout: parts find what the whole finds.
@@ -207,7 +217,7 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
     let claimed: Vec<_> = records.iter().map(|record| record.claimed).collect();
     let earned: Vec<_> = records.iter().map(|record| record.earned).collect();
     // Of the player's attempts, or else of the shot itself where that is a point or none.
-    let said = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no;
+    let said = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no && has_said;
     let robustness = spec.skill.zip(chances).map(|(skill, chances)| {
         let mut robustness = Robustness::new(skill, spec.doubt, chances);
         if has_said {

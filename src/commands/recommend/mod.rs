@@ -26,14 +26,14 @@ use super::{
     question::{Key, Keys},
 };
 use crate::{
-    coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Shooter, Skill, Source, systems::Guide},
+    coach::{Coach, Doubt, FirstMet, Kind, Recommendation, Request, Risk, Shooter, Skill, Source, systems::Guide},
     game::Rule,
     learning::{Proposal, policy::kept::BUNDLED},
     physics::{CueInputs, strike},
     printing::{self, fixed},
     simulation::ShotError,
     statistics::SuccessRate,
-    table::{Layout, Table},
+    table::{BALL_NAMES, Layout, Table},
 };
 
 /// Time to look for a shot, ms, where neither a time nor simulations are given.
@@ -67,6 +67,11 @@ pub struct Args {
     /// Advise neither jumps over a ball nor massés, as most clubs have it.
     #[arg(long, conflicts_with = "policy_only")]
     no_jumps: bool,
+    /// What the cue ball is to meet first: any, yellow, red or cushion.
+    ///
+    /// Shots that begin otherwise are not looked for. Yellow and red are met with no cushion before; after a cushion either may come.
+    #[arg(long, default_value = "any", conflicts_with = "policy_only")]
+    first: FirstMet,
     /// Say also how far off each input may be, with maps of the outcome, and where to aim.
     #[arg(long)]
     margins: bool,
@@ -209,9 +214,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         describe(&mut out, args, coach.table(), &answer)?;
     }
     if answer.solved == Some(false) {
+        let begins = args.first.begins(BALL_NAMES);
         let without = if args.no_jumps { " without jumps and massés" } else { "" };
         return Err(Failure::failed(format_args!(
-            "no point was found{without} in {:.0} ms; this is the best attempt, a larger {} may do",
+            "no point was found{begins}{without} in {:.0} ms; this is the best attempt, a larger {} may do",
             answer.elapsed_ms,
             if args.simulations.is_some() { "--simulations" } else { "--budget-ms" }
         )));
@@ -274,6 +280,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         doubt: args.doubt,
         plan: args.plan,
         jumps: !args.no_jumps,
+        first: args.first,
         budget: match (args.budget_ms, args.simulations) {
             (Some(budget), _) => Duration::from_millis(budget),
             (None, Some(_)) => Duration::MAX,

@@ -88,7 +88,7 @@ fn train_one(group: &Group, seed: u64, limit: Option<Duration>, options: &TrainO
     for notice in notices {
         tell(format_args!("warning: seed {seed}: {notice}"));
     }
-    if run.learner().is_finished() {
+    if run.has_result() {
         return Ok(true);
     }
     let mut progress = Progress::new(&run, options.json, Some(seed));

@@ -13,12 +13,13 @@ use crate::{
         Failure,
         input::table_named,
         lookup::{Source, weights_named},
+        output::tell,
     },
     game::Reward,
     learning::{
         learner::{AgentKind, TrainingPlan, lay_over},
         run::{
-            Config, RunError, Schedule, Start,
+            Config, RunError, Schedule, Start, config_of,
             origin::Weights,
             run_name,
             seeds::{TrainingSpec, described, is_group},
@@ -62,13 +63,11 @@ fn begin_in_free<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>)
 
 /// What the command line asks for. Whatever it leaves open is as in the run that the weights come from, or the default.
 pub fn read(args: &Args) -> Result<Read, Failure> {
-    let weights = match source(args)? {
-        None => None,
-        Some(Source::Path(path)) => Some(Weights::load(&path)),
-        Some(Source::Bundled(name)) => Weights::bundled(name),
-    };
-    let weights = weights.transpose().map_err(failure)?;
-    let base = weights.as_ref().map(base_of).transpose()?;
+    let weights = source(args)?.and_then(weights_of).transpose().map_err(failure)?;
+    if let Some(notice) = weights.as_ref().and_then(|weights| weights.notice.as_ref()) {
+        tell(format_args!("warning: {notice}"));
+    }
+    let base = weights.as_ref().map(|weights| base_of(weights, args)).transpose()?;
     let spec = specified(args, base)?;
     let folder = args.run.clone().unwrap_or_else(|| {
         let name = run_name(&timestamp(), &spec.agent, &spec.table.name, spec.plan.reward, args.seed);
@@ -84,6 +83,14 @@ fn source(args: &Args) -> Result<Option<Source>, Failure> {
     weights_named(name, &table, args.reward.unwrap_or_default().rule().unwrap_or_default()).map(Some)
 }
 
+/// The weights that a source has.
+fn weights_of(source: Source) -> Option<Result<Weights, RunError>> {
+    match source {
+        Source::Path(path) => Some(Weights::load(&path)),
+        Source::Bundled(name) => Weights::bundled(name),
+    }
+}
+
 /// What a run trains by default, unlike one that starts from nothing.
 struct Base {
     agent: String,
@@ -92,10 +99,14 @@ struct Base {
     settings: Value,
 }
 
-/// What the weights bring along.
-fn base_of(weights: &Weights) -> Result<Base, Failure> {
+/// What the weights bring along. Their own table is not asked for where another one is named.
+fn base_of(weights: &Weights, args: &Args) -> Result<Base, Failure> {
     let Weights { start: Start { agent, reward, table, .. }, settings, .. } = weights.clone();
-    let table = weights.table.clone().map_or_else(|| table_named(&table), Ok)?;
+    let table = match (&args.table, &weights.table) {
+        (Some(name), _) => table_named(name)?,
+        (None, Some(table)) => table.clone(),
+        (None, None) => table_named(&table)?,
+    };
     let mut settings = settings;
     if let (Value::Object(settings), Ok(kind)) = (&mut settings, AgentKind::named(&agent)) {
         settings.retain(|name, _| !kind.of_one_start.contains(&name.as_str()));
@@ -125,15 +136,21 @@ fn specified(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> {
 }
 
 /// Refuses to go on with the run, or the group of seeds, in `folder` where it was started with other settings. The weights that it
-/// started from are not read: it has its own by now, and theirs may be gone.
+/// started from may be gone, or others by now: then what the command leaves open is taken for what the run has.
 pub fn same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
     // What cannot be read is told by whoever goes on with it.
     let Some((theirs, start, their_seeds)) = known_spec(folder) else { return Ok(()) };
-    let base = args.from.as_ref().and(start.as_ref()).map(|_| Base {
-        agent: theirs.agent.clone(),
-        reward: theirs.plan.reward,
-        table: theirs.table.clone(),
-        settings: theirs.settings.clone(),
+    let as_before = source(args).ok().flatten().and_then(|source| weights_of(source)?.ok());
+    let are_same =
+        |start: &Start, weights: &Weights| *start == Start { path: start.path.clone(), ..weights.start.clone() };
+    let as_before = as_before.filter(|weights| start.as_ref().is_some_and(|start| are_same(start, weights)));
+    let base = args.from.as_ref().and(start.as_ref()).map(|_| {
+        as_before.and_then(|weights| base_of(&weights, args).ok()).unwrap_or_else(|| Base {
+            agent: theirs.agent.clone(),
+            reward: theirs.plan.reward,
+            table: theirs.table.clone(),
+            settings: theirs.settings.clone(),
+        })
     });
     let ours = specified(args, base)?;
     let mut differences: Vec<String> = [
@@ -216,7 +233,7 @@ fn known_spec(folder: &Path) -> Option<(TrainingSpec, Option<Start>, Option<u64>
         let (spec, seeds, from) = described(folder).ok()?;
         return Some((spec, from, Some(seeds)));
     }
-    let Config { agent, plan, settings, schedule, table, from, .. } = Config::read(folder).ok()?;
+    let Config { agent, plan, settings, schedule, table, from, .. } = config_of(folder)?;
     Some((TrainingSpec { agent, plan, settings, schedule, table }, from, None))
 }
 

@@ -55,6 +55,7 @@ pub const AGENT: AgentKind = AgentKind {
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
     of_one_start: &["new_actor"],
+    of_meaning: &["actions", "closed_form"],
 };
 
 impl Learner for Trainer {

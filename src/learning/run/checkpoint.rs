@@ -54,6 +54,14 @@ pub struct Loaded {
     pub fallback: Option<Damage>,
 }
 
+impl Loaded {
+    /// What is told of a damaged last checkpoint.
+    pub fn notice(&self) -> Option<String> {
+        let damage = self.fallback.as_ref()?;
+        Some(format!("{damage}; going on from {PREVIOUS}, after {} shots", self.learner.shots()))
+    }
+}
+
 /// The checkpoints of a folder.
 #[derive(Debug)]
 pub struct Checkpoints {

@@ -42,40 +42,45 @@ pub struct State {
     pub accumulator: Accumulator,
 }
 
-/// Sums over iterations. They are part of a checkpoint: a line's means must not depend on where a run was interrupted.
+/// Sums over shots and updates. They are part of a checkpoint: a line's means must not depend on where a run was interrupted. Those of
+/// older versions, which summed iterations of unlike length, are not read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Accumulator {
-    #[serde(rename = "turns")]
-    iterations: u64,
-    #[serde(flatten)]
-    sums: Iteration,
+    shots: u64,
+    updates: u64,
+    reward_sum: f64,
+    value_sum: f64,
+    critic_loss_sum: f64,
+    actor_loss_sum: Option<f64>,
 }
 
 impl Accumulator {
-    /// Adds an iteration. `false` where it has numbers that are not finite.
+    /// Adds an iteration of so many shots and updates. `false` where it has numbers that are not finite.
     #[must_use]
-    pub fn add(&mut self, iteration: &Iteration) -> bool {
-        self.iterations += 1;
-        let Iteration { mean_reward, q_value, critic_loss, actor_loss } = &mut self.sums;
-        *mean_reward += iteration.mean_reward;
-        *q_value += iteration.q_value;
-        *critic_loss += iteration.critic_loss;
-        if let Some(loss) = iteration.actor_loss {
-            *actor_loss.get_or_insert_default() += loss;
+    pub fn add(&mut self, iteration: &Iteration, shots: u64, updates: u64) -> bool {
+        let Iteration { mean_reward, q_value, critic_loss, actor_loss } = *iteration;
+        self.shots += shots;
+        self.updates += updates;
+        self.reward_sum += shots as f64 * mean_reward;
+        self.value_sum += updates as f64 * q_value;
+        self.critic_loss_sum += updates as f64 * critic_loss;
+        if let Some(loss) = actor_loss {
+            *self.actor_loss_sum.get_or_insert_default() += updates as f64 * loss;
         }
-        [*mean_reward, *q_value, *critic_loss, actor_loss.unwrap_or_default()].iter().all(|sum| sum.is_finite())
+        let sums = [self.reward_sum, self.value_sum, self.critic_loss_sum, self.actor_loss_sum.unwrap_or_default()];
+        sums.iter().all(|sum| sum.is_finite())
     }
 
-    /// The means over the iterations added since the last call.
+    /// The means over the shots and the updates added since the last call.
     pub fn take(&mut self) -> Iteration {
-        let Self { iterations, sums: Iteration { mean_reward, q_value, critic_loss, actor_loss } } =
-            std::mem::take(self);
-        let count = iterations.max(1) as f64;
+        let Self { shots, updates, reward_sum, value_sum, critic_loss_sum, actor_loss_sum } = std::mem::take(self);
+        let [shots, updates] = [shots, updates].map(|count| count.max(1) as f64);
         Iteration {
-            mean_reward: mean_reward / count,
-            q_value: q_value / count,
-            critic_loss: critic_loss / count,
-            actor_loss: actor_loss.map(|sum| sum / count),
+            mean_reward: reward_sum / shots,
+            q_value: value_sum / updates,
+            critic_loss: critic_loss_sum / updates,
+            actor_loss: actor_loss_sum.map(|sum| sum / updates),
         }
     }
 }
@@ -161,14 +166,21 @@ mod tests {
     }
 
     #[test]
-    fn means_are_over_the_iterations_since_the_last_and_survive_a_file() {
+    fn means_are_over_the_shots_and_updates_since_the_last_and_survive_a_file() {
         let iteration = |reward| Iteration { mean_reward: reward, q_value: 0.1, critic_loss: 0.7, actor_loss: None };
         let mut accumulator = Accumulator::default();
-        assert!(accumulator.add(&iteration(0.1)) && accumulator.add(&iteration(0.2)));
+        // The second iteration is longer, and the first one, which made no update, says nothing of the loss.
+        let first = Iteration { q_value: 0.0, critic_loss: 0.0, ..iteration(0.1) };
+        assert!(accumulator.add(&first, 1, 0) && accumulator.add(&iteration(0.3), 3, 2));
         let text = serde_json::to_string(&accumulator).unwrap();
         let mut again: Accumulator = serde_json::from_str(&text).unwrap();
         assert_eq!(again, accumulator);
-        assert_eq!((again.take().mean_reward, again.take()), (f64::midpoint(0.1, 0.2), Iteration::default()));
-        assert!(!accumulator.add(&Iteration { critic_loss: f64::INFINITY, ..iteration(0.0) }));
+        let means = again.take();
+        assert!((means.mean_reward - 0.25).abs() < 1e-15, "{means:?}");
+        assert_eq!((means.q_value, means.critic_loss, again.take()), (0.1, 0.7, Iteration::default()));
+        assert!(!accumulator.add(&Iteration { critic_loss: f64::INFINITY, ..iteration(0.0) }, 1, 1));
+        // What an older version had summed is left out.
+        let older = r#"{"turns":3,"mean_reward":0.5,"q_value":0.1,"critic_loss":0.2,"actor_loss":0.3}"#;
+        assert_eq!(serde_json::from_str::<Accumulator>(older).unwrap(), Accumulator::default());
     }
 }

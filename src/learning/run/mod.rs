@@ -68,6 +68,15 @@ const FILES: [&str; 11] = [
     Lock::FILE,
 ];
 
+/// What the run in `folder` was started with; where it cannot be read, its checkpoint has the same values.
+pub fn config_of(folder: &Path) -> Option<Config> {
+    let of_checkpoint = || {
+        let (_, Loaded { learner, state, .. }) = Checkpoints::open(folder).ok()?;
+        Some(Config::of(learner.as_ref(), state.schedule, state.from))
+    };
+    Config::read(folder).ok().or_else(of_checkpoint)
+}
+
 /// A run and its folder, which is this process' own as long as the run lives.
 #[derive(Debug)]
 pub struct Run {
@@ -114,15 +123,12 @@ impl Run {
             return Err(RunError::Missing(folder.display().to_string()));
         }
         let lock = lock(folder)?;
-        let (checkpoints, Loaded { learner, state, fallback, .. }) = Checkpoints::open(folder)?;
-        let mut notices = Vec::new();
-        if let Some(damage) = fallback {
-            let (name, shots) = (checkpoint::PREVIOUS, learner.shots());
-            notices.push(format!("{damage}; going on from {name}, after {shots} shots"));
-        }
+        let (checkpoints, loaded) = Checkpoints::open(folder)?;
+        let mut notices: Vec<String> = loaded.notice().into_iter().collect();
+        let Loaded { learner, state, .. } = loaded;
         notices.extend(metrics::notices(&folder.join(METRICS), learner.shots(), state.schedule.log_every));
         let config = Config::read(folder).or_else(|_| {
-            // It was killed before it had one, or it was removed: the checkpoint has the same values.
+            // It was killed before it had one, or it was removed.
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
             config.write(folder).map(|()| config)
         })?;
@@ -133,6 +139,11 @@ impl Run {
         }
         let folder = folder.to_owned();
         Ok((Self { folder, config, learner, state, checkpoints, _lock: lock }, notices))
+    }
+
+    /// Whether it has played all its shots and said what it has come to.
+    pub fn has_result(&self) -> bool {
+        self.learner.is_finished() && self.folder.join(result::FILE).is_file()
     }
 
     /// The run's folder.

@@ -13,7 +13,7 @@ use crate::{
     learning::{
         Policy,
         checksum::{OF_CHECKPOINT, is_whole},
-        learner::{Learner, note_of},
+        learner::{AgentKind, Learner, note_of},
         nn::weights::Reader,
         policy::bundled_bytes,
     },
@@ -29,6 +29,8 @@ pub struct Weights {
     pub settings: Value,
     /// Its table, where the file has more of it than its name.
     pub table: Option<Table>,
+    /// Why they are those of the checkpoint before the last, if they are.
+    pub notice: Option<String>,
     bytes: Vec<u8>,
 }
 
@@ -66,10 +68,11 @@ impl Weights {
         };
         let settings =
             note_of(&origin.hyperparameters).map_err(|error| RunError::Origin { path, reason: error.to_string() })?;
-        Ok(Self { start, settings, table: None, bytes })
+        Ok(Self { start, settings, table: None, notice: None, bytes })
     }
 
     fn of_checkpoint(path: &Path, loaded: Loaded) -> Self {
+        let notice = loaded.notice();
         let Loaded { learner, bytes, .. } = loaded;
         let plan = learner.plan();
         let start = Start {
@@ -80,13 +83,13 @@ impl Weights {
             seed: plan.seed,
             shots: learner.shots(),
         };
-        Self { start, settings: learner.settings(), table: Some(learner.table().clone()), bytes }
+        Self { start, settings: learner.settings(), table: Some(learner.table().clone()), notice, bytes }
     }
 
     /// Gives the weights to an untrained agent.
     ///
     /// # Errors
-    /// [`RunError::Origin`] where the agent or the sizes differ.
+    /// [`RunError::Origin`] where the agent, what its networks' numbers mean or the sizes differ.
     pub fn give_to(&self, learner: &mut dyn Learner) -> Result<(), RunError> {
         let refuse = |reason| RunError::Origin { path: self.start.path.clone(), reason };
         let (found, expected) = (&self.start.agent, learner.agent());
@@ -94,6 +97,13 @@ impl Weights {
             return Err(refuse(format!(
                 "they are {found}'s, and the run's agent is {expected}; leave out --agent, or choose other weights"
             )));
+        }
+        let own = learner.settings();
+        for name in AgentKind::named(found)?.of_meaning {
+            let [known, asked] = [&self.settings, &own].map(|settings| &settings[*name]);
+            if known != asked {
+                return Err(refuse(format!("they were learnt with {name} = {known}, and the run has {asked}")));
+            }
         }
         let loaded = Reader::new(&self.bytes).and_then(|weights| learner.load_weights(&weights));
         loaded.map_err(|error| refuse(format!("{error}{}", advice(&error))))

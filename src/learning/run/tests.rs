@@ -164,7 +164,7 @@ fn a_run_that_breaks_down_says_so_shows_what_was_odd_and_goes_on_from_before() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
     let odd = Iteration { critic_loss: f64::NAN, actor_loss: Some(f64::NEG_INFINITY), ..Iteration::default() };
-    assert!(!run.state.accumulator.add(&odd));
+    assert!(!run.state.accumulator.add(&odd, 1, 1));
     let mut told = Told::default();
     let error = run.train(&FOREVER, &mut told).unwrap_err().to_string();
     assert!(error.contains("after 16 shots"), "{error}");

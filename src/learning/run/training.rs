@@ -188,10 +188,11 @@ impl Run {
     /// One iteration, and the measurement and the line of metrics that are due after it.
     fn iterate(&mut self, reporting: &mut Reporting<'_>) -> Result<Option<Score>, RunError> {
         let Schedule { log_every, evaluate_every, .. } = self.state.schedule;
-        let before = self.learner.shots();
+        let [before, updated] = [self.learner.shots(), self.learner.progress().updates];
         let iteration = self.learner.iterate()?;
         let shots = self.learner.shots();
-        let is_finite = self.state.accumulator.add(&iteration);
+        let is_finite =
+            self.state.accumulator.add(&iteration, shots - before, self.learner.progress().updates - updated);
         let passed = |every: u64| before / every != shots / every;
         let trained = reporting.clock.seconds();
         let is_due = is_finite && (self.learner.is_finished() || passed(evaluate_every));

@@ -192,7 +192,11 @@ impl PlainDdpgSettings {
 
     /// Rows of a batch for lessons of both kinds.
     fn lesson_rows(&self) -> [usize; 2] {
-        [self.hindsight, self.demonstrations].map(|share| (share * self.batch as f64) as usize)
+        // A share that is not nought has a row at least: what is sought for it would not be learnt else.
+        [self.hindsight, self.demonstrations].map(|share| {
+            let least = usize::from(share > 0.0);
+            ((share * self.batch as f64) as usize).max(least)
+        })
     }
 }
 
@@ -229,7 +233,7 @@ impl PlainDdpg {
         self.networks.slow_down(settings.left(settings.learning_rate_falls_to, self.shots));
         let mut drawn = self.lessons.sample(settings.lesson_rows(), rng);
         let lessons = drawn.len();
-        drawn.extend(self.replay.sample(settings.batch - lessons, rng));
+        drawn.extend(self.replay.sample(settings.batch.saturating_sub(lessons), rng));
         for shot in &mut drawn {
             if settings.canonical {
                 *shot = canonical(shot);

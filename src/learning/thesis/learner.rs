@@ -50,6 +50,7 @@ pub const fn kind_of<A: Agent + 'static>() -> AgentKind {
             Ok(Box::new(TrainingLoop { agent: A::restore(settings, reader, agent)?, state }))
         },
         of_one_start: &[],
+        of_meaning: &["canonical"],
     }
 }
 

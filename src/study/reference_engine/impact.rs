@@ -6,6 +6,10 @@ use super::{
     rails::{Cushion, Meeting},
 };
 
+/// How often a ball may meet a nose again at once, and the share of its approach that may be left.
+const AGAIN: u32 = 400;
+const LEFT: f64 = 1e-28;
+
 /// Two balls collide.
 pub fn balls_collide<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second: &mut Ball<R>) -> R {
     let one = R::of(1.0);
@@ -31,7 +35,20 @@ pub fn rail_collides<R: Real>(numbers: &Numbers<R>, cushion: &Cushion<R>, n: Vec
     let approach = -ball.velocity.dot(n);
     let restitution = cushion.restitution_at(approach);
     if let Meeting::Nose { sine, cosine, most } = cushion.meeting {
-        return nose_collides(numbers, cushion.friction, restitution, n, [sine, cosine], most, ball);
+        let meet = |restitution: R, ball: &mut Ball<R>| {
+            nose_collides(numbers, cushion.friction, restitution, n, [sine, cosine], most, ball)
+        };
+        let (mut taken, mut climb) = meet(restitution, ball);
+        // As long as the cloth holds a ball that the nose has not thrown back, they meet again at once.
+        for _ in 0..AGAIN {
+            let left = -ball.velocity.dot(n);
+            if left <= approach * R::of(LEFT) || climb > R::zero() {
+                break;
+            }
+            let (more, up) = meet(cushion.restitution_at(left), ball);
+            (taken, climb) = (taken + more, climb + up);
+        }
+        return taken;
     }
     let push = (one + restitution) * approach;
     let slip = ball.velocity + n * approach + n.cross(ball.spin) * numbers.radius;
@@ -42,7 +59,7 @@ pub fn rail_collides<R: Real>(numbers: &Numbers<R>, cushion: &Cushion<R>, n: Vec
 }
 
 /// The impulse acts along the line from the nose to the ball's centre, and friction across it. What presses the ball down the
-/// cloth takes up; what lifts it lets it climb the nose, where it is fast enough and balls leave the cloth.
+/// cloth takes up; what lifts it lets it climb the nose, where it is fast enough and balls leave the cloth. Returns the impulse upwards, too.
 fn nose_collides<R: Real>(
     numbers: &Numbers<R>,
     friction: R,
@@ -51,7 +68,7 @@ fn nose_collides<R: Real>(
     [sine, cosine]: [R; 2],
     most: Option<R>,
     ball: &mut Ball<R>,
-) -> R {
+) -> (R, R) {
     let before = *ball;
     let to_nose = Vector::up() * sine - n * cosine;
     let push = (R::of(1.0) + restitution) * ball.velocity.dot(to_nose);
@@ -61,13 +78,16 @@ fn nose_collides<R: Real>(
     let rub = slip * -nose_friction(most, friction * push, size);
     let impulse = rub - to_nose * push;
     let climbs = numbers.flight.is_some_and(|flight| impulse.z > flight.lifts);
+    let up = impulse.z;
     let impulse = if climbs { impulse } else { impulse.flat() };
     ball.velocity = ball.velocity + impulse;
     let turn = to_nose.cross(rub);
     ball.spin = ball.spin + turn * (R::of(2.5) / numbers.radius);
     // Impulses times the mean speeds that they act on.
     let mean = R::of(-0.5);
-    mean * (impulse.dot(before.velocity + ball.velocity) + numbers.radius * turn.dot(before.spin + ball.spin))
+    let taken =
+        mean * (impulse.dot(before.velocity + ball.velocity) + numbers.radius * turn.dot(before.spin + ball.spin));
+    (taken, up)
 }
 
 /// Tangential impulse over slip on a nose, given `μP/m`: Coulomb's, or one that passes smoothly into sticking.

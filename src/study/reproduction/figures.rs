@@ -90,7 +90,7 @@ pub const FIGURES: [Figure; 12] = {
         Figure {
             readings: &NOISES,
             seeds: 3,
-            ..figure(("noise", "DDPG, r1, by noise"), DDPG, Reward::R1, MeanReward, 200_000, Some(0.8))
+            ..figure(("noise", "DDPG, r1, by noise"), DDPG, Reward::R1, MeanReward, 400_000, Some(0.8))
         },
         Figure {
             readings: &FUTURE_WORK,
@@ -198,11 +198,13 @@ const fn changed(name: &'static str, color: RGBColor, change: Change) -> Reading
     Reading { name, color, episode: Episode::OneShot, change }
 }
 
-/// Noise on DDPG's actions: 0.03, as the thesis' source leaves it with one shot an episode, 0.1, and 0.1 falling.
-const NOISES: [Reading; 3] = [
+/// Noise on DDPG's actions: 0.03, as the thesis' source leaves it with one shot an episode, 0.1, and 0.1 falling; the first once more in
+/// the canonical frame.
+const NOISES: [Reading; 4] = [
     changed("0.03", CRIMSON, Change::None),
     changed("0.1", AZURE, Change::StrongNoise),
     changed("0.1 falling to 0.005", FOREST, Change::FallingNoise),
+    changed("0.03, canonical frame", VIOLET, Change::Canonical),
 ];
 
 /// The thesis' future work: neither, nor the canonical frame that the others have; neither; each alone; both.

@@ -5,7 +5,7 @@ use std::{borrow::Cow, io, path::Path};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    coach::Skill,
+    coach::{FirstMet, Skill},
     drills::Session,
     game::Rule,
     storage::{self, json_flaw, replace},
@@ -62,7 +62,7 @@ impl<'a> SavedSession<'a> {
         table: &'a Table,
         layout: Layout,
         cue_ball: CueBall,
-        Terms { rule, skill, plan }: Terms,
+        Terms { rule, skill, plan, .. }: Terms,
         practice: Option<&'a Session>,
     ) -> Self {
         let (table, practice) = (Cow::Borrowed(table), practice.map(Cow::Borrowed));
@@ -78,7 +78,7 @@ impl<'a> SavedSession<'a> {
 
     /// What was asked for.
     pub const fn terms(&self) -> Terms {
-        Terms { rule: self.rule, skill: self.skill, plan: self.plan }
+        Terms { rule: self.rule, skill: self.skill, plan: self.plan, first: FirstMet::Any }
     }
 
     /// The same after former sessions that were not gone on with, the latest first.
@@ -179,7 +179,7 @@ mod tests {
     use super::*;
 
     fn session(table: &Table) -> SavedSession<'_> {
-        let terms = Terms { rule: Rule::OneCushion, skill: Skill::CLUB, plan: false };
+        let terms = Terms { rule: Rule::OneCushion, skill: Skill::CLUB, plan: false, first: FirstMet::Any };
         SavedSession::new(table, Layout::opening(table), CueBall::White, terms, None)
     }
 

@@ -35,6 +35,8 @@ pub enum Command {
     Plan(bool),
     /// Whether it does now, and what the shot leaves.
     PlanNow,
+    /// What the cue ball shall meet first, in a word.
+    First(String),
     /// A shot.
     Shot,
     /// The next of the other shots.
@@ -96,6 +98,7 @@ const HELP: &[(&str, &str)] = &[
     ),
     ("plan", "whether the coach has the next point in mind, and what the shot leaves"),
     ("plan off", "whether the coach has the next point in mind from now on: on or off"),
+    ("first red", "what the cue ball shall meet first from now on: a ball's colour, cushion or any"),
     ("film", "which filmed shots there are"),
     ("film 12", "that filmed shot, and how far the simulated balls are from the filmed ones"),
     ("undo", "take the last change of the balls back"),
@@ -141,6 +144,7 @@ impl FromStr for Command {
             ["plan"] => Self::PlanNow,
             ["plan", "on"] => Self::Plan(true),
             ["plan", "off"] => Self::Plan(false),
+            ["first", word] => Self::First(word.to_owned()),
             ["rule", ref name @ ..] if !name.is_empty() => {
                 Self::Rule(name.join("-").parse().map_err(|error| format!("{error}"))?)
             }

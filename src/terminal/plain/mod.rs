@@ -15,7 +15,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
     coach::{
-        Coach, Kind, Pattern, Request, Sensitivity, ShotWords, Skill, Technique, Units, Verdict, Why, aim,
+        Coach, FirstMet, Kind, Pattern, Request, Sensitivity, ShotWords, Skill, Technique, Units, Verdict, Why, aim,
         systems::guide, why,
     },
     game::Point,
@@ -183,6 +183,11 @@ impl Conversation {
                 self.request.plan = plan;
                 self.forget(format!("The next point {}.", if plan { "counts too" } else { "does not count" }))
             }
+            Command::First(word) => {
+                let names = self.cue_ball().names();
+                self.request.first = FirstMet::said(&word, names).map_err(|error| error.to_string())?;
+                self.forget(format!("Met first: {word}."))
+            }
             Command::PlanNow => speech::plan(self.request.plan, self.shots.get(self.chosen).and_then(|shot| shot.next)),
             Command::Chances => self.about_the_shot(|talk, _| {
                 let of = |shot: &Found| speech::chance(shot.kind, shot.rate, talk.request.skill).join(" ");
@@ -227,13 +232,8 @@ impl Conversation {
             }
             Command::Films => film::list(),
             Command::Film(number) => film::tell(number, self.units.length)?,
-            Command::Undo => {
-                if self.balls.undo() {
-                    self.forget(self.places())
-                } else {
-                    return Err("There is nothing to take back.".to_owned());
-                }
-            }
+            Command::Undo if self.balls.undo() => self.forget(self.places()),
+            Command::Undo => return Err("There is nothing to take back.".to_owned()),
             Command::Help => command::help(),
             Command::Quit => String::new(),
         })
@@ -436,11 +436,12 @@ mod tests {
 
     #[test]
     fn the_other_player_has_the_other_ball_and_every_colour_is_told_right() {
-        let said =
-            talk("cue ball yellow\nwhere\nmove yellow up 10\nshot\nnumbers\ntell\nundo\nundo\nwhere\ncue ball white\n");
+        let said = talk(
+            "cue ball yellow\nfirst white\nwhere\nmove yellow up 10\nshot\nnumbers\ntell\nundo\nundo\nwhere\ncue ball white\n",
+        );
         let told = "Yellow lies at 4.00 diamonds along and 2.03 up, 0 and 10 millimetres from the middle.";
         assert!(said.contains("The cue ball is yellow.") && said.contains(told), "{said}");
-        assert!(said.contains("hits white") || said.contains("hits red"), "{said}");
+        assert!(said.contains("Met first: white.") && said.contains("hits white"), "{said}");
         assert!(said.contains("yellow meets") && !said.contains("white meets yellow"), "{said}");
         assert!(said.trim_end().ends_with("The cue ball is white already."), "{said}");
     }
@@ -479,7 +480,7 @@ mod tests {
     #[test]
     fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
         let said = talk(
-            "tell\nother\ngo on\nmove white left 0\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nmove red right 9000\nrule one-cushion\n",
+            "tell\nother\ngo on\nmove white left 0\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nmove red right 9000\nfirst white\nrule one-cushion\n",
         );
         for words in [
             "no shot yet",
@@ -489,6 +490,7 @@ mod tests {
             "0.0000 m apart",
             "It stops there, in contact with yellow.",
             "It stops there, at the rail.",
+            "\"white\" cannot be met first; use any, yellow, red, cushion",
             "The rule is one-cushion",
         ] {
             assert!(said.contains(words), "{words}: {said}");

@@ -3,7 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use crate::{
-    coach::{Doubt, Map, Margin, Recommendation, Risk, Scatter, Shooter, Skill, systems::Guide},
+    coach::{Doubt, FirstMet, Map, Margin, Recommendation, Risk, Scatter, Shooter, Skill, systems::Guide},
     game::Rule,
     learning::Policy,
     statistics::SuccessRate,
@@ -25,31 +25,33 @@ pub struct CoachQuery {
     pub plan: bool,
     /// Whether jumps and massés may be advised.
     pub jumps: bool,
+    /// What the cue ball is to meet first.
+    pub first: FirstMet,
 }
 
 impl Default for CoachQuery {
     fn default() -> Self {
-        Self { policy: None, rule: Rule::default(), skill: Skill::EXPERT, doubt: Doubt::FULL, plan: true, jumps: true }
+        let (rule, skill, doubt, first) = (Rule::default(), Skill::EXPERT, Doubt::FULL, FirstMet::Any);
+        Self { policy: None, rule, skill, doubt, plan: true, jumps: true, first }
     }
 }
 
 impl PartialEq for CoachQuery {
     fn eq(&self, other: &Self) -> bool {
-        (self.rule, self.shooter(), self.plan, self.jumps) == (other.rule, other.shooter(), other.plan, other.jumps)
-            && self.has_policy_of(other)
+        (self.terms(), self.doubt, self.jumps) == (other.terms(), other.doubt, other.jumps) && self.has_policy_of(other)
     }
 }
 
 impl CoachQuery {
     /// What a key turns of it.
     pub const fn terms(&self) -> Terms {
-        Terms { rule: self.rule, skill: self.skill, plan: self.plan }
+        Terms { rule: self.rule, skill: self.skill, plan: self.plan, first: self.first }
     }
 
     /// The same on other terms.
     #[must_use]
-    pub fn with(&self, Terms { rule, skill, plan }: Terms) -> Self {
-        Self { rule, skill, plan, ..self.clone() }
+    pub fn with(&self, Terms { rule, skill, plan, first }: Terms) -> Self {
+        Self { rule, skill, plan, first, ..self.clone() }
     }
 
     /// Who plays, and what is in doubt.
@@ -139,6 +141,7 @@ mod tests {
             CoachQuery { skill: Skill::CLUB, ..query.clone() },
             CoachQuery { plan: false, ..query.clone() },
             CoachQuery { jumps: false, ..query.clone() },
+            CoachQuery { first: FirstMet::Red, ..query.clone() },
             CoachQuery { doubt: Doubt::NONE, ..query.clone() },
         ] {
             assert_ne!(query, other);

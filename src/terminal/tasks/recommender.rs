@@ -136,13 +136,14 @@ impl CoachWorker {
     }
 
     fn advice(&mut self, job: &Job, layout: &Layout, tell: &mut dyn FnMut(Proposal)) -> Result<Advice, String> {
-        let CoachQuery { rule, skill, doubt, plan, jumps, .. } = job.query;
+        let CoachQuery { rule, skill, doubt, plan, jumps, first, .. } = job.query;
         let request = Request {
             rule,
             skill,
             doubt,
             plan,
             jumps,
+            first,
             budget: if self.simulations.is_some() { NO_HURRY } else { job.budget },
             simulations: self.simulations.unwrap_or(u64::MAX),
             seed: job.seed,

@@ -42,6 +42,11 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     assert!(states.iter().all(|run| run["state"] == "finished" && run["best_reward"].is_number()), "{listed}");
     assert!(listed.contains("whole/seed-5"), "{listed}");
 
+    // A seed that played all its shots and could not say so yet says so.
+    fs::remove_file(here.join("whole/seed-4/result.json")).unwrap();
+    done(here, "train --resume whole");
+    assert!(here.join("whole/seed-4/result.json").exists());
+
     // Other settings are refused in words, the number of seeds too; with the same ones it is finished.
     let continued = |rest: &str| carom(here, &format!("{SHORT} --run whole --continue {rest}"));
     let [fewer, single] = ["--seeds 2", ""].map(continued);
@@ -91,6 +96,8 @@ fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
         unfinished(here, &format!("{} --minutes 0.00001", line(&absolute)));
         let other = carom(here, &line("two"));
         assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
+        let left_out = carom(here, &line("one").replace(" --set replay=4000", ""));
+        assert!(left_out.err.contains("was started with replay = 4000, not "), "{}", left_out.err);
         fs::rename(here.join("one"), here.join("away")).unwrap();
         let other = carom(here, &line("two"));
         assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);

@@ -28,6 +28,9 @@ fn a_damaged_checkpoint_is_reported_and_the_one_before_used() {
         Files::of(&run).assert_same(&files, "after the damage");
     }
     fs::write(&current, &whole[..whole.len() / 2]).unwrap();
+    // Whoever starts from it is told as well.
+    let copied = done(here, "train --from run --steps 64 --evaluation-layouts 5 --run copy");
+    assert!(copied.err.contains("after 576 shots"), "{}", copied.err);
     fs::write(&previous, b"").unwrap();
     let said = fs::read(run.join("state.json")).unwrap();
     let lost = carom(here, "train --resume run");

@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 
 use super::player::{NEXT, OTHERS, Player, SHOT, SIZES, TRUE_COLOUR, advice, check, proposal};
 use carom::{
-    coach::Skill,
+    coach::{FirstMet, Skill},
     game::Rule,
     physics::CueInputs,
     terminal::{Answer, CoachNews, CoachWorker, Settings, View},
@@ -77,6 +77,8 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
         ("S", "the player: world-class (average 2); Enter asks the coach", "R straight S world-class P plan on"),
         ("R S S S S S", "the player: perfect; Enter asks the coach", "R 1-cushion S perfect P plan on"),
         ("P", "only this point counts; Enter asks the coach", "R straight S expert P plan off"),
+        ("B B", "met first: red; Enter asks the coach", "R straight S expert P plan on B red first"),
+        ("x B", "met first: white; Enter asks the coach", "R straight S expert P plan on B white first"),
     ] {
         let player = Player::new().press("Enter").answer().press(keys);
         let text = player.text(80, 24);
@@ -84,6 +86,7 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
         assert!(player.app.coach.shot().is_none(), "{keys}");
         let query = &player.press("Enter").asked.unwrap().query;
         assert_eq!(query.plan, keys != "P");
+        assert_eq!(query.first == FirstMet::Red, keys == "B B");
         assert_eq!(query.skill == Skill::PERFECT, keys.contains("S S S S S"));
     }
     let player = Player::new().press("Enter").answer();

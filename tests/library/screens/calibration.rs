@@ -258,6 +258,15 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     player.says("saved as");
     let player = player.press("d");
     player.shows(&["lag", "corner-five", "0/1"]).is_silent_on("slow-roll");
+    // A table without a doubt has no such check: what is typed of it waits, and nothing of it is taken for another test's.
+    let player = player.press("Enter").type_in("4.6").press("F2");
+    let mut elsewhere = Player::new();
+    elsewhere.app = elsewhere.app.with_draft(player.app.calibration.draft());
+    let elsewhere = elsewhere.press("F7");
+    elsewhere.shows(&["slow-roll"]);
+    assert!(elsewhere.app.calibration.draft().is_some_and(|draft| draft.is_daily));
+    assert_eq!(elsewhere.app.place(), KeyContext::Calibration(CalibrationContext::Tests));
+    let player = player.press("F7 C-u Esc");
     let checked = enter(player, &["4.6", "7.4", "3.2", ""]).press("Tab");
     checked.says("today a lag rolls");
     assert!(kept(&checked).trials.len() == 2 && checked.path("calibration-daily.toml").exists());

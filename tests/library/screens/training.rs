@@ -36,7 +36,7 @@ fn the_list_of_runs() {
     let down = player.press("Down Down Down");
     down.shows(&[
         "▸ 20261118-three-cushions/seed-1",
-        "40k    1      -      -  stopped",
+        "40k    0      -      -  stopped",
         "Run 3 of 3",
         "seed 1: 40,000 of 5,000,000 shots",
         "r go on with it",

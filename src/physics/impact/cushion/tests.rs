@@ -41,6 +41,23 @@ proptest! {
     }
 
     #[test]
+    fn the_deadest_rail_lets_no_ball_through(
+        ball in moving(),
+        height in 0.0308..0.049f64,
+        (rail_restitution, rail_friction) in (0.0..0.5f64, 0.0..0.99f64),
+    ) {
+        for model in MODELS {
+            let rail = Rails { model, height: Some(height), kappa: Some(1.146), ..Rails::default() };
+            let table = Table { rail, radius: RADIUS, rail_restitution, rail_friction, ..Table::default() };
+            let mut after = ball;
+            let impulse = Cushion::of(&table, Rail::Right).resolve(RADIUS, DVec2::NEG_X, &mut after);
+            prop_assert!(after.velocity.x <= 1e-12 || impulse.climb > 0.0, "{model:?}: {after:?}");
+            let (before, energy) = (ball.specific_energy(RADIUS), after.specific_energy(RADIUS));
+            prop_assert!(energy <= before * (1.0 + 1e-12), "{model:?}: {before} to {energy}");
+        }
+    }
+
+    #[test]
     fn a_mirrored_ball_comes_back_mirrored(ball in moving(), height in 0.0308..0.040f64) {
         // Mirrored along the cushion: spins about axes in the mirror's plane change their sign.
         let mirror = |ball: &BallState| BallState {

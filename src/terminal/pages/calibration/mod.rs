@@ -109,7 +109,16 @@ impl CalibrationPage {
     /// The table that is played on from now on.
     pub fn play_on(&mut self, table: &Table) {
         self.table.clone_from(table);
-        self.is_daily &= table.doubt.is_some();
+        if self.is_daily && table.doubt.is_none() {
+            // A check of the day is of a table that was calibrated; what is typed of a stroke in it waits.
+            if let Some(Input::Marks(form)) = self.input.take()
+                && form.is_begun()
+                && !form.is_sent
+            {
+                self.aside.push(form.draft(true));
+            }
+            self.is_daily = false;
+        }
     }
 
     /// What is entered now.

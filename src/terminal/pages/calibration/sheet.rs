@@ -91,9 +91,12 @@ impl Sheet {
 
     /// How many strokes are entered, and how many are asked for, of those tests that are not left out.
     pub fn count(&self) -> (usize, usize) {
-        let entered = self.entries.iter().flat_map(|entries| &entries.trials);
-        let entered = entered.filter(|entry| !self.left_out.contains(&entry.test.as_str())).count();
-        (entered, self.tests().filter(|test| !self.is_left_out(test)).map(|test| self.times(test)).sum())
+        let asked = self.tests().filter(|test| !self.is_left_out(test));
+        asked.fold((0, 0), |(entered, wanted), test| {
+            let times = self.times(test);
+            // More strokes of one do not stand for another.
+            (entered + self.strokes(test).len().min(times), wanted + times)
+        })
     }
 
     /// Place of the marked stroke among those of the marked test.

@@ -100,6 +100,7 @@ impl CoachPage {
             Action::NextRule => self.next_rule(),
             Action::NextSkill => self.next_skill(),
             Action::TurnPlan => self.turn_plan(),
+            Action::NextFirstMet => self.next_first_met(),
             Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
             Action::TurnEvents => {
                 self.has_all_events = !self.has_all_events;

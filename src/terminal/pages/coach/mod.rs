@@ -25,7 +25,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
-    coach::{Skill, Units, Verdict},
+    coach::{FirstMet, Skill, Units, Verdict},
     drills::Session,
     game::Rule,
     learning::Policy,
@@ -139,6 +139,8 @@ pub struct CoachPage {
     drag: Option<Drag>,
     /// What the settings ask for, whatever keys have changed since.
     of_settings: Terms,
+    /// What was asked for at the start.
+    of_start: Terms,
     /// Where the last sessions ended that were not gone on with, the last one first.
     before: Vec<SavedSession<'static>>,
     /// Whether one of them was gone on with.
@@ -195,6 +197,7 @@ impl CoachPage {
             }),
             drag: None,
             of_settings: CoachQuery::default().terms(),
+            of_start: CoachQuery::default().terms(),
             before: Vec::new(),
             has_gone_back: false,
             left_exams: Vec::new(),
@@ -223,6 +226,7 @@ impl CoachPage {
         if let Some((last, set)) = last.as_ref().and_then(|last| Some((last, last.settings?))) {
             self.query = self.query.with(self.of_settings.after([set, last.terms()]));
         }
+        self.of_start = self.query.terms();
         let is_elsewhere = |last: &SavedSession| {
             last.layout != *self.layout() || *last.table != *self.table() || last.practice.is_some()
         };
@@ -265,7 +269,7 @@ impl CoachPage {
 
     /// Whether anything has been done since the start.
     fn is_begun(&self) -> bool {
-        self.balls.can_undo() || !self.balls.present().advised.is_empty()
+        self.balls.can_undo() || !self.balls.present().advised.is_empty() || self.query.terms() != self.of_start
     }
 
     /// Goes on with the exam that was left, or from where the last session ended; gives what was practised there.
@@ -277,12 +281,15 @@ impl CoachPage {
             return None;
         }
         let last = self.before.remove(0);
-        let query = CoachQuery { policy: self.policy_on(&last.table), ..self.query.with(last.terms()) };
+        // What was asked for came back at the start, where the session kept it as it does today, and keys may have changed it since.
+        let terms = if last.settings.is_some() { self.query.terms() } else { last.terms() };
+        let query = CoachQuery { policy: self.policy_on(&last.table), ..self.query.with(terms) };
+        let its_rule = if last.rule == query.rule { String::new() } else { format!(", under the rule {}", last.rule) };
         self.take(&last.table, last.layout, query);
         self.balls.present_mut().cue_ball = last.cue_ball;
         let which = if std::mem::replace(&mut self.has_gone_back, true) { "that earlier" } else { "the last" };
         let more = if self.before.is_empty() { "" } else { "; c goes back to the one before" };
-        let said = format!("this is where {which} session ended; Enter asks the coach{more}");
+        let said = format!("this is where {which} session ended{its_rule}; Enter asks the coach{more}");
         self.message = Some(Message::good(said));
         last.practice.map(Cow::into_owned)
     }
@@ -296,7 +303,8 @@ impl CoachPage {
     /// Begins as the user wants it.
     pub fn take_settings(&mut self, settings: &Settings) {
         let Settings { rule, skill, doubt, plan, jumps, .. } = *settings;
-        self.of_settings = Terms { rule, skill, plan };
+        self.of_settings = Terms { rule, skill, plan, first: FirstMet::Any };
+        self.of_start = self.of_settings;
         self.query = CoachQuery { doubt, jumps, ..self.query.with(self.of_settings) };
         self.budget = Duration::from_millis(settings.think_ms).min(self.most);
         self.units = settings.units;
@@ -321,6 +329,7 @@ impl CoachPage {
             rule: other(terms.rule, before.rule, settings.rule),
             skill: other(terms.skill, before.skill, settings.skill),
             plan: other(terms.plan, before.plan, settings.plan),
+            ..terms
         };
         self.of_settings = set(self.of_settings);
         let query = CoachQuery {
@@ -353,8 +362,8 @@ impl CoachPage {
         let stays = self.table() == table || lies.opening_side(self.table()).is_none() && lies.validate(table).is_ok();
         let layout = if stays { lies } else { Layout::opening(table) };
         let news = format!("the coach plays with {}; Enter asks it", query.name());
-        let CoachQuery { skill, doubt, plan, jumps, .. } = self.query;
-        self.take(table, layout, CoachQuery { skill, doubt, plan, jumps, ..query });
+        let CoachQuery { skill, doubt, plan, jumps, first, .. } = self.query;
+        self.take(table, layout, CoachQuery { skill, doubt, plan, jumps, first, ..query });
         self.message = Some(Message::good(news));
     }
 

@@ -6,9 +6,10 @@ use std::sync::{
 };
 
 use crate::{
-    coach::{Cause, Why},
+    coach::{Cause, FirstMet, Why},
     game::Rule,
     physics::CueInputs,
+    table::BALLS,
     terminal::{
         Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot, Terms,
         pages::{
@@ -85,6 +86,7 @@ impl CoachPage {
 
     /// The coach has something to say. Late answers to cancelled questions are dropped.
     pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
+        let names = self.cue_ball().names();
         let awaited = self.pending.as_mut().filter(|pending| pending.id == answer.id);
         let is_study = self.studying.as_ref().is_some_and(|studying| studying.id == answer.id);
         match (answer.news, awaited) {
@@ -98,7 +100,7 @@ impl CoachPage {
                 let query = pending.query.clone();
                 self.pending = None;
                 self.message = if query == self.query {
-                    advice.proposals.first().map(|best| news(best, advice.effort, &query))
+                    advice.proposals.first().map(|best| news(best, advice.effort, &query, names))
                 } else {
                     let [asked, now] = [query.skill, self.query.skill].map(skill_word);
                     Some(Message::plain(format!("the coach has answered for {asked}; Enter asks it for {now}")))
@@ -190,6 +192,7 @@ impl CoachPage {
     }
 
     pub(super) fn choose(&mut self, choose: impl FnOnce(&mut AdviceState)) {
+        let names = self.cue_ball().names();
         if let Some(advised) = self.advised_mut() {
             choose(advised);
             let words = format!("shot {} of {}", advised.chosen + 1, advised.choices.len());
@@ -197,7 +200,7 @@ impl CoachPage {
             self.message = Some(match chance(proposal, &advised.query) {
                 // Whose chance it is stands above the list, and one row is all there is.
                 Some(chance) => Message::good(format!("{words}: {chance}")),
-                None => news(proposal, None, &advised.query).after(&words),
+                None => news(proposal, None, &advised.query, names).after(&words),
             });
         }
         self.leave_example();
@@ -212,7 +215,7 @@ impl CoachPage {
         }
         self.place(end);
         let Some(next) = next else { return Some(self.ask()) };
-        self.message = next.proposals.first().map(|best| news(best, None, &self.query));
+        self.message = next.proposals.first().map(|best| news(best, None, &self.query, self.cue_ball().names()));
         self.show(self.query.clone(), next);
         None
     }
@@ -230,6 +233,11 @@ impl CoachPage {
     pub(super) fn turn_plan(&mut self) {
         let plan = !self.query.plan;
         self.ask_for(Terms { plan, ..self.query.terms() });
+    }
+
+    pub(super) fn next_first_met(&mut self) {
+        let first = after(&FirstMet::ALL, &self.query.first);
+        self.ask_for(Terms { first, ..self.query.terms() });
     }
 
     /// Asks for something else from now on, and says so. A shot that answers another question is not shown, until that is asked
@@ -251,7 +259,7 @@ impl CoachPage {
     /// Says what is asked for otherwise than `before`, where anything is, and shows the shot for it if that is known; else whether
     /// the one that was shown can be had back.
     pub(super) fn say_terms(&mut self, before: Terms, had_shot: bool) {
-        let words = self.query.terms().news_since(before);
+        let words = self.query.terms().news_since(before, self.cue_ball().names());
         if words.is_empty() {
             return;
         }
@@ -272,8 +280,8 @@ fn made_words(query: &CoachQuery, chance: &str) -> String {
     format!("{} makes it {chance}", skill_word(query.skill))
 }
 
-/// A proposal in a sentence.
-fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Message {
+/// A proposal in a sentence, where the balls are called so, the cue ball first.
+fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery, names: [&'static str; BALLS]) -> Message {
     let shot = &proposal.shot;
     let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
         0 => ", under 1 ms".to_owned(),
@@ -282,8 +290,11 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Mess
     if !shot.solved {
         let tried = effort.map_or(String::new(), |effort| format!(" in {} simulations", effort.simulations));
         let source = &shot.source;
+        let begins = query.first.begins(names);
         let without = if query.jumps { "" } else { " without jumps and massés" };
-        return Message::poor(format!("no point found{without}{tried}; this is the best attempt ({source}{took})"));
+        return Message::poor(format!(
+            "no point found{begins}{without}{tried}; this is the best attempt ({source}{took})"
+        ));
     }
     let Some(chance) = chance(proposal, query) else {
         return Message::good(format!("makes the point ({}{took})", shot.source));

@@ -4,7 +4,6 @@
 use crate::{
     drills::{Category, Exercise, LONGEST_TITLE, Library, bare_tag},
     storage::is_name,
-    table::PRESETS,
     terminal::{
         DrillTask, Effect,
         pages::{
@@ -14,6 +13,9 @@ use crate::{
         ui::{Message, TextField},
     },
 };
+
+/// The bundled table for which positions of other tables are saved.
+const FOR_ALL: &str = "match";
 
 /// Longest name that is made of a title, letters.
 const LONGEST_NAME: usize = 40;
@@ -78,18 +80,22 @@ impl Saving {
 }
 
 impl CoachPage {
-    /// Asks for a title of the position on the table, with the shot that makes the point there if it is known.
+    /// Asks for a title of the position on the table, with the shot that makes the point there if it is known. Positions are for everybody:
+    /// one on a table of one's own is saved for [`FOR_ALL`], on which its shot would be another.
     pub(super) fn ask_title(&mut self) {
         self.playback.pause();
         let shot = self.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
-        let position = Exercise { shot, ..Exercise::own("", self.query.rule, &self.table().name, *self.layout()) };
-        if position.table().is_ok_and(|known| known == *self.table()) {
+        let on = |table: &str| Exercise::own("", self.query.rule, table, *self.layout());
+        let here = Exercise { shot, ..on(&self.table().name) };
+        let is_bundled = here.table().is_ok_and(|known| known == *self.table());
+        let position = if is_bundled { here } else { on(FOR_ALL) };
+        if position.table().is_ok() {
             self.saving.question = Some(Question::Title(TextField::new(LONGEST_TITLE), Box::new(position)));
         } else {
             let name = &self.table().name;
-            let tables = PRESETS.join(", ");
-            let words =
-                format!("\"{name}\" is your own table, and a position needs a bundled one ({tables}): F5 changes it");
+            let words = format!(
+                "a position of your own table \"{name}\" is saved for \"{FOR_ALL}\", where these balls cannot lie"
+            );
             self.message = Some(Message::warning(words));
         }
     }
@@ -122,7 +128,9 @@ impl CoachPage {
         match outcome {
             Ok(true) => {
                 let list = Category::Own.title();
-                self.message = Some(Message::good(format!("saved as {name}; the drills list it under {list}")));
+                let other = exercise.table != self.table().name;
+                let table = if other { format!(" for the table {}", exercise.table) } else { String::new() };
+                self.message = Some(Message::good(format!("saved as {name}{table}; the drills list it under {list}")));
             }
             Ok(false) => self.saving.question = Some(Question::Replace(exercise)),
             Err(sentence) => self.message = Some(Message::warning(format!("{name} is not saved: {sentence}"))),

@@ -97,9 +97,16 @@ impl Catalogue {
         self.refilter(|filter| filter.grade = if filter.grade == Some(grade) { None } else { Some(grade) });
     }
 
-    /// Shows what has `text` in it.
+    /// Shows what has `text` in it, and marks the first that has it in its title, if the marked one has not.
     pub fn find_text(&mut self, text: &str) {
         self.refilter(|filter| filter.text = (!text.is_empty()).then(|| text.to_owned()));
+        let sought = text.to_lowercase();
+        let is_titled = |exercise: &Exercise| exercise.title.to_lowercase().contains(&sought);
+        if !self.marked().is_some_and(is_titled)
+            && let Some(titled) = self.found().into_iter().position(is_titled)
+        {
+            self.mark = titled;
+        }
     }
 }
 
@@ -121,6 +128,13 @@ mod tests {
             catalogue.choose_category(1);
             assert!(catalogue.found().iter().all(|exercise| exercise.category == category));
         }
+    }
+
+    #[test]
+    fn what_is_sought_is_marked_where_a_title_has_it() {
+        let mut catalogue = Catalogue::new(Library::bundled().unwrap());
+        catalogue.find_text("natural");
+        assert!(catalogue.marked().unwrap().title.to_lowercase().contains("natural"), "{:?}", catalogue.marked());
     }
 
     #[test]

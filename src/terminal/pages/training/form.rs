@@ -11,7 +11,7 @@ use crate::{
         agents::AGENTS,
         run::{list::Summary, run_name},
     },
-    printing::timestamp,
+    printing::{shell_word, timestamp},
     terminal::{Launch, pages::training::charts::around},
 };
 
@@ -21,7 +21,7 @@ pub const TABLES: [&str; 3] = ["match", "textbook", "thesis"];
 const BUDGETS: [u64; 9] =
     [100_000, 300_000, 1_000_000, 3_000_000, 5_000_000, 10_000_000, 30_000_000, 100_000_000, 300_000_000];
 /// Most digits of a number that is typed; every number of so many digits fits.
-const DIGITS: usize = 20;
+const DIGITS: usize = 19;
 
 /// Seconds beyond which a run is a long one.
 const DAY: f64 = 86_400.0;
@@ -200,12 +200,20 @@ impl Form {
         run_name(&self.opened, AGENTS[self.agent].name, self.table, self.reward, &self.seed)
     }
 
-    /// The command line that starts the same run.
-    pub fn command(&self) -> String {
+    /// The command line that starts the same run; in `elsewhere` where that is not the folder of the user's runs.
+    pub fn command(&self, elsewhere: Option<&Path>) -> String {
         let Self { agent, reward, table, shots, seed, .. } = self;
         let agent = AGENTS[*agent].name;
-        let from = self.from.as_ref().map_or(String::new(), |(name, _)| format!(" --from {name}"));
-        format!("carom train --agent {agent} --reward {reward} --table {table} --steps {shots} --seed {seed}{from}")
+        let from = self.from.as_ref().map_or(String::new(), |(name, path)| {
+            let path = path.to_string_lossy();
+            format!(" --from {}", shell_word(if elsewhere.is_some() { &path } else { name }))
+        });
+        let run = elsewhere.map_or(String::new(), |folder| {
+            format!(" --run {}", shell_word(&folder.join(self.name()).to_string_lossy()))
+        });
+        format!(
+            "carom train --agent {agent} --reward {reward} --table {table} --steps {shots} --seed {seed}{from}{run}"
+        )
     }
 
     /// What starts the run in a folder of `runs`.

@@ -5,11 +5,14 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use crate::terminal::{
-    CoachAction, Mode,
-    pages::coach::{CoachPage, view::asked::key_of},
-    ui::{Ui, end_of},
-    words::{fixed, rule_word, skill_word},
+use crate::{
+    coach::FirstMet,
+    terminal::{
+        CoachAction, Mode,
+        pages::coach::{CoachPage, view::asked::key_of},
+        ui::{Ui, end_of},
+        words::{fixed, rule_word, skill_word},
+    },
 };
 
 /// Cells of the bar that shows how far the shot has played: at least, and at most; and from how many on words stand before
@@ -31,7 +34,11 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let room = usize::from(area.width);
     let time = transport(coach, Form::Short, 0, ui).width() + 2;
     let whole = question(coach, true, ui);
-    let question = if whole.width() + time <= room { whole } else { question(coach, coach.query.plan, ui) };
+    // Of what there is no room for, the plan goes first; a wish for this very shot stays, and the name of another table.
+    let is_named = coach.query.policy.is_some() || coach.table().name != "match";
+    let has_plan = coach.query.plan && coach.query.first == FirstMet::Any && !is_named;
+    let fits = whole.width() + time + if is_named { NAME } else { 0 } <= room;
+    let question = if fits { whole } else { question(coach, has_plan, ui) };
     let name = name(coach, room.saturating_sub(question.width() + time), room, ui);
     let left = room.saturating_sub(question.width() + name.width() + 1);
     // The bar says more than words do.
@@ -72,8 +79,13 @@ fn question(coach: &CoachPage, has_plan: bool, ui: &Ui) -> Line<'static> {
         (CoachAction::NextSkill, skill_word(query.skill)),
         (CoachAction::TurnPlan, plan),
     ];
+    let mut parts = parts[..if has_plan { 3 } else { 2 }].to_vec();
+    let first = format!("{} first", query.first.word(coach.cue_ball().names()));
+    if query.first != FirstMet::Any {
+        parts.push((CoachAction::NextFirstMet, &first));
+    }
     let mut line = Line::default();
-    for (action, words) in parts.into_iter().take(if has_plan { 3 } else { 2 }) {
+    for (action, words) in parts {
         line.push_span(Span::styled(format!(" {}", key_of(&action, ui)), ui.theme.accent()));
         line.push_span(Span::styled(format!(" {words}"), ui.theme.text()));
     }

@@ -118,7 +118,12 @@ pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
         ],
         Guide::Shift(_) => vec![Span::styled("Parallel shift", ui.theme.good())],
     };
-    title.push(Span::styled(if lesson.is_of_shot { " for this shot" } else { " example" }, ui.theme.faint()));
+    title.push(if lesson.is_of_shot {
+        Span::styled(" for this shot", ui.theme.faint())
+    } else {
+        // Its line runs over the player's balls and looks like advice.
+        Span::styled(" example, not your shot", ui.theme.text())
+    });
     let inner = draw_title(title, area, ui);
     let inner = inner.inner(Margin::new(1, 0));
     let rows = |sentences: &[(String, bool)]| -> usize {

@@ -28,7 +28,11 @@ pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &
     let (table, shot) = (coach.table(), &*what_if.shot);
     let beside = Beside {
         teacher: COACH,
-        made: coach.proposal().and_then(|proposal| proposal.made).map(|made| made.rate),
+        made: coach
+            .proposal()
+            .filter(|proposal| !proposal.is_early)
+            .and_then(|proposal| proposal.made)
+            .map(|made| made.rate),
         cue_ball: coach.cue_ball(),
         units: coach.units,
     };

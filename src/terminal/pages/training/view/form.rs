@@ -44,7 +44,8 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     let rows = 2 * Field::ALL.len() as u16 + 2;
     let below = Rect { y: area.y + rows, height: area.height.saturating_sub(rows), ..area };
     let inner = draw_title("The same on the command line", below, ui);
-    let lines = command_lines(&form.command(), usize::from(area.width.saturating_sub(6)));
+    let elsewhere = (training.folder != training.places.runs).then_some(training.folder.as_path());
+    let lines = command_lines(&form.command(elsewhere), usize::from(area.width.saturating_sub(6)));
     let name =
         Line::from(vec![Span::styled("run           ", ui.theme.faint()), Span::styled(form.name(), ui.theme.text())]);
     let lines = lines.into_iter().map(|line| Line::styled(line, ui.theme.text())).chain([Line::default(), name]);

@@ -43,7 +43,7 @@ const COLUMNS: [Column; 9] = [
 
 fn percent(run: &Summary) -> String {
     // The last turn goes a little beyond the plan.
-    format!("{:.0}", (100.0 * run.shots as f64 / run.planned_shots.max(1) as f64).min(100.0))
+    format!("{:.0}", (100.0 * run.shots as f64 / run.planned_shots.max(1) as f64).min(100.0).floor())
 }
 
 fn reward(value: Option<f64>) -> String {

@@ -1,0 +1,105 @@
+//! What the cue ball is to meet first, for a player who wants to see the shots that begin so.
+
+use std::str::FromStr;
+
+use super::trial::Course;
+use crate::table::{BALL_NAMES, BALLS};
+
+/// What the cue ball is to meet first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FirstMet {
+    /// Whatever is best.
+    #[default]
+    Any,
+    /// The other cue ball, with no cushion before it.
+    OtherCueBall,
+    /// The red ball, with no cushion before it.
+    Red,
+    /// A cushion, whichever ball comes then: a bank shot.
+    Cushion,
+}
+
+/// A name of what is met first that is not known.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("\"{word}\" cannot be met first; use {}", FirstMet::ALL.map(|first| first.word(*names)).join(", "))]
+pub struct UnknownFirstMet {
+    word: String,
+    names: [&'static str; BALLS],
+}
+
+impl FirstMet {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Any, Self::OtherCueBall, Self::Red, Self::Cushion];
+
+    /// In a word, where the balls are called so, the cue ball first.
+    pub const fn word(self, [_, other, red]: [&'static str; BALLS]) -> &'static str {
+        match self {
+            Self::Any => "any",
+            Self::OtherCueBall => other,
+            Self::Red => red,
+            Self::Cushion => "cushion",
+        }
+    }
+
+    /// How a shot begins, behind what is said of it; empty where anything may be met.
+    pub fn begins(self, names: [&'static str; BALLS]) -> String {
+        if self == Self::Any { String::new() } else { format!(" with {} first", self.word(names)) }
+    }
+
+    /// Which of them `word` says, where the balls are called so.
+    ///
+    /// # Errors
+    /// [`UnknownFirstMet`], which lists them.
+    pub fn said(word: &str, names: [&'static str; BALLS]) -> Result<Self, UnknownFirstMet> {
+        let said = Self::ALL.into_iter().find(|first| first.word(names) == word);
+        said.ok_or_else(|| UnknownFirstMet { word: word.to_owned(), names })
+    }
+
+    /// Whether a shot that takes this course begins so.
+    pub fn allows(self, course: &Course) -> bool {
+        let met = if course.tally.cushions_before_first > 0 { Self::Cushion } else { Self::of_ball(course.first) };
+        self == Self::Any || self == met
+    }
+
+    const fn of_ball(ball: Option<usize>) -> Self {
+        match ball {
+            Some(1) => Self::OtherCueBall,
+            Some(2) => Self::Red,
+            _ => Self::Any,
+        }
+    }
+}
+
+/// As on the command line, where white is the cue ball.
+impl FromStr for FirstMet {
+    type Err = UnknownFirstMet;
+
+    fn from_str(text: &str) -> Result<Self, UnknownFirstMet> {
+        Self::said(text, BALL_NAMES)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::game::Tally;
+
+    #[test]
+    fn a_course_begins_with_a_cushion_or_a_ball() {
+        let course =
+            |cushions, first| Course { tally: Tally { cushions_before_first: cushions, ..Tally::default() }, first };
+        let allowed = |course: Course| FirstMet::ALL.map(|first| first.allows(&course));
+        assert_eq!(allowed(course(0, Some(1))), [true, true, false, false]);
+        assert_eq!(allowed(course(0, Some(2))), [true, false, true, false]);
+        assert_eq!(allowed(course(2, Some(2))), [true, false, false, true]);
+        assert_eq!(allowed(course(0, None)), [true, false, false, false]);
+    }
+
+    #[test]
+    fn names_are_those_of_the_balls() {
+        assert_eq!("yellow".parse(), Ok(FirstMet::OtherCueBall));
+        assert_eq!(FirstMet::said("white", ["yellow", "white", "red"]), Ok(FirstMet::OtherCueBall));
+        let unknown = "white".parse::<FirstMet>().unwrap_err().to_string();
+        assert_eq!(unknown, "\"white\" cannot be met first; use any, yellow, red, cushion");
+    }
+}
