@@ -14,6 +14,22 @@ use crate::{
     table::{Layout, OneRail, RailModel, Rails, Table},
 };
 
+/// Where the cue ball ends on `match` with a nose of this restitution, which draw drives up.
+fn end_at_a_dead_nose(rail_restitution: f64) -> DVec2 {
+    let rail = Rails { model: RailModel::Nose, height: Some(0.037_36), ..Rails::default() };
+    let table = Table { rail, rail_restitution, rail_friction: 0.3, ..Table::default() };
+    let layout = Layout::parse("1.2,0 -0.5,0.3 -0.5,-0.3", &table).unwrap();
+    let cue = CueInputs::parse("0,-0.4,0,10,3").unwrap();
+    simulate(&table, &layout, &strike(&table, &cue), &mut Course::default()).layout(&table).balls[0]
+}
+
+#[test]
+fn a_nose_that_just_throws_a_ball_back_and_one_that_just_does_not_differ_little() {
+    // The one that stops it has pressed it down and met it again until nothing of its approach was left.
+    let ends = [0.0955, 0.096, 0.0965].map(end_at_a_dead_nose);
+    assert!(ends[0].distance(ends[1]) < 1.2 * ends[1].distance(ends[2]), "{ends:?}");
+}
+
 /// What happens, and the pieces of the cue ball's course with their ends.
 #[derive(Default)]
 struct Course {

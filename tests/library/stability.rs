@@ -75,7 +75,6 @@ rows_as_tests! {
     large_friction => "friction of 10 and 1000 on the cloth, 0.99 in contacts",
     no_restitution => "no restitution, e = 0",
     little_restitution => "restitution e = 0.3",
-    high_and_dead => "rails with a high nose, e = 0.05 and 0.2, friction 0.9",
     full_restitution => "full restitution, e = 1",
     lossless_contacts => "full restitution without friction in contacts",
     smallest_table => "the smallest table, six ball radii wide",

@@ -7,7 +7,7 @@ use super::{Case, variant};
 use crate::{
     physics::{CueDegrees, Motion},
     study::stability::{Shot, Trace, adversarial, draw, random},
-    table::{BALLS, JUDGED, RailModel, Rails, Table},
+    table::{BALLS, JUDGED, Table},
 };
 
 pub const CASES: &[Case] = &[
@@ -18,7 +18,6 @@ pub const CASES: &[Case] = &[
         .holding("friction of 1 and more in contacts, whose forces would not be unique, is refused"),
     Case::new("no restitution, e = 0", || restitution(0.0), shot),
     Case::new("restitution e = 0.3", || restitution(0.3), shot),
-    Case::new("rails with a high nose, e = 0.05 and 0.2, friction 0.9", high_and_dead, shot),
     Case::new("full restitution, e = 1", || restitution(1.0), shot).any_events(),
     Case::new("full restitution without friction in contacts", lossless, shot)
         .checked("no collision changes the energy", keeps_energy)
@@ -51,16 +50,6 @@ fn large_friction() -> Vec<Table> {
 
 fn restitution(e: f64) -> Vec<Table> {
     of_presets(&format!("e = {e}"), |table| (table.ball_restitution, table.rail_restitution) = (e, e))
-}
-
-fn high_and_dead() -> Vec<Table> {
-    let rails = |model, e: f64| {
-        of_presets(&format!("{model:?} nose, e = {e}"), move |table| {
-            table.rail = Rails { model, height: Some(1.5 * table.radius), kappa: Some(1.0), ..Rails::default() };
-            (table.rail_restitution, table.rail_friction) = (e, 0.9);
-        })
-    };
-    [rails(RailModel::Nose, 0.05), rails(RailModel::Smooth, 0.2)].concat()
 }
 
 fn lossless() -> Vec<Table> {
