@@ -62,10 +62,11 @@ pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) ->
 }
 
 /// Stratified sampling: the `n`th of a series of shots in which every ten are eight at an object ball, four at either; one at an object
-/// ball's image in a cushion, which comes off that cushion to it; and one anywhere. Of fifty the first twenty are of any kind:
+/// ball's image in a cushion, which comes off that cushion to it; and one anywhere. Where the player wants a ball met first, the eight are
+/// at it; where a cushion, they are at images as the ninth is. Of fifty the first twenty are of any kind:
 /// their thicknesses are all alike, their tips fill the disc, and their speeds, from `softest` on, are alike in their logarithm, as errors
 /// of the speed are a share of it. The others are spread as usual strokes are. The cue is level, for a player lifts it only with a
-/// reason. Where the player wants something met first, the eight are at that ball, or at images in cushions as the ninth. Usual strokes, and fewer shots in later stages where time was short, raised what a club player made of three-cushion
+/// reason. Usual strokes, and fewer shots in later stages where time was short, raised what a club player made of three-cushion
 /// shots that were looked for in 30 ms from 25.3 to 27.8 % (200 layouts, with the search of that day).
 pub fn stratified(
     table: &Table,
