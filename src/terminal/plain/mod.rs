@@ -61,7 +61,7 @@ struct Conversation {
 pub struct Beginning {
     /// Where the balls lie.
     pub layout: Layout,
-    /// The player's own skill, where one is kept.
+    /// The player's own skill, where one is kept; else an average in the settings is it.
     pub own: Option<Skill>,
     /// What decides about random layouts.
     pub seed: u64,
@@ -96,7 +96,7 @@ pub fn converse(
     let mut talk = Conversation {
         coach,
         request,
-        own,
+        own: own.or_else(|| settings.skill.as_average().map(|_| settings.skill)),
         balls: History::new((layout, CueBall::White)),
         shots: Vec::new(),
         chosen: 0,
@@ -467,7 +467,7 @@ mod tests {
         let said = talk("skill club\nshot\nwhy\nchances\nplan\nplan off\nplan");
         for words in [
             "The first shot. It is made ",
-            "Shot 1. Player club makes it ",
+            "Shot 1. A club player makes it ",
             "\nThe next point ",
             "Say plan on to change",
         ] {

@@ -134,7 +134,15 @@ pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill) -> Ve
 
 /// Who plays, at the beginning of a sentence.
 pub fn player(skill: Skill) -> String {
-    skill.as_average().map_or_else(|| format!("Player {skill}"), |average| format!("A player who averages {average}"))
+    if let Some(average) = skill.as_average() {
+        return format!("A player who averages {average}");
+    }
+    match Skill::NAMED.iter().find(|(_, named)| *named == skill) {
+        Some((name @ "expert", _)) => format!("An {name}"),
+        Some((name @ "beginner", _)) => format!("A {name}"),
+        Some((name, _)) => format!("A {name} player"),
+        None => format!("Player {skill}"),
+    }
 }
 
 /// Who plays from now on.
