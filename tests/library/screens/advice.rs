@@ -14,9 +14,7 @@ use ratatui::{buffer::Buffer, style::Color};
 #[test]
 fn every_better_shot_is_shown_while_the_coach_thinks_until_its_answer_replaces_it() {
     let player = Player::new().press("Enter").better(OTHERS[1], 612).wait(0.35);
-    assert!(
-        player.text(80, 24).contains("so far a shot that seems to make the point 61 %, not judged yet; Esc takes it")
-    );
+    assert!(player.text(80, 24).contains("so far a shot of about 61 %, not judged yet; Esc takes it"));
     let player = player.better(OTHERS[0], 893);
     check("so_far", &player);
     assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());

@@ -269,7 +269,7 @@ fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Messa
             ui.caps.pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
         let so_far = coach.proposal().filter(|proposal| proposal.is_early).and_then(|proposal| proposal.made);
         let words = so_far.map_or("the coach is thinking; Esc stops it".to_owned(), |made| {
-            format!("so far a shot that seems to make the point {} %, not judged yet; Esc takes it", percent(made.rate))
+            format!("so far a shot of about {} %, not judged yet; Esc takes it", percent(made.rate))
         });
         return Message::plain(format!("{} {words}", pictures[picture % pictures.len()]));
     }
