@@ -4,7 +4,7 @@ use super::{
     forward::{Hand, STROKE, marks},
     protocol::Test,
 };
-use crate::table::{Table, TableDoubt};
+use crate::table::{Rail, Table, TableDoubt};
 
 /// By how much constants change from one day to the next with the humidity of cloth and rails: standard deviations. They are
 /// assumptions. A rail's own values change as, and with, those of all rails.
@@ -14,43 +14,42 @@ const DAY: [(&str, f64); 5] =
 /// The tests of a daily check: the first mark that is told of each.
 pub const DAILY: [&str; 2] = ["lag", "corner-five"];
 
-/// Which of them a constant of this name is, or changes with.
-fn of_a_day(name: &str) -> Option<(&'static str, f64)> {
-    let kind = match name.strip_prefix("rail.").and_then(|own| own.split_once('.')) {
-        Some((_, "e")) => "e_rail",
-        Some((_, "mu")) => "mu_rail",
-        _ => name,
-    };
-    DAY.into_iter().find(|(name, _)| *name == kind)
+/// What changes together, and by how much: each constant of [`DAY`] that the table has, and those of its single rails.
+fn changing(table: &Table) -> [(f64, Vec<String>); DAY.len()] {
+    DAY.map(|(name, change)| {
+        let own: &[&str] = match name {
+            "e_rail" => &["e"],
+            "mu_rail" => &["mu"],
+            _ => &[],
+        };
+        let own = own.iter().flat_map(|kind| Rail::ALL.map(|rail| format!("rail.{}.{kind}", rail.name())));
+        let names = std::iter::once(name.to_owned()).chain(own);
+        (change, names.filter(|name| TableDoubt::value(table, name).is_some()).collect())
+    })
 }
 
 /// The doubt about a table on the day after: what was known of it, and what may have changed since.
 pub fn overnight(table: &Table, doubt: &TableDoubt) -> TableDoubt {
-    let mut after = doubt.clone();
-    let own = ["left", "right", "bottom", "top"]
-        .iter()
-        .flat_map(|rail| ["e", "mu"].map(|kind| format!("rail.{rail}.{kind}")));
-    let names: Vec<String> = DAY.map(|(name, _)| name.to_owned()).into_iter().chain(own).collect();
-    let changing: Vec<&String> = names.iter().filter(|name| TableDoubt::value(table, name).is_some()).collect();
-    for name in &changing {
-        let change = of_a_day(name).map_or(0.0, |(_, change)| change);
-        let deviation = after.deviations.entry((*name).clone()).or_default();
-        *deviation = deviation.hypot(change);
+    let (mut after, groups) = (doubt.clone(), changing(table));
+    for (change, names) in &groups {
+        for name in names {
+            let deviation = after.deviations.entry(name.clone()).or_default();
+            *deviation = deviation.hypot(*change);
+        }
     }
     let deviations = &after.deviations;
     let share = |name: &String| doubt.deviations.get(name).map_or(0.0, |before| before / deviations[name]);
     after.correlations.iter_mut().for_each(|(one, other, value)| *value *= share(one) * share(other));
-    for (place, one) in changing.iter().enumerate() {
-        for other in &changing[place + 1..] {
-            let (Some((kind, change)), Some((as_well, _))) = (of_a_day(one), of_a_day(other)) else { continue };
-            if kind != as_well {
-                continue;
-            }
-            let common = change * change / (deviations[*one] * deviations[*other]);
-            let is_theirs = |(a, b, _): &&mut (String, String, f64)| (a, b) == (one, other) || (b, a) == (one, other);
-            match after.correlations.iter_mut().find(is_theirs) {
-                Some((_, _, value)) => *value += common,
-                None => after.correlations.push(((*one).clone(), (*other).clone(), common)),
+    for (change, names) in &groups {
+        for (place, one) in names.iter().enumerate() {
+            for other in &names[place + 1..] {
+                let common = change * change / (deviations[one] * deviations[other]);
+                let is_theirs =
+                    |(a, b, _): &&mut (String, String, f64)| (a, b) == (one, other) || (b, a) == (one, other);
+                match after.correlations.iter_mut().find(is_theirs) {
+                    Some((_, _, value)) => *value += common,
+                    None => after.correlations.push((one.clone(), other.clone(), common)),
+                }
             }
         }
     }

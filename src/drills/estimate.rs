@@ -115,7 +115,7 @@ pub enum NoEstimate {
 }
 
 /// Which attempts tell something of the hand alone.
-const COUNTED: &str = "Strokes at a real table count alone (m and n note them): model shots with no ball shifted, and shots that a hint showed; no games";
+const COUNTED: &str = "Only strokes noted at a real table count: model shots with no ball shifted, and shots that a hint showed; no games";
 
 /// What there is of what an estimate needs.
 fn so_far(attempts: usize, shots: usize) -> String {

@@ -51,9 +51,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let c = &self.constants;
         let before = state;
         let approach = -state.velocity.dot(n);
-        let cushion = self.law_at(approach).cushions.at(rail);
-        let impulse = cushion.resolve(c.radius, n, &mut state);
-        let [height, _] = cushion.nose();
+        let impulse = self.law_at(approach).cushions.at(rail).resolve(c.radius, n, &mut state);
         if self.micro_collisions.is_some() {
             state.position += c.tolerance.micro_room * n;
         }
@@ -65,7 +63,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let contact = Contact::with_cushion(index, n);
             // A dead nose above the centre that does not throw the ball back has stopped it by its own law. A bounce that is too slow to be
             // followed has not happened.
-            let is_stopped = height > 0.0 && approach > c.tolerance.slow_bounce && state.velocity.dot(n) <= 0.0;
+            let [sine, _] = self.law_at(approach).cushions.at(rail).nose();
+            let is_stopped = sine > 0.0 && approach > c.tolerance.slow_bounce && state.velocity.dot(n) <= 0.0;
             told = self.slow_bounce(now, &contact)?;
             if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(index, state)]) {
                 return self.end_chatter(

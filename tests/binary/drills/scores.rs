@@ -148,7 +148,7 @@ fn enough_results_tell_a_skill_that_every_command_takes() {
     let one = drill(folder.path(), &["skill", "--keep"]);
     assert!(
         one.code == Some(1)
-            && one.err.contains("60 attempts are enough, but at 1 of 3 different shots. Strokes at a real table"),
+            && one.err.contains("60 attempts are enough, but at 1 of 3 different shots. Only strokes noted at a real table count: model shots"),
         "{}",
         one.err
     );
