@@ -2,7 +2,7 @@
 
 use super::{
     Failure,
-    drill::{MOST_STROKES, PlayOptions, Strokes, Workspace, play, strokes},
+    drill::{MOST_STROKES, PlayOptions, Workspace, play, strokes},
     input::{bundled_table, whole},
 };
 use crate::{
@@ -67,10 +67,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let game = Exercise::own(GAME, args.rule, &table.name, layout);
     let is_match = args.both || args.against_coach;
     let innings = args.innings;
-    let goal = if is_match { Goal::Match { innings } } else { Goal::Game { innings } };
+    let against_coach = args.against_coach;
+    let goal = if is_match { Goal::Match { innings, against_coach } } else { Goal::Game { innings } };
     let mut session = args.options.session(goal, vec![game]);
     session.cue_ball = args.ball;
     let workspace = Workspace::open()?;
-    let strokes = if args.against_coach { Strokes::AgainstCoach } else { strokes(args.coach) };
-    play(&workspace.store, session, &args.options, strokes, args.strokes as usize)
+    play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
 }

@@ -125,6 +125,7 @@ impl Session {
             meant: Some(meant),
             played: Some(stroke),
             helped,
+            by_coach: self.is_coachs_turn(),
             ..Attempt::new(&exercise.name, played.made)
         };
         self.attempts.push(attempt);

@@ -32,6 +32,9 @@ pub enum Goal {
     Match {
         /// Innings of each side.
         innings: u32,
+        /// Whether the coach plays the side that does not begin, with the same errors.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        against_coach: bool,
     },
 }
 
@@ -45,9 +48,14 @@ impl Goal {
             Self::Game { innings: 0 } => "game".to_owned(),
             Self::Game { innings: 1 } => "game, 1 inning".to_owned(),
             Self::Game { innings } => format!("game, {innings} innings"),
-            Self::Match { innings: 0 } => "match".to_owned(),
-            Self::Match { innings: 1 } => "match, 1 inning".to_owned(),
-            Self::Match { innings } => format!("match, {innings} innings"),
+            Self::Match { innings, against_coach } => {
+                let other = if against_coach { "against the coach" } else { "match" };
+                match innings {
+                    0 => other.to_owned(),
+                    1 => format!("{other}, 1 inning"),
+                    _ => format!("{other}, {innings} innings"),
+                }
+            }
         }
     }
 }
@@ -172,7 +180,7 @@ impl Session {
             Goal::Run(points) => self.record().high_run >= points,
             Goal::Exam => self.attempts.len() >= self.exercises.len(),
             Goal::Game { innings } => innings > 0 && self.misses() >= innings as usize,
-            Goal::Match { innings } => innings > 0 && self.misses() >= 2 * innings as usize,
+            Goal::Match { innings, .. } => innings > 0 && self.misses() >= 2 * innings as usize,
         }
     }
 
@@ -206,6 +214,12 @@ impl Session {
     /// The cue ball of the next attempt.
     pub fn cue_ball_now(&self) -> CueBall {
         self.cue_ball_of(self.attempts.len())
+    }
+
+    /// Whether the next stroke is the coach's: that of the other side in a match against it.
+    pub fn is_coachs_turn(&self) -> bool {
+        let is_against = matches!(self.goal, Goal::Match { against_coach: true, .. });
+        is_against && self.venue == Venue::Program && self.cue_ball_now() != self.cue_ball
     }
 
     /// The score of one side of a match.
@@ -289,7 +303,7 @@ pub mod tests {
     fn in_a_match_the_cue_ball_changes_with_each_miss_and_each_side_has_its_own_score() {
         // White makes two and misses, yellow misses, white makes one and misses, yellow makes two.
         let results = "xx--x-xx";
-        let mut played = session(Goal::Match { innings: 3 }, results);
+        let mut played = session(Goal::Match { innings: 3, against_coach: false }, results);
         let balls: String = (0..8).map(|number| &played.cue_ball_of(number).name()[..1]).collect();
         assert_eq!(balls, "wwwywwyy");
         assert_eq!((played.cue_ball_now(), played.is_over()), (CueBall::Yellow, false));
@@ -300,8 +314,8 @@ pub mod tests {
         played.cue_ball = CueBall::Yellow;
         assert_eq!((played.cue_ball_of(0), played.side(CueBall::Yellow)), (CueBall::Yellow, white));
         assert!(
-            session(Goal::Match { innings: 1 }, "x--").is_over()
-                && !session(Goal::Match { innings: 1 }, "x-").is_over()
+            session(Goal::Match { innings: 1, against_coach: false }, "x--").is_over()
+                && !session(Goal::Match { innings: 1, against_coach: false }, "x-").is_over()
         );
         // Alone one keeps one's ball.
         let alone = session(Goal::Game { innings: 3 }, "--x");
@@ -310,7 +324,13 @@ pub mod tests {
 
     #[test]
     fn a_match_goes_on_from_where_the_balls_lie_with_the_other_one_as_the_cue_ball() {
-        let mut session = Session::new(Goal::Match { innings: 5 }, Venue::Program, vec![exercise("x")], Skill::CLUB, 3);
+        let mut session = Session::new(
+            Goal::Match { innings: 5, against_coach: false },
+            Venue::Program,
+            vec![exercise("x")],
+            Skill::CLUB,
+            3,
+        );
         let miss = CueInputs { a: 0.0, b: 0.2, theta: 0.05, phi: 2.5, speed: 0.4 };
         let (table, before) = session.position().unwrap().unwrap();
         let played = session.play(miss, false).unwrap();

@@ -46,9 +46,11 @@ fn references_text(out: &mut String, rows: &[ReferenceRow]) {
         row.engine_units.is_none_or(|units| units.median <= GOAL_MEDIAN && units.p99 <= GOAL_P99)
             && row.engine_wrong.count == 0
             && row.truth_wrong.count == 0
+            && row.unjudged == 0
     };
     let met = if rows.iter().all(goal) { "met" } else { "NOT met" };
-    let _ = writeln!(out, "goal: median <= {GOAL_MEDIAN}, p99 <= {GOAL_P99} units, no wrong sequence: {met}\n");
+    let _ =
+        writeln!(out, "goal: median <= {GOAL_MEDIAN}, p99 <= {GOAL_P99} units, no wrong sequence, all judged: {met}\n");
 }
 
 fn study_text(out: &mut String, study: &Study) {

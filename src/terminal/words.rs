@@ -25,6 +25,11 @@ pub const fn rail_name(rail: Rail) -> &'static str {
     }
 }
 
+/// Why a table or a position is not saved whose name another has, where nobody can be asked whether that may be replaced.
+pub fn taken_words(name: &str) -> String {
+    format!("{name} is not saved: there is another of this name")
+}
+
 /// What happens, in a few words, for who plays with `cue_ball`.
 pub fn event_words(kind: EventKind, cue_ball: CueBall) -> String {
     let name = |ball: usize| cue_ball.names()[ball];
@@ -38,16 +43,6 @@ pub fn event_words(kind: EventKind, cue_ball: CueBall) -> String {
         EventKind::Jumps(ball) => format!("{} jumps", name(ball)),
         EventKind::Lands(ball) => format!("{} lands", name(ball)),
         EventKind::LeavesTable(ball) => format!("{} leaves the table", name(ball)),
-    }
-}
-
-/// The cushion's name where there is little room.
-pub const fn rail_word(rail: Rail) -> &'static str {
-    match rail {
-        Rail::Left => "left",
-        Rail::Right => "right",
-        Rail::Bottom => "bottom",
-        Rail::Top => "top",
     }
 }
 

@@ -18,7 +18,7 @@ use clap::Subcommand;
 pub use self::{
     attempts::strokes,
     options::PlayOptions,
-    strokes::{MOST_STROKES, Strokes, play},
+    strokes::{MOST_STROKES, play},
     workspace::Workspace,
 };
 use super::Failure;

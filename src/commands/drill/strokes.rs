@@ -20,12 +20,10 @@ pub const MOST_STROKES: u32 = 10_000;
 /// Where the strokes come from.
 #[derive(Clone, Copy, Debug)]
 pub enum Strokes {
-    /// The standard input, a stroke a line.
+    /// The standard input, a stroke a line, but for the strokes of the coach in a match against it.
     Input,
     /// The coach.
     Coach,
-    /// The standard input for the side that begins a match, the coach for the other.
-    AgainstCoach,
     /// One that is repeated.
     Same(StrokeInput),
 }
@@ -44,12 +42,7 @@ pub fn play(
     while game.session().attempts.len() < most {
         let Some((table, layout)) = game.session().position().map_err(Failure::failed)? else { break };
         game.show(&layout)?;
-        let is_begun_by = |session: &Session| session.cue_ball_now() == session.cue_ball;
-        let is_line = match strokes {
-            Strokes::Input => true,
-            Strokes::AgainstCoach => is_begun_by(game.session()),
-            Strokes::Coach | Strokes::Same(_) => false,
-        };
+        let is_line = matches!(strokes, Strokes::Input) && !game.session().is_coachs_turn();
         let stroke = match strokes {
             Strokes::Same(stroke) => Ok(stroke),
             _ if !is_line => Ok(StrokeInput::Coach),

@@ -40,6 +40,8 @@ pub enum Action {
     NextPalette,
     /// Opens a screen, where it was left.
     Open(PageId),
+    /// Answers what the page asks: yes, or what was typed; or no.
+    Answer(bool),
     /// Shows what was refused or has failed so far.
     OpenMessages,
     /// Something on the coach's screen.
@@ -145,6 +147,20 @@ const HELP: &[Binding<Action, Condition>] = &[
         key(End, A::ScrollHelp(i16::MAX)), key(Home, A::ScrollHelp(i16::MIN))], Some(("scroll", 2)), "scroll the help"),
 ];
 
+/// A question of a page.
+#[rustfmt::skip]
+const QUESTION: &[Binding<Action, Condition>] = &[
+    bind(Program, Condition::Always, &[letter('y', A::Answer(true))], Some(("yes", 1)), "yes"),
+    bind(Program, Condition::Always, &[letter('n', A::Answer(false)), key(Esc, A::Answer(false)), letter('q', A::Answer(false))], Some(("no", 1)), "no"),
+];
+
+/// A question whose answer is typed.
+#[rustfmt::skip]
+const TYPED: &[Binding<Action, Condition>] = &[
+    bind(Program, Condition::Always, &[key(Enter, A::Answer(true))], Some(("take it", 1)), "take what is typed"),
+    bind(Program, Condition::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "leave all as it is"),
+];
+
 /// The keys that all screens have, where letters are typed too.
 #[rustfmt::skip]
 const TABS: &[Binding<Action, Condition>] = &[
@@ -190,7 +206,7 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
         KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach),
         KeyContext::OwnStroke => take(&mut all, coach::OWN_STROKE, A::Coach, Condition::Coach),
         KeyContext::Follow => take(&mut all, coach::FOLLOW, A::Coach, Condition::Coach),
-        KeyContext::Question(place) => take(&mut all, place.bindings(), A::Coach, Condition::Coach),
+        KeyContext::Question { is_typed } => program(&mut all, if is_typed { TYPED } else { QUESTION }),
         KeyContext::Training(place) => take(&mut all, place.bindings(), A::Training, Condition::Training),
         KeyContext::Drill(place) => take(&mut all, place.bindings(), A::Drill, Condition::Drill),
         KeyContext::Settings(place) => take(&mut all, place.bindings(), A::Settings, Condition::Settings),
@@ -250,32 +266,16 @@ mod tests {
     use crossterm::event::KeyCode::Char;
 
     use super::*;
-    use crate::terminal::{
-        CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::works_of,
-        pages::coach::keys::QuestionContext,
-    };
+    use crate::terminal::{CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::works_of};
 
     fn places() -> impl Iterator<Item = KeyContext> {
-        use CalibrationContext as Calibration;
-        use DrillContext as Drill;
-        use KeyContext as K;
-        use SettingsContext as Settings;
         let over = [
-            K::CommandPalette,
-            K::Question(QuestionContext::Title),
-            K::Question(QuestionContext::Replace),
-            K::Question(QuestionContext::Positions),
-            K::Training(TrainingContext::Question),
-            K::Training(TrainingContext::Name),
-            K::Drill(Drill::Search),
-            K::Drill(Drill::Question),
-            K::Drill(Drill::Text),
-            K::Settings(Settings::Typing),
-            K::Settings(Settings::Pressing),
-            K::Settings(Settings::Question),
-            K::Calibration(Calibration::Marks),
-            K::Calibration(Calibration::Name),
-            K::Calibration(Calibration::Question),
+            KeyContext::CommandPalette,
+            KeyContext::Question { is_typed: true },
+            KeyContext::Question { is_typed: false },
+            KeyContext::Drill(DrillContext::Search),
+            KeyContext::Settings(SettingsContext::Pressing),
+            KeyContext::Calibration(CalibrationContext::Marks),
         ];
         KeyContext::PAGES.into_iter().map(|(page, _)| page).chain(over)
     }
@@ -336,20 +336,14 @@ mod tests {
             assert!(!place.types(Chord::ctrl(Char('z'))) && !place.types(Chord::plain(Enter)), "{place:?}");
         }
         let words = [
-            KeyContext::Training(TrainingContext::Name),
+            KeyContext::Question { is_typed: true },
             KeyContext::CommandPalette,
             KeyContext::Drill(DrillContext::Search),
-            KeyContext::Drill(DrillContext::Text),
+            KeyContext::Calibration(CalibrationContext::Marks),
         ];
         assert!(words.iter().all(|place| typed(*place, "z 1") == 3));
-        assert_eq!(typed(KeyContext::Settings(SettingsContext::Typing), "z 1"), 3);
-        assert_eq!(
-            (
-                typed(KeyContext::Training(TrainingContext::Form), "z 1"),
-                typed(KeyContext::Training(TrainingContext::Question), "z 1")
-            ),
-            (1, 0)
-        );
+        assert_eq!(typed(KeyContext::Training(TrainingContext::Form), "z 1"), 1);
+        assert_eq!(typed(KeyContext::Question { is_typed: false }, "z 1"), 0);
     }
 
     #[test]

@@ -3,8 +3,7 @@
 use crossterm::event::KeyCode::Char;
 
 use crate::terminal::{
-    CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::Chord,
-    pages::coach::keys::QuestionContext, ui::is_typed,
+    CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::Chord, ui::is_typed,
 };
 
 /// What is on the screen: each has its own keys.
@@ -16,15 +15,18 @@ pub enum KeyContext {
     OwnStroke,
     /// The table of somebody else, who is followed.
     Follow,
-    /// What is asked over its table.
-    Question(QuestionContext),
-    /// One of the training pages, or what is asked there.
+    /// What a page asks.
+    Question {
+        /// Whether the answer is typed; otherwise it is yes or no.
+        is_typed: bool,
+    },
+    /// One of the training pages.
     Training(TrainingContext),
     /// One of the drill screens.
     Drill(DrillContext),
-    /// One of the settings' pages, or what is asked there.
+    /// One of the settings' pages, or a key that is asked for there.
     Settings(SettingsContext),
-    /// The calibration's page, or what is typed or asked there.
+    /// The calibration's page, or the marks that are typed there.
     Calibration(CalibrationContext),
     /// The command palette, over any of them.
     CommandPalette,
@@ -61,12 +63,10 @@ impl KeyContext {
     pub fn types(self, pressed: Chord) -> bool {
         let event = pressed.event();
         match self {
-            Self::Training(TrainingContext::Name)
-            | Self::Question(QuestionContext::Title | QuestionContext::Positions)
+            Self::Question { is_typed: true }
             | Self::CommandPalette
-            | Self::Drill(DrillContext::Search | DrillContext::Text)
-            | Self::Settings(SettingsContext::Typing)
-            | Self::Calibration(CalibrationContext::Marks | CalibrationContext::Name) => is_typed(&event),
+            | Self::Drill(DrillContext::Search)
+            | Self::Calibration(CalibrationContext::Marks) => is_typed(&event),
             Self::Training(TrainingContext::Form) => {
                 matches!(event.code, Char('0'..='9')) && event.modifiers.is_empty()
             }

@@ -138,15 +138,15 @@ impl App {
 
     /// The same without the command palette.
     pub(super) fn place_below(&self) -> KeyContext {
+        let asked = self.page().asked(self.caps).filter(|asked| self.help.is_none() && !asked.has_own_keys);
+        if let Some(asked) = asked {
+            return KeyContext::Question { is_typed: asked.typed.is_some() };
+        }
         match self.screen {
-            PageId::Coach => match self.coach.question().filter(|_| self.help.is_none()) {
-                Some(question) => KeyContext::Question(question),
-                None if self.coach.followed().is_some() => KeyContext::Follow,
-                None if self.coach.what_if().is_some() => KeyContext::OwnStroke,
-                None => KeyContext::Coach,
-            },
-            PageId::Training if self.help.is_some() => KeyContext::Training(self.training.page()),
-            PageId::Training => KeyContext::Training(self.training.place()),
+            PageId::Coach if self.coach.followed().is_some() => KeyContext::Follow,
+            PageId::Coach if self.coach.what_if().is_some() => KeyContext::OwnStroke,
+            PageId::Coach => KeyContext::Coach,
+            PageId::Training => KeyContext::Training(self.training.page()),
             PageId::Drills if self.help.is_some() => KeyContext::Drill(self.drills.page()),
             PageId::Drills => KeyContext::Drill(self.drills.place()),
             PageId::Settings if self.help.is_some() => KeyContext::Settings(self.settings.page),

@@ -33,8 +33,9 @@ use crate::{
     storage::Places,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        Action, Capabilities, CoachAction, CommandPalette, Complaint, Effect, Glyphs, Keys, LONGEST_FOR_GUESTS, PageId,
-        Palette, SavedSession, Seat, Settings, SettingsPage, StrokeDraft, Subscriptions, Toasts,
+        Action, CalibrationAction, Capabilities, CoachAction, CommandPalette, Complaint, DrillAction, Effect, Glyphs,
+        Keys, LONGEST_FOR_GUESTS, PageId, Palette, SavedSession, Seat, Settings, SettingsAction, SettingsPage,
+        StrokeDraft, Subscriptions, Toasts, TrainingAction,
         pages::{
             Page,
             calibration::CalibrationPage,
@@ -280,6 +281,15 @@ impl App {
             Action::NextGlyphs => self.next_glyphs(),
             Action::NextPalette => self.next_palette(),
             Action::Open(screen) => return self.open(screen),
+            Action::Answer(yes) => {
+                return self.update(match self.screen {
+                    PageId::Coach => Action::Coach(CoachAction::Answer(yes)),
+                    PageId::Training => Action::Training(TrainingAction::Answer(yes)),
+                    PageId::Drills => Action::Drill(DrillAction::Answer(yes)),
+                    PageId::Settings => Action::Settings(SettingsAction::Answer(yes)),
+                    PageId::Calibration => Action::Calibration(CalibrationAction::Answer(yes)),
+                });
+            }
             Action::Coach(CoachAction::OpenDrills) => return self.open(PageId::Drills),
             Action::Coach(CoachAction::OpenTraining) => return self.open(PageId::Training),
             Action::Coach(CoachAction::OpenFilms) => {

@@ -1,12 +1,13 @@
 //! The mouse: each thing that it does is something that keys do as well, but for dragging balls.
 
-use crossterm::event::{MouseButton::Left, MouseEvent, MouseEventKind as Kind};
+use crossterm::event::{KeyCode, KeyEvent, MouseButton::Left, MouseEvent, MouseEventKind as Kind};
 
 use crate::terminal::{
-    Action, App, CalibrationAction, CalibrationCondition, CoachAction, CoachCondition, Condition, DrillAction,
-    DrillCondition, DrillContext, Effect, KeyContext, Mapping, PaletteAction, SettingsAction, SettingsCondition,
-    TrainingAction, TrainingCondition,
-    app::view::{Pointed, pointed_at},
+    Action, App, CoachAction, CoachCondition, Condition, Effect, KeyContext, Mapping, PaletteAction,
+    app::{
+        bindings,
+        view::{Pointed, pointed_at},
+    },
     pages::{Target, coach::view::table_mapping},
     ui::ball_at,
 };
@@ -92,23 +93,19 @@ impl App {
         effect
     }
 
-    /// Moves the mark of the list that is shown, by lines.
+    /// Moves the mark of the list that is shown by lines, as the arrow keys do, and only where they do.
     fn move_mark(&mut self, lines: isize) -> Option<Effect> {
-        let (when, action) = match self.place() {
-            KeyContext::Drill(DrillContext::Films) => {
-                (Condition::Drill(DrillCondition::Here), Action::Drill(DrillAction::Line(lines)))
+        let arrow = KeyEvent::from(if lines < 0 { KeyCode::Up } else { KeyCode::Down });
+        let found = bindings::find(&arrow, self.place(), |when| self.disabled_reason(when))?;
+        *self.page_mut().message_mut() = None;
+        self.toasts.go_on();
+        match found {
+            Ok(line) => (0..lines.unsigned_abs()).find_map(|_| self.update(line)),
+            Err(reason) => {
+                self.toasts.push(reason.to_owned(), true);
+                None
             }
-            KeyContext::Drill(_) => (Condition::Drill(DrillCondition::Marked), Action::Drill(DrillAction::Line(lines))),
-            KeyContext::Calibration(_) => (
-                Condition::Calibration(CalibrationCondition::Here),
-                Action::Calibration(CalibrationAction::Line(lines)),
-            ),
-            KeyContext::Settings(_) => {
-                (Condition::Settings(SettingsCondition::Here), Action::Settings(SettingsAction::Line(lines)))
-            }
-            _ => (Condition::Training(TrainingCondition::Marked), Action::Training(TrainingAction::Line(lines))),
-        };
-        self.attempt(when, action)
+        }
     }
 
     /// Does what a key would do that may be used at such a time, or says why not.

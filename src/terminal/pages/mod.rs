@@ -11,16 +11,41 @@ pub mod training;
 
 use ratatui::layout::{Position, Rect};
 
-use super::ui::{TextField, Typed, Ui, geometry::Mapping, message::Message};
+use super::{
+    Capabilities,
+    ui::{TextField, Typed, Ui, geometry::Mapping, message::Message},
+};
 use crate::{coach::Skill, table::CueBall};
 
 /// How a page is drawn, and what of it answers to the mouse: what its `view` does.
 pub trait PageView {
-    /// Draws the page; gives the first row of what stands below its picture.
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16;
+    /// Draws the page; gives what its status line says while nothing is asked.
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message;
+
+    /// What it asks before it does something.
+    fn asked(&self, caps: Capabilities) -> Option<Asked<'_>>;
 
     /// What is drawn at a cell of the screen that answers to the mouse.
     fn target(&self, area: &PageArea, at: Position) -> Option<Target>;
+}
+
+/// A question that waits for an answer.
+#[derive(Debug)]
+pub struct Asked<'a> {
+    /// The question, without what is typed.
+    pub words: Message,
+    /// The text that is typed, where some is.
+    pub typed: Option<&'a TextField>,
+    /// Whether the page has keys of its own for the answer; otherwise it is yes or no, or what is typed.
+    pub has_own_keys: bool,
+}
+
+impl<'a> Asked<'a> {
+    /// A question behind the news that the page has.
+    pub fn new(news: Option<&Message>, words: &str, typed: Option<&'a TextField>) -> Self {
+        let news = news.map_or(String::new(), |news| format!("{}. ", news.text));
+        Self { words: Message::plain(news + words), typed, has_own_keys: false }
+    }
 }
 
 /// What the app asks of every page. What its keys do is typed: each page has actions of its own.

@@ -1,4 +1,5 @@
-//! What if: a stroke of the player's own beside the coach's, what comes of it, how often it is made, and how it differs.
+//! What if: a stroke of the player's own, beside the coach's where there is one: what comes of it, how often it is made, and how it
+//! differs.
 
 use std::sync::{
     Arc,
@@ -26,11 +27,11 @@ pub struct Scene<'a> {
     pub rule: Rule,
 }
 
-/// A stroke of the player's own beside the coach's.
+/// A stroke of the player's own, beside the coach's where there is one.
 #[derive(Debug)]
 pub struct WhatIf {
     /// The coach's shot.
-    pub coach: Arc<Shot>,
+    pub coach: Option<Arc<Shot>>,
     /// The player's own.
     pub shot: Arc<Shot>,
     verdict: Verdict,
@@ -45,15 +46,20 @@ pub struct WhatIf {
 impl WhatIf {
     /// The coach's shot, taken over as it is.
     pub fn new(coach: Arc<Shot>, scene: Scene) -> Self {
-        Self {
-            verdict: Verdict::of(scene.rule, scene.table, scene.layout, &coach.recording),
-            shot: Arc::clone(&coach),
-            coach,
-            has_room: true,
-            made: None,
-            question: None,
-            cancel: Arc::default(),
-        }
+        let verdict = Verdict::of(scene.rule, scene.table, scene.layout, &coach.recording);
+        Self::of((Arc::clone(&coach), verdict, true), Some(coach))
+    }
+
+    /// A stroke of the player's own alone; rails and balls behind raise the cue that is set lower.
+    ///
+    /// # Errors
+    /// What the simulator refuses.
+    pub fn alone(cue: &CueInputs, scene: Scene) -> Result<Self, ShotError> {
+        Ok(Self::of(struck(cue, scene)?, None))
+    }
+
+    fn of((shot, verdict, has_room): (Arc<Shot>, Verdict, bool), coach: Option<Arc<Shot>>) -> Self {
+        Self { coach, shot, verdict, has_room, made: None, question: None, cancel: Arc::default() }
     }
 
     /// Takes another stroke for the player's own; rails and balls behind raise the cue that is set lower. How often it is made is
@@ -62,11 +68,7 @@ impl WhatIf {
     /// # Errors
     /// What the simulator refuses; all stays as it is.
     pub fn strike(&mut self, cue: &CueInputs, scene: Scene) -> Result<(), ShotError> {
-        let raised = with_room(scene.table, scene.layout, cue);
-        let shot = Shot::new(scene.table, scene.layout, raised.unwrap_or(*cue), false, "yours")?;
-        self.verdict = Verdict::of(scene.rule, scene.table, scene.layout, &shot.recording);
-        let shot = Shot { solved: self.verdict.is_made(), ..shot };
-        (self.shot, self.has_room) = (Arc::new(shot), raised.is_ok());
+        (self.shot, self.verdict, self.has_room) = struck(cue, scene)?;
         self.made = None;
         self.stop_asking();
         Ok(())
@@ -108,12 +110,17 @@ impl WhatIf {
         self.verdict.words(cue_ball, units.length).replacen(": ", ", if played exactly: ", 1)
     }
 
-    /// How the stroke differs from the coach's, who is called `teacher`, and whether there is room for the cue. `coach_made` is how often the
-    /// player makes the coach's, if known: a stroke that is made as often is not called wrong, even where it misses if played exactly.
+    /// How the stroke differs from the coach's, who is called `teacher`, and whether there is room for the cue; without one, how it is
+    /// struck. `coach_made` is how often the player makes the coach's, if known: a stroke that is made as often is not called wrong,
+    /// even where it misses if played exactly.
     pub fn difference(&self, teacher: &str, coach_made: Option<f64>, cue_ball: CueBall, units: Units) -> String {
-        let misses = !self.is_made() && self.coach.solved;
+        let Some(coach) = &self.coach else {
+            let room = if self.has_room { "" } else { " No room for the cue." };
+            return self.shot.words.sentence(cue_ball, units) + room;
+        };
+        let misses = !self.is_made() && coach.solved;
         let is_as_good = misses && self.made.zip(coach_made).is_some_and(|(own, made)| own.rate >= made);
-        let parts = self.shot.words.differences(&self.coach.words, misses && !is_as_good, cue_ball, units);
+        let parts = self.shot.words.differences(&coach.words, misses && !is_as_good, cue_ball, units);
         let room = match (self.has_room, is_as_good) {
             (false, _) => "; no room for the cue",
             (true, true) => "; with your errors made as often",
@@ -125,6 +132,14 @@ impl WhatIf {
             format!("You: {}{room}", parts.join(", "))
         }
     }
+}
+
+/// What comes of a stroke of the player's own, and whether there is room for the cue.
+fn struck(cue: &CueInputs, scene: Scene) -> Result<(Arc<Shot>, Verdict, bool), ShotError> {
+    let raised = with_room(scene.table, scene.layout, cue);
+    let shot = Shot::new(scene.table, scene.layout, raised.unwrap_or(*cue), false, "yours")?;
+    let verdict = Verdict::of(scene.rule, scene.table, scene.layout, &shot.recording);
+    Ok((Arc::new(Shot { solved: verdict.is_made(), ..shot }), verdict, raised.is_ok()))
 }
 
 impl Drop for WhatIf {
@@ -150,12 +165,13 @@ mod tests {
     fn what_is_taken_over_is_the_coachs_and_a_change_leaves_that_as_it_was() {
         with(|mut what_if, scene| {
             let units = Units::default();
-            assert!(what_if.is_made() && Arc::ptr_eq(&what_if.coach, &what_if.shot));
+            assert!(what_if.is_made() && Arc::ptr_eq(what_if.coach.as_ref().unwrap(), &what_if.shot));
             assert_eq!(what_if.difference("coach", None, CueBall::White, units), "You: as the coach");
-            let coach = Arc::clone(&what_if.coach);
+            let coach = Arc::clone(what_if.coach.as_ref().unwrap());
             let softer = CueInputs { speed: 0.5, ..coach.cue };
             what_if.strike(&softer, scene).unwrap();
-            assert!(!what_if.is_made() && what_if.coach.cue == coach.cue && what_if.shot.cue.speed == 0.5);
+            assert!(!what_if.is_made() && what_if.coach.as_ref().unwrap().cue == coach.cue);
+            assert_eq!(what_if.shot.cue.speed, 0.5);
             assert!(what_if.outcome(CueBall::White, units).starts_with("No point, if played exactly: "));
             let told = what_if.difference("coach", None, CueBall::White, units);
             assert!(told.starts_with("You: ") && told.contains("softer by "), "{told}");
@@ -174,7 +190,7 @@ mod tests {
             let first = what_if.ask(7);
             what_if.judged(6, rate(1));
             assert!(what_if.made.is_none() && what_if.is_asked());
-            what_if.strike(&CueInputs { speed: 2.6, ..what_if.coach.cue }, scene).unwrap();
+            what_if.strike(&CueInputs { speed: 2.6, ..what_if.shot.cue }, scene).unwrap();
             assert!(first.load(Ordering::Relaxed) && !what_if.is_asked());
             let second = what_if.ask(8);
             what_if.judged(7, rate(1));

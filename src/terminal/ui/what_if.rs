@@ -1,4 +1,4 @@
-//! The panel of a stroke of the player's own: how often it is made, what comes of it, and how it differs from the coach's.
+//! The panel of a stroke of the player's own: how often it is made, what comes of it, and how it differs from the coach's, if there is one.
 
 use ratatui::{layout::Rect, text::Span};
 
@@ -35,8 +35,10 @@ pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) 
         None => if what_if.is_made() { " make it" } else { " miss" }.to_owned(),
     };
     title.push(Span::styled(own, ui.theme.text()));
-    title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
-    title.push(Span::styled(teacher, ui.theme.text().fg(ui.theme.way_sign)));
+    if what_if.coach.is_some() {
+        title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
+        title.push(Span::styled(teacher, ui.theme.text().fg(ui.theme.way_sign)));
+    }
     title.extend(made.map(|made| Span::styled(format!(" {} %", percent(made)), ui.theme.text())));
     let inner = draw_title(title, area, ui);
     let outcome_style = if what_if.is_made() { ui.theme.good() } else { ui.theme.warning() };

@@ -133,7 +133,7 @@ fn the_hint_shows_the_shot_and_the_attempt_is_counted_as_helped() {
     check("hint", &player);
     let player = player.press("Space").wait(60.0);
     assert!(player.store().sessions().items[0].attempts[0].helped);
-    player.says("1 of them with a hint");
+    player.says("1 of yours with a hint");
     let again = player.press("Enter Space").wait(60.0);
     let attempts = &again.store().sessions().items[0].attempts;
     assert_eq!((attempts.len(), attempts[1].helped), (2, false));
@@ -317,7 +317,7 @@ fn a_code_that_was_cut_is_refused_and_can_be_mended() {
     player.app.paste(&code[..code.len() - 3]);
     let refused = player.press("Enter");
     refused.shows(&["paste or type the code of a position:", "to its end", "Enter take it"]);
-    assert_eq!(refused.app.place(), KeyContext::Drill(DrillContext::Text));
+    assert_eq!(refused.app.place(), KeyContext::Question { is_typed: true });
     let mended = refused.type_in(&code[code.len() - 3..]).press("Enter");
     mended.says("saved as opening");
 }

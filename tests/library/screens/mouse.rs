@@ -224,3 +224,17 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn while_something_is_asked_the_mouse_changes_nothing_that_it_is_about() {
+    let list = (20, 12);
+    for asked in ["F5 Enter 7", "F5 Tab Enter", "F5 Tab Down Down Enter T"] {
+        let player = at_the_table(Player::new().press(asked));
+        let marks = |player: &Player| (player.app.settings.mark, player.app.settings.keys.mark);
+        let before = marks(&player);
+        let player = player.point(MouseEventKind::ScrollDown, list).point(PRESS, list);
+        assert_eq!(marks(&player), before, "{asked}");
+        let player = player.press("Esc").point(MouseEventKind::ScrollDown, list);
+        assert_ne!(marks(&player), before, "{asked}: it was answered");
+    }
+}

@@ -18,7 +18,7 @@ use carom::{
     table::{Layout, Table},
     terminal::{
         Advice, Answer, App, Capabilities, CoachNews, CoachWorker, Depth, DrillReport, DrillTask, Effect, Glyphs, Job,
-        PracticeWorker, Proposal, Reel, Report, Settings, SettingsFile, Shot, Slot,
+        Position, PracticeWorker, Proposal, Reel, Report, Settings, SettingsFile, Shot, Slot, Taught,
     },
 };
 use crossterm::event::KeyEvent;
@@ -51,6 +51,8 @@ pub struct Player {
     pub study: Option<Box<Job>>,
     /// The question how often a stroke of the player's own is made.
     pub judged: Option<Box<Job>>,
+    /// The shot that the coach teaches in the drills; none by itself, since what it finds depends on how fast the machine is.
+    pub taught: Option<&'static str>,
     pub copied: Vec<String>,
     /// What is asked of processes and of the terminal.
     pub effects: Vec<Effect>,
@@ -84,6 +86,13 @@ pub fn advice(job: &Job) -> Advice {
     Advice { proposals: std::iter::once(best).chain(others).collect(), seed: 1, effort: None, found: None }
 }
 
+/// A shot that the coach teaches in the drills.
+fn taught(position: &Position, cue: &str) -> Taught {
+    let Proposal { shot, made, .. } = proposal(&position.table, &position.layout, cue, 400);
+    let advice = carom::drills::Advice { cue: shot.cue, chance: made.expect("it was judged") };
+    Taught { advice, is_own: false, shot }
+}
+
 /// Where one begins.
 impl Player {
     /// At the coach, with what is in `folder` on the disk; the settings' file shows no path of this machine.
@@ -102,6 +111,7 @@ impl Player {
             asked: None,
             study: None,
             judged: None,
+            taught: None,
             copied: Vec::new(),
             effects: Vec::new(),
             practice: PracticeWorker::default(),
@@ -237,9 +247,9 @@ impl Player {
         for task in tasks {
             let mut reports = Vec::new();
             match task {
-                // What the coach finds depends on how fast the machine is.
                 DrillTask::Advise(position) if position.own.is_none() => {
-                    reports.push(DrillReport::Taught(position.id, Ok(None)));
+                    let taught = self.taught.map(|cue| taught(&position, cue));
+                    reports.push(DrillReport::Taught(position.id, Ok(taught)));
                 }
                 task => self.practice.run(task, &mut |report| reports.push(report)),
             }

@@ -104,7 +104,7 @@ fn tables_of_ones_own_are_stepped_through_and_typed_by_their_names() {
 fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
     let player = new().press("Down Down Down Down Down Down Down Down Down Enter").type_in("5");
     player.shows(&["think_ms = 5", "Accepted: 10 to 60000.", "Enter take it"]);
-    assert_eq!(player.app.place(), KeyContext::Settings(SettingsContext::Typing));
+    assert_eq!(player.app.place(), KeyContext::Question { is_typed: true });
     let player = player.press("Enter");
     player.says("think_ms = 5; accepted is 10 to 60000");
     check("refused", &player);

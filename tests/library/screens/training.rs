@@ -338,7 +338,7 @@ fn a_reward_that_is_no_success_is_not_called_one() {
 fn abandoning_asks_first_and_says_what_is_lost() {
     let player = Player::watching(TRUE_COLOUR).press("A");
     player.shows(&["delete its folder?", "1,200,000 shots are lost", "held-out reward of 0.874", "y yes   n no"]);
-    assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Question));
+    assert_eq!(player.app.place(), KeyContext::Question { is_typed: false });
     let player = player.press("x q");
     assert!(player.effects.is_empty(), "q is no here, and leaves nothing");
     assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Watch));
@@ -347,7 +347,7 @@ fn abandoning_asks_first_and_says_what_is_lost() {
 #[test]
 fn a_policy_is_kept_under_a_name() {
     let player = Player::watching(TRUE_COLOUR).press("k");
-    player.shows(&["keep the networks under the name: 20261120-091500-ddpg-match-r3-1", "Enter keep"]);
+    player.shows(&["keep the networks under the name: 20261120-091500-ddpg-match-r3-1", "Enter take it"]);
     let mut player = player;
     for _ in 0..60 {
         player = player.press("Backspace");

@@ -22,7 +22,7 @@ fn judged(mut player: Player, made: usize) -> Player {
 fn the_coachs_shot_is_taken_over_changed_played_and_left() {
     let player = taken_over(TRUE_COLOUR);
     assert_eq!(player.app.place(), KeyContext::OwnStroke);
-    player.shows(&["You … % · coach 94 %", "You: as the coach", "Esc coach"]);
+    player.shows(&["You … % · coach 94 %", "You: as the coach", "Esc leave"]);
     assert_eq!(player.judged.as_ref().unwrap().stroke.map(|(cue, _)| cue), Some(CueInputs::parse(SHOT).unwrap()));
     let player = judged(player, 880);
     player.shows(&["You 88 % · coach 94 %", "Point, if played exactly: "]);
@@ -53,6 +53,28 @@ fn the_coachs_shot_is_taken_over_changed_played_and_left() {
         CueInputs::parse(OTHERS[0]).unwrap(),
         "whichever is shown is taken over"
     );
+}
+
+#[test]
+fn without_a_shot_of_the_coach_a_stroke_begins_full_at_a_ball_and_one_plays_on_from_where_the_balls_stop() {
+    let player = Player::with(TRUE_COLOUR).press("w");
+    assert_eq!(player.app.place(), KeyContext::OwnStroke);
+    player.shows(&["You … %", "if played exactly: ", "Yellow, full;"]).is_silent_on("coach 9");
+    let player = judged(player.press("Right"), 40);
+    player.shows(&["You 4 %"]);
+    let end = player.app.coach.shot().unwrap().recording.final_layout();
+    let on = player.press("Space n");
+    assert_eq!((on.app.place(), *on.app.coach.layout()), (KeyContext::OwnStroke, end));
+    assert!(on.judged.is_some(), "the next stroke is there to be set");
+    let back = on.press("Esc");
+    assert!(back.app.place() == KeyContext::Coach && back.app.coach.shot().is_none());
+    let asked = back.press("w Esc Enter").answer();
+    assert!(asked.app.coach.what_if().is_none() && asked.app.coach.shot().is_some());
+    // What is asked otherwise is about another stroke.
+    let player = Player::with(TRUE_COLOUR).press("w F5 Down F2");
+    assert!(player.app.coach.what_if().is_some());
+    let player = player.press("F5 Home Down Down Down Down Right F2");
+    assert!(player.app.coach.what_if().is_none() && player.app.coach.shot().is_none(), "another rule");
 }
 
 #[test]

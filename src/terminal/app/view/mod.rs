@@ -11,7 +11,11 @@ mod too_small;
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use self::{hints::draw_hints, tabs::draw_tabs, toasts::draw_toasts};
-use crate::terminal::{App, Overlay, pages::PageArea, ui::Ui};
+use crate::terminal::{
+    App, Overlay,
+    pages::{Page, PageArea},
+    ui::{Ui, draw_question, draw_status},
+};
 
 pub use self::{
     help::end as help_end,
@@ -31,6 +35,15 @@ pub fn page_area(app: &App, area: Rect) -> PageArea {
     PageArea::new(area, tabs::rest(app, Rect { height: 1, ..area }))
 }
 
+/// Draws a page with its status line, or what it asks; gives the first row of that.
+fn draw_page(page: &dyn Page, area: &PageArea, ui: &mut Ui) -> u16 {
+    let status = page.draw(area, ui);
+    match page.asked(ui.caps) {
+        Some(asked) => draw_question(&asked.words, asked.typed, area.status, ui),
+        None => draw_status(&status, area.status, ui),
+    }
+}
+
 /// Draws the screen that `app` is at.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let ui = &mut Ui { theme: app.theme(), caps: app.caps, keys: app.keys(), buffer };
@@ -45,7 +58,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     // Whatever is to be read or answered begins there; toasts stay above it.
     let mut foot = match app.help {
         Some((overlay, top)) => help::draw(app, overlay, top, &parts, ui),
-        None => app.page().draw(&parts, ui),
+        None => draw_page(app.page(), &parts, ui),
     };
     if let Some(command_palette) = &app.command_palette {
         foot = palette::draw(app, command_palette, area, ui);

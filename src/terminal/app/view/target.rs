@@ -3,7 +3,7 @@
 use ratatui::layout::{Position, Rect};
 
 use super::{is_too_small, page_area, tabs::tabs};
-use crate::terminal::{App, PageId, pages::Target};
+use crate::terminal::{App, KeyContext, PageId, pages::Target};
 
 /// Something on the screen that answers to the mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,5 +23,7 @@ pub fn pointed_at(app: &App, area: Rect, at: Position) -> Option<Pointed> {
     if let Some((screen, ..)) = tabs(app, header).into_iter().find(|(_, place, _)| place.contains(at)) {
         return Some(Pointed::Tab(screen));
     }
-    app.page().target(&page_area(app, area), at).map(Pointed::Page)
+    let is_asked = matches!(app.place(), KeyContext::Question { .. });
+    let target = (!is_asked).then(|| app.page().target(&page_area(app, area), at));
+    target.flatten().map(Pointed::Page)
 }

@@ -122,15 +122,8 @@ impl CalibrationPage {
             }
             Action::Anew => self.input = Some(Input::Anew),
             Action::Field(_) | Action::Tape | Action::FarEnd => self.change_form(action),
-            Action::No => {
-                if let Some(Input::Marks(form)) = self.input.take()
-                    && form.is_begun()
-                    && !form.is_sent
-                {
-                    self.aside.push(form.draft(self.is_daily));
-                }
-            }
-            Action::Yes => return self.yes(),
+            Action::Answer(false) => self.put_aside(),
+            Action::Answer(true) => return self.yes(),
         }
         None
     }

@@ -1,4 +1,4 @@
-//! The keys of the calibration's page, and of what is typed or asked there.
+//! The keys of the calibration's page, and of the form of a stroke.
 
 use crossterm::event::KeyCode::{
     BackTab, Backspace, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up,
@@ -52,10 +52,8 @@ pub enum CalibrationAction {
     Tape,
     /// The stroke was played from the far end, or not.
     FarEnd,
-    /// Takes what was typed, or says yes.
-    Yes,
-    /// Leaves all as it is.
-    No,
+    /// Answers what is asked: yes, or what was typed; or no.
+    Answer(bool),
 }
 
 /// When a binding of the calibration's page may be used.
@@ -86,10 +84,6 @@ pub enum CalibrationContext {
     Tests,
     /// The marks of a stroke, which are typed.
     Marks,
-    /// The table's name, which is typed.
-    Name,
-    /// A question.
-    Question,
 }
 
 impl CalibrationContext {
@@ -98,8 +92,6 @@ impl CalibrationContext {
         match self {
             Self::Tests => TESTS,
             Self::Marks => FORM,
-            Self::Name => NAME,
-            Self::Question => QUESTION,
         }
     }
 }
@@ -134,24 +126,10 @@ pub const TESTS: &[Binding<A, W>] = &[
 /// The form of a stroke.
 #[rustfmt::skip]
 pub const FORM: &[Binding<A, W>] = &[
-    bind(Marks, W::Here, &[key(Enter, A::Yes)], Some(("next, keep", 1)), "go to the next mark; after the last one keep the stroke"),
+    bind(Marks, W::Here, &[key(Enter, A::Answer(true))], Some(("next, keep", 1)), "go to the next mark; after the last one keep the stroke"),
     bind(Marks, W::Here, &[key(Down, A::Field(1)), key(Up, A::Field(-1)), key(Tab, A::Field(1)), key(BackTab, A::Field(-1))],
         Some(("mark", 2)), "type another mark").each(&["type the next mark", "type the mark before"]),
     bind(Marks, W::Here, &[ctrl('t', A::Tape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),
     bind(Marks, W::Here, &[ctrl('e', A::FarEnd)], Some(("far end", 1)), "this stroke was played from the far end, where the balls meet the other rails; again for your own"),
-    bind(Marks, W::Here, &[key(Esc, A::No)], Some(("back", 1)), "leave the form; it is there again when the same stroke is entered"),
-];
-
-/// The table's name.
-#[rustfmt::skip]
-pub const NAME: &[Binding<A, W>] = &[
-    bind(Calibration, W::Here, &[key(Enter, A::Yes)], Some(("save", 1)), "save the table under the name that is typed"),
-    bind(Calibration, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "save nothing"),
-];
-
-/// A question.
-#[rustfmt::skip]
-pub const QUESTION: &[Binding<A, W>] = &[
-    bind(Calibration, W::Here, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
-    bind(Calibration, W::Here, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
+    bind(Marks, W::Here, &[key(Esc, A::Answer(false))], Some(("back", 1)), "leave the form; it is there again when the same stroke is entered"),
 ];

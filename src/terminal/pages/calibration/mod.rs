@@ -21,6 +21,7 @@ use crate::{
         CalibrationContext, CalibrationReport, CalibrationTask, Effect, KeptEntries, StrokeDraft,
         pages::Page,
         ui::{Message, TextField},
+        words::taken_words,
     },
 };
 
@@ -111,13 +112,22 @@ impl CalibrationPage {
         self.table.clone_from(table);
         if self.is_daily && table.doubt.is_none() {
             // A check of the day is of a table that was calibrated; what is typed of a stroke in it waits.
-            if let Some(Input::Marks(form)) = self.input.take()
-                && form.is_begun()
-                && !form.is_sent
-            {
-                self.aside.push(form.draft(true));
-            }
+            self.put_aside();
             self.is_daily = false;
+        }
+    }
+
+    /// Leaves what is typed or asked; a stroke that was typed in part waits.
+    fn put_aside(&mut self) {
+        self.aside.extend(self.typed_in_part());
+        self.input = None;
+    }
+
+    /// The open form of a stroke, where that is typed in part.
+    fn typed_in_part(&self) -> Option<StrokeDraft> {
+        match &self.input {
+            Some(Input::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.draft(self.is_daily)),
+            _ => None,
         }
     }
 
@@ -137,20 +147,12 @@ impl CalibrationPage {
 
     /// The key context.
     pub const fn place(&self) -> CalibrationContext {
-        match &self.input {
-            None => CalibrationContext::Tests,
-            Some(Input::Marks(_)) => CalibrationContext::Marks,
-            Some(Input::Name(_)) => CalibrationContext::Name,
-            Some(Input::Replace(_) | Input::Anew) => CalibrationContext::Question,
-        }
+        if let Some(Input::Marks(_)) = self.input { CalibrationContext::Marks } else { CalibrationContext::Tests }
     }
 
     /// The stroke whose marks are typed in part, which the next session is to go on with.
     pub fn draft(&self) -> Option<StrokeDraft> {
-        match &self.input {
-            Some(Input::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.draft(self.is_daily)),
-            _ => self.aside.last().cloned(),
-        }
+        self.typed_in_part().or_else(|| self.aside.last().cloned())
     }
 
     /// Opens `form`, as it was left where that was when it was typed in part.
@@ -227,7 +229,11 @@ impl CalibrationPage {
             }
             CalibrationReport::Saved(path, Ok(false)) => {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                self.input = Some(Input::Replace(name));
+                if self.input.is_some() {
+                    self.message = Some(Message::warning(taken_words(&name)));
+                } else {
+                    self.input = Some(Input::Replace(name));
+                }
             }
             CalibrationReport::Saved(_, Err(sentence)) => self.message = Some(Message::warning(sentence)),
         }

@@ -51,7 +51,7 @@ impl CoachPage {
                 "no exam was left and no earlier session waits; what is practised now is behind F3",
             ),
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled networks are asked already"),
-            CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is the coach's"),
+            CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is as it was at first"),
             CoachCondition::StrokeUndone => refuse(!self.can_travel().1, "no change of the stroke was taken back"),
             CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
         }
@@ -90,12 +90,15 @@ impl CoachPage {
             Action::Redo => self.redo(),
             Action::Recommend => return Some(self.ask()),
             Action::SavePosition => self.ask_title(),
-            Action::Yes if self.typed.is_some() => self.take_positions(),
-            Action::No if self.typed.is_some() => self.typed = None,
-            Action::Yes => return self.save(),
-            Action::No => self.saving.no(),
+            Action::Answer(true) if self.typed.is_some() => self.take_positions(),
+            Action::Answer(true) => return self.save(),
+            Action::Answer(false) => {
+                self.typed = None;
+                self.saving.no();
+            }
             Action::Cancel => self.cancel(),
             Action::PlaceBalls => self.place_balls(),
+            Action::Continue if self.what_if().is_some() => return self.play_on(),
             Action::Continue => return self.go_on(),
             Action::NextRule => self.next_rule(),
             Action::NextSkill => self.next_skill(),

@@ -79,7 +79,7 @@ pub enum CoachAction {
     Shot(isize),
     /// Shows one of them by its place in the list; no key does it, but the mouse.
     Show(usize),
-    /// Takes the shot that is shown over into the player's own stroke.
+    /// Begins a stroke of the player's own, with the shot that is shown if there is one.
     WhatIf,
     /// Changes that stroke.
     Stroke(StrokeChange),
@@ -95,10 +95,8 @@ pub enum CoachAction {
     Resume,
     /// Asks for a title under which the balls are saved as a position to practise.
     SavePosition,
-    /// Takes what was typed, or says yes.
-    Yes,
-    /// Leaves all as it is.
-    No,
+    /// Answers what is asked: yes, or what was typed; or no.
+    Answer(bool),
     /// Lets others see the table, or no longer.
     TurnShown,
     /// Opens the drills.
@@ -142,49 +140,6 @@ pub enum CoachCondition {
     Named,
 }
 
-/// What is asked over the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum QuestionContext {
-    /// A title that is typed, before the balls are saved.
-    Title,
-    /// Whether a position may be replaced.
-    Replace,
-    /// Where the balls are to lie.
-    Positions,
-}
-
-impl QuestionContext {
-    /// Its keys.
-    pub const fn bindings(self) -> &'static [Binding<A, W>] {
-        match self {
-            Self::Title => TITLE,
-            Self::Replace => REPLACE,
-            Self::Positions => POSITIONS,
-        }
-    }
-}
-
-/// A title that is typed.
-#[rustfmt::skip]
-const TITLE: &[Binding<A, W>] = &[
-    bind(Program, W::Anytime, &[key(Enter, A::Yes)], Some(("save", 1)), "save the balls under what is typed"),
-    bind(Program, W::Anytime, &[key(Esc, A::No)], Some(("cancel", 1)), "save nothing"),
-];
-
-/// Whether a position may be replaced.
-#[rustfmt::skip]
-const REPLACE: &[Binding<A, W>] = &[
-    bind(Program, W::Anytime, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
-    bind(Program, W::Anytime, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
-];
-
-/// Positions that are typed.
-#[rustfmt::skip]
-const POSITIONS: &[Binding<A, W>] = &[
-    bind(Balls, W::Anytime, &[key(Enter, A::Yes)], Some(("place", 1)), "put the balls where it was typed"),
-    bind(Program, W::Anytime, &[key(Esc, A::No)], Some(("cancel", 1)), "leave the balls where they are"),
-];
-
 /// The keys, the more particular ones first.
 #[rustfmt::skip]
 pub const COACH: &[Binding<A, W>] = &[
@@ -206,8 +161,8 @@ pub const COACH: &[Binding<A, W>] = &[
         ]),
     bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
         "turn the panels: shot and balls, chances, margins and maps, plan").known_as("diamonds words"),
-    bind(Shot, W::Shot, &[letter('w', A::WhatIf)], Some(("what if", 1)),
-        "take the shot over into a stroke of your own, to change it and see what comes of it").known_as("adopt compare try own"),
+    bind(Shot, W::Idle, &[letter('w', A::WhatIf)], Some(("own stroke", 1)),
+        "a stroke of your own, which begins as the shot that is shown, to change it and see what comes of it").known_as("adopt compare try own"),
     bind(Shot, W::Anytime, &[letter('y', A::NextSystem)], None,
         "diamond systems on the table: the shot's own, then the others, then none")
         .known_as("corner-5 corner five and a half plus seven count numbers learn teach"),
@@ -310,8 +265,10 @@ pub const FOLLOW: &[Binding<A, W>] = &[
 pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
     bind(Stroke, W::Anytime, &[letter(' ', A::PlayPause), key(Enter, A::PlayPause)], Some(("play", 1)),
         "play and pause your stroke"),
-    bind(Stroke, W::Anytime, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("coach", 1)),
+    bind(Stroke, W::Anytime, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("leave", 1)),
         "leave your stroke; the coach's shot is as it was"),
+    bind(Stroke, W::Anytime, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
+        "take the balls as your stroke leaves them, for the next one"),
 ], [
     bind(Stroke, W::StrokeChanged, &[letter('u', A::StrokeBack), letter('z', A::StrokeBack)], Some(("undo", 1)),
         "take the last change of the stroke back"),

@@ -36,7 +36,6 @@ use crate::{
         CoachQuery, Proposal, SavedSession, Settings, Shot, Terms,
         pages::coach::{
             dragging::Drag,
-            keys::QuestionContext,
             request::{Pending, Studying},
             saving::Saving,
         },
@@ -215,9 +214,9 @@ impl CoachPage {
         })
     }
 
-    /// What is asked over the table.
-    pub fn question(&self) -> Option<QuestionContext> {
-        self.typed.as_ref().map(|_| QuestionContext::Positions).or_else(|| self.saving.context())
+    /// Whether something is asked over the table.
+    pub fn is_asking(&self) -> bool {
+        self.typed.is_some() || self.saving.is_asking()
     }
 
     /// Asks for what the last session asked for at its end, but for what has been set otherwise since; and offers to go on from

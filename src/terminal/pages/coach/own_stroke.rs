@@ -1,13 +1,18 @@
-//! What if: the coach's shot taken over into the player's own stroke, which keys change; the coach's stays as it was.
+//! What if: the player's own stroke, which keys change. It begins as the coach's shot, which stays as it was, or where there is none
+//! full at a ball.
 
 use std::sync::Arc;
 
-use crate::terminal::{
-    Effect, Job,
-    pages::{Page, coach::CoachPage},
-    shot::{
-        OwnStroke, StrokeChange, WhatIf,
-        what_if::{self, Scene},
+use crate::{
+    game::Point,
+    table::{Layout, Table},
+    terminal::{
+        CoachQuery, Effect, Job,
+        pages::{Page, coach::CoachPage},
+        shot::{
+            OwnStroke, StrokeChange, WhatIf, aiming,
+            what_if::{self, Scene},
+        },
     },
 };
 
@@ -17,19 +22,25 @@ const JUDGED: usize = 500;
 /// The fewest where it was.
 const LEAST: usize = 100;
 
-/// The player's own stroke beside the coach's.
+/// The player's own stroke, beside the coach's where there is one.
 #[derive(Debug)]
 pub struct Compared {
     stroke: OwnStroke,
     pub(super) what_if: WhatIf,
+    /// The balls, on their table, and the question that it is about.
+    about: (Arc<Table>, Layout, CoachQuery),
 }
 
 impl CoachPage {
-    /// The player's own stroke beside the coach's shot that is shown; nothing where another is shown by now.
+    /// The player's own stroke beside the coach's shot that is shown, or beside none; nothing where another is shown by now.
     pub fn what_if(&self) -> Option<&WhatIf> {
-        let own = self.compared.as_ref().map(|compared| &compared.what_if)?;
-        let shown = self.proposal().filter(|_| self.pending.is_none())?;
-        Arc::ptr_eq(&own.coach, &shown.shot).then_some(own)
+        let Compared { what_if: own, about, .. } = self.compared.as_ref().filter(|_| self.pending.is_none())?;
+        let shown = self.proposal().map(|proposal| Arc::as_ptr(&proposal.shot));
+        (own.coach.as_ref().map(Arc::as_ptr) == shown && *about == self.subject()).then_some(own)
+    }
+
+    fn subject(&self) -> (Arc<Table>, Layout, CoachQuery) {
+        (Arc::clone(&self.balls.present().table), *self.layout(), self.query.clone())
     }
 
     /// Whether the stroke can be set as it was before its last change, and after it again.
@@ -37,14 +48,35 @@ impl CoachPage {
         self.compared.as_ref().map_or((false, false), |compared| compared.stroke.can_travel())
     }
 
-    /// Takes the coach's shot over into the player's own stroke.
+    /// Takes the coach's shot over into the player's own stroke; without one that is aimed full at a ball.
     pub(super) fn take_over(&mut self) -> Option<Effect> {
-        let coach = Arc::clone(&self.proposal()?.shot);
-        let stroke = OwnStroke::new(coach.cue);
-        self.compared = Some(Compared { stroke, what_if: WhatIf::new(coach, self.scene()) });
+        let scene = self.scene();
+        let (cue, what_if) = if let Some(coach) = self.proposal().map(|proposal| Arc::clone(&proposal.shot)) {
+            (coach.cue, Ok(WhatIf::new(coach, scene)))
+        } else {
+            let first = aiming::first_stroke(Point::of(scene.rule, scene.table, scene.layout), scene.layout);
+            (first, WhatIf::alone(&first, scene))
+        };
+        match what_if {
+            Ok(what_if) => {
+                let about = self.subject();
+                self.compared = Some(Compared { stroke: OwnStroke::new(cue), what_if, about });
+            }
+            Err(error) => return self.refuse(error),
+        }
         self.lesson = None;
         self.watch_from_the_stroke();
         self.judge()
+    }
+
+    /// Takes the balls as the player's own stroke leaves them, for the next one.
+    pub(super) fn play_on(&mut self) -> Option<Effect> {
+        let end = self.what_if()?.shot.recording.final_layout();
+        if let Err(error) = end.validate(self.table()) {
+            return self.refuse(error);
+        }
+        self.place(end);
+        self.take_over()
     }
 
     /// Leaves the player's own stroke; the coach's shot is as it was.
@@ -98,11 +130,11 @@ impl CoachPage {
             return None;
         }
         let cue = self.compared.as_ref()?.what_if.shot.cue;
-        let coach = self.proposal()?;
-        let judged = coach.made.filter(|_| !coach.is_early);
+        let judged = self.proposal().filter(|coach| !coach.is_early).and_then(|coach| coach.made);
         let attempts = judged.map_or(JUDGED, |made| made.trials.max(LEAST));
-        let seed = self.advised()?.seed;
+        let advised = self.advised().map(|advised| advised.seed);
         let job = self.job(None);
+        let seed = advised.unwrap_or(job.seed);
         let cancel = self.compared.as_mut()?.what_if.ask(job.id);
         Some(Effect::Ask(Box::new(Job { stroke: Some((cue, attempts)), seed, cancel, ..job })))
     }

@@ -23,7 +23,7 @@ impl Page for CoachPage {
             return false;
         }
         let taken = self.field_mut().is_some_and(|field| field.take(typed));
-        if let (Typed::Paste(text), None) = (typed, self.question()) {
+        if let (Typed::Paste(text), false) = (typed, self.is_asking()) {
             // What is pasted over the table says where the balls lie.
             self.paste(text);
             return true;

@@ -63,7 +63,7 @@ impl CoachPage {
     }
 
     /// What is asked over the table, and the text that is typed there.
-    pub(super) fn asked(&self) -> Option<(String, Option<&TextField>)> {
+    pub(super) fn asked_words(&self) -> Option<(String, Option<&TextField>)> {
         if let Some(field) = &self.typed {
             let names = self.cue_ball().names();
             let one = names[self.selected];

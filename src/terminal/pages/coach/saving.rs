@@ -6,11 +6,9 @@ use crate::{
     storage::is_name,
     terminal::{
         DrillTask, Effect,
-        pages::{
-            Page,
-            coach::{CoachPage, keys::QuestionContext},
-        },
+        pages::{Page, coach::CoachPage},
         ui::{Message, TextField},
+        words::taken_words,
     },
 };
 
@@ -38,13 +36,9 @@ enum Question {
 }
 
 impl Saving {
-    /// The key context; `None` where nothing is asked.
-    pub const fn context(&self) -> Option<QuestionContext> {
-        match &self.question {
-            Some(Question::Title(..)) => Some(QuestionContext::Title),
-            Some(Question::Replace(_)) => Some(QuestionContext::Replace),
-            None => None,
-        }
+    /// Whether something is asked.
+    pub const fn is_asking(&self) -> bool {
+        self.question.is_some()
     }
 
     /// The question, without what is typed.
@@ -132,6 +126,7 @@ impl CoachPage {
                 let table = if other { format!(" for the table {}", exercise.table) } else { String::new() };
                 self.message = Some(Message::good(format!("saved as {name}{table}; the drills list it under {list}")));
             }
+            Ok(false) if self.is_asking() => self.message = Some(Message::warning(taken_words(name))),
             Ok(false) => self.saving.question = Some(Question::Replace(exercise)),
             Err(sentence) => self.message = Some(Message::warning(format!("{name} is not saved: {sentence}"))),
         }

@@ -117,15 +117,12 @@ impl CoachPage {
     }
 
     fn shown_shot(&self) -> Option<ShownShot> {
-        let proposal = self.proposal()?;
-        let what_if = self.what_if();
-        let made = what_if.map_or(proposal.made, |what_if| what_if.made);
-        let author = match what_if {
-            Some(_) => Author::Player,
-            None if proposal.is_early => Author::Search,
-            None => Author::Coach,
+        let (shot, made, author) = if let Some(own) = self.what_if() {
+            (&own.shot, own.made, Author::Player)
+        } else {
+            let Proposal { shot, made, is_early, .. } = self.proposal()?;
+            (shot, *made, if *is_early { Author::Search } else { Author::Coach })
         };
-        let shot = self.shot()?;
         Some(ShownShot {
             cue: shot.cue,
             author,

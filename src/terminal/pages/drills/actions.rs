@@ -71,8 +71,8 @@ impl DrillsPage {
                 self.message = Some(Message::plain(format!("the player: {}", player_words(self.player.skill))));
             }
             Action::ToCoach => self.send_to_coach(),
-            Action::Yes => return self.yes(),
-            Action::No => self.no(),
+            Action::Answer(true) => return self.yes(),
+            Action::Answer(false) => self.no(),
             other => return self.update_turn(other),
         }
         None

@@ -91,10 +91,8 @@ pub enum DrillAction {
     Scope,
     /// Takes the estimated skill as the player's own.
     KeepSkill,
-    /// Says yes, or takes what was typed.
-    Yes,
-    /// Says no.
-    No,
+    /// Answers what is asked: yes, or what was typed; or no.
+    Answer(bool),
 }
 
 /// When a binding of the drill screens may be used.
@@ -108,8 +106,10 @@ pub enum DrillCondition {
     MarkedOwn,
     /// Where the list is a part of all.
     Filtered,
-    /// While the stroke is set.
+    /// While the player sets the stroke.
     Aiming,
+    /// While a stroke can be played, the player's or the coach's.
+    Playable,
     /// While no stroke is being played, and no exam is under way.
     Free,
     /// The same, where another session may begin: in free repetition once the shot that is watched has come to its end.
@@ -165,10 +165,6 @@ pub enum DrillContext {
     Films,
     /// A filmed shot.
     Film,
-    /// A question.
-    Question,
-    /// Something that is typed.
-    Text,
 }
 
 impl DrillContext {
@@ -183,8 +179,6 @@ impl DrillContext {
             Self::Record => RECORD,
             Self::Films => FILMS,
             Self::Film => FILM,
-            Self::Question => QUESTION,
-            Self::Text => TEXT,
         }
     }
 }
@@ -230,8 +224,8 @@ pub const LIBRARY: &[Binding<A, W>] = &[
 /// Words that are looked for.
 #[rustfmt::skip]
 pub const SEARCH: &[Binding<A, W>] = &[
-    bind(Library, W::Here, &[key(Enter, A::Yes)], Some(("choose from these", 1)), "choose from what is found"),
-    bind(Library, W::Here, &[key(Esc, A::No)], Some(("all", 1)), "list everything again"),
+    bind(Library, W::Here, &[key(Enter, A::Answer(true))], Some(("choose from these", 1)), "choose from what is found"),
+    bind(Library, W::Here, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "list what was listed before"),
     bind(Library, W::Marked, &[key(Down, A::Line(1)), key(Up, A::Line(-1))], None, "mark another exercise")
         .each(&["mark the next exercise", "mark the exercise before"]),
 ];
@@ -252,7 +246,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Watching, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
         key(Down, A::Pace(-1)), key(Up, A::Pace(1))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),
-    bind(Stroke, W::Aiming, &[letter(' ', A::Play)], Some(("play", 1)), "play the stroke, with the player's errors"),
+    bind(Stroke, W::Playable, &[letter(' ', A::Play)], Some(("play", 1)), "play the stroke, with the player's errors"),
     bind(Stroke, W::Set, &[key(Enter, A::Play)], None, "play the stroke, once it was changed"),
 ], [
     bind(Stroke, W::Taught, &[letter('v', A::Hint)], Some(("hint", 1)),
@@ -271,7 +265,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
         ]),
     bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
     bind(Score, W::Restart, &[letter('o', A::Goal)], Some(("goal", 1)),
-        "free repetition, a run of points, a game that plays on from where the balls stop, or a match of two sides"),
+        "free repetition, a run of points, a game that plays on from where the balls stop, a match of two sides, or one against the coach"),
     bind(Position, W::Restart, &[letter('x', A::Shift)], Some(("shift", 1)),
         "shift the balls by half a ball at each repetition, or not"),
     bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
@@ -329,18 +323,4 @@ pub const FILM: &[Binding<A, W>] = &[
     bind(Film, W::Here, &[letter('[', A::Filmed(-1)), letter(']', A::Filmed(1))], Some(("other shot", 2)),
         "watch the shot before, the next shot").each(&["watch the shot before", "watch the next shot"]),
     BACK,
-];
-
-/// A question.
-#[rustfmt::skip]
-pub const QUESTION: &[Binding<A, W>] = &[
-    bind(Program, W::Here, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
-    bind(Program, W::Here, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
-];
-
-/// Something that is typed.
-#[rustfmt::skip]
-pub const TEXT: &[Binding<A, W>] = &[
-    bind(Program, W::Here, &[key(Enter, A::Yes)], Some(("take it", 1)), "take what is typed"),
-    bind(Program, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave all as it is"),
 ];

@@ -226,13 +226,11 @@ impl DrillsPage {
         self.pages.last().copied().unwrap_or(DrillContext::Library)
     }
 
-    /// The key context: the page's, or that of a question on it.
+    /// The key context: the page's, or that of the search over it.
     pub fn place(&self) -> DrillContext {
         match &self.question {
             Some(Question::Search(_)) => DrillContext::Search,
-            Some(Question::Code(_)) => DrillContext::Text,
-            Some(_) => DrillContext::Question,
-            None => self.page(),
+            _ => self.page(),
         }
     }
 

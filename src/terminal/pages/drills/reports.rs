@@ -10,6 +10,7 @@ use crate::{
             drills::{Book, DrillsPage, Estimate, Question, Stage},
         },
         ui::Message,
+        words::taken_words,
     },
 };
 
@@ -68,6 +69,9 @@ impl DrillsPage {
             }
             DrillReport::PositionSaved(exercise, outcome) => match outcome {
                 Ok(true) => self.position_saved(&exercise),
+                Ok(false) if self.question.is_some() => {
+                    self.message = Some(Message::warning(taken_words(&exercise.name)));
+                }
                 Ok(false) => self.question = Some(Question::Replace(exercise)),
                 Err(sentence) => {
                     self.message = Some(Message::warning(format!("{} is not saved: {sentence}", exercise.name)));

@@ -245,6 +245,11 @@ impl Turn {
         matches!(self.stage, Stage::Aiming)
     }
 
+    /// Whether the coach is to make the next stroke, as the other side of a match.
+    pub fn is_coachs_turn(&self) -> bool {
+        self.is_aiming() && self.session.is_coachs_turn()
+    }
+
     /// Whether it waits for what came of a stroke.
     pub const fn is_waiting(&self) -> bool {
         matches!(self.stage, Stage::Waiting)
@@ -252,7 +257,8 @@ impl Turn {
 
     /// The line of aim, while the stroke is set.
     pub fn sight(&self) -> Option<Sight> {
-        self.is_aiming().then(|| sight(&self.table, &self.layout, self.stroke().phi))
+        let is_open = self.is_coachs_turn() && matches!(self.lesson, Lesson::Pending);
+        (self.is_aiming() && !is_open).then(|| sight(&self.table, &self.layout, self.stroke().phi))
     }
 
     /// The stroke that is taught, if it is known and there is one.
@@ -312,7 +318,8 @@ impl Turn {
         let watched = self.watched().filter(|watched| watched.is_settled)?;
         let Outcome { played, .. } = &watched.outcome;
         let text = played.words(self.cue_ball, unit);
-        Some(if played.made { Message::good(text) } else { Message::warning(text) })
+        let verdict = if played.made { Message::good(text) } else { Message::warning(text) };
+        Some(if watched.is_by_coach() { verdict.after("the coach") } else { verdict })
     }
 
     /// Asks for the stroke that is taught in this position. Nobody waits for the one before any more.
@@ -344,6 +351,9 @@ impl Turn {
     /// The answer to question `id`; late ones are dropped.
     pub(super) fn advised(&mut self, id: u64, taught: Option<Taught>) {
         if id == self.position {
+            if let Some(taught) = taught.as_ref().filter(|_| self.is_coachs_turn()) {
+                self.stroke = OwnStroke::new(taught.advice.cue);
+            }
             self.lesson = taught.map_or(Lesson::Missing, |taught| Lesson::Known(Box::new(taught)));
         }
     }
@@ -461,7 +471,8 @@ impl Turn {
         (self.exercise, self.table, self.layout) = (exercise, table, layout);
         self.cue_ball = self.session.cue_ball_now();
         self.stage = Stage::Aiming;
-        self.shows_hint &= !is_moved;
+        // What the coach is to play is there to be seen, and no longer when the player is to strike.
+        self.shows_hint = self.is_coachs_turn() || self.shows_hint && !is_moved;
         if is_moved {
             self.what_if = None;
         }

@@ -28,6 +28,7 @@ impl Turn {
             (
                 Stage::Waiting,
                 Condition::Aiming
+                | Condition::Playable
                 | Condition::Watching
                 | Condition::Running
                 | Condition::Ended
@@ -36,7 +37,16 @@ impl Turn {
                 | Condition::Counted
                 | Condition::Adoptable,
             ) => Some("the stroke is being played"),
-            (_, Condition::Aiming) => refuse(!self.is_aiming(), "a shot is being watched; Enter goes on"),
+            (_, Condition::Playable | Condition::Aiming) if !self.is_aiming() => {
+                Some("a shot is being watched; Enter goes on")
+            }
+            (_, Condition::Playable | Condition::Set) if self.is_coachs_turn() => {
+                refuse(matches!(self.lesson, Lesson::Pending), "the coach is still thinking")
+            }
+            (_, Condition::Aiming | Condition::Watching) if self.is_coachs_turn() => {
+                Some("the coach plays this stroke: Space")
+            }
+            (_, Condition::Aiming) => None,
             (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
             (_, Condition::Running | Condition::Ended) => match self.watched() {
                 None => Some("no shot is being watched"),
@@ -153,7 +163,10 @@ impl DrillsPage {
                 self.options.goal = match turn.session.goal {
                     Goal::Free => Goal::Run(FIRST_RUN),
                     Goal::Run(_) => Goal::Game { innings: FIRST_GAME },
-                    Goal::Game { .. } => Goal::Match { innings: FIRST_GAME },
+                    Goal::Game { .. } => Goal::Match { innings: FIRST_GAME, against_coach: false },
+                    Goal::Match { against_coach: false, .. } => {
+                        Goal::Match { innings: FIRST_GAME, against_coach: true }
+                    }
                     Goal::Match { .. } | Goal::Exam => Goal::Free,
                 };
                 return some(self.restart(None));
@@ -164,7 +177,7 @@ impl DrillsPage {
                 self.options.goal = match turn.session.goal {
                     Goal::Run(points) => Goal::Run(counted(points)),
                     Goal::Game { innings } => Goal::Game { innings: counted(innings) },
-                    Goal::Match { innings } => Goal::Match { innings: counted(innings) },
+                    Goal::Match { innings, against_coach } => Goal::Match { innings: counted(innings), against_coach },
                     other => other,
                 };
                 return some(self.restart(None));

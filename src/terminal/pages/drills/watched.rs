@@ -21,6 +21,11 @@ pub struct Watched {
 }
 
 impl Watched {
+    /// Whether the coach has made the stroke.
+    pub fn is_by_coach(&self) -> bool {
+        self.outcome.session.attempts.last().is_some_and(|attempt| attempt.by_coach)
+    }
+
     /// Seconds that the shot takes.
     pub fn duration(&self) -> f64 {
         self.outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration())

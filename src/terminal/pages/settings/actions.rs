@@ -49,8 +49,8 @@ impl SettingsPage {
                 let default = (entry.get)(&Settings::default());
                 return self.take(entry, &default, Change::Default(entry.key, default.clone()));
             }
-            Action::No => self.input = None,
-            Action::Yes => return self.yes(),
+            Action::Answer(false) => self.input = None,
+            Action::Answer(true) => return self.yes(),
         }
         None
     }

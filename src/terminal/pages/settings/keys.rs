@@ -1,4 +1,4 @@
-//! The keys of the settings, a table for each page and for what is typed or answered there.
+//! The keys of the settings, a table for each page, and for a key that is asked for.
 
 use crossterm::event::KeyCode::{Backspace, Delete, Enter, Esc, Left, Right, Tab};
 
@@ -30,10 +30,8 @@ pub enum SettingsAction {
     KeyContext(isize),
     /// Asks for another key for what is marked.
     Press,
-    /// Takes what was typed, or says yes.
-    Yes,
-    /// Leaves all as it is.
-    No,
+    /// Answers what is asked: yes, or what was typed; or no.
+    Answer(bool),
 }
 
 /// When a binding of the settings may be used.
@@ -52,12 +50,8 @@ pub enum SettingsContext {
     Values,
     /// What can be done, and the keys that do it.
     Keys,
-    /// A value that is typed.
-    Typing,
     /// A key that is to be pressed.
     Pressing,
-    /// A question.
-    Question,
 }
 
 impl SettingsContext {
@@ -66,9 +60,7 @@ impl SettingsContext {
         match self {
             Self::Values => VALUES,
             Self::Keys => KEYS,
-            Self::Typing => TYPING,
             Self::Pressing => PRESSING,
-            Self::Question => QUESTION,
         }
     }
 }
@@ -102,22 +94,8 @@ pub const KEYS: &[Binding<A, W>] = &[
     BACK,
 ];
 
-/// A value that is typed.
-#[rustfmt::skip]
-pub const TYPING: &[Binding<A, W>] = &[
-    bind(Settings, W::Here, &[key(Enter, A::Yes)], Some(("take it", 1)), "take what is typed"),
-    bind(Settings, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave all as it is"),
-];
-
 /// A key that is to be pressed.
 #[rustfmt::skip]
 pub const PRESSING: &[Binding<A, W>] = &[
-    bind(OwnKeys, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave all as it is"),
-];
-
-/// A question.
-#[rustfmt::skip]
-pub const QUESTION: &[Binding<A, W>] = &[
-    bind(OwnKeys, W::Here, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
-    bind(OwnKeys, W::Here, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
+    bind(OwnKeys, W::Here, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "leave all as it is"),
 ];

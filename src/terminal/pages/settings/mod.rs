@@ -138,12 +138,7 @@ impl SettingsPage {
 
     /// The key context.
     pub const fn place(&self) -> SettingsContext {
-        match (&self.input, self.page) {
-            (Some(Input::Value(_)), _) => SettingsContext::Typing,
-            (Some(Input::Key), _) => SettingsContext::Pressing,
-            (Some(Input::Taken(_)), _) => SettingsContext::Question,
-            (None, page) => page,
-        }
+        if let Some(Input::Key) = self.input { SettingsContext::Pressing } else { self.page }
     }
 
     fn task(&mut self, change: Option<Change>) -> Effect {

@@ -94,8 +94,8 @@ impl TrainingPage {
             Action::Value(step) => self.form.choose(step, self.list.runs()),
             Action::Erase => self.form.erase(),
             Action::Start => return self.start(),
-            Action::Yes => return self.yes(),
-            Action::No => self.question = None,
+            Action::Answer(true) => return self.yes(),
+            Action::Answer(false) => self.question = None,
             other => return self.steer(other),
         }
         None

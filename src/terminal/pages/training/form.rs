@@ -200,20 +200,28 @@ impl Form {
         run_name(&self.opened, AGENTS[self.agent].name, self.table, self.reward, &self.seed)
     }
 
-    /// The command line that starts the same run; in `elsewhere` where that is not the folder of the user's runs.
-    pub fn command(&self, elsewhere: Option<&Path>) -> String {
-        let Self { agent, reward, table, shots, seed, .. } = self;
-        let agent = AGENTS[*agent].name;
-        let from = self.from.as_ref().map_or(String::new(), |(name, path)| {
-            let path = path.to_string_lossy();
-            format!(" --from {}", shell_word(if elsewhere.is_some() { &path } else { name }))
-        });
-        let run = elsewhere.map_or(String::new(), |folder| {
-            format!(" --run {}", shell_word(&folder.join(self.name()).to_string_lossy()))
-        });
-        format!(
-            "carom train --agent {agent} --reward {reward} --table {table} --steps {shots} --seed {seed}{from}{run}"
-        )
+    /// The command line that starts the same run, an option after the other; in `elsewhere` where that is not the folder of the
+    /// user's runs.
+    pub fn command(&self, elsewhere: Option<&Path>) -> Vec<String> {
+        let mut options = self.options(elsewhere.is_some());
+        options.extend(elsewhere.map(|folder| ("--run", folder.join(self.name()).into())));
+        let told = |(name, value): (&str, OsString)| format!("{name} {}", shell_word(&value.to_string_lossy()));
+        std::iter::once("carom train".to_owned()).chain(options.into_iter().map(told)).collect()
+    }
+
+    /// The options of `carom train` but the run's folder; the run that it begins with by its folder or else by its name.
+    fn options(&self, by_folder: bool) -> Vec<(&'static str, OsString)> {
+        let from = self.from.as_ref().map(|(name, path)| if by_folder { path.into() } else { name.into() });
+        [
+            ("--agent", AGENTS[self.agent].name.into()),
+            ("--reward", self.reward.to_string().into()),
+            ("--table", self.table.into()),
+            ("--steps", (&self.shots).into()),
+            ("--seed", (&self.seed).into()),
+        ]
+        .into_iter()
+        .chain(from.map(|from| ("--from", from)))
+        .collect()
     }
 
     /// What starts the run in a folder of `runs`.
@@ -228,21 +236,9 @@ impl Form {
             return Err(format!("{:?} is no seed; accepted is any number from 0 on", self.seed));
         }
         let folder = runs.join(self.name());
-        let reward = self.reward.to_string();
-        let mut arguments: Vec<OsString> = vec!["train".into()];
-        for (option, value) in [
-            ("--agent", AGENTS[self.agent].name),
-            ("--reward", &reward),
-            ("--table", self.table),
-            ("--steps", &self.shots),
-            ("--seed", &self.seed),
-        ] {
-            arguments.extend([option.into(), value.into()]);
-        }
-        if let Some((_, from)) = &self.from {
-            arguments.extend(["--from".into(), from.into()]);
-        }
-        arguments.extend(["--run".into(), folder.clone().into()]);
+        let options = self.options(true).into_iter().chain([("--run", folder.clone().into())]);
+        let options = options.flat_map(|(name, value)| [name.into(), value]);
+        let arguments = std::iter::once("train".into()).chain(options).collect();
         Ok(Launch { arguments, folder })
     }
 }

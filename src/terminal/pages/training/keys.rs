@@ -66,10 +66,8 @@ pub enum TrainingAction {
     Play,
     /// Shows another shot, the next where positive.
     Shot(isize),
-    /// Says yes to the question, or takes what was typed.
-    Yes,
-    /// Says no.
-    No,
+    /// Answers what is asked: yes, or what was typed; or no.
+    Answer(bool),
 }
 
 /// What is on the screen.
@@ -83,10 +81,6 @@ pub enum TrainingContext {
     Form,
     /// A run that is watched.
     Watch,
-    /// A question about a run.
-    Question,
-    /// A name that is typed.
-    Name,
 }
 
 impl TrainingContext {
@@ -97,8 +91,6 @@ impl TrainingContext {
             Self::Compare => COMPARE,
             Self::Form => FORM,
             Self::Watch => WATCH,
-            Self::Question => QUESTION,
-            Self::Name => NAME,
         }
     }
 }
@@ -217,20 +209,6 @@ pub const WATCH: &[Binding<A, W>] = &[
     bind(Replay, W::Shots, &[letter(',', A::Shot(-1)), letter('.', A::Shot(1))], None, "the shot before, the next shot")
         .each(&["the shot before", "the next shot"]),
     BACK,
-];
-
-/// A question.
-#[rustfmt::skip]
-pub const QUESTION: &[Binding<A, W>] = &[
-    bind(Run, W::Here, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
-    bind(Run, W::Here, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
-];
-
-/// A name that is typed.
-#[rustfmt::skip]
-pub const NAME: &[Binding<A, W>] = &[
-    bind(Run, W::Here, &[key(Enter, A::Yes)], Some(("keep", 1)), "keep the networks under this name"),
-    bind(Run, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "do not keep them"),
 ];
 
 #[cfg(test)]

@@ -135,15 +135,6 @@ impl TrainingPage {
         self.pages.last().copied().unwrap_or(TrainingContext::Runs)
     }
 
-    /// What is on the screen: the page, or what is asked there.
-    pub fn place(&self) -> TrainingContext {
-        match &self.question {
-            None => self.page(),
-            Some(Question::Name(_)) => TrainingContext::Name,
-            Some(_) => TrainingContext::Question,
-        }
-    }
-
     /// What has to be found out now.
     pub fn wanted(&self) -> Subscriptions {
         let lists = matches!(self.page(), TrainingContext::Runs | TrainingContext::Form | TrainingContext::Compare);

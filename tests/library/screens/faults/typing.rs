@@ -48,7 +48,7 @@ fn backspace_edits_the_number_that_is_there() {
 fn a_run_of_more_than_a_day_asks_before_it_starts() {
     let player = at_the_shots().press("9 0 0 0 0 0 0 0 0 0 Enter");
     assert!(player.effects.is_empty(), "{:?}", player.effects);
-    assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Question));
+    assert_eq!(player.app.place(), KeyContext::Question { is_typed: false });
     player.says("9,000,000,000 shots take about");
     player.shows(&["start the run?", "y yes", "n no"]);
     let no = player.press("n");
@@ -64,7 +64,7 @@ fn a_run_of_more_than_a_day_asks_before_it_starts() {
 #[test]
 fn a_name_for_the_weights_is_pasted() {
     let mut player = Player::watching(TRUE_COLOUR).press("k");
-    assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Name));
+    assert_eq!(player.app.place(), KeyContext::Question { is_typed: true });
     for _ in 0..100 {
         player = player.press("Backspace");
     }

@@ -11,11 +11,12 @@ use ratatui::{
 };
 
 use crate::terminal::{
+    Capabilities,
     pages::{
-        PageArea, PageView, Target,
+        Asked, PageArea, PageView, Target,
         calibration::{CalibrationPage, Input, Side},
     },
-    ui::{Message, TextField, Ui, columns, draw_question, draw_status, shorten, write_right},
+    ui::{Message, TextField, Ui, columns, shorten, write_right},
 };
 
 /// Columns of the tests: at least, and where there is room.
@@ -25,7 +26,7 @@ const LIST_WIDE: u16 = 41;
 const WIDE: u16 = 110;
 
 impl PageView for CalibrationPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
         draw_header(self, area.header, ui);
         // At 80 columns what is asked of a mark takes two rows: no other mark may stand behind the first of them.
         let is_asked = matches!(self.input, Some(Input::Marks(_))) && area.body.width < WIDE;
@@ -36,11 +37,13 @@ impl PageView for CalibrationPage {
             Side::Test => test::draw(self, right, ui),
             Side::Values => values::draw(self, right, ui),
         }
-        let message = self.message.clone();
-        let Some((question, field)) = question(self) else {
-            return draw_status(&message.unwrap_or_else(|| status_line(self)), area.status, ui);
-        };
-        draw_question(&Message::plain(question), field, area.status, ui)
+        self.message.clone().unwrap_or_else(|| status_line(self))
+    }
+
+    fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
+        let (question, typed) = question(self)?;
+        let asked = Asked::new(self.message.as_ref(), &question, typed);
+        Some(Asked { has_own_keys: matches!(self.input, Some(Input::Marks(_))), ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {

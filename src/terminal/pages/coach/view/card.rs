@@ -20,7 +20,7 @@ use crate::{
             },
         },
         ui::{Ui, columns, draw_title, spell},
-        words::{chance_words, fixed, percent, rail_word, speed_words},
+        words::{chance_words, fixed, percent, speed_words},
     },
 };
 
@@ -83,7 +83,7 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     let mut rows = Vec::new();
     rows.extend(words.before.first().map(|cushion| {
         // The side of the ball has no row then; the sentence has it.
-        format!("off {} {}", rail_word(cushion.rail), bare(cushion.diamond, to_tenths))
+        format!("off {} {}", cushion.rail.name(), bare(cushion.diamond, to_tenths))
     }));
     match words.first {
         None => rows.push("no ball".to_owned()),
@@ -103,7 +103,7 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         degrees if words.is_level => format!("low cue {degrees}\u{b0}"),
         degrees => format!("raised {degrees}\u{b0}"),
     });
-    let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), bare(mark.diamond, to_hundredths));
+    let mark = |mark: Mark| format!("{} {}", mark.rail.name(), bare(mark.diamond, to_hundredths));
     rows.extend([format!("{} to", mark(words.behind)), mark(words.ahead)]);
     rows.into_iter().map(|row| ("", row)).collect()
 }
@@ -123,8 +123,8 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
     );
     // All cushions before the ball have a row of their own.
     let cushions = words.before.split_first().map(|(first, others)| {
-        let first = format!("{} {}", rail_word(first.rail), place_along(coach, first.diamond, to_tenths));
-        others.iter().fold(first, |words, other| format!("{words}, {}", rail_word(other.rail)))
+        let first = format!("{} {}", first.rail.name(), place_along(coach, first.diamond, to_tenths));
+        others.iter().fold(first, |words, other| format!("{words}, {}", other.rail.name()))
     });
     let english = match words.english {
         Some(English::Running) => ", running",
@@ -136,8 +136,7 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
         degrees if words.is_level => format!("{degrees}\u{b0}, as level as can be"),
         degrees => format!("raised {degrees}\u{b0}"),
     };
-    let mark =
-        |mark: Mark| format!("{} rail {}", rail_word(mark.rail), place_along(coach, mark.diamond, to_hundredths));
+    let mark = |mark: Mark| format!("{} rail {}", mark.rail.name(), place_along(coach, mark.diamond, to_hundredths));
     let lengths = lengths_words(words.table_lengths);
     let speed = format!("{lengths}, {}", speed_words(proposal.shot.cue.speed, coach.units.length, 2));
     let whole_speed = format!("{}, {speed}", pace_word(words.table_lengths));

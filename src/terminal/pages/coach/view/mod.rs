@@ -21,9 +21,9 @@ use crate::{
     coach::words::TipUnit,
     table::BALLS,
     terminal::{
-        AdviceState, Mapping, Mode, Shot, View,
+        AdviceState, Capabilities, Mapping, Mode, Shot, View,
         pages::{
-            PageArea, PageView, Target,
+            Asked, PageArea, PageView, Target,
             coach::{
                 CoachPage, Followed,
                 view::{
@@ -45,21 +45,21 @@ use crate::{
         },
         shot::playback::passed,
         ui::{
-            ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_question, draw_sight,
-            draw_spin, draw_status, draw_table, draw_tip, spell, write_paragraphs,
+            ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_sight, draw_spin,
+            draw_table, draw_tip, spell, write_paragraphs,
         },
         words::{event_words, fine, fixed, in_diamonds, percent},
     },
 };
 
 impl PageView for CoachPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
         draw_header(self, area.header, ui);
         if let Some(words) = self.followed().and_then(Followed::emptiness) {
             let [style, place] = [ui.theme.text(), ui.theme.faint()];
             let hint = "q ends it.".to_owned();
             write_paragraphs(&[(words, style), (hint, place)], area.body.inner(Margin::new(2, 2)), ui);
-            return area.status.y;
+            return Message::plain("");
         }
         let profile = self.profile();
         let (panes, side) = panes(self, area.screen);
@@ -77,7 +77,7 @@ impl PageView for CoachPage {
             time: self.playback.time,
             is_moving: self.mode == Mode::Watching,
             front: self.selected,
-            other: self.what_if().map(|what_if| &*what_if.coach),
+            other: self.what_if().and_then(|what_if| what_if.coach.as_deref()),
             other_name: COACH,
             // While the coach thinks each better shot would move them all.
             is_lean: planned.is_some() || lesson.is_some() || self.spinner().is_some(),
@@ -96,21 +96,23 @@ impl PageView for CoachPage {
             let time = self.watched().map(|_| self.playback.time);
             draw_profile(profile, time, self.units.length, side, ui);
         }
-        let message = self.message.clone();
-        if let Some((question, field)) = self.asked() {
-            let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-            return draw_question(&Message::plain(before + &question), field, area.status, ui);
-        }
         let room = usize::from(area.status.width.saturating_sub(2));
         // The chance alone stands above, too; why the shot leads may stand nowhere else.
-        let message =
-            message.filter(|message| says_why || !self.is_bare_chance(message) || why_told(self, room, ui).is_none());
+        let message = self
+            .message
+            .clone()
+            .filter(|message| says_why || !self.is_bare_chance(message) || why_told(self, room, ui).is_none());
         let message = message.unwrap_or_else(|| status_line(self, says_why, room, ui));
-        draw_status(&self.marked(message), area.status, ui)
+        self.marked(message)
+    }
+
+    fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
+        let (words, typed) = self.asked_words()?;
+        Some(Asked::new(self.message.as_ref(), &words, typed))
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
-        if self.question().is_some() || self.followed().is_some() {
+        if self.followed().is_some() {
             return None;
         }
         let area = area.screen;

@@ -12,7 +12,7 @@ use crate::{
         Capabilities, Proposal, Shot,
         pages::coach::view::card::chance_span,
         ui::{Theme, Ui, columns, draw_lines, draw_nothing, draw_title},
-        words::{across_word, fixed, height_word, rail_word},
+        words::{across_word, fixed, height_word},
     },
 };
 
@@ -68,7 +68,7 @@ pub fn draw_proposal(
         title.push(Span::styled(source, ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
-    let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 1));
+    let mark = |mark: Mark| format!("{} {}", mark.rail.name(), fixed(mark.diamond, 1));
     let [ahead, behind] = line_of_aim(table, layout, shot.cue.phi).map(mark);
     let aim = format!("{behind}{}{ahead}", ui.caps.pick("→", ">"));
     draw_rows(shot, aim, (table, unit), inner, ui);

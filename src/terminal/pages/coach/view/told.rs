@@ -15,7 +15,7 @@ use crate::{
             view::{card::chance_span, chances::why_lines},
         },
         ui::{Ui, columns, draw_lines, draw_title, spell, wrap},
-        words::{fixed, rail_word},
+        words::fixed,
     },
 };
 
@@ -88,7 +88,7 @@ pub fn to_hundredths(diamonds: f64) -> String {
 fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
     let words = &proposal.shot.words;
     let [behind, ahead] =
-        [words.behind, words.ahead].map(|mark| (rail_word(mark.rail), place_along(coach, mark.diamond, to_hundredths)));
+        [words.behind, words.ahead].map(|mark| (mark.rail.name(), place_along(coach, mark.diamond, to_hundredths)));
     let arrow = ui.caps.pick("→", ">");
     let aim = format!("aim {} {} {arrow} {} {}", behind.0, behind.1, ahead.0, ahead.1);
     [format!("{aim}, at noses"), aim]

@@ -40,7 +40,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let time = turn.watched().filter(|_| !turn.shows_hint).map_or(0.0, |watched| watched.playback.time);
     let view = TableView {
         shot: turn.shot(),
-        other: what_if.map(|what_if| &*what_if.coach),
+        other: what_if.and_then(|what_if| what_if.coach.as_deref()),
         other_name: turn.taught().map_or("", panels::teacher),
         time,
         spots: &spots,
@@ -137,6 +137,8 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
     }
     Message::plain(match (turn.watched().is_some(), &turn.lesson) {
         (true, _) => "the shot is on its way; Enter goes to its end",
+        (false, Lesson::Pending) if turn.is_coachs_turn() => "the coach is thinking about its stroke",
+        (false, _) if turn.is_coachs_turn() => "the coach's stroke, with errors as large as yours; Space plays it",
         (false, Lesson::Pending) => "set the stroke and play it; the coach is still thinking",
         (false, Lesson::Missing) => "set the stroke and play it; the coach has found no shot here",
         (false, Lesson::Known(_)) if turn.what_if().is_some() => {

@@ -20,8 +20,11 @@ use crate::{
     drills::Record,
     terminal::{
         Capabilities, DrillContext,
-        pages::{PageArea, PageView, Target, drills::DrillsPage},
-        ui::{Message, Ui, columns, draw_question, draw_status, shorten, write_right},
+        pages::{
+            Asked, PageArea, PageView, Target,
+            drills::{DrillsPage, Question},
+        },
+        ui::{Message, Ui, columns, shorten, write_right},
         words::{self, skill_word},
     },
 };
@@ -30,8 +33,8 @@ use crate::{
 const READABLE: u16 = 80;
 
 impl PageView for DrillsPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
-        let (header, body, status) = (area.header, area.body, area.status);
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
+        let (header, body) = (area.header, area.body);
         let status_line = match (self.page(), &self.turn) {
             (DrillContext::Exam, Some(turn)) => exam::draw(self, turn, header, body, ui),
             (DrillContext::Exercise, Some(turn)) => exercise::draw(self, turn, header, body, ui),
@@ -41,14 +44,13 @@ impl PageView for DrillsPage {
             (DrillContext::Film, _) => film::draw(self, header, body, ui),
             _ => library::draw(self, header, body, ui),
         };
-        let message = self.message.clone();
-        match &self.question {
-            Some(question) => {
-                let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-                draw_question(&Message::plain(before + &question.text()), question.field(), status, ui)
-            }
-            None => draw_status(&message.unwrap_or(status_line), status, ui),
-        }
+        self.message.clone().unwrap_or(status_line)
+    }
+
+    fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
+        let question = self.question.as_ref()?;
+        let asked = Asked::new(self.message.as_ref(), &question.text(), question.field());
+        Some(Asked { has_own_keys: matches!(question, Question::Search(_)), ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {

@@ -26,7 +26,7 @@ const FULL: f64 = 0.995;
 /// Draws the numbers of the stroke that is set, or was meant.
 pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
     let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
-    // In a match one plays both sides.
+    // In a match there are two sides.
     let title = if turn.session.is_match() { format!("Stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
     let inner = draw_title(title, area, ui);
     let numbers = stroke_rows(&cue, units, turn.table.radius, ui.caps);
@@ -38,7 +38,8 @@ pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
 /// on the panel to the right is empty, the words run under it to the column `end`.
 pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16), ui: &mut Ui) {
     let settled = turn.watched().filter(|watched| watched.is_settled);
-    let title = settled.map_or("Task".to_owned(), |watched| chances(turn, watched, ui.caps));
+    let task = if turn.is_coachs_turn() { "The coach's turn" } else { "Task" };
+    let title = settled.map_or(task.to_owned(), |watched| chances(turn, watched, ui.caps));
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
         paragraphs.extend(differences(turn, watched, units, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
@@ -166,15 +167,20 @@ fn told(turn: &Turn, stroke: &CueInputs, other: &CueInputs, units: Units) -> Opt
 /// How often the advised stroke is made, how to strike it, and how the stroke that is set differs.
 fn hint(turn: &Turn, taught: &Taught, units: Units, caps: Capabilities) -> String {
     let advice = &taught.advice;
-    let yours = told(turn, &turn.raised_stroke(), &advice.cue, units).unwrap_or_else(|| "the same".to_owned());
     let sentence = taught.shot.words.sentence(turn.cue_ball, units);
-    spell(&format!("{} makes {}: {sentence} Yours: {yours}", teacher(taught), percent(advice.chance.rate)), caps)
+    let words = format!("{} makes {}: {sentence}", teacher(taught), percent(advice.chance.rate));
+    if turn.is_coachs_turn() {
+        return spell(&words, caps);
+    }
+    let yours = told(turn, &turn.raised_stroke(), &advice.cue, units).unwrap_or_else(|| "the same".to_owned());
+    spell(&format!("{words} Yours: {yours}"), caps)
 }
 
 /// How often the stroke is made, and the advised one.
 fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
     let own = watched.chance.map_or_else(|| caps.pick("…", "...").to_owned(), percent);
     match &turn.lesson {
+        _ if watched.is_by_coach() => format!("The coach makes this {own}"),
         Lesson::Known(taught) => {
             format!("Yours makes {own}, {} {}", teacher(taught), percent(taught.advice.chance.rate))
         }
@@ -183,8 +189,12 @@ fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
 }
 
 /// How the stroke that was meant differs from the advised one, and what the player's errors have added to it.
-fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities) -> [String; 2] {
+fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities) -> Vec<String> {
     let Watched { meant, outcome, .. } = watched;
+    let added = told(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "nothing worth telling".to_owned());
+    if watched.is_by_coach() {
+        return vec![spell(&format!("the coach's hand: {added}"), caps)];
+    }
     let lesson = match &turn.lesson {
         Lesson::Known(taught) => told(turn, meant, &taught.advice.cue, units).map_or_else(
             || format!("{}: no change worth telling", teacher(taught)),
@@ -193,8 +203,7 @@ fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities)
         Lesson::Pending => "the coach is still thinking".to_owned(),
         Lesson::Missing => "the coach has found no shot".to_owned(),
     };
-    let added = told(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "nothing worth telling".to_owned());
-    [lesson, format!("your hand: {added}")].map(|words| spell(&words, caps))
+    [lesson, format!("your hand: {added}")].map(|words| spell(&words, caps)).to_vec()
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use crate::{
             DrillsPage, Turn,
             view::{best_run, percent},
         },
-        ui::{Ui, draw_title, write_paragraphs},
+        ui::{Ui, columns, draw_title, write_paragraphs},
         words::chance_words,
     },
 };
@@ -22,7 +22,10 @@ use crate::{
 pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) -> u16 {
     let session = turn.told();
     let place = if session.venue == Venue::Table { "Real table: " } else { "Score: " };
-    let inner = draw_title(format!("{place}{}", session.goal.words()), area, ui);
+    let (title, room) = (format!("{place}{}", session.goal.words()), usize::from(area.width.saturating_sub(4)));
+    // Where there is no room the innings stay away.
+    let short = title.split(',').next().filter(|_| columns(&title) > room).map(str::to_owned);
+    let inner = draw_title(short.unwrap_or(title), area, ui);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let top = draw_marks(&session, text, ui);
     let text = Rect { y: top, height: text.bottom() - top, ..text };
@@ -65,7 +68,7 @@ fn draw_marks(session: &Session, area: Rect, ui: &mut Ui) -> u16 {
 /// What counts, while this exercise is on the table.
 fn lines(session: &Session, exercise: &str) -> Vec<String> {
     let record = session.record();
-    let Record { tried, made, helped, .. } = record;
+    let Record { tried, made, .. } = record;
     let mut lines = Vec::new();
     if session.goal == Goal::Exam {
         // The result of an exercise is looked at before the next one is on the table.
@@ -88,7 +91,12 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
     if session.is_match() {
         for cue_ball in [session.cue_ball, session.cue_ball.other()] {
             let Record { made, innings, high_run, .. } = session.side(cue_ball);
-            lines.push(format!("{cue_ball}: {made} in {}, best run {high_run}", plural(innings, "inning")));
+            let side = match session.goal {
+                Goal::Match { against_coach: true, .. } if cue_ball == session.cue_ball => format!("you ({cue_ball})"),
+                Goal::Match { against_coach: true, .. } => format!("coach ({cue_ball})"),
+                _ => cue_ball.to_string(),
+            };
+            lines.push(format!("{side}: {made} in {}, best run {high_run}", plural(innings, "inning")));
         }
     } else if session.is_game() {
         lines.push(format!("{} in {}{average}", plural(made, "point"), plural(record.innings, "inning")));
@@ -97,8 +105,11 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
         lines.push(format!("{made} of {tried} made, {}", chance_words(&record.rate)));
         lines.push(format!("run {}, best {}{average}", session.run(), record.high_run));
     }
-    if helped > 0 {
-        lines.push(format!("{helped} of them with a hint ({})", percent(helped as f64 / tried as f64)));
+    let own = session.attempts.iter().filter(|attempt| !attempt.by_coach);
+    let (helped, unhelped): (Vec<_>, Vec<_>) = own.partition(|attempt| attempt.helped);
+    if !helped.is_empty() {
+        let share = helped.len() as f64 / (helped.len() + unhelped.len()) as f64;
+        lines.push(format!("{} of yours with a hint ({})", helped.len(), percent(share)));
     }
     lines
 }

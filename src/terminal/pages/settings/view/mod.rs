@@ -10,8 +10,8 @@ use ratatui::{
 
 use crate::terminal::{
     Capabilities, SettingsContext, SettingsPage,
-    pages::{PageArea, PageView, Target, settings::Input},
-    ui::{Message, Ui, draw_question, draw_status, end_of, write_paragraphs},
+    pages::{Asked, PageArea, PageView, Target, settings::Input},
+    ui::{Message, Ui, end_of, write_paragraphs},
 };
 
 /// Columns of the list, of a hundred, and at most.
@@ -23,8 +23,8 @@ const BELOW: u16 = 7;
 const APART: u16 = 10;
 
 impl PageView for SettingsPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
-        let (rest, status) = (area.header, area.status);
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
+        let rest = area.header;
         let path = end_of(&self.path.display().to_string(), usize::from(rest.width.saturating_sub(2)), ui.caps);
         ui.buffer.set_string(rest.x + 1, rest.y, path, ui.theme.faint());
         let [list, words] = halves(self.page, area.body);
@@ -32,12 +32,13 @@ impl PageView for SettingsPage {
             SettingsContext::Keys => keys::draw(self, list, words, ui),
             _ => values::draw(self, list, words, ui),
         };
-        if let Some(question) = question(self, ui.caps) {
-            let field = if let Some(Input::Value(typed)) = &self.input { Some(typed) } else { None };
-            return draw_question(&Message::plain(question), field, status, ui);
-        }
-        let message = self.message.clone().unwrap_or(Message::plain(status_line));
-        draw_status(&message, status, ui)
+        self.message.clone().unwrap_or(Message::plain(status_line))
+    }
+
+    fn asked(&self, caps: Capabilities) -> Option<Asked<'_>> {
+        let typed = if let Some(Input::Value(typed)) = &self.input { Some(typed) } else { None };
+        let asked = Asked::new(self.message.as_ref(), &question(self, caps)?, typed);
+        Some(Asked { has_own_keys: matches!(self.input, Some(Input::Key)), ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {

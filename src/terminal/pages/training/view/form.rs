@@ -45,24 +45,24 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     let below = Rect { y: area.y + rows, height: area.height.saturating_sub(rows), ..area };
     let inner = draw_title("The same on the command line", below, ui);
     let elsewhere = (training.folder != training.places.runs).then_some(training.folder.as_path());
-    let lines = command_lines(&form.command(elsewhere), usize::from(area.width.saturating_sub(6)));
+    let lines = command_lines(form.command(elsewhere), usize::from(area.width.saturating_sub(6)));
     let name =
         Line::from(vec![Span::styled("run           ", ui.theme.faint()), Span::styled(form.name(), ui.theme.text())]);
     let lines = lines.into_iter().map(|line| Line::styled(line, ui.theme.text())).chain([Line::default(), name]);
     draw_lines(lines, Rect { x: inner.x + 3, width: inner.width.saturating_sub(4), ..inner }, ui);
 }
 
-/// The command in lines of at most `width` columns, broken before an option.
-fn command_lines(command: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for (n, option) in command.split(" --").enumerate() {
-        let part = if n == 0 { option.to_owned() } else { format!(" --{option}") };
-        let last = lines.len() - 1;
-        if columns(&lines[last]) + columns(&part) + 2 > width && n > 0 {
-            lines[last].push_str(" \\");
-            lines.push(format!(" {part}"));
-        } else {
-            lines[last].push_str(&part);
+/// The parts of a command in lines of at most `width` columns.
+fn command_lines(parts: Vec<String>, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for part in parts {
+        match lines.last_mut() {
+            None => lines.push(part),
+            Some(line) if columns(line) + columns(&part) + 3 <= width => line.extend([" ", &part]),
+            Some(line) => {
+                line.push_str(" \\");
+                lines.push(format!("  {part}"));
+            }
         }
     }
     lines
@@ -130,8 +130,8 @@ mod tests {
 
     #[test]
     fn a_long_command_is_broken_so_that_a_shell_still_takes_it() {
-        let lines = command_lines("carom train --agent ddpg --steps 10 --from a-long-name", 24);
-        assert_eq!(lines, ["carom train \\", "  --agent ddpg \\", "  --steps 10 \\", "  --from a-long-name"]);
-        assert_eq!(lines.iter().map(|line| columns(line)).max(), Some(20));
+        let parts = ["carom train", "--agent ddpg", "--steps 10", "--from 'a --long name'"].map(str::to_owned);
+        let lines = command_lines(parts.to_vec(), 24);
+        assert_eq!(lines, ["carom train \\", "  --agent ddpg \\", "  --steps 10 \\", "  --from 'a --long name'"]);
     }
 }

@@ -13,18 +13,18 @@ use ratatui::layout::{Position, Rect};
 use crate::{
     table::Table,
     terminal::{
-        TrainingContext,
+        Capabilities, TrainingContext,
         pages::{
-            PageArea, PageView, Target,
+            Asked, PageArea, PageView, Target,
             training::{TrainingPage, view::panes::Panes},
         },
-        ui::{Message, Ui, draw_question, draw_status},
+        ui::{Message, Ui},
     },
 };
 
 impl PageView for TrainingPage {
-    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
-        let (head, body, status) = (area.header, area.body, area.status);
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
+        let (head, body) = (area.header, area.body);
         let status_line = match (self.page(), &self.watch) {
             (TrainingContext::Watch, Some(watch)) => {
                 header::draw(watch, head, ui);
@@ -48,19 +48,17 @@ impl PageView for TrainingPage {
                 runs::status_line(self)
             }
         };
-        let message = self.message.clone();
-        match &self.question {
-            Some(question) => {
-                let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-                let words = Message::warning(before + &question.text(self.watch.as_ref()));
-                draw_question(&words, question.field(), status, ui)
-            }
-            None => draw_status(&message.unwrap_or(status_line), status, ui),
-        }
+        self.message.clone().unwrap_or(status_line)
+    }
+
+    fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
+        let question = self.question.as_ref()?;
+        let asked = Asked::new(self.message.as_ref(), &question.text(self.watch.as_ref()), question.field());
+        Some(Asked { words: Message::warning(asked.words.text), ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
-        match self.place() {
+        match self.page() {
             TrainingContext::Runs | TrainingContext::Compare => runs::target(self, area.body, at),
             _ => None,
         }
