@@ -46,7 +46,6 @@ impl Turn {
             (_, Condition::Aiming | Condition::Watching) if self.is_coachs_turn() => {
                 Some("the coach plays this stroke: Space")
             }
-            (_, Condition::Aiming) => None,
             (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
             (_, Condition::Running | Condition::Ended) => match self.watched() {
                 None => Some("no shot is being watched"),
