@@ -127,10 +127,18 @@ impl Run {
         let mut notices: Vec<String> = loaded.notice().into_iter().collect();
         let Loaded { learner, state, .. } = loaded;
         notices.extend(metrics::notices(&folder.join(METRICS), learner.shots(), state.schedule.log_every));
-        let config = Config::read(folder).or_else(|_| {
-            // It was killed before it had one, or it was removed.
+        let config = Config::read(folder).or_else(|error| {
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
-            config.write(folder).map(|()| config)
+            if error.kind() == ErrorKind::NotFound {
+                // It was killed before it had one, or it was removed.
+                config.write(folder)?;
+            } else {
+                // It may still tell somebody when and by which version the run was started.
+                let unreadable = config::unreadable(folder, &error);
+                notices
+                    .push(format!("{unreadable} and stays as it is; the run goes on without it, from its checkpoint"));
+            }
+            Ok::<_, RunError>(config)
         })?;
         if !learner.is_finished() {
             notices.extend(config.other_program());
