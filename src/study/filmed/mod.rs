@@ -19,7 +19,7 @@ mod systems;
 mod whole;
 
 pub use constants::{Constant, Fitted, fit_constants};
-pub use film::{FilmError, FilmedShot, NotFilmed, Sample, bundled, check_size, read};
+pub use film::{FilmedShot, NotFilmed, Sample, bundled, check_size};
 pub use judged::{Judged, judge};
 pub use laws::{Weighed, weigh};
 pub use lone::Motion;
