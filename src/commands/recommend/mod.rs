@@ -357,7 +357,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         Some(true) => writeln!(out, "a point by simulation: {}", words(shot, args))?,
         Some(false) => writeln!(out, "no point by simulation: the best attempt")?,
         None => {
-            writeln!(out, "the networks' own shot, not simulated{}", told_chance(shot.make_probability, args.skill))?
+            writeln!(out, "the networks' own shot, not simulated{}", told_chance(shot.make_probability, args.skill))?;
         }
     }
     if let Some(system) = &answer.system {

@@ -25,6 +25,6 @@ pub use laws::{Weighed, weigh};
 pub use lone::Motion;
 pub use picture::paths;
 pub use replay::{Replay, ReplayError};
-pub use report::{csv, fit_text, models, rows, text};
+pub use report::{csv, fit_text, models, text};
 pub use systems::Natural;
 pub use whole::{FITTED, Whole, play};
