@@ -102,6 +102,11 @@ fn presets() -> Vec<Table> {
     JUDGED.iter().filter_map(|name| Table::preset(name).ok()).collect()
 }
 
+/// The bundled tables, each as a [`variant`].
+fn variants(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {
+    JUDGED.iter().filter_map(|name| variant(name, what, &change)).collect()
+}
+
 /// A bundled table with other numbers, of which its name tells; none if they are refused.
 fn variant(name: &str, what: &str, change: impl Fn(&mut Table)) -> Option<Table> {
     let mut table = Table::preset(name).ok()?;
