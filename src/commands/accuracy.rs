@@ -158,7 +158,11 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
         Some(name) => filmed_table(name).map(|table| vec![(table.name.clone(), table)])?,
         None => filmed::models(),
     };
-    let rows = filmed::rows(&models, &film, |name| tell(format_args!("playing the film on {name} ...")));
+    let judged = |(name, table): &(String, Table)| {
+        tell(format_args!("playing the film on {name} ..."));
+        filmed::judge(name, table, &film)
+    };
+    let rows: Vec<_> = models.iter().map(judged).collect();
     if let Some(folder) = &args.out {
         write_file(folder, "filmed.csv", &filmed::csv(&rows))?;
         if let Some((_, table)) = models.last() {

@@ -3,7 +3,7 @@
 use std::{io::Write, time::Duration};
 
 use indicatif::HumanCount;
-use serde::Serialize;
+use serde_json::json;
 
 use super::Failure;
 use crate::{
@@ -22,15 +22,6 @@ pub struct Args {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-}
-
-/// What is printed as JSON.
-#[derive(Serialize)]
-struct BenchReport<'a> {
-    version: &'static str,
-    machine: &'a Machine,
-    seconds: f64,
-    figures: &'a [Figure],
 }
 
 /// Longest time for a figure, s.
@@ -56,10 +47,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             written = writeln!(out, "{}", words(figure));
         }
     })
-    .map_err(Failure::failed)?;
+    .map_err(|error| Failure::failed(format_args!("the networks cannot be measured: {error}")))?;
     written?;
     if args.json {
-        let report = BenchReport { version: VERSION, machine: &machine, seconds: args.seconds, figures: &figures };
+        let report = json!({ "version": VERSION, "machine": machine, "seconds": args.seconds, "figures": figures });
         printing::json_line(&mut out, &report)?;
     }
     Ok(())

@@ -11,6 +11,7 @@ use std::{
 };
 
 use serde::{Serialize, de::DeserializeOwned};
+use serde_json::json;
 
 use super::{
     Failure,
@@ -161,12 +162,6 @@ pub fn minutes(value: f64) -> Result<Duration, Failure> {
 /// Longest time that is waited for, minutes: a thousand years.
 const MOST_MINUTES: f64 = 5e8;
 
-/// What a line that is refused gets instead of an answer.
-#[derive(Serialize)]
-struct Refusal {
-    error: String,
-}
-
 /// Longest line, bytes; a question has some hundred.
 const LONGEST_LINE: u64 = 1 << 20;
 
@@ -232,7 +227,7 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
             Ok(answer) => printing::json_line(&mut out, &answer)?,
             Err(error) => {
                 refused += 1;
-                printing::json_line(&mut out, &Refusal { error })?;
+                printing::json_line(&mut out, &json!({ "error": error }))?;
             }
         }
         if file == "-" {

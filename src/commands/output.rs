@@ -2,7 +2,8 @@
 
 use std::{
     fmt::Display,
-    io::{self, IsTerminal, Write},
+    io::{self, BufRead, IsTerminal, Write},
+    iter,
     path::Path,
 };
 
@@ -32,12 +33,16 @@ pub fn check_place(folder: &Path, path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Asks the user at the terminal.
-pub fn prompt(words: &str) {
+/// The next line of the standard input, without blanks at its ends; none where the input has ended. A user at the terminal is asked for it.
+pub fn ask(words: &str) -> Result<Option<String>, Failure> {
     if io::stdin().is_terminal() {
         // Nobody reads a prompt that cannot be written.
         let _ = printing::stderr().write_all(words.as_bytes());
     }
+    let mut line = Vec::new();
+    let read = io::stdin().lock().read_until(b'\n', &mut line);
+    let read = read.map_err(|error| Failure::failed(format_args!("the input cannot be read: {error}")))?;
+    Ok((read > 0).then(|| String::from_utf8_lossy(line.trim_ascii()).into_owned()))
 }
 
 /// A line on the standard output; a text of several is shown as one.
@@ -98,6 +103,16 @@ pub fn impulse_words(impulse: &Impulse, unit: LengthUnit) -> String {
 /// A line of JSON on the standard output.
 pub fn json_line(value: &impl Serialize) -> io::Result<()> {
     printing::json_line(&mut printing::stdout().exact(true), value)
+}
+
+/// A table on the standard output, as [`columns`] sets it.
+pub fn print_table<const COLUMNS: usize>(
+    heads: [&str; COLUMNS],
+    rows: impl IntoIterator<Item = [String; COLUMNS]>,
+    numbers: &[usize],
+) -> Result<(), Failure> {
+    let rows: Vec<_> = iter::once(heads.map(str::to_owned)).chain(rows).collect();
+    columns(&rows, numbers).iter().try_for_each(line)
 }
 
 /// Rows of cells as lines, as wide as a terminal shows them, whatever the cells hold; the columns in `numbers` stand to the right.

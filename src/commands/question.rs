@@ -114,7 +114,7 @@ mod tests {
     use super::*;
     use crate::{
         physics::CueDegrees,
-        study::stability::{Finding, Shot},
+        study::stability::{Figures, Finding, Shot, Violation},
         table::Table,
     };
 
@@ -137,7 +137,10 @@ mod tests {
         assert_eq!(said(r#"{"preset": 3}"#), format!("\"preset\" is 3; accepted is {name}"));
         assert_eq!(said(r#"{"preset" 3}"#), "column 11 is no JSON");
         let cue = CueDegrees { a: 0.0, b: 0.0, theta_deg: 0.0, phi_deg: 0.0, speed: 2.0 };
-        let finding = Finding::hang(&Table::default(), &Shot { layout: Layout::opening(&Table::default()), cue });
+        let (table, seconds) = (Table::default(), f64::INFINITY);
+        let shot = Shot { layout: Layout::opening(&table), cue };
+        let measured = Figures { seconds, ..Figures::default() };
+        let finding = Finding::new(&table, &shot, &measured, vec![Violation::Unfinished]);
         assert!(question::<Line>(&serde_json::to_vec(&finding).unwrap()).is_ok(), "{finding:?}");
         assert_eq!(
             said(r#"{"preset": 3e400}"#),

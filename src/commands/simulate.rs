@@ -255,7 +255,7 @@ struct SimulateAnswer {
     #[serde(skip_serializing_if = "Option::is_none")]
     cue_room: Option<CueRoom>,
     #[serde(flatten)]
-    steps: Option<StepsAnswer>,
+    steps: Option<Stepped>,
 }
 
 /// How low the cue can be held.
@@ -293,15 +293,6 @@ impl CueRoom {
     }
 }
 
-/// What the fixed-step method has to own up to.
-#[derive(Serialize)]
-struct StepsAnswer {
-    steps: u64,
-    /// Deepest overlap of two balls, or of a ball and a cushion, m.
-    deepest_overlap: f64,
-    at_rest: bool,
-}
-
 impl SimulateAnswer {
     fn of(
         (recording, stepped): &Played,
@@ -326,11 +317,7 @@ impl SimulateAnswer {
                 .map(|(ball, off)| BallOff { ball: BALL_NAMES[ball], rail: off.over })
                 .collect(),
             duration: recording.duration(),
-            steps: stepped.map(|Stepped { steps, deepest_overlap, at_rest, .. }| StepsAnswer {
-                steps,
-                deepest_overlap,
-                at_rest,
-            }),
+            steps: *stepped,
         }
     }
 }

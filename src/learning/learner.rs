@@ -33,8 +33,8 @@ pub struct AgentKind {
     pub name: &'static str,
     /// What it is, in one line for people.
     pub title: &'static str,
-    /// All settings as they are where nothing else is said, as an object.
-    pub defaults: fn() -> Value,
+    /// All its settings, from an object of those that differ from its defaults.
+    pub settings: fn(&Value) -> Result<Value, StartError>,
     /// An untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
     pub start: Start,
     /// The learner whose [`Learner::save`] filled the file and returned the note.
@@ -63,10 +63,10 @@ impl StartError {
     }
 }
 
-/// The settings of an agent as they are where nothing else is said, as an object.
-pub fn defaults_of<S: Default + Serialize>() -> Value {
+/// An agent's settings as an object.
+pub fn settings_as_object(settings: &impl Serialize) -> Value {
     // They are numbers, words and lists of them: they can be written.
-    note_of(&S::default()).unwrap_or_default()
+    note_of(settings).unwrap_or_default()
 }
 
 /// Puts `changes` in the place of the values of the same names. Where an agent's defaults have an object, only the parts of it that
@@ -95,7 +95,7 @@ pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
     object: &Value,
     validate: impl Fn(&S) -> Result<(), SettingError>,
 ) -> Result<S, StartError> {
-    let defaults = defaults_of::<S>();
+    let defaults = settings_as_object(&S::default());
     let read = |changes: &Value| {
         let mut settings = defaults.clone();
         lay_over(&mut settings, changes, &defaults);
@@ -205,7 +205,7 @@ pub trait Learner: Debug + Send {
     /// Where it plays.
     fn table(&self) -> &Table;
 
-    /// All its settings, as an object that [`AgentKind::start`] takes.
+    /// All its settings, as [`AgentKind::settings`] gives them.
     fn settings(&self) -> Value;
 
     /// Shots played so far.
@@ -265,7 +265,12 @@ mod tests {
             let (changed, defaults) = (settings(&changes), settings(&json!({})));
             assert_eq!(changed.pointer(part), changes.pointer(part), "{agent}");
             assert_eq!(changed.pointer(other), defaults.pointer(other), "{agent}");
-            assert_eq!((defaults, settings(&changed)), ((kind.defaults)(), changed), "{agent}");
+            assert_eq!(
+                (defaults, settings(&changed)),
+                ((kind.settings)(&json!({})).unwrap(), changed.clone()),
+                "{agent}"
+            );
+            assert_eq!((kind.settings)(&changes).unwrap(), changed, "{agent}");
         }
     }
 

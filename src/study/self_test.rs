@@ -1,14 +1,16 @@
 //! A second of work that tells whether this build computes what it should: the engine by the bits of its shots, the networks by
 //! the points that they make.
 
+use std::time::Instant;
+
 use serde::Serialize;
 
 use super::fingerprint::{SHOTS, TEXTBOOK, hash};
 use crate::{
     game::{Rule, scores},
-    learning::{Policy, PolicyError, evaluation::held_out_layouts},
+    learning::{Policy, evaluation::held_out_layouts},
     player::Skill,
-    table::{PRESETS, Table, TableError},
+    table::{PRESETS, Table},
 };
 
 /// Layouts of each network: a tenth of a second or two for all of them.
@@ -50,38 +52,59 @@ pub struct NetworkTest {
     pub is_right: bool,
 }
 
-/// Why there is no result.
-#[derive(Debug, thiserror::Error)]
-pub enum SelfTestError {
-    /// A bundled table is damaged.
-    #[error(transparent)]
-    Table(#[from] TableError),
-    /// A bundled network is damaged.
-    #[error(transparent)]
-    Policy(#[from] PolicyError),
+/// What came of the test.
+#[derive(Clone, Debug, Serialize)]
+pub struct SelfTest {
+    /// None where it could not be tried.
+    pub engine: Option<EngineTest>,
+    /// None of them where one could not be tried.
+    pub networks: Vec<NetworkTest>,
+    /// How long it took, s.
+    pub seconds: f64,
+    /// Why something could not be tried.
+    errors: Vec<String>,
 }
 
-/// Plays the shots of the [`fingerprint`](super::fingerprint).
-///
-/// # Errors
-/// A damaged table.
-pub fn engine() -> Result<EngineTest, SelfTestError> {
-    let hash = hash(&Table::preset("textbook")?, 0.0);
-    Ok(EngineTest { shots: SHOTS, hash, is_right: hash == TEXTBOOK })
+impl SelfTest {
+    /// Plays the shots of the [`fingerprint`](super::fingerprint), lets every bundled network decide, and plays what it decides.
+    pub fn run() -> Self {
+        let start = Instant::now();
+        let mut errors = Vec::new();
+        let engine = Table::preset("textbook").map(|table| {
+            let hash = hash(&table, 0.0);
+            EngineTest { shots: SHOTS, hash, is_right: hash == TEXTBOOK }
+        });
+        let engine = engine.map_err(|error| errors.push(error.to_string())).ok();
+        let networks = networks().map_err(|error| errors.push(error)).unwrap_or_default();
+        Self { engine, networks, seconds: start.elapsed().as_secs_f64(), errors }
+    }
+
+    /// A sentence for each thing that is wrong.
+    pub fn problems(&self) -> impl Iterator<Item = String> {
+        let engine = self.engine.filter(|test| !test.is_right).map(|test| {
+            format!(
+                "the engine computes other shots than on other machines (hash {:016x}); please report it",
+                test.hash
+            )
+        });
+        let networks = self.networks.iter().filter(|test| !test.is_right).map(|test| {
+            format!(
+                "the networks for {} on \"{}\" make {} of {} points, which is too few; please report it",
+                test.rule, test.table, test.points, test.layouts
+            )
+        });
+        self.errors.iter().cloned().chain(engine).chain(networks)
+    }
 }
 
-/// Lets every bundled network decide, and plays what it decides.
-///
-/// # Errors
-/// A damaged table or network.
-pub fn networks() -> Result<Vec<NetworkTest>, SelfTestError> {
+fn networks() -> Result<Vec<NetworkTest>, String> {
     let mut tests = Vec::new();
     for name in PRESETS {
-        let table = Table::preset(name)?;
+        let table = Table::preset(name).map_err(|error| error.to_string())?;
         for rule in Rule::ALL {
             // On a table without networks of its own it tries those for all tables like it.
             let Some(policy) = Policy::bundled_for(&table, rule, false) else { continue };
-            tests.push(network(&table, rule, &policy?));
+            tests.push(network(&table, rule, &policy.map_err(|error| error.to_string())?));
         }
     }
     Ok(tests)

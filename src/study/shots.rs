@@ -109,7 +109,6 @@ pub struct Reference {
     /// When all balls are at rest, s.
     pub duration: f64,
     /// How far the end moves per unit of relative change in speed or angle, m. Not known of resting contacts.
-    #[serde(default)]
     pub condition: Option<f64>,
     /// What happens.
     #[serde(default)]

@@ -42,14 +42,6 @@ const DRAWN: usize = 4096;
 /// Seed of everything that is drawn: every run measures the same.
 const SEED: u64 = 7;
 
-/// Why the networks could not be measured.
-#[derive(Debug, thiserror::Error)]
-pub enum ThroughputError {
-    /// The networks refuse to work.
-    #[error("the networks cannot be measured: {0}")]
-    Networks(#[from] candle_core::Error),
-}
-
 /// One figure.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Figure {
@@ -94,7 +86,7 @@ impl Machine {
 ///
 /// # Errors
 /// Where the networks cannot be used.
-pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> Result<Vec<Figure>, ThroughputError> {
+pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> candle_core::Result<Vec<Figure>> {
     let mut figures = Vec::new();
     let mut note = |what, sizes: Option<String>, table: &Table, threads, per_second| {
         let figure = Figure { what, sizes, table: table.name.clone(), threads, per_second };

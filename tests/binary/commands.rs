@@ -260,25 +260,6 @@ fn a_negative_number_is_refused_by_the_range_and_not_as_an_option() {
 }
 
 #[test]
-fn files_that_cannot_be_read_end_with_exit_code_one_and_those_that_hold_something_else_with_two() {
-    let folder = tempfile::tempdir().unwrap();
-    let corrupt = folder.path().join("weights.safetensors");
-    std::fs::write(&corrupt, b"this is no safetensors file").unwrap();
-    let corrupt = corrupt.to_str().unwrap();
-    let missing = folder.path().join("none").to_str().unwrap().to_owned();
-    for (args, expected) in [
-        (&["recommend", "--policy", corrupt][..], 2),
-        (&["evaluate", "--merge", corrupt], 2),
-        (&["recommend", "--policy", &missing], 1),
-        (&["simulate", "--batch", &missing], 1),
-        (&["evaluate", "--policy-only", "--policy", &missing], 1),
-    ] {
-        let (code, said) = refusal(&mut carom(args));
-        assert_eq!((code, said.lines().count()), (expected, 1), "{args:?}: {said}");
-    }
-}
-
-#[test]
 fn without_a_terminal_one_sentence_names_the_command_line() {
     let (code, said) = refusal(&mut carom(&[]));
     assert_eq!(code, 2);

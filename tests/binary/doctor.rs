@@ -57,6 +57,8 @@ fn what_is_wrong_is_named_and_the_exit_code_says_so() {
     };
     put("config/carom/config.toml", "speed = 80\n");
     put("carom/tables/bad.toml", "length = 2");
+    // In centimetres, which --table refuses.
+    put("carom/tables/long.toml", &include_str!("../../src/table/textbook.toml").replace("L = 2.84", "L = 284"));
     put("carom/sessions/broken.json", "{");
     put("carom/positions/broken.json", "{");
     put("carom/player.json", "{");
@@ -65,7 +67,7 @@ fn what_is_wrong_is_named_and_the_exit_code_says_so() {
     assert_eq!(said.code, Some(1), "{}", said.out);
     assert!(said.err.contains("things are wrong"), "{}", said.err);
     let wrong: Vec<&str> = said.out.lines().filter_map(|line| line.strip_prefix("wrong: ")).collect();
-    for part in ["speed = 80", "bad.toml", "sessions/broken", "positions/broken", "player.json", "state"] {
+    for part in ["speed = 80", "bad.toml", "long.toml", "sessions/broken", "positions/broken", "player.json", "state"] {
         assert!(wrong.iter().any(|line| line.contains(part)), "{part}: {wrong:#?}");
     }
     assert!(said.out.contains("2000 shots, hash") && said.out.contains("as on other machines"), "{}", said.out);

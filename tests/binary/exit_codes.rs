@@ -18,6 +18,7 @@ fn what_a_name_or_a_path_stands_for_and_is_not_there_cannot_be_done() {
         &["recommend", "--skill", "own"],
         &["evaluate", "--table", "nowhere", layouts[0], layouts[1]],
         &["evaluate", "--policy", "nowhere", layouts[0], layouts[1]],
+        &["evaluate", "--policy-only", "--policy", "nowhere"],
         &["evaluate", "--merge", "nowhere.json"],
         &["train", "--table", "nowhere"],
         &["train", "--from", "nowhere"],
@@ -44,6 +45,7 @@ fn what_a_name_or_a_path_stands_for_and_is_not_there_cannot_be_done() {
             said.err
         );
         assert!(said.err.starts_with("carom: ") && said.out.is_empty(), "{args:?}: {}", said.err);
+        assert_eq!(said.err.lines().count(), 1, "{args:?}: {}", said.err);
         assert!(!said.err.contains("os error"), "{args:?}: {}", said.err);
     }
 }
@@ -52,6 +54,7 @@ fn what_a_name_or_a_path_stands_for_and_is_not_there_cannot_be_done() {
 fn what_would_be_wrong_on_every_machine_is_not_acceptable() {
     let home = folder();
     fs::write(home.path().join("odd.toml"), "[table]\nlength = -1\n").unwrap();
+    fs::write(home.path().join("odd.safetensors"), "this is no safetensors file").unwrap();
     for args in [
         &["nonsense"][..],
         &["simulate"],
@@ -60,6 +63,8 @@ fn what_would_be_wrong_on_every_machine_is_not_acceptable() {
         &["simulate", "--shot", "0,0,0,0,2", "--rule", "snooker"],
         &["recommend", "--skill", "nobody"],
         &["recommend", "--budget-ms", "never"],
+        &["recommend", "--policy", "odd.safetensors"],
+        &["evaluate", "--merge", "odd.safetensors"],
         &["drill", "log", "mine", "perhaps"],
         &["drill", "save", "other", "--layout", "0,0 0,0 1,0"],
         &["table", "check", "odd.toml"],
@@ -71,6 +76,8 @@ fn what_would_be_wrong_on_every_machine_is_not_acceptable() {
     ] {
         let said = carom(home.path(), args);
         assert!(said.code == Some(2) && !said.err.is_empty() && said.out.is_empty(), "{args:?}: {}", said.err);
+        // What clap says has several lines.
+        assert!(!said.err.starts_with("carom: ") || said.err.lines().count() == 1, "{args:?}: {}", said.err);
     }
 }
 

@@ -1,12 +1,9 @@
 //! The units in which a player is told lengths.
 
-use serde::{Deserialize, Serialize};
-
 use super::TIP;
 
 /// How far the tip is from the centre of the ball.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TipUnit {
     /// Tips of [`super::TIP`] radii.
     #[default]
@@ -16,8 +13,7 @@ pub enum TipUnit {
 }
 
 /// Places along the cushions.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PlaceUnit {
     /// Diamonds, an eighth of the table's length each.
     #[default]
@@ -27,8 +23,7 @@ pub enum PlaceUnit {
 }
 
 /// Distances on the table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LengthUnit {
     /// Metres and centimetres.
     #[default]
@@ -41,7 +36,7 @@ pub enum LengthUnit {
 const INCH: f64 = 0.0254;
 
 /// The units in which a player is told lengths.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Units {
     /// Of the tip's place.
     pub tip: TipUnit,

@@ -68,7 +68,7 @@ pub struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.template {
-        return line_by_line(&listing::template());
+        return listing::template().lines().try_for_each(line);
     }
     let table = table_named(&args.table)?;
     if args.tests {
@@ -82,14 +82,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     args.name.as_deref().map_or(Ok(()), check_name)?;
     args.out.as_deref().map_or(Ok(()), check_out)?;
     match &args.file {
-        Some(file) => tell_of(args, &table, &doubt, &entries_in(file)?),
+        Some(file) => tell_of(args, &table, &doubt, &entries_of(file).map_err(failure)?),
         None => session::run(args, &table, &doubt),
     }
-}
-
-/// The entries of a file.
-fn entries_in(file: &Path) -> Result<Entries, Failure> {
-    entries_of(file).map_err(failure)
 }
 
 /// What is wrong inside a file is wrong input.
@@ -178,9 +173,4 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
         return Ok(());
     }
     line(said)
-}
-
-/// Prints a text of several lines.
-fn line_by_line(text: &str) -> Result<(), Failure> {
-    text.lines().try_for_each(line)
 }

@@ -6,7 +6,7 @@ use crate::{
     calibration::{Calibration, Change, Entries, Next, Oddity, Play, Strange, Verdict},
     commands::{
         Failure,
-        output::{columns, json_line, line},
+        output::{json_line, line, print_table},
     },
     table::Table,
 };
@@ -66,12 +66,10 @@ impl<'a> Report<'a> {
 
     /// Lines.
     pub fn text(&self) -> Result<(), Failure> {
-        let heads = ["constant", "before", "after", "known"].map(str::to_owned);
         let row = |one: &Change| {
             [one.name.clone(), one.told_before().join(" ± "), one.told().join(" ± "), self.found.known(one).to_owned()]
         };
-        let rows: Vec<_> = std::iter::once(heads).chain(self.constants.iter().map(row)).collect();
-        columns(&rows, &[1, 2]).iter().try_for_each(line)?;
+        print_table(["constant", "before", "after", "known"], self.constants.iter().map(row), &[1, 2])?;
         line("")?;
         for verdict in self.marks.iter().filter(|verdict| verdict.misread) {
             line(verdict.doubtful(&in_file(verdict.trial, verdict.test)))?;

@@ -1,16 +1,13 @@
 //! A guided session in lines: test by test, every entry kept at once.
 
-use std::{
-    io::{self, BufRead},
-    path::PathBuf,
-};
+use std::path::PathBuf;
 
 use super::{Args, failure, listing::words, tell_of};
 use crate::{
     calibration::{DAILY, Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, kept_entries},
     commands::{
         Failure,
-        output::{of_refused_lines, prompt, tell},
+        output::{ask, of_refused_lines, tell},
     },
     storage::Places,
     table::{Table, TableDoubt},
@@ -28,7 +25,6 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
     let mut session = Session::open(path, args.daily)?;
     tell(HELP);
     tell(format_args!("entries are kept in {}", session.path.display()));
-    let mut input = io::stdin().lock().split(b'\n');
     let (mut shown, mut refused) = (None, 0);
     while let Some(test) = session.next() {
         if shown != Some((test.name, session.entries.trials.len())) {
@@ -37,10 +33,7 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             shown = Some((test.name, session.entries.trials.len()));
         }
         let names: Vec<&str> = test.asked().collect();
-        prompt(&format!("{}: ", names.join(" ")));
-        let Some(read) = input.next() else { break };
-        let read = read.map_err(|error| Failure::failed(format_args!("the input cannot be read: {error}")))?;
-        let text = String::from_utf8_lossy(read.trim_ascii()).into_owned();
+        let Some(text) = ask(&format!("{}: ", names.join(" ")))? else { break };
         match text.as_str() {
             "" => {}
             "done" => break,

@@ -1,33 +1,24 @@
 //! The calibration measured on tables that are known.
 
-use serde::Serialize;
+use serde_json::json;
 
 use crate::{
     calibration::{Coverage, PROTOCOL, coverage},
     commands::{
         Failure,
-        output::{columns, json_line, line},
+        output::{json_line, line, print_table},
     },
     table::{Table, TableDoubt},
 };
 
-/// What is printed with `--json`.
-#[derive(Serialize)]
-struct Measured {
-    tables: u32,
-    seed: u64,
-    strokes: usize,
-    constants: Vec<Coverage>,
-}
-
 /// Measures and tells.
 pub fn run(table: &Table, doubt: &TableDoubt, tables: u32, seed: u64, is_json: bool) -> Result<(), Failure> {
     let constants = coverage(table, doubt, tables as usize, seed).map_err(Failure::wrong_input)?;
-    let strokes = PROTOCOL.iter().map(|test| test.times).sum();
+    let strokes: usize = PROTOCOL.iter().map(|test| test.times).sum();
     if is_json {
-        return Ok(json_line(&Measured { tables, seed, strokes, constants })?);
+        return Ok(json_line(&json!({ "tables": tables, "seed": seed, "strokes": strokes, "constants": constants }))?);
     }
-    let heads = ["constant", "95 % intervals that hold", "deviation before", "after", "error"].map(str::to_owned);
+    let heads = ["constant", "95 % intervals that hold", "deviation before", "after", "error"];
     let row = |one: &Coverage| {
         let share = 100.0 * one.held as f64 / f64::from(tables);
         [
@@ -38,7 +29,6 @@ pub fn run(table: &Table, doubt: &TableDoubt, tables: u32, seed: u64, is_json: b
             format!("{:.5}", one.error),
         ]
     };
-    let rows: Vec<_> = std::iter::once(heads).chain(constants.iter().map(row)).collect();
-    columns(&rows, &[1, 2, 3, 4]).iter().try_for_each(line)?;
+    print_table(heads, constants.iter().map(row), &[1, 2, 3, 4])?;
     line(format_args!("{tables} tables, seed {seed}; {strokes} strokes of a club player on each"))
 }

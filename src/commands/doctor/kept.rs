@@ -6,10 +6,10 @@ use serde::{Serialize, Serializer};
 
 use crate::{
     calibration::kept_entries,
+    commands::input::table_in,
     drills::Store,
     learning::run::list::{Listing, runs_in},
-    storage::{self, Places, room_in},
-    table::Table,
+    storage::{Places, room_in},
     terminal::{Complaint, SavedSession},
 };
 
@@ -149,10 +149,9 @@ fn last(path: &Path) -> Found {
 fn tables(places: &Places) -> Found {
     let mut found = Found { path: places.tables.clone(), count: 0, wrong: Vec::new() };
     for path in places.own_tables() {
-        let text = storage::read_text(&path, storage::SMALL).map_err(|error| error.to_string());
-        match text.and_then(|text| Table::from_toml(&text).map_err(|error| error.to_string())) {
+        match table_in(&path) {
             Ok(_) => found.count += 1,
-            Err(error) => found.wrong.push(format!("{}: {error}", path.display())),
+            Err(failure) => found.wrong.push(failure.to_string()),
         }
     }
     found

@@ -3,20 +3,18 @@
 mod kept;
 mod screen;
 mod text;
-mod trial;
 
 use serde::Serialize;
 
 use self::{
     kept::{Kept, Place},
     screen::Screen,
-    trial::Trial,
 };
 use super::{Failure, output::json_line};
 use crate::{
     printing::{self, SOURCE, TARGET, VERSION},
     storage::Places,
-    study::throughput::Machine,
+    study::{self_test::SelfTest, throughput::Machine},
     terminal::Settings,
 };
 
@@ -48,7 +46,7 @@ struct Report {
     screen: Screen,
     #[serde(flatten)]
     kept: Kept,
-    self_test: Trial,
+    self_test: SelfTest,
     /// A sentence for everything that is wrong.
     problems: Vec<String>,
 }
@@ -62,7 +60,7 @@ impl Report {
             places: kept::places(&places),
             screen: Screen::detect(&settings),
             kept: Kept::find(&places, &complaints),
-            self_test: Trial::run(),
+            self_test: SelfTest::run(),
             problems: Vec::new(),
         };
         let Self { places, screen, kept, self_test, .. } = &report;

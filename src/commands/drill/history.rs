@@ -9,7 +9,7 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{columns, json_line, line, tell},
+        output::{json_line, line, print_table, tell},
     },
     drills::{Goal, Record, Session, Venue},
     game::Rule,
@@ -120,7 +120,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
             subjects.push(subject);
         }
     }
-    let mut rows = vec![["name", "made", "tried", "rate", "average", "high run", "last (UTC)"].map(str::to_owned)];
+    let mut rows = Vec::new();
     for subject in subjects {
         let record = subject.record(sessions);
         let Some(last) = record.last else { continue };
@@ -137,10 +137,11 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
             time(last),
         ]);
     }
-    if rows.len() == 1 {
+    if rows.is_empty() {
         tell("nothing was practised yet; carom drill list shows the exercises");
     } else if !json {
-        columns(&rows, &[1, 2, 3, 4, 5]).iter().try_for_each(line)?;
+        let heads = ["name", "made", "tried", "rate", "average", "high run", "last (UTC)"];
+        print_table(heads, rows, &[1, 2, 3, 4, 5])?;
     }
     Ok(())
 }
@@ -148,7 +149,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
 fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failure> {
     let tried = sessions.iter().map(|session| (session, subject.record([session])));
     let tried: Vec<(&Session, Record)> = tried.filter(|(_, record)| record.tried > 0).collect();
-    let mut rows = vec![["started (UTC)", "where", "goal", "made", "tried", "rate", "high run"].map(str::to_owned)];
+    let mut rows = Vec::new();
     for (session, record) in &tried {
         if json {
             json_line(&SessionRow {
@@ -179,7 +180,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
         tell(format_args!("{}: not tried yet", subject.name()));
         return Ok(());
     }
-    columns(&rows, &[3, 4, 5, 6]).iter().try_for_each(line)?;
+    print_table(["started (UTC)", "where", "goal", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;
     line(format_args!("rate   {}", bars(&tried)))?;
     line(format_args!("in all {}", words(&subject.record(sessions))))
 }

@@ -12,7 +12,7 @@ use crate::{
     commands::{
         Failure,
         input::whole,
-        output::{columns, json_line, line, units},
+        output::{json_line, line, print_table, units},
     },
     drills::{Category, Exercise, Filter, Record, encode},
     table::{BALL_NAMES, CueBall},
@@ -70,7 +70,7 @@ pub fn list(args: &ListArgs) -> Result<(), Failure> {
     let sessions = workspace.sessions();
     let ListArgs { category, grade, tag, .. } = args;
     let filter = Filter { category: *category, grade: *grade, tag: tag.clone(), text: None };
-    let mut rows = vec![["name", "category", "grade", "rule", "made", "tried", "high run", "title"].map(str::to_owned)];
+    let mut rows = Vec::new();
     for exercise in workspace.library.find(&filter) {
         let record = Record::of_exercise(&sessions, &exercise.name);
         if args.json {
@@ -88,11 +88,12 @@ pub fn list(args: &ListArgs) -> Result<(), Failure> {
             exercise.title.clone(),
         ]);
     }
-    if rows.len() == 1 {
+    if rows.is_empty() {
         return Err(Failure::failed("there are no such exercises; carom drill list without a filter shows all"));
     }
     if !args.json {
-        columns(&rows, &[2, 4, 5, 6]).iter().try_for_each(line)?;
+        let heads = ["name", "category", "grade", "rule", "made", "tried", "high run", "title"];
+        print_table(heads, rows, &[2, 4, 5, 6])?;
     }
     Ok(())
 }

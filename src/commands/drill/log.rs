@@ -1,7 +1,5 @@
 //! `carom drill log`: makes and misses at a real table.
 
-use std::io::{self, BufRead};
-
 use serde::Serialize;
 
 use super::{
@@ -13,7 +11,7 @@ use crate::{
     commands::{
         Failure,
         input::whole,
-        output::{json_line, line, of_refused_lines, prompt, tell},
+        output::{ask, json_line, line, of_refused_lines, tell},
     },
     drills::{Attempt, Goal, Session, Venue},
     storage::Lock,
@@ -197,12 +195,7 @@ impl Log {
     /// Takes results from the standard input, and answers each.
     fn read(&mut self) -> Result<(), Failure> {
         let mut refused = 0;
-        let mut lines = io::stdin().lock().split(b'\n');
-        loop {
-            prompt("make, miss or undo: ");
-            let Some(text) = lines.next() else { break };
-            let text = text.map_err(|error| Failure::failed(format_args!("the input cannot be read: {error}")))?;
-            let text = String::from_utf8_lossy(text.trim_ascii()).into_owned();
+        while let Some(text) = ask("make, miss or undo: ")? {
             if text.is_empty() {
                 continue;
             }

@@ -1,10 +1,9 @@
 //! `carom drill skill`: what the results at a real table say of the player.
 
-use serde::Serialize;
+use serde_json::json;
 
 use super::Workspace;
 use crate::{
-    coach::Skill,
     commands::{
         Failure,
         output::{json_line, line, plural, tell},
@@ -30,28 +29,6 @@ pub struct Args {
     json: bool,
 }
 
-#[derive(Serialize)]
-struct SkillAnswer {
-    /// Absent where there is a bound alone.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    skill: Option<Skill>,
-    /// Points an inning at three-cushion.
-    average: f64,
-    average_interval: [f64; 2],
-    /// Which end of the interval alone is known: the player averages at least the lower one, or at most the upper one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    bound: Option<&'static str>,
-    /// Errors in multiples of those of the level 1, which are an expert's at the reference stroke.
-    scale: f64,
-    interval: [f64; 2],
-    attempts: usize,
-    made: usize,
-    shots: usize,
-    left_out: usize,
-    /// Whether this is the player of `--skill own`.
-    kept: bool,
-}
-
 pub fn run(args: &Args) -> Result<(), Failure> {
     let workspace = Workspace::open()?;
     let estimate = estimate(&workspace.sessions()).map_err(Failure::failed)?;
@@ -64,21 +41,24 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let own = workspace.store.own_skill().ok().flatten();
     let kept = own.is_some_and(|own| skill.is_some_and(|skill| own.skill.to_string() == skill.to_string()));
     if args.json {
-        let (interval, [least, average, most]) = ([low, high], estimate.averages());
-        let average_interval = [least, most];
-        return Ok(json_line(&SkillAnswer {
-            skill,
-            average,
-            average_interval,
-            bound: estimate.bound().map(|(bound, _)| bound),
-            scale,
-            interval,
-            attempts,
-            made,
-            shots,
-            left_out,
-            kept,
-        })?);
+        let [least, average, most] = estimate.averages();
+        let mut answer = json!({
+            // Points an inning at three-cushion.
+            "average": average, "average_interval": [least, most],
+            // Errors in multiples of those of the level 1, which are an expert's at the reference stroke.
+            "scale": scale, "interval": [low, high],
+            "attempts": attempts, "made": made, "shots": shots, "left_out": left_out,
+            // Whether this is the player of `--skill own`.
+            "kept": kept,
+        });
+        if let Some(skill) = skill {
+            answer["skill"] = json!(skill);
+        }
+        // Which end of the interval alone is known: the player averages at least the lower one, or at most the upper one.
+        if let Some((bound, _)) = estimate.bound() {
+            answer["bound"] = bound.into();
+        }
+        return Ok(json_line(&answer)?);
     }
     line(format_args!("you play like an average of {} at three-cushion (95 % interval)", estimate.words()))?;
     line(format_args!("from {made} of {attempts} made at {}", plural(shots, "shot")))?;

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use serde::Serialize;
+use serde_json::json;
 
 use super::{
     options::{PlayOptions, StrokeInput},
@@ -45,20 +46,6 @@ pub struct StrokeByStroke<'a> {
     shown: Option<(String, Layout)>,
 }
 
-/// Where the balls lie.
-#[derive(Serialize)]
-struct Position<'a> {
-    kind: &'static str,
-    number: usize,
-    exercise: &'a str,
-    title: &'a str,
-    rule: &'static str,
-    table: &'a str,
-    /// The colour of the cue ball, which comes first in the layout.
-    cue_ball: CueBall,
-    layout: &'a Layout,
-}
-
 /// What came of a stroke.
 #[derive(Serialize)]
 struct AttemptLine<'a> {
@@ -97,13 +84,6 @@ struct Advised {
     difference: CueInputs,
     /// What to change, in words.
     changes: Vec<String>,
-}
-
-#[derive(Serialize)]
-struct Refused {
-    kind: &'static str,
-    line: usize,
-    error: String,
 }
 
 #[derive(Serialize)]
@@ -158,8 +138,12 @@ impl<'a> StrokeByStroke<'a> {
         let number = self.session.attempts.len() + 1;
         let cue_ball = self.session.cue_ball_now();
         if self.options.json {
-            let rule = rule.name();
-            json_line(&Position { kind: "position", number, exercise: name, title, rule, table, cue_ball, layout })?;
+            json_line(&json!({
+                "kind": "position", "number": number, "exercise": name, "title": title, "rule": rule.name(), "table": table,
+                // The colour of the ball that comes first in the layout.
+                "cue_ball": cue_ball,
+                "layout": layout,
+            }))?;
         } else {
             let title = if title == name { String::new() } else { format!("{title}; ") };
             // Where it is white in every stroke, it is not said.
@@ -294,7 +278,8 @@ impl<'a> StrokeByStroke<'a> {
 
     pub fn refuse(&self, number: usize, failure: &Failure) -> Result<(), Failure> {
         if self.options.json {
-            return Ok(json_line(&Refused { kind: "refused", line: number, error: failure.to_string() })?);
+            let error = failure.to_string();
+            return Ok(json_line(&json!({ "kind": "refused", "line": number, "error": error }))?);
         }
         tell(format_args!("line {number}: {failure}"));
         Ok(())

@@ -1,7 +1,5 @@
 //! Strokes, one after the other: from the standard input or by the coach, each played, judged, saved and answered at once.
 
-use std::io::{self, BufRead};
-
 use super::{
     options::{PlayOptions, StrokeInput},
     stroke_by_stroke::StrokeByStroke,
@@ -9,7 +7,7 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{of_refused_lines, prompt, tell},
+        output::{ask, of_refused_lines, tell},
     },
     drills::{Session, Store},
 };
@@ -37,7 +35,6 @@ pub fn play(
     most: usize,
 ) -> Result<(), Failure> {
     let mut game = StrokeByStroke::new(store, session, options, matches!(strokes, Strokes::Same(_)));
-    let mut input = io::stdin().lock().split(b'\n');
     let (mut lines, mut refused) = (0_usize, 0_usize);
     while game.session().attempts.len() < most {
         let Some((table, layout)) = game.session().position().map_err(Failure::failed)? else { break };
@@ -47,11 +44,8 @@ pub fn play(
             Strokes::Same(stroke) => Ok(stroke),
             _ if !is_line => Ok(StrokeInput::Coach),
             _ => {
-                prompt("shot a,b,theta,phi,V or coach: ");
-                let Some(line) = input.next() else { break };
-                let line = line.map_err(|error| Failure::failed(format_args!("the input cannot be read: {error}")))?;
+                let Some(text) = ask("shot a,b,theta,phi,V or coach: ")? else { break };
                 lines += 1;
-                let text = String::from_utf8_lossy(line.trim_ascii()).into_owned();
                 if text.is_empty() {
                     continue;
                 }

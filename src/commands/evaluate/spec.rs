@@ -25,10 +25,8 @@ pub struct Spec {
     /// The policy, of players that have one.
     pub policy: Option<String>,
     /// Checksum of its networks, whatever it is called; parts of earlier versions have none.
-    #[serde(default)]
     pub checksum: Option<String>,
     /// Version and source of the program that measured; parts of earlier versions have none.
-    #[serde(default)]
     pub version: Option<String>,
     /// Which of the bundled networks they are, where these play alone.
     pub networks: Option<String>,

@@ -2,7 +2,6 @@
 
 mod in_time;
 mod margins;
-mod system;
 mod told;
 
 use std::{
@@ -26,12 +25,15 @@ use super::{
     question::{Key, Keys},
 };
 use crate::{
-    coach::{Coach, Doubt, FirstMet, Kind, Recommendation, Request, Risk, Shooter, Skill, Source, systems::Guide},
+    coach::{
+        Coach, Doubt, FirstMet, Kind, Recommendation, Request, Risk, Shooter, Skill, Source,
+        systems::{Guide, guide},
+    },
     game::Rule,
     learning::{Proposal, policy::kept::BUNDLED},
     physics::{CueInputs, strike},
     printing::{self, fixed},
-    simulation::ShotError,
+    simulation::{Recording, ShotError},
     statistics::SuccessRate,
     table::{BALL_NAMES, Layout, Table},
 };
@@ -116,33 +118,46 @@ impl Keys for BatchLine {
     const FORM: &'static str = "preset and layout; rule may be left out";
 }
 
-/// The answer in JSON.
+/// A shot in JSON. What is not known of it is absent.
 #[derive(Serialize)]
-struct RecommendAnswer {
+struct Shot {
     cue: CueInputs,
-    /// Absent where nothing was simulated.
+    /// How often the player makes it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    solved: Option<bool>,
-    #[serde(flatten)]
-    chance: Chance,
-    /// What would miss the shot by itself, where anything is in doubt.
+    make_probability: Option<f64>,
+    /// The 95 % interval.
     #[serde(skip_serializing_if = "Option::is_none")]
-    risk: Option<Risk>,
+    make_interval: Option<[f64; 2]>,
     /// Of the next point, where it was looked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     next_probability: Option<f64>,
     source: Source,
-    #[serde(flatten)]
-    sort: Sort,
-    simulations: u64,
-    elapsed_ms: f64,
-    alternatives: Vec<Alternative>,
-    /// Where they were asked for.
-    #[serde(flatten)]
-    margins: Option<Margins>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kind: Option<Kind>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    description: Option<String>,
     /// Where anything was simulated.
     #[serde(flatten)]
     told: Option<Told>,
+}
+
+/// The answer in JSON.
+#[derive(Serialize)]
+struct RecommendAnswer {
+    #[serde(flatten)]
+    shot: Shot,
+    /// Absent where nothing was simulated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    solved: Option<bool>,
+    /// What would miss the shot by itself, where anything is in doubt.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    risk: Option<Risk>,
+    simulations: u64,
+    elapsed_ms: f64,
+    alternatives: Vec<Shot>,
+    /// Where they were asked for.
+    #[serde(flatten)]
+    margins: Option<Margins>,
     /// Of a shot that makes the point.
     #[serde(skip_serializing_if = "Option::is_none")]
     why: Option<Reasons>,
@@ -151,49 +166,34 @@ struct RecommendAnswer {
     system: Option<Guide>,
 }
 
-#[derive(Serialize)]
-struct Alternative {
-    cue: CueInputs,
-    #[serde(flatten)]
-    chance: Chance,
-    /// Of the next point, where it was looked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    next_probability: Option<f64>,
-    source: Source,
-    #[serde(flatten)]
-    sort: Sort,
-    #[serde(flatten)]
-    told: Option<Told>,
-}
-
-/// How often the player makes it; empty where that is not known.
-#[derive(Default, Serialize)]
-struct Chance {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    make_probability: Option<f64>,
-    /// The 95 % interval.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    make_interval: Option<[f64; 2]>,
-}
-
-impl From<Option<SuccessRate>> for Chance {
-    fn from(rate: Option<SuccessRate>) -> Self {
-        Self { make_probability: rate.map(|rate| rate.rate), make_interval: rate.map(|rate| [rate.low, rate.high]) }
+impl Shot {
+    fn of(cue: CueInputs, chance: Option<SuccessRate>, next: Option<f64>, source: Source, kind: Option<Kind>) -> Self {
+        Self {
+            cue,
+            make_probability: chance.map(|rate| rate.rate),
+            make_interval: chance.map(|rate| [rate.low, rate.high]),
+            next_probability: next,
+            source,
+            kind,
+            description: kind.map(|kind| kind.to_string()),
+            told: None,
+        }
     }
 }
 
-/// What sort of shot it is; empty where that is not known.
-#[derive(Default, Serialize)]
-struct Sort {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    kind: Option<Kind>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    description: Option<String>,
-}
-
-impl From<Option<Kind>> for Sort {
-    fn from(kind: Option<Kind>) -> Self {
-        Self { kind, description: kind.map(|kind| kind.to_string()) }
+impl RecommendAnswer {
+    fn of(shot: Shot, simulations: u64, elapsed: Duration) -> Self {
+        Self {
+            shot,
+            solved: None,
+            risk: None,
+            simulations,
+            elapsed_ms: 1e3 * elapsed.as_secs_f64(),
+            alternatives: Vec::new(),
+            margins: None,
+            why: None,
+            system: None,
+        }
     }
 }
 
@@ -237,13 +237,16 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
 fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<RecommendAnswer, Failure> {
     let mut answer = shot(args, coach, layout, rule)?;
     if args.margins {
-        let (table, layout, cue) = (coach.table().clone(), *layout, answer.cue);
+        let (table, layout, cue) = (coach.table().clone(), *layout, answer.shot.cue);
         let doubt = Shooter { skill: args.skill, doubt: args.doubt }.doubts();
         answer.margins = in_time("the margins", move || Margins::of(rule, &table, &layout, &cue, doubt))?;
     }
     if answer.solved == Some(true) {
-        let (table, layout, cue) = (coach.table().clone(), *layout, answer.cue);
-        answer.system = in_time("the diamond systems", move || system::of(&table, &layout, &cue))?.flatten();
+        let (table, layout, cue) = (coach.table().clone(), *layout, answer.shot.cue);
+        answer.system = in_time("the diamond systems", move || {
+            Ok::<_, ShotError>(guide(&table, &Recording::new(&table, &layout, &cue)?))
+        })?
+        .flatten();
     }
     Ok(answer)
 }
@@ -257,22 +260,8 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         let Proposal { cue, success } = policy.proposals(coach.table(), layout, &args.skill)[0];
         // Others speak of the shot as it is meant, whoever plays it.
         let told = policy.speaks_of(&args.skill).then_some(success);
-        return Ok(RecommendAnswer {
-            cue,
-            solved: None,
-            chance: Chance { make_probability: told, make_interval: None },
-            risk: None,
-            next_probability: None,
-            source: Source::Policy,
-            sort: Sort::default(),
-            simulations: 0,
-            elapsed_ms: 1e3 * start.elapsed().as_secs_f64(),
-            alternatives: Vec::new(),
-            margins: None,
-            told: None,
-            why: None,
-            system: None,
-        });
+        let shot = Shot { make_probability: told, ..Shot::of(cue, None, None, Source::Policy, None) };
+        return Ok(RecommendAnswer::of(shot, 0, start.elapsed()));
     }
     let request = Request {
         rule,
@@ -302,7 +291,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
     })?;
     if let Some((told, why)) = words {
         let mut told = told.into_iter();
-        answer.told = told.next();
+        answer.shot.told = told.next();
         answer.alternatives.iter_mut().zip(told).for_each(|(shot, told)| shot.told = Some(told));
         answer.why = why;
     }
@@ -318,36 +307,24 @@ fn no_policy(table: &Table) -> Failure {
 
 impl From<Recommendation> for RecommendAnswer {
     fn from(advice: Recommendation) -> Self {
-        let alternatives = advice.alternatives.into_iter().map(|shot| Alternative {
-            cue: shot.cue,
-            chance: shot.make_probability.into(),
-            next_probability: shot.next_probability,
-            source: shot.source,
-            sort: Some(shot.kind).into(),
-            told: None,
-        });
+        let Recommendation { cue, make_probability: chance, next_probability: next, source, kind, .. } = advice;
+        let alternatives = advice
+            .alternatives
+            .into_iter()
+            .map(|shot| Shot::of(shot.cue, shot.make_probability, shot.next_probability, shot.source, Some(shot.kind)));
         Self {
-            cue: advice.cue,
             solved: Some(advice.solved),
-            chance: advice.make_probability.into(),
             risk: advice.risk,
-            next_probability: advice.next_probability,
-            source: advice.source,
-            sort: advice.kind.into(),
-            simulations: advice.simulations,
-            elapsed_ms: 1e3 * advice.elapsed.as_secs_f64(),
             alternatives: alternatives.collect(),
-            margins: None,
-            told: None,
-            why: None,
-            system: None,
+            ..Self::of(Shot::of(cue, chance, next, source, kind), advice.simulations, advice.elapsed)
         }
     }
 }
 
 /// The recommendation for people to read.
 fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &RecommendAnswer) -> io::Result<()> {
-    if let Some(told) = &answer.told {
+    let shot = &answer.shot;
+    if let Some(told) = &shot.told {
         told.describe(out, units())?;
     }
     if let Some(why) = &answer.why {
@@ -358,10 +335,10 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         "For a player of skill \"{}\" under the rule {}; --skill and --rule choose others. The screen's skill and rule are not used.",
         args.skill, args.rule
     )?;
-    if answer.told.is_some() {
+    if shot.told.is_some() {
         writeln!(out)?;
     }
-    let CueInputs { a, b, theta, speed, .. } = answer.cue;
+    let CueInputs { a, b, theta, speed, .. } = shot.cue;
     let side = match a {
         a if a >= 5e-4 => " (left of centre)",
         a if a <= -5e-4 => " (right of centre)",
@@ -370,44 +347,43 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     writeln!(out, "a      {:>8} R{side}", fixed(a, 3))?;
     writeln!(out, "b      {:>8} R", fixed(b, 3))?;
     writeln!(out, "theta  {:>8.3} degrees", theta.to_degrees())?;
-    writeln!(out, "phi    {:>8} degrees", answer.cue.phi_text(3))?;
+    writeln!(out, "phi    {:>8} degrees", shot.cue.phi_text(3))?;
     let (factor, symbol) = units().length.speed();
     // A shot is typed in metres a second, whatever it is told in.
     let typed = if symbol == "m/s" { String::new() } else { format!(" ({speed:.3} m/s where a shot is typed)") };
     writeln!(out, "V      {:>8.3} {symbol}{typed}", factor * speed)?;
-    writeln!(out, "{}", impulse_words(&strike(table, &answer.cue), units().length))?;
+    writeln!(out, "{}", impulse_words(&strike(table, &shot.cue), units().length))?;
     match answer.solved {
-        Some(true) => writeln!(out, "a point by simulation: {}", words(&answer.sort, &answer.chance, args))?,
+        Some(true) => writeln!(out, "a point by simulation: {}", words(shot, args))?,
         Some(false) => writeln!(out, "no point by simulation: the best attempt")?,
-        None => writeln!(
-            out,
-            "the networks' own shot, not simulated{}",
-            told_chance(answer.chance.make_probability, args.skill)
-        )?,
+        None => {
+            writeln!(out, "the networks' own shot, not simulated{}", told_chance(shot.make_probability, args.skill))?;
+        }
     }
     if let Some(system) = &answer.system {
         writeln!(out, "{system}")?;
     }
     if let Some(risk) = &answer.risk {
-        writeln!(out, "{}", risk.words(answer.chance.make_probability.map(|made| 1.0 - made)))?;
+        writeln!(out, "{}", risk.words(shot.make_probability.map(|made| 1.0 - made)))?;
     }
-    if let Some(next) = answer.next_probability {
+    if let Some(next) = shot.next_probability {
         writeln!(out, "after it the next point is made about {:.0} % of the time", 100.0 * next)?;
     }
     if let Some(margins) = &answer.margins {
         margins.describe(out, table, units())?;
     }
-    for Alternative { cue, chance, sort, told, next_probability: next, .. } in &answer.alternatives {
+    for shot in &answer.alternatives {
+        let Shot { cue, told, next_probability: next, .. } = shot;
         let CueInputs { a, b, theta, speed, .. } = *cue;
         let ([a, b], theta, phi) = ([a, b].map(|place| fixed(place, 3)), theta.to_degrees(), cue.phi_text(3));
         let pattern = told.as_ref().and_then(Told::pattern).map_or_else(String::new, |name| format!("{name}; "));
         let next = next.map_or_else(String::new, |next| format!(", the next point {:.0} %", 100.0 * next));
-        writeln!(out, "or {a},{b},{theta:.3},{phi},{speed:.3}: {pattern}{}{next}", words(sort, chance, args))?;
+        writeln!(out, "or {a},{b},{theta:.3},{phi},{speed:.3}: {pattern}{}{next}", words(shot, args))?;
         if let Some(told) = told {
             writeln!(out, "   {}", told.sentence(units()))?;
         }
     }
-    writeln!(out, "source: {}, {} simulations in {:.1} ms", answer.source, answer.simulations, answer.elapsed_ms)
+    writeln!(out, "source: {}, {} simulations in {:.1} ms", shot.source, answer.simulations, answer.elapsed_ms)
 }
 
 /// How often the networks think that the player makes their shot, where they do.
@@ -418,9 +394,9 @@ fn told_chance(told: Option<f64>, skill: Skill) -> String {
 }
 
 /// What sort of shot, and how often the player makes it.
-fn words(sort: &Sort, chance: &Chance, args: &Args) -> String {
-    let description = sort.kind.map(|kind| kind.words(units().length)).unwrap_or_default();
-    match (chance.make_probability, chance.make_interval) {
+fn words(shot: &Shot, args: &Args) -> String {
+    let description = shot.kind.map(|kind| kind.words(units().length)).unwrap_or_default();
+    match (shot.make_probability, shot.make_interval) {
         (Some(rate), Some([low, high])) => format!(
             "{description}; a player of skill \"{}\" makes it {:.1} % of the time ({:.1} to {:.1} %)",
             args.skill,

@@ -1,14 +1,14 @@
 //! `carom train --list`: the runs there are.
 
-use std::{io::Write, path::Path};
+use std::path::Path;
 
 use crate::{
     commands::{
         Failure,
-        output::{columns, tell},
+        output::{json_line, print_table, tell},
     },
     learning::run::list::{Listing, Summary, runs_in},
-    printing::{self, OneLine},
+    printing::OneLine,
     storage::Places,
 };
 
@@ -25,17 +25,12 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
     for sentence in unreadable {
         tell(format_args!("note: {}", OneLine(sentence)));
     }
-    let mut out = printing::stdout().exact(json);
     if runs.is_empty() {
         tell(format_args!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display()));
     } else if json {
-        for run in &runs {
-            printing::json_line(&mut out, run)?;
-        }
+        runs.iter().try_for_each(json_line)?;
     } else {
-        for row in table(&runs) {
-            writeln!(out, "{row}")?;
-        }
+        print_table(HEADINGS, runs.iter().map(row), &NUMBERS)?;
     }
     Ok(!runs.is_empty())
 }
@@ -46,23 +41,19 @@ const HEADINGS: [&str; 11] =
 /// Columns that are numbers and stand to the right.
 const NUMBERS: [usize; 5] = [4, 5, 6, 7, 8];
 
-fn table(runs: &[Summary]) -> Vec<String> {
+fn row(run: &Summary) -> [String; HEADINGS.len()] {
     let reward = |reward: Option<f64>| reward.map_or_else(|| "-".to_owned(), |reward| format!("{reward:.4}"));
-    let mut rows = vec![HEADINGS.map(str::to_owned)];
-    rows.extend(runs.iter().map(|run| {
-        [
-            run.name.clone(),
-            run.agent.clone(),
-            run.reward.to_string(),
-            run.table.clone(),
-            run.seed.to_string(),
-            run.shots.to_string(),
-            run.planned_shots.to_string(),
-            reward(run.best_reward),
-            reward(run.last_reward),
-            run.changed.clone(),
-            run.state.word().to_owned(),
-        ]
-    }));
-    columns(&rows, &NUMBERS)
+    [
+        run.name.clone(),
+        run.agent.clone(),
+        run.reward.to_string(),
+        run.table.clone(),
+        run.seed.to_string(),
+        run.shots.to_string(),
+        run.planned_shots.to_string(),
+        reward(run.best_reward),
+        reward(run.last_reward),
+        run.changed.clone(),
+        run.state.word().to_owned(),
+    ]
 }

@@ -127,7 +127,8 @@ fn specified(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> {
     // Another agent's settings mean nothing here; that its weights do not either is said when they are given.
     let known = base.filter(|base| base.agent == agent).map(|base| base.settings);
     // An agent that is not known is refused by name when the run starts.
-    let defaults = AgentKind::named(&agent).map(|kind| (kind.defaults)()).unwrap_or_default();
+    let of_kind = |kind: AgentKind| (kind.settings)(&serde_json::json!({})).ok();
+    let defaults = AgentKind::named(&agent).ok().and_then(of_kind).unwrap_or_default();
     let settings = settings(args.config.as_deref(), &args.set, known, &defaults)?;
     let layouts = args.evaluation_layouts as usize;
     let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);

@@ -53,8 +53,8 @@ pub struct Hyperparameters {
     pub actor_batch: usize,
     /// New shots before every update.
     pub shots_per_update: usize,
-    /// Share of them that are played near the critic's favourite among all heads in all observations of a layout; the others
-    /// near any head's action in any observation.
+    /// Share of those that are not ranked (`ranking`) that are played near the critic's favourite among all heads in all observations
+    /// of a layout; the others near any head's action in any observation.
     pub critic_chooses: f64,
     /// Share of shots that are the eight best proposals, played without noise, so that the critic learns to rank them.
     pub ranking: f64,

@@ -16,7 +16,7 @@ use crate::{
     learning::{
         evaluation::Score,
         learner::{
-            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, UpdateStats, defaults_of, note_of,
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, UpdateStats, settings_as_object,
             settings_from,
         },
         nn::weights::{Reader, WeightsError, Writer},
@@ -37,26 +37,31 @@ const CRITIC: usize = 1;
 pub const AGENT: AgentKind = AgentKind {
     name: "ddpg",
     title: "deep deterministic policy gradient with several actor heads",
-    defaults: defaults_of::<Hyperparameters>,
+    settings: |settings| hyperparameters(settings).map(|hyperparameters| settings_as_object(&hyperparameters)),
     start: |plan, table, settings| {
-        let hyperparameters: Hyperparameters = settings_from(settings, Hyperparameters::validate)?;
-        if hyperparameters.searched > 0 && !hyperparameters.context {
-            return Err(StartError::settings("searches are for players who err: use searched with context = true"));
-        }
-        let Hyperparameters { imitation, actor_learning_rate, .. } = hyperparameters;
-        if imitation > 0.0 && actor_learning_rate < STANDING_STILL {
-            let reason = format!(
-                "an actor_learning_rate of {actor_learning_rate:e}, as --from may bring along, leaves nothing to imitation = {imitation}: \
-                 accepted is {STANDING_STILL:e} and more, or no imitation"
-            );
-            return Err(StartError::settings(reason));
-        }
-        Ok(Box::new(Trainer::new(Task { plan, hyperparameters }, table)?))
+        Ok(Box::new(Trainer::new(Task { plan, hyperparameters: hyperparameters(settings)? }, table)?))
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
     of_one_start: &["new_actor"],
     of_meaning: &["actions", "closed_form"],
 };
+
+/// What a run is started with.
+fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
+    let hyperparameters: Hyperparameters = settings_from(settings, Hyperparameters::validate)?;
+    if hyperparameters.searched > 0 && !hyperparameters.context {
+        return Err(StartError::settings("searches are for players who err: use searched with context = true"));
+    }
+    let Hyperparameters { imitation, actor_learning_rate, .. } = hyperparameters;
+    if imitation > 0.0 && actor_learning_rate < STANDING_STILL {
+        let reason = format!(
+            "an actor_learning_rate of {actor_learning_rate:e}, as --from may bring along, leaves nothing to imitation = {imitation}: \
+             accepted is {STANDING_STILL:e} and more, or no imitation"
+        );
+        return Err(StartError::settings(reason));
+    }
+    Ok(hyperparameters)
+}
 
 impl Learner for Trainer {
     fn agent(&self) -> &'static str {
@@ -72,8 +77,7 @@ impl Learner for Trainer {
     }
 
     fn settings(&self) -> Value {
-        // The settings were read from JSON or are the defaults: they can be written.
-        note_of(&self.task.hyperparameters).unwrap_or_default()
+        settings_as_object(&self.task.hyperparameters)
     }
 
     fn shots(&self) -> u64 {

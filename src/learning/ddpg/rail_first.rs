@@ -348,27 +348,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn a_mirrored_view_gets_the_mirrored_way() {
-        let table = Table::default();
-        let layout = Layout::new([DVec2::new(0.3, 0.1), DVec2::new(-0.5, 0.3), DVec2::new(0.2, -0.4)]);
-        let mirrored = Layout::new(layout.balls.map(|ball| DVec2::new(ball.x, -ball.y)));
-        let action = [0.2, 0.5, 0.6, -0.3, -1.0];
-        for rail in Rail::ALL {
-            let [one, other] = [(layout, 0), (mirrored, 2)].map(|(layout, index)| {
-                let observation = Observation { rail: Some(rail), ..Observation::new(&layout, index) };
-                let ways = ByRail::of(&table, &observation)?;
-                let Approach { contact, course, .. } = ways.approach(&Meaning::of(&table, action), false)?;
-                let phi = cue_inputs(&table, &observation, action).phi;
-                Some([phi, contact.side.value, course.x.value, course.y.value])
-            });
-            let (Some(one), Some(other)) = (one, other) else {
-                assert!(one.is_none() && other.is_none());
-                continue;
-            };
-            let apart = [one[0] + other[0], one[1] - other[1], one[2] - other[2], one[3] - other[3]];
-            assert!(apart.iter().all(|apart| apart.abs() < 1e-9), "{one:?} {other:?}");
-        }
-    }
 }

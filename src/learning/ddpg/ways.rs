@@ -89,7 +89,7 @@ pub fn playable(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::ddpg::action::ACTIONS;
+    use crate::{learning::ddpg::action::ACTIONS, table::Rail};
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -130,16 +130,23 @@ mod tests {
     }
 
     #[test]
-    fn a_mirrored_view_gets_the_mirrored_stroke() {
+    fn a_mirrored_view_gets_the_mirrored_stroke_and_way() {
         let table = Table::default();
         let layout = Layout::new([DVec2::new(0.3, 0.1), DVec2::new(-0.5, 0.3), DVec2::new(0.2, -0.4)]);
         let mirrored = Layout::new(layout.balls.map(|ball| DVec2::new(ball.x, -ball.y)));
-        let action = [0.2, 0.5, 0.6, -0.3, 0.4];
-        let [one, other] = [(layout, 0), (mirrored, 2)].map(|(layout, observation)| {
-            let cue = cue_inputs(&table, &Observation::new(&layout, observation), action);
-            (cue.a, cue.phi, cue.b, cue.theta, cue.speed)
-        });
-        assert!((one.1 + other.1).abs() < 1e-12 && one.0 > 0.2);
-        assert_eq!((one.0, one.2, one.3, one.4), (-other.0, other.2, other.3, other.4));
+        for (rail, elevation) in std::iter::once((None, 0.4)).chain(Rail::ALL.map(|rail| (Some(rail), -1.0))) {
+            let action = [0.2, 0.5, 0.6, -0.3, elevation];
+            let [(one, way), (other, other_way)] = [(layout, 0), (mirrored, 2)].map(|(layout, index)| {
+                let observation = Observation { rail, ..Observation::new(&layout, index) };
+                let ways = Ways::of(&table, &observation);
+                let Approach { contact, course, by_rail } = ways.approach(&Meaning::of(&table, action), false);
+                let numbers = [contact.side, course.x, course.y].into_iter().chain(by_rail);
+                (cue_inputs(&table, &observation, action), numbers.map(|number| number.value).collect::<Vec<_>>())
+            });
+            assert!((one.phi + other.phi).abs() < if rail.is_some() { 1e-9 } else { 1e-12 } && one.a > 0.2);
+            assert_eq!((one.a, one.b, one.theta, one.speed), (-other.a, other.b, other.theta, other.speed));
+            let is_same = way.iter().zip(&other_way).all(|(one, other)| (one - other).abs() < 1e-9);
+            assert!(is_same, "{rail:?}: {way:?} {other_way:?}");
+        }
     }
 }

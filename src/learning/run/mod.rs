@@ -20,7 +20,6 @@ mod number;
 pub(crate) mod origin;
 pub mod quantity;
 pub mod request;
-mod result;
 pub(crate) mod seeds;
 pub mod status;
 mod training;
@@ -30,9 +29,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
+pub(crate) use self::contents::Accumulator;
 use self::{
     checkpoint::{Checkpoints, Loaded},
-    contents::{Accumulator, State},
+    contents::State,
     error::file,
     metrics::MetricsFile,
 };
@@ -53,12 +53,15 @@ pub const METRICS: &str = "metrics.jsonl";
 /// The policy's file in a run's folder.
 pub const POLICY: &str = "policy.safetensors";
 
+/// What a run has come to: it is there once the run is finished, and taken away when it goes on.
+const RESULT: &str = "result.json";
+
 /// All that a run writes into its folder, the lock last.
 const FILES: [&str; 11] = [
     config::FILE,
     METRICS,
     event_file::FILE,
-    result::FILE,
+    RESULT,
     POLICY,
     checkpoint::CURRENT,
     checkpoint::PREVIOUS,
@@ -127,10 +130,18 @@ impl Run {
         let mut notices: Vec<String> = loaded.notice().into_iter().collect();
         let Loaded { learner, state, .. } = loaded;
         notices.extend(metrics::notices(&folder.join(METRICS), learner.shots(), state.schedule.log_every));
-        let config = Config::read(folder).or_else(|_| {
-            // It was killed before it had one, or it was removed.
+        let config = Config::read(folder).or_else(|error| {
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
-            config.write(folder).map(|()| config)
+            if error.kind() == ErrorKind::NotFound {
+                // It was killed before it had one, or it was removed.
+                config.write(folder)?;
+            } else {
+                // It may still tell somebody when and by which version the run was started.
+                let unreadable = config::unreadable(folder, &error);
+                notices
+                    .push(format!("{unreadable} and stays as it is; the run goes on without it, from its checkpoint"));
+            }
+            Ok::<_, RunError>(config)
         })?;
         if !learner.is_finished() {
             notices.extend(config.other_program());
@@ -143,7 +154,7 @@ impl Run {
 
     /// Whether it has played all its shots and said what it has come to.
     pub fn has_result(&self) -> bool {
-        self.learner.is_finished() && self.folder.join(result::FILE).is_file()
+        self.learner.is_finished() && self.folder.join(RESULT).is_file()
     }
 
     /// The run's folder.

@@ -51,7 +51,7 @@ impl TrainingSpec {
 
     /// All settings of the agent, with the defaults of those that are not given.
     pub fn all_settings(&self) -> Result<Value, RunError> {
-        Ok(self.untrained(self.plan.seed, None)?.settings())
+        Ok((AgentKind::named(&self.agent)?.settings)(&self.settings)?)
     }
 
     fn untrained(&self, seed: u64, weights: Option<&Weights>) -> Result<Box<dyn Learner>, RunError> {

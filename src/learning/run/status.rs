@@ -77,7 +77,6 @@ pub struct RunStatus {
     #[serde(rename = "memory")]
     pub replay_fill: Option<f64>,
     /// What it earned at its last measurement on held-out layouts in this session.
-    #[serde(default)]
     pub held_out_reward: Option<f64>,
     /// The process that trains.
     pub process: u32,

@@ -11,6 +11,7 @@ use crate::{
         learner::{Iteration, TrainingPlan},
         policy::Policy,
     },
+    printing::VERSION,
     table::Table,
 };
 
@@ -157,6 +158,20 @@ fn a_folder_belongs_to_one_run_at_a_time() {
     fs::remove_file(folder.path().join(config::FILE)).unwrap();
     let (_run, notices) = Run::resume(folder.path()).unwrap();
     assert_eq!((notices.len(), Config::read(folder.path()).unwrap().agent.as_str()), (0, "ddpg"));
+}
+
+#[test]
+fn a_configuration_that_cannot_be_read_stays_and_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    drop(small_run(folder.path()));
+    let path = folder.path().join(config::FILE);
+    let newer = fs::read_to_string(&path).unwrap().replace("\"agent\"", "\"who\"").replace(VERSION, "90.1.0");
+    for (text, told) in [("{", "config.json cannot be read"), (newer.as_str(), "config.json is of carom 90.1.0")] {
+        fs::write(&path, text).unwrap();
+        let (run, notices) = Run::resume(folder.path()).unwrap();
+        assert!(notices.len() == 1 && notices[0].starts_with(told), "{notices:?}");
+        assert_eq!((fs::read_to_string(&path).unwrap().as_str(), run.learner().shots()), (text, 0));
+    }
 }
 
 #[test]

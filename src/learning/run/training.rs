@@ -5,22 +5,25 @@ use std::{
     time::{Duration, Instant},
 };
 
+use serde_json::json;
+
 use super::{
-    METRICS, Run, RunError, Schedule,
+    METRICS, RESULT, Run, RunError, Schedule,
     error::file,
     event_file::EventFile,
     examples::Examples,
     heartbeat::Heartbeat,
+    json,
     metrics::{MetricsFile, Record},
     request::Request,
-    result,
     status::Phase,
 };
 use crate::{
     learning::{
         evaluation::{HELD_OUT_SEED, Score, held_out_layouts},
-        learner::{Iteration, Learner},
+        learner::{Iteration, Learner, TrainingPlan},
     },
+    printing::VERSION,
     table::Layout,
 };
 
@@ -84,7 +87,7 @@ impl Run {
         let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
         if !self.learner.is_finished() {
             // A finished run whose last checkpoint was lost goes on from the one before.
-            let _ = fs::remove_file(self.folder.join(result::FILE));
+            let _ = fs::remove_file(self.folder.join(RESULT));
         }
         let before = records.last().map_or(0.0, |record| record.seconds);
         let last = (before, self.learner.shots());
@@ -98,7 +101,7 @@ impl Run {
                 return Ok(Ending::Abandoned);
             }
             if let Ending::Finished(score) = ending {
-                result::write(&self.folder, self.learner.as_ref(), score)?;
+                self.write_result(score)?;
             }
             Ok(ending)
         });
@@ -109,6 +112,23 @@ impl Run {
         };
         reporting.heartbeat.end(phase, self.learner.as_ref(), reporting.clock.seconds(), reason);
         ending
+    }
+
+    /// Writes what it has come to with this last measurement, for programs that compare runs.
+    fn write_result(&self, score: Score) -> Result<(), RunError> {
+        let learner = self.learner.as_ref();
+        let TrainingPlan { reward, seed, .. } = learner.plan();
+        let result = json!({
+            "agent": learner.agent(), "reward": reward, "seed": seed, "table": learner.table().name, "version": VERSION,
+            // Those of the last iteration beyond the plan included.
+            "shots": learner.shots(),
+            "updates": learner.progress().updates,
+            // Mean reward on the held-out layouts, without exploration: what is to be made large.
+            "held_out_reward": score.mean_reward,
+            // Share of those layouts in which any proposal earns at least 1.
+            "held_out_reach": score.best_of_k,
+        });
+        json::write(&self.folder.join(RESULT), &result)
     }
 
     fn iterate_until(&mut self, limits: &Limits<'_>, reporting: &mut Reporting<'_>) -> Result<Ending, RunError> {

@@ -13,7 +13,7 @@ use super::{
     carom::Episode,
     environment::{Action, Environment, Observation, STATES},
     exploration::OrnsteinUhlenbeck,
-    lessons::{Lessons, LessonsState, Sought},
+    lessons::{Lessons, LessonsState},
     q_learning::check_episode,
     replay::{self, Batch, MEMORY, StoredTransition},
     symmetry::{self, WAYS, canonical, seen},
@@ -185,11 +185,6 @@ impl PlainDdpgSettings {
         Guidance { climbing, lessons, cloning, width: [width, speed], pull }
     }
 
-    fn sought(&self) -> Sought {
-        let layouts = if self.demonstrations > 0.0 { self.demonstration_layouts } else { 0 };
-        Sought { hindsight: self.hindsight > 0.0, layouts, tries: self.demonstration_tries }
-    }
-
     /// Rows of a batch for lessons of both kinds.
     fn lesson_rows(&self) -> [usize; 2] {
         // A share that is not nought has a row at least: what is sought for it would not be learnt else.
@@ -297,7 +292,7 @@ impl Agent for PlainDdpg {
         action: Action,
         rng: &mut Xoshiro256PlusPlus,
     ) {
-        self.lessons.seek(self.settings.sought(), environment, seen, action, rng);
+        self.lessons.seek(&self.settings, environment, seen, action, rng);
     }
 
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {

@@ -13,7 +13,8 @@ use crate::{
     learning::{
         evaluation::Score,
         learner::{
-            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, defaults_of, note_of, settings_from,
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, note_of, settings_as_object,
+            settings_from,
         },
         nn::weights::{Reader, WeightsError, Writer},
     },
@@ -29,7 +30,9 @@ pub const fn kind_of<A: Agent + 'static>() -> AgentKind {
     AgentKind {
         name: A::NAME,
         title: A::TITLE,
-        defaults: defaults_of::<A::Settings>,
+        settings: |settings| {
+            settings_from(settings, A::Settings::validate).map(|settings: A::Settings| settings_as_object(&settings))
+        },
         start: |plan, table, settings| {
             let settings = settings_from(settings, A::Settings::validate)?;
             if settings.are_about_points() && plan.reward.rule().is_none() {
@@ -95,8 +98,7 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn settings(&self) -> Value {
-        // The settings were read from JSON or are the defaults: they can be written.
-        note_of(self.agent.settings()).unwrap_or_default()
+        settings_as_object(self.agent.settings())
     }
 
     fn shots(&self) -> u64 {

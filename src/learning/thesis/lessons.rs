@@ -6,6 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    ddpg::PlainDdpgSettings,
     environment::{Action, Environment, Observation, State},
     replay::{self, StoredTransition},
 };
@@ -13,17 +14,6 @@ use crate::learning::{
     nn::weights::{Reader, WeightsError, Writer},
     replay::ReplayBuffer,
 };
-
-/// What is sought, and how much.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sought {
-    /// Whether shots are seen in hindsight.
-    pub hindsight: bool,
-    /// Layouts, the first that are played, on which shots are tried at random.
-    pub layouts: u64,
-    /// Shots tried on each of them.
-    pub tries: u32,
-}
 
 /// The memories of both kinds, in the order of their [`NAMES`].
 #[derive(Debug)]
@@ -51,21 +41,21 @@ impl Lessons {
     /// Looks for lessons before `action` is played: where it would have made the point, and what makes it here.
     pub fn seek(
         &mut self,
-        sought: Sought,
+        settings: &PlainDdpgSettings,
         environment: &impl Environment,
         seen: &Observation,
         action: Action,
         rng: &mut Xoshiro256PlusPlus,
     ) {
         let [hindsight, demonstrations] = &mut self.memories;
-        if sought.hindsight {
+        if settings.hindsight > 0.0 {
             for state in environment.in_hindsight(action, rng) {
                 hindsight.push(lesson(state, action));
             }
         }
-        if self.layouts < sought.layouts {
+        if settings.demonstrations > 0.0 && self.layouts < settings.demonstration_layouts {
             self.layouts += 1;
-            for _ in 0..sought.tries {
+            for _ in 0..settings.demonstration_tries {
                 let tried: Action = std::array::from_fn(|_| rng.random_range(-1.0..=1.0));
                 if environment.would_earn(tried) >= 1.0 {
                     demonstrations.push(lesson(seen.state, tried));

@@ -19,12 +19,12 @@ mod systems;
 mod whole;
 
 pub use constants::{Constant, Fitted, fit_constants};
-pub use film::{FilmError, FilmedShot, NotFilmed, Sample, bundled, check_size, read};
+pub use film::{FilmedShot, NotFilmed, Sample, bundled, check_size};
 pub use judged::{Judged, judge};
 pub use laws::{Weighed, weigh};
 pub use lone::Motion;
 pub use picture::paths;
 pub use replay::{Replay, ReplayError};
-pub use report::{csv, fit_text, models, rows, text};
+pub use report::{csv, fit_text, models, text};
 pub use systems::Natural;
 pub use whole::{FITTED, Whole, play};

@@ -2,11 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{
-    constants::Fitted,
-    film::FilmedShot,
-    judged::{Judged, judge},
-};
+use super::{constants::Fitted, judged::Judged};
 use crate::{
     study::report::csv_text,
     table::{RailModel, Table},
@@ -32,17 +28,6 @@ pub fn models() -> Vec<(String, Table)> {
     });
     let textbook = Table::preset("textbook").ok().map(|table| (table.name.clone(), table));
     textbook.into_iter().chain(rivals).chain([(table.name.clone(), table)]).collect()
-}
-
-/// Judges all of them on a film.
-pub fn rows(models: &[(String, Table)], film: &[FilmedShot], mut tell: impl FnMut(&str)) -> Vec<Judged> {
-    models
-        .iter()
-        .map(|(name, table)| {
-            tell(name);
-            judge(name, table, film)
-        })
-        .collect()
 }
 
 /// A median, where there is a case to take it of.
@@ -134,6 +119,7 @@ pub fn fit_text(fitted: &Fitted, used: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::filmed::judge;
 
     #[test]
     fn what_no_case_shows_is_no_number() {

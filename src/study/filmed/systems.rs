@@ -25,11 +25,8 @@ pub struct System {
 struct Case {
     /// From the diamond behind which the line begins to that through which it is aimed.
     cue_line: [[f64; 2]; 2],
-    #[serde(default)]
     arrival_nose_x: Option<f64>,
-    #[serde(default)]
     arrival_frame_x: Option<f64>,
-    #[serde(default)]
     arrival_frame_right_y: Option<f64>,
 }
 

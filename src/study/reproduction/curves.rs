@@ -9,7 +9,8 @@ use crate::{
     game::Reward,
     learning::{
         evaluation::{HELD_OUT_SEED, held_out_layouts},
-        learner::{AgentKind, Learner, StartError, TrainingPlan},
+        learner::{AgentKind, Iteration, Learner, StartError, TrainingPlan},
+        run::Accumulator,
         thesis::carom::{Carom, Episode},
     },
     table::{Layout, Table},
@@ -104,24 +105,19 @@ impl Training {
 
 /// The next interval; nothing where it was broken off.
 fn interval(learner: &mut dyn Learner, played: &dyn Fn(u64) -> bool) -> Result<Option<Point>, Error> {
-    let (start, mut point, mut updates) = (learner.shots(), Point::default(), 0.0);
+    let (start, mut sums) = (learner.shots(), Accumulator::default());
     while learner.shots() < start + INTERVAL && !learner.is_finished() {
         let (shots, updates_before) = (learner.shots(), learner.progress().updates);
         let turn = learner.iterate()?;
-        let (shots, made) = (learner.shots() - shots, (learner.progress().updates - updates_before) as f64);
+        let (shots, made) = (learner.shots() - shots, learner.progress().updates - updates_before);
         if !played(shots) {
             return Ok(None);
         }
-        point.mean_reward += turn.mean_reward * shots as f64;
-        point.mean_q += turn.q_value * made;
-        point.loss += turn.critic_loss * made;
-        updates += made;
+        // A curve shows what is not finite, too.
+        let _ = sums.add(&turn, shots, made);
     }
-    point.shots = learner.shots();
-    point.mean_reward /= (point.shots - start).max(1) as f64;
-    point.mean_q /= f64::max(updates, 1.0);
-    point.loss /= f64::max(updates, 1.0);
-    Ok(Some(point))
+    let Iteration { mean_reward, q_value, critic_loss, .. } = sums.take();
+    Ok(Some(Point { shots: learner.shots(), mean_reward, mean_q: q_value, loss: critic_loss }))
 }
 
 /// Mean reward of random play on the layouts on which agents are examined: any direction, any speed.

@@ -46,7 +46,7 @@ fn gap(rng: &mut impl Rng) -> f64 {
 
 fn hard_place(table: &Table, others: &[DVec2], rng: &mut impl Rng) -> DVec2 {
     let reach = table.reach();
-    let signs = DVec2::new(draw::one_of(rng, &[-1.0, 1.0]), draw::one_of(rng, &[-1.0, 1.0]));
+    let signs = draw::corner(rng);
     let anywhere = draw::place(table, rng);
     let diameter = 2.0 * table.radius;
     match (rng.random_range(0..10), others) {

@@ -20,6 +20,11 @@ pub fn one_of<T: Copy>(rng: &mut (impl Rng + ?Sized), choices: &[T]) -> T {
     choices[rng.random_range(0..choices.len())]
 }
 
+/// One of the table's corners by the signs of its places.
+pub fn corner(rng: &mut (impl Rng + ?Sized)) -> DVec2 {
+    DVec2::new(one_of(rng, &[-1.0, 1.0]), one_of(rng, &[-1.0, 1.0]))
+}
+
 /// A tip that meets the ball anywhere, in one of eight cases exactly at its rim.
 pub fn tip(rng: &mut (impl Rng + ?Sized)) -> (f64, f64) {
     let share: f64 = if rng.random_bool(0.125) { 1.0 } else { rng.random::<f64>().sqrt() };

@@ -2,11 +2,8 @@
 
 use serde::Serialize;
 
-use super::{Figures, Shot, Violation, trace::BREAK_AFTER_SECONDS};
+use super::{Figures, Shot, Violation};
 use crate::table::{PRESETS, Table};
-
-/// A shot that has not even had an event for so long hangs, s.
-pub const HANG: f64 = 3.0 * BREAK_AFTER_SECONDS;
 
 /// A shot that does something that it should not; as JSON a question that `carom simulate --batch` reads, where the table is a bundled one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -45,12 +42,5 @@ impl Finding {
             steps: measured.steps,
             ms: 1e3 * measured.seconds,
         }
-    }
-
-    /// A shot that has kept a thread busy for too long, seconds on end, and still does.
-    pub fn hang(table: &Table, shot: &Shot) -> Self {
-        let figures = Figures { seconds: f64::INFINITY, ..Figures::default() };
-        let what = format!("hang: no end after {HANG} s");
-        Self { what, ..Self::new(table, shot, &figures, vec![Violation::Unfinished]) }
     }
 }

@@ -22,5 +22,5 @@ pub use finding::Finding;
 pub use invariants::examine;
 pub use report::{Plan, Row, heads, markdown, page, rows};
 pub use shot::Shot;
-pub use sweep::{Check, Generator, Progress, Sweep};
+pub use sweep::{Check, Generator, Progress, Sweep, Swept};
 pub use trace::Trace;

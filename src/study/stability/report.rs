@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::{Case, Figures, Finding, Progress, cases};
+use super::{Case, Figures, Finding, Progress, Swept, cases};
 use crate::printing::ProgressLine;
 
 /// How many shots to play, on each of a case's tables.
@@ -58,15 +58,8 @@ pub struct Row {
 
 impl Row {
     /// Plays a case; `watch` hears how far it is.
-    pub fn of(case: &Case, plan: &Plan, mut watch: impl FnMut(Progress)) -> Self {
-        let (mut failed, mut first) = (0, None);
-        let figures = case.run(plan.shots(case), plan.seed, |progress, finding| {
-            if let Some(finding) = finding {
-                failed += 1;
-                first.get_or_insert_with(|| finding.clone());
-            }
-            watch(progress);
-        });
+    pub fn of(case: &Case, plan: &Plan, watch: impl FnMut(Progress) + Send) -> Self {
+        let Swept { figures, findings: failed, first } = case.run(plan.shots(case), plan.seed, watch);
         let example = first.as_ref().and_then(|finding| finding.violations.first()).map(ToString::to_string);
         Self { name: case.name, checked: case.holds, figures, failed, example, finding: first, complete: true }
     }

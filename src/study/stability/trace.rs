@@ -18,7 +18,7 @@ const BREAK_AFTER_EVENTS: usize = 2_000_000;
 const KEPT: usize = 20_000;
 
 /// A shot is broken off after this long, s.
-pub const BREAK_AFTER_SECONDS: f64 = 10.0;
+const BREAK_AFTER_SECONDS: f64 = 10.0;
 
 /// A piece of a ball's course with the time at which it ended, s.
 #[derive(Clone, Debug)]

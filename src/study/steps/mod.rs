@@ -7,13 +7,12 @@ mod aloft;
 use std::ops::ControlFlow;
 
 use glam::DVec2;
+use serde::Serialize;
 
 use crate::{
-    physics::{
-        BallState, Cloth, CueInputs, ImpactLaw, Impulse, Motion, SpatialState, rolling_deceleration, rolling_spin,
-    },
+    physics::{BallState, Cloth, ImpactLaw, Impulse, Motion, SpatialState, rolling_deceleration, rolling_spin},
     printing::number,
-    simulation::{Constants, End, Event, EventKind, Observer, Rail, Recording, Segment, ShotError},
+    simulation::{Constants, End, Event, EventKind, Observer, Rail, Segment},
     table::{BALLS, Layout, PAIRS, Table},
 };
 
@@ -35,9 +34,10 @@ pub struct Steps {
 pub struct StepError(f64);
 
 /// What the steps have made of a shot.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Stepped {
     /// How it ended.
+    #[serde(skip)]
     pub end: End,
     /// Number of steps.
     pub steps: u64,
@@ -62,17 +62,6 @@ impl Steps {
     /// The shortest time step, s, with which a shot takes no more than so many steps.
     pub fn finest(table: &Table, impulse: &Impulse, most: f64) -> f64 {
         longest(table, impulse) / most
-    }
-
-    /// Records a shot as [`Recording::new`] does, but step by step, and tells what the steps did.
-    ///
-    /// # Errors
-    /// What is wrong with the layout or the stroke.
-    pub fn record(self, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<(Recording, Stepped), ShotError> {
-        Recording::played_by(table, layout, cue, |impulse, recorder| {
-            let stepped = self.simulate(table, layout, impulse, recorder);
-            (stepped.end, stepped)
-        })
     }
 
     /// Plays a shot as [`simulate`](crate::simulation::simulate) does, step by step.

@@ -1,11 +1,20 @@
 //! What fixed steps miss, and that smaller ones miss less.
 
 use super::*;
+use crate::{physics::CueInputs, simulation::Recording};
+
+fn record(steps: Steps, table: &Table, layout: &Layout, cue: &CueInputs) -> (Recording, Stepped) {
+    let play = Recording::played_by(table, layout, cue, |impulse, recorder| {
+        let stepped = steps.simulate(table, layout, impulse, recorder);
+        (stepped.end, stepped)
+    });
+    play.unwrap()
+}
 
 fn play(dt: f64, locate: bool, shot: &str) -> (Recording, Stepped) {
     let table = Table::preset("textbook").unwrap();
     let cue = CueInputs::parse(shot).unwrap();
-    Steps::new(dt, locate).unwrap().record(&table, &Layout::opening(&table), &cue).unwrap()
+    record(Steps::new(dt, locate).unwrap(), &table, &Layout::opening(&table), &cue)
 }
 
 fn error(dt: f64, locate: bool) -> f64 {
@@ -60,7 +69,7 @@ fn error_of_a_jump(dt: f64, locate: bool) -> f64 {
     let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(-0.28, 0.01), DVec2::new(0.9, 0.5)]);
     let cue = CueInputs::parse("0.1,0,40,0,3.5").unwrap();
     let exact = Recording::new(&table, &layout, &cue).unwrap();
-    let (stepped, told) = Steps::new(dt, locate).unwrap().record(&table, &layout, &cue).unwrap();
+    let (stepped, told) = record(Steps::new(dt, locate).unwrap(), &table, &layout, &cue);
     assert!(told.at_rest);
     if locate {
         let kinds = |shot: &Recording| shot.events().iter().map(|event| event.kind).collect::<Vec<_>>();
@@ -85,7 +94,7 @@ fn a_ball_shot_over_the_rail_leaves_the_table_in_steps_too() {
     let table = Table { flight: Some(crate::table::Flight::default()), ..Table::default() };
     let layout = Layout::new([DVec2::new(0.9, 0.0), DVec2::new(0.0, 0.3), DVec2::new(0.0, -0.3)]);
     let cue = CueInputs::parse("0,0,30,0,9").unwrap();
-    let (_, stepped) = Steps::new(1e-3, false).unwrap().record(&table, &layout, &cue).unwrap();
+    let (_, stepped) = record(Steps::new(1e-3, false).unwrap(), &table, &layout, &cue);
     assert_eq!((stepped.end.off_table, stepped.at_rest), ([true, false, false], true));
 }
 

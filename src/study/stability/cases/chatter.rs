@@ -5,12 +5,12 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, variant};
+use super::{Case, variants};
 use crate::{
     physics::CueDegrees,
     simulation::{Event, EventKind, Rail},
     study::stability::{Shot, Trace, draw},
-    table::{JUDGED, Layout, Table},
+    table::{Layout, Table},
 };
 
 pub const CASES: &[Case] = &[
@@ -33,8 +33,7 @@ const MOST_CHATTERS: usize = 12;
 const HOLDS: &str = "at most 60 events a chatter, however many its bounces, and 12 chatters; a flight twice as long as those before begins another";
 
 fn lively(e: f64) -> Vec<Table> {
-    let change = move |table: &mut Table| (table.ball_restitution, table.rail_restitution) = (e, e);
-    JUDGED.iter().filter_map(|name| variant(name, &format!("e = {e}"), change)).collect()
+    variants(&format!("e = {e}"), |table| (table.ball_restitution, table.rail_restitution) = (e, e))
 }
 
 /// So steep that the spin by far outlasts the speed: the ball leaves, comes back, and is pressed for a long time.

@@ -59,7 +59,7 @@ fn object_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 
 fn corner_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     loop {
-        let signs = DVec2::new(draw::one_of(rng, &[-1.0, 1.0]), draw::one_of(rng, &[-1.0, 1.0]));
+        let signs = draw::corner(rng);
         let turn = draw::one_of(rng, &[0.0, 0.0, 0.3, -0.3]) * rng.random::<f64>();
         let towards = DVec2::from_angle(FRAC_PI_4 + turn) * signs;
         if let Some(shot) = driving(table, signs * table.reach(), towards, rng) {
@@ -132,7 +132,7 @@ fn leaves(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
 
 /// Along the diagonal of a corner, from a distance that is exact in binary.
 fn into_corner(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
-    let signs = DVec2::new(draw::one_of(rng, &[-1.0, 1.0]), draw::one_of(rng, &[-1.0, 1.0]));
+    let signs = draw::corner(rng);
     let distance = f64::from(rng.random_range(1..64)) / 256.0;
     let from = signs * (table.reach() - DVec2::splat(distance));
     let layout = loop {

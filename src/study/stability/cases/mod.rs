@@ -14,7 +14,7 @@ mod sweeps;
 mod tables;
 mod touching;
 
-use super::{Check, Figures, Finding, Generator, Limits, Progress, Sweep};
+use super::{Check, Generator, Limits, Progress, Sweep, Swept};
 use crate::table::{JUDGED, Table};
 
 /// One row of the stability table.
@@ -90,20 +90,21 @@ impl Case {
         Self { limits: Limits::ANY_EVENTS, ..self }
     }
 
-    /// Plays `shots` shots on each of its tables and returns the worst that was measured. `watch` is that of [`Sweep::run`].
-    pub fn run(&self, shots: u64, seed: u64, mut watch: impl FnMut(Progress, Option<&Finding>)) -> Figures {
-        let mut figures = Figures::default();
-        for table in (self.tables)() {
-            let sweep = Sweep { table, generator: self.shot, check: self.check, shots, seed, limits: self.limits };
-            figures.merge(&sweep.run(&mut watch));
-        }
-        figures
+    /// Plays `shots` shots on each of its tables. `watch` is that of [`Sweep::run`].
+    pub fn run(&self, shots: u64, seed: u64, mut watch: impl FnMut(Progress) + Send) -> Swept {
+        let on = |table| Sweep { table, generator: self.shot, check: self.check, shots, seed, limits: self.limits };
+        (self.tables)().into_iter().map(|table| on(table).run(&mut watch)).fold(Swept::default(), Swept::and)
     }
 }
 
 /// The bundled tables.
 fn presets() -> Vec<Table> {
     JUDGED.iter().filter_map(|name| Table::preset(name).ok()).collect()
+}
+
+/// The bundled tables, each as a [`variant`].
+fn variants(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {
+    JUDGED.iter().filter_map(|name| variant(name, what, &change)).collect()
 }
 
 /// A bundled table with other numbers, of which its name tells; none if they are refused.

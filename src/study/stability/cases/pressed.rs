@@ -6,12 +6,12 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, presets, rail_course, variant};
+use super::{Case, presets, rail_course, variant, variants};
 use crate::{
     physics::CueDegrees,
     simulation::Rail,
     study::stability::{Shot, draw},
-    table::{JUDGED, Layout, Table},
+    table::{Layout, Table},
 };
 
 pub const CASES: &[Case] = &[
@@ -32,8 +32,7 @@ fn lively_and_dead() -> Vec<Table> {
 
 /// Cushions without friction and bounce, on which a pressed ball's course is known but for two integrals.
 fn smooth() -> Vec<Table> {
-    let smooth = |table: &mut Table| (table.rail_restitution, table.rail_friction) = (0.0, 0.0);
-    JUDGED.iter().filter_map(|name| variant(name, "smooth and dead cushions", smooth)).collect()
+    variants("smooth and dead cushions", |table| (table.rail_restitution, table.rail_friction) = (0.0, 0.0))
 }
 
 /// Follow and some side: the slip at the cloth presses the ball on to what it has met.
@@ -61,7 +60,7 @@ fn on_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 }
 
 fn on_two_cushions(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
-    let signs = DVec2::new(draw::one_of(rng, &[-1.0, 1.0]), draw::one_of(rng, &[-1.0, 1.0]));
+    let signs = draw::corner(rng);
     let turn = draw::one_of(rng, &[0.0, 1e-9, 0.3]) * rng.random_range(-1.0..1.0);
     let direction = DVec2::from_angle(FRAC_PI_4 + turn) * signs;
     let back = if rng.random_bool(0.3) { 0.0 } else { rng.random_range(0.0..0.3) };

@@ -34,11 +34,15 @@ fn fork(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 }
 
 fn hits_both(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
+    happen_together(trace, EventKind::BallBall(0, 2))
+}
+
+/// Whether the ball 1 is hit just when `other` happens: whichever comes first leaves the cue ball on its way to the other.
+fn happen_together(trace: &Trace, other: EventKind) -> Result<(), String> {
     let at = |kind| trace.events.iter().find(|event| event.kind == kind).map(|event| event.time);
-    match (at(EventKind::BallBall(0, 1)), at(EventKind::BallBall(0, 2))) {
-        // Whichever comes first leaves the ball on its way to the other.
+    match (at(EventKind::BallBall(0, 1)), at(other)) {
         (Some(first), Some(second)) if (first - second).abs() <= MOMENT => Ok(()),
-        (first, second) => Err(format!("hit at different moments: {first:?} and {second:?} s")),
+        (first, second) => Err(format!("hit at different moments: ball 1 at {first:?}, the other at {second:?} s")),
     }
 }
 
@@ -58,11 +62,6 @@ fn ball_at_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     }
 }
 
-/// Whichever comes first leaves the ball on its way to the other.
 fn hits_ball_and_cushion(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
-    let at = |kind| trace.events.iter().find(|event| event.kind == kind).map(|event| event.time);
-    match (at(EventKind::BallBall(0, 1)), at(EventKind::BallRail(0, Rail::Top))) {
-        (Some(ball), Some(cushion)) if (ball - cushion).abs() <= MOMENT => Ok(()),
-        (ball, cushion) => Err(format!("hit at different moments: the ball at {ball:?}, the cushion at {cushion:?} s")),
-    }
+    happen_together(trace, EventKind::BallRail(0, Rail::Top))
 }

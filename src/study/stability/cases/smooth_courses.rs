@@ -4,11 +4,11 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, variant};
+use super::{Case, variants};
 use crate::{
     physics::CueDegrees,
     study::stability::{Shot, Trace, draw},
-    table::{JUDGED, Layout, Table},
+    table::{Layout, Table},
 };
 
 pub const CASES: &[Case] = &[
@@ -26,11 +26,10 @@ const ALLOWED: f64 = 1e-9;
 const MOMENT: f64 = 1e-6;
 
 fn smooth() -> Vec<Table> {
-    let smooth = |table: &mut Table| {
+    variants("smooth and dead", |table| {
         (table.ball_restitution, table.rail_restitution) = (0.0, 0.0);
         (table.ball_friction, table.rail_friction) = (Some(0.0), 0.0);
-    };
-    JUDGED.iter().filter_map(|name| variant(name, "smooth and dead", smooth)).collect()
+    })
 }
 
 /// Level, with follow: the slip at the cloth drives the ball on.

@@ -3,11 +3,11 @@
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, variant};
+use super::{Case, variants};
 use crate::{
     physics::{CueDegrees, Motion},
     study::stability::{Shot, Trace, adversarial, draw, random},
-    table::{BALLS, JUDGED, Table},
+    table::{BALLS, Table},
 };
 
 pub const CASES: &[Case] = &[
@@ -27,12 +27,8 @@ pub const CASES: &[Case] = &[
     Case::new("balls of one millimetre and of one metre", all_balls, shot),
 ];
 
-fn of_presets(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {
-    JUDGED.iter().filter_map(|name| variant(name, what, &change)).collect()
-}
-
 fn next_to_no_friction() -> Vec<Table> {
-    of_presets("mu = 0.0001", |table| {
+    variants("mu = 0.0001", |table| {
         (table.sliding_friction, table.rolling_friction) = (1e-4, 1e-4);
         (table.spinning_friction, table.rail_friction, table.ball_friction) = (0.0, 0.0, Some(0.0));
     })
@@ -40,7 +36,7 @@ fn next_to_no_friction() -> Vec<Table> {
 
 fn large_friction() -> Vec<Table> {
     let all = |mu: f64| {
-        of_presets(&format!("mu = {mu}"), move |table| {
+        variants(&format!("mu = {mu}"), move |table| {
             (table.sliding_friction, table.rolling_friction, table.spinning_friction) = (mu, mu, mu);
             (table.rail_friction, table.ball_friction) = (0.99, Some(0.99));
         })
@@ -49,30 +45,30 @@ fn large_friction() -> Vec<Table> {
 }
 
 fn restitution(e: f64) -> Vec<Table> {
-    of_presets(&format!("e = {e}"), |table| (table.ball_restitution, table.rail_restitution) = (e, e))
+    variants(&format!("e = {e}"), |table| (table.ball_restitution, table.rail_restitution) = (e, e))
 }
 
 fn lossless() -> Vec<Table> {
-    of_presets("lossless", |table| {
+    variants("lossless", |table| {
         (table.ball_restitution, table.rail_restitution) = (1.0, 1.0);
         (table.rail_friction, table.ball_friction) = (0.0, Some(0.0));
     })
 }
 
 fn smallest() -> Vec<Table> {
-    of_presets("smallest", |table| {
+    variants("smallest", |table| {
         (table.length, table.width) = (6.0 * table.radius, 6.0 * table.radius);
         table.opening_offset = 2.0 * table.radius;
     })
 }
 
 fn longest() -> Vec<Table> {
-    of_presets("10 m", |table| (table.length, table.width) = (10.0, 5.0))
+    variants("10 m", |table| (table.length, table.width) = (10.0, 5.0))
 }
 
 fn all_balls() -> Vec<Table> {
     let scaled = |scale: f64| {
-        of_presets(&format!("scaled by {scale:.3}"), move |table| {
+        variants(&format!("scaled by {scale:.3}"), move |table| {
             table.radius *= scale;
             (table.length, table.width, table.opening_offset) =
                 (table.length * scale, table.width * scale, table.opening_offset * scale);
