@@ -38,31 +38,27 @@ pub struct SettingsReport {
     pub settings: Option<Settings>,
     /// Whether the file can be changed, as far as is known.
     pub is_writable: bool,
-    /// Whether the change was not made because another program had changed the file.
-    pub is_refused: bool,
     /// What is wrong, a sentence each.
     pub troubles: Vec<String>,
     /// The files of the player's own tables.
     pub tables: Vec<PathBuf>,
 }
 
-/// The file, with what it said when it was read or written last.
+/// The file.
 #[derive(Debug, Default)]
 pub struct SettingsFile {
-    seen: Option<Vec<u8>>,
     /// Whether the last attempt to write it has failed.
     has_failed: bool,
 }
 
 impl SettingsFile {
-    /// Does a task. What another program has changed since the last one is read, and not overwritten.
+    /// Does a task. A change is made in the text as it stands: what another program has written stays.
     pub fn run(&mut self, task: &SettingsTask) -> SettingsReport {
         let SettingsTask { number, path, places, change } = task;
         let report = |settings, is_writable, troubles| SettingsReport {
             number: *number,
             settings,
             is_writable,
-            is_refused: false,
             troubles,
             tables: places.own_tables(),
         };
@@ -81,18 +77,9 @@ impl SettingsFile {
         };
         let is_sound = str::from_utf8(found.as_deref().unwrap_or_default()).is_ok_and(is_changeable);
         let known = is_sound.then(|| settings(found.as_deref()));
-        let is_as_seen = found == self.seen;
-        self.seen.clone_from(&found);
         let Some(change) = change else {
             return report(known, is_sound && !self.has_failed, troubles(path, found.as_deref()));
         };
-        if !is_as_seen {
-            let sentence = format!(
-                "{} has been changed by another program and was read again; make your change once more",
-                path.display()
-            );
-            return SettingsReport { is_refused: true, ..report(known, is_sound, vec![sentence]) };
-        }
         let text = found.as_deref().map(str::from_utf8).transpose();
         let text = match text {
             Ok(text) => text,
@@ -114,9 +101,7 @@ impl SettingsFile {
                 return unwritten(known, error.to_string());
             }
         }
-        let settings = settings(Some(new.as_bytes()));
-        self.seen = Some(new.into_bytes());
-        report(Some(settings), !self.has_failed, Vec::new())
+        report(Some(settings(Some(new.as_bytes()))), !self.has_failed, Vec::new())
     }
 }
 
@@ -183,21 +168,18 @@ mod tests {
     }
 
     #[test]
-    fn what_others_write_meanwhile_is_read_and_not_written_over() {
+    fn what_others_write_meanwhile_stays() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("config.toml");
         let mut file = SettingsFile::default();
         file.run(&task(&path, None));
-        for text in ["speed = 2.0\n", "speed = \n", ""] {
-            fs::write(&path, text).unwrap();
-            let report = file.run(&task(&path, theme("light")));
-            assert!(report.troubles[0].contains("changed by another program"), "{report:?}");
-            assert_eq!((report.settings, report.is_refused), (is_changeable(text).then(|| read(text).0), true));
-            assert_eq!(fs::read_to_string(&path).unwrap(), text);
-        }
-        fs::remove_file(&path).unwrap();
-        assert!(file.run(&task(&path, theme("light"))).troubles[0].contains("changed by another program"));
-        assert!(file.run(&task(&path, theme("light"))).troubles.is_empty(), "once more does it");
+        fs::write(&path, "speed = 2.0\n").unwrap();
+        let settings = file.run(&task(&path, theme("light"))).settings.unwrap();
+        assert_eq!((settings.speed, settings.palette), (2.0, Palette::Light));
+        fs::write(&path, "speed = \n").unwrap();
+        let report = file.run(&task(&path, theme("mono")));
+        assert!(report.troubles[0].contains("holds until the program ends"), "{report:?}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "speed = \n");
     }
 
     #[test]

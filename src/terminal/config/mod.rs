@@ -118,23 +118,6 @@ impl Settings {
         Err(format!("{} = {typed}; accepted is {}", entry.key, entry.accepted))
     }
 
-    /// The same with all that is otherwise in `after` than in `before`.
-    #[must_use]
-    pub fn with_changes(&self, before: &Self, after: &Self) -> Self {
-        let mut settings = self.clone();
-        for entry in ENTRIES {
-            let value = (entry.get)(after);
-            if (entry.get)(before) != value {
-                // A table that cannot be read does not come into force.
-                settings = settings.with(entry, &value).unwrap_or(settings);
-            }
-        }
-        if before.keys != after.keys {
-            settings.keys.clone_from(&after.keys);
-        }
-        settings
-    }
-
     /// The table that is named.
     ///
     /// # Errors

@@ -40,7 +40,6 @@ impl SettingsPage {
             Action::Type => self.input = Some(Input::Value(TextField::new(LONGEST))),
             Action::Press => self.input = Some(Input::Key),
             Action::Default if self.page == Page::Keys => {
-                self.before.clone_from(&self.settings);
                 let change = self.keys.to_default(&mut self.settings.keys);
                 return Some(self.task(Some(change)));
             }
@@ -127,7 +126,7 @@ impl SettingsPage {
     /// Takes a value that is accepted.
     fn take(&mut self, entry: &Entry, value: &str, change: Change) -> Option<Effect> {
         match self.settings.with(entry, value) {
-            Ok(settings) => self.before = std::mem::replace(&mut self.settings, settings),
+            Ok(settings) => self.settings = settings,
             Err(sentence) => return self.refuse(sentence),
         }
         Some(self.task(Some(change)))
@@ -147,7 +146,6 @@ impl SettingsPage {
     }
 
     fn give(&mut self, pressed: Chord) -> Effect {
-        self.before.clone_from(&self.settings);
         let change = self.keys.give(pressed, &mut self.settings.keys);
         self.task(Some(change))
     }

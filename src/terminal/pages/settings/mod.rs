@@ -63,8 +63,6 @@ pub struct SettingsPage {
     pub message: Option<Message>,
     /// Place of the marked setting among all.
     pub mark: usize,
-    /// What was in force before the last change.
-    before: Settings,
     /// The number of the last task, and of the last that came back.
     sent: u64,
     received: u64,
@@ -87,7 +85,6 @@ impl SettingsPage {
             keys: OwnKeys::new(pages),
             message: None,
             mark: 0,
-            before: Settings::default(),
             sent: 0,
             received: 0,
             is_left: false,
@@ -151,18 +148,11 @@ impl SettingsPage {
         }))
     }
 
-    /// Takes what has come of a task, and gives what is wrong. A change that was refused is taken back, as long as
-    /// nothing has been changed since; then what another program has changed in the file comes into force.
+    /// Takes what has come of a task, and gives what is wrong.
     pub fn receive(&mut self, report: SettingsReport) -> Vec<String> {
-        let SettingsReport { number, settings: file, is_writable, is_refused, troubles, tables } = report;
+        let SettingsReport { number, settings, is_writable, troubles, tables } = report;
         self.tables = tables;
-        if is_refused && number == self.sent {
-            self.settings = match (&self.file, &file) {
-                (Some(known), Some(file)) => self.before.with_changes(known, file),
-                _ => self.before.clone(),
-            };
-        }
-        (self.received, self.file, self.is_writable) = (number, file, is_writable);
+        (self.received, self.file, self.is_writable) = (number, settings, is_writable);
         troubles
     }
 }
