@@ -13,7 +13,7 @@ use super::{
     contacts::{PAIRS_OF, contacts_where},
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Contacts, Effort, resolve, slip},
+    physics::{ActiveSet, BallState, Contact, Contacts, Effort, Scene, slip},
     table::{BALLS, PAIRS, Table},
 };
 
@@ -230,7 +230,7 @@ pub fn chatter_end(
         return None;
     }
     let set = ActiveSet::of(table, balls, &contacts, none);
-    let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None, effort)?;
+    let resolved = Scene { table, balls, contacts: &contacts, set: &set }.resolve(tolerance.slack, None, effort)?;
     let index = resolved.contacts.iter().position(|pressing| pressing == contact)?;
     let pull = bodies * resolved.forces.normal[index];
     // Balls that never slip lose with each impact the slip that their flight has made, which the other contacts feel as a
