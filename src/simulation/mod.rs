@@ -39,13 +39,13 @@ mod tests;
 
 pub use crate::table::Rail;
 pub use aloft::Nose;
-pub use bounded::{Bounded, within_bounds};
+pub use bounded::Bounded;
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
 pub use events::{Event, EventKind, Observer, StepBudget};
 pub use hops::{Arc, Hops};
 pub use jumps::{Jump, OffTable, TOLD_HEIGHT};
-pub use playback::{Recorder, Recording, ShotError};
+pub use playback::{Recorder, Recording, ShotError, Start};
 pub use savings::{All, Savings};
 pub use segment::{Course, Curve, Segment};
 pub use tolerance::Tolerance;

@@ -13,7 +13,7 @@ use crate::{
         BallState, Cloth, CueInputs, ImpactLaw, Impulse, Motion, SpatialState, rolling_deceleration, rolling_spin,
     },
     printing::number,
-    simulation::{Constants, End, Event, EventKind, Observer, Rail, Recording, Segment, ShotError},
+    simulation::{Constants, End, Event, EventKind, Observer, Rail, Recording, Segment, ShotError, Start},
     table::{BALLS, Layout, PAIRS, Table},
 };
 
@@ -69,7 +69,7 @@ impl Steps {
     /// # Errors
     /// What is wrong with the layout or the stroke.
     pub fn record(self, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<(Recording, Stepped), ShotError> {
-        Recording::played_by(table, layout, cue, |impulse, recorder| {
+        Recording::played_by(table, layout, Start::Stroke(cue), |impulse, recorder| {
             let stepped = self.simulate(table, layout, impulse, recorder);
             (stepped.end, stepped)
         })
