@@ -10,10 +10,9 @@ use std::ops::ControlFlow;
 use super::{
     EventKind, Observer, Rail, Segment,
     ball_ball::Triangle,
-    contact_mode::ContactMode,
     contacts::{PAIRS_OF, is_in_corner, put_at_cushion},
     cushions::cushion_ahead,
-    engine::{Ball, Engine},
+    engine::{Ball, ContactMode, Engine},
     predict::Ahead,
     savings::Savings,
 };

@@ -11,7 +11,6 @@ mod ball_ball;
 mod bounded;
 mod chatter;
 mod constants;
-mod contact_mode;
 mod contacts;
 mod cushions;
 mod engine;
