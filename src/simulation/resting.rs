@@ -6,11 +6,9 @@
 //! ends like an exponential and everything stays smooth.
 
 mod bounds;
-mod breaking;
 mod course;
-mod interruption;
 mod stiffness;
-mod stillness;
+mod within;
 
 use glam::{DVec2, DVec3};
 
