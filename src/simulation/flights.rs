@@ -51,7 +51,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             course: Some(Box::new(Course::Hops(hops))),
             ..Segment::at_rest(state.position.truncate())
         };
-        self.set(index, segment, hops.duration());
+        self.set(index, segment, hops.duration);
         if self.balls[index].mode != ContactMode::Free {
             self.balls[index].mode = ContactMode::Free;
             self.tell(now, EventKind::ContactEnds(index))?;
