@@ -6,7 +6,7 @@ use super::Failure;
 use crate::{
     physics::{CueInputs, Impulse, strike},
     printing::number,
-    simulation::{Bounded, End, Recorder, Recording, within_bounds},
+    simulation::{Bounded, End, Recorder, Recording, Start},
     study::{Stepped, Steps},
     table::{Layout, Table},
 };
@@ -20,21 +20,10 @@ const MOST_STEPS: f64 = 4e6;
 /// Plays a shot from event to event.
 ///
 /// # Errors
-/// What is wrong with the layout or the stroke; and where it takes too long or its numbers get out of hand.
-pub fn play(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Recording, Failure> {
-    let play = within_bounds(table, layout, LONGEST, u32::MAX);
-    let (recording, is_over) = Recording::played_by(table, layout, cue, play).map_err(Failure::wrong_input)?;
-    finite(table, recording, is_over, "")
-}
-
-/// Plays a shot in which the cue ball has this motion just after the stroke.
-///
-/// # Errors
-/// What is wrong with the layout or the motion; and as [`play`].
-pub fn play_impulse(table: &Table, layout: &Layout, impulse: &Impulse) -> Result<Recording, Failure> {
-    let play = within_bounds(table, layout, LONGEST, u32::MAX);
+/// What is wrong with the layout, the stroke or the motion; and where it takes too long or its numbers get out of hand.
+pub fn play(table: &Table, layout: &Layout, start: Start<'_>) -> Result<Recording, Failure> {
     let (recording, is_over) =
-        Recording::played_by_impulse(table, layout, impulse, play).map_err(Failure::wrong_input)?;
+        Recording::within_bounds(table, layout, start, LONGEST, u32::MAX).map_err(Failure::wrong_input)?;
     finite(table, recording, is_over, "")
 }
 
@@ -65,7 +54,7 @@ pub fn play_in_steps(
         (stepped.end, (stepped, bounded.is_over()))
     };
     let (recording, (stepped, is_over)) =
-        Recording::played_by(table, layout, cue, play).map_err(Failure::wrong_input)?;
+        Recording::played_by(table, layout, Start::Stroke(cue), play).map_err(Failure::wrong_input)?;
     Ok((finite(table, recording, is_over, "larger time steps or ")?, stepped))
 }
 

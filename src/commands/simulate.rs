@@ -17,7 +17,7 @@ use crate::{
     game::Rule,
     physics::{CueInputs, Impulse, LeastElevation, NoRoom, SpatialState, has_room, least_elevation},
     printing::{self, fixed, number},
-    simulation::{Event, Rail, Recording},
+    simulation::{Event, Rail, Recording, Start},
     study::{Stepped, Steps},
     table::{BALL_NAMES, BALLS, CueBall, Layout, Table},
 };
@@ -151,7 +151,7 @@ impl BatchLine {
                 Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
             }
             (None, Some(given)) => {
-                let played = (bounded::play_impulse(table, &self.layout, &given.impulse(table)?)?, None);
+                let played = (bounded::play(table, &self.layout, Start::Motion(&given.impulse(table)?))?, None);
                 Ok(SimulateAnswer::of(&played, &outcome(&played), false, None, &args.at))
             }
             (Some(_), Some(_)) => Err(Failure::wrong_input("a line has cue and impulse; accepted is one of them")),
@@ -376,7 +376,7 @@ fn steps_of(args: &Args) -> Result<Option<Steps>, Failure> {
 
 fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -> Result<Played, Failure> {
     match steps {
-        None => Ok((bounded::play(table, layout, cue)?, None)),
+        None => Ok((bounded::play(table, layout, Start::Stroke(cue))?, None)),
         Some(steps) => {
             let (recording, stepped) = bounded::play_in_steps(table, layout, cue, steps)?;
             Ok((recording, Some(stepped)))

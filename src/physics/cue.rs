@@ -104,30 +104,15 @@ pub enum CueError {
 /// Why a motion of the cue ball is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum ImpulseError {
-    /// The velocity is not a number, or too large.
-    #[error("velocity = [{x}, {y}] m/s is not accepted; accepted are finite numbers and at most {MAX_BALL_SPEED} m/s")]
-    Velocity {
-        /// Its part along x, m/s.
-        x: f64,
-        /// Its part along y, m/s.
-        y: f64,
-    },
-    /// The upward velocity is not a number, downwards, or too large.
-    #[error("velocity has {lift} m/s upwards; accepted are 0 to {MAX_BALL_SPEED} m/s")]
-    Lift {
-        /// It, m/s.
-        lift: f64,
-    },
-    /// The spin is not a number, or too large.
-    #[error("spin = [{x}, {y}, {z}] rad/s is not accepted; accepted are finite numbers and at most {MAX_SPIN} rad/s")]
-    Spin {
-        /// Its part about x, rad/s.
-        x: f64,
-        /// Its part about y, rad/s.
-        y: f64,
-        /// Its part about the vertical, rad/s.
-        z: f64,
-    },
+    /// The velocity along the cloth, m/s, is not a number, or too large.
+    #[error("velocity = {0} m/s is not accepted; accepted are finite numbers and at most {MAX_BALL_SPEED} m/s")]
+    Velocity(DVec2),
+    /// The upward velocity, m/s, is not a number, downwards, or too large.
+    #[error("velocity has {0} m/s upwards; accepted are 0 to {MAX_BALL_SPEED} m/s")]
+    Lift(f64),
+    /// The spin, rad/s, is not a number, or too large.
+    #[error("spin = {0} rad/s is not accepted; accepted are finite numbers and at most {MAX_SPIN} rad/s")]
+    Spin(DVec3),
 }
 
 /// How far one direction is turned from another, rad, from -π to π however many whole turns are between them.
@@ -238,13 +223,13 @@ impl Impulse {
         let Self { velocity, spin, lift } = *self;
         let is_within = |length: f64, most: f64| (0.0..=most).contains(&length);
         if !is_within(velocity.length(), MAX_BALL_SPEED) {
-            return Err(ImpulseError::Velocity { x: velocity.x, y: velocity.y });
+            return Err(ImpulseError::Velocity(velocity));
         }
         if !is_within(lift, MAX_BALL_SPEED) {
-            return Err(ImpulseError::Lift { lift });
+            return Err(ImpulseError::Lift(lift));
         }
         if !is_within(spin.length(), MAX_SPIN) {
-            return Err(ImpulseError::Spin { x: spin.x, y: spin.y, z: spin.z });
+            return Err(ImpulseError::Spin(spin));
         }
         Ok(())
     }

@@ -10,8 +10,8 @@ mod rolling;
 mod slope;
 
 pub use contact::{
-    ActiveSet, Contact, Contacts, Effort, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Resolved, accelerations,
-    factorize, forces, resolve, sought, stop_by_impulses, substitute,
+    ActiveSet, Contact, Contacts, Effort, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Resolved, Scene, factorize,
+    stop_by_impulses, substitute,
 };
 pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike, turn};
 #[cfg(test)]
@@ -19,8 +19,6 @@ pub use cue_room::tests::collides;
 pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};
 pub use flight::{Cloth, SpatialState, turned_by_cloth};
 pub use impact::{BallImpact, Cushion, Cushions, ImpactImpulse, ImpactLaw, collide_together};
-pub use motion::{
-    BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, sliding_deceleration, slip, spin_deceleration,
-};
+pub use motion::{BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, slip};
 pub use rolling::Rolling;
-pub use slope::{Stretch, is_last_on_slope, roll_on_slope, slide_on_slope};
+pub use slope::{Stretch, roll_on_slope, slide_on_slope};

@@ -55,19 +55,9 @@ pub fn rolling_spin(radius: f64, velocity: DVec2) -> DVec2 {
     DVec2::new(-velocity.y / radius, velocity.x / radius)
 }
 
-/// Deceleration of the slip's friction, `mu_s g`, m/s².
-pub fn sliding_deceleration(table: &Table) -> f64 {
-    table.sliding_friction * table.gravity
-}
-
 /// Deceleration of a rolling ball, `5/7 mu_r g` (thesis equation 5), m/s².
 pub fn rolling_deceleration(table: &Table) -> f64 {
     5.0 / 7.0 * table.rolling_friction * table.gravity
-}
-
-/// Rate at which `|w_z|` decays, `5 mu_sp g / 2R` (thesis equation 8), rad/s².
-pub fn spin_deceleration(table: &Table) -> f64 {
-    2.5 * table.spinning_friction * table.gravity / table.radius
 }
 
 /// `w_z` after `time` seconds of decay at `rate` rad/s² down to zero.

@@ -6,8 +6,8 @@ use glam::DVec2;
 use super::{Constants, contacts::close_gaps, extrapolation::State, segment::slides, tolerance::Tolerance};
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, MAX_CONTACTS, Resolved, resolve,
-        rolling_spin, slip, stop_by_impulses,
+        ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, MAX_CONTACTS, Resolved, Scene, rolling_spin,
+        slip, stop_by_impulses,
     },
     table::{BALLS, Table},
 };
@@ -85,31 +85,33 @@ pub fn find_active_set(
     }
     let tolerance = &constants.tolerance;
     let grips = contacts.iter().any(|contact| has_to_grip(table, constants, balls, contact, previous));
-    let stopped = |none: f64, balls: &State, contacts: &Contacts| {
+    let stopped = |none: f64, balls: &State, contacts: &[Contact]| {
         let mut begin = *balls;
-        let touching: &[Contact] = contacts;
         if grips {
-            stop_slips(table, &mut begin, touching);
+            stop_slips(table, &mut begin, contacts);
         }
-        let mut set = ActiveSet::of(table, &begin, touching, none);
+        let mut set = ActiveSet::of(table, &begin, contacts, none);
         if let Some(previous) = previous.filter(|previous| previous.set.yields()) {
-            previous.goes_on_yielding(table.radius, tolerance, &begin, touching, &mut set);
+            previous.goes_on_yielding(table.radius, tolerance, &begin, contacts, &mut set);
         }
-        remove_rounding(table, constants, &mut begin, touching, &set);
+        remove_rounding(table, constants, &mut begin, contacts, &set);
         // Where forces are not unique, those near to the ones before are taken: after an interruption that has changed no contact, and after
         // many steps in a row that have begun anew.
         let same =
-            |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts[..] == *touching;
-        let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts, touching);
+            |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts[..] == *contacts;
+        let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts, contacts);
         let similar = previous.filter(same).map(of_these);
-        let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref(), effort)?;
+        let resolve = |balls: &State, set: &ActiveSet| {
+            Scene { table, balls, contacts, set }.resolve(least_push, similar.as_ref(), effort)
+        };
+        let mut resolved = resolve(&begin, &set)?;
         if resolved.is_paradox() {
             return Some(Stopped { begin, resolved, departs: false });
         }
         if let Some(sticking) = resolved.sticking {
             set = sticking;
-            remove_rounding(table, constants, &mut begin, touching, &set);
-            resolved = resolve(table, &begin, contacts, &set, least_push, similar.as_ref(), effort)?;
+            remove_rounding(table, constants, &mut begin, contacts, &set);
+            resolved = resolve(&begin, &set)?;
         }
         let departs = resolved.set != set && {
             let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);

@@ -95,16 +95,16 @@ fn top(arc: &Arc, gravity: f64) -> f64 {
 /// Whether a ball surely does not come near the nose of `rail` on this arc and all that follow in the `rest` of the time.
 fn stays_away(constants: &Constants, nose: &Nose, hops: &Hops, arc: &Arc, rest: f64, rail: Rail) -> bool {
     let n = rail.normal();
-    let approach = -lesser(arc.velocity.truncate().dot(n), hops.last_velocity().dot(n));
+    let approach = -lesser(arc.velocity.truncate().dot(n), hops.last_velocity.dot(n));
     let nearest = gap(constants, rail, arc.position) - rest * approach.max(0.0);
-    nearest > nose.margin(constants.radius, top(arc, hops.gravity())) + constants.tolerance.surely_apart
+    nearest > nose.margin(constants.radius, top(arc, hops.cloth.gravity)) + constants.tolerance.surely_apart
 }
 
 /// When and where the ball of a flying `segment` meets the nose of a cushion, or comes down behind it: s after the segment's
 /// start.
 pub fn nose_ahead(constants: &Constants, cushions: &Cushions, segment: &Segment) -> Option<(f64, Rail)> {
     let hops = segment.hops()?;
-    let duration = hops.duration();
+    let duration = hops.duration;
     for landings in 0..MOST_LANDINGS {
         let arc = hops.arc(landings);
         let rest = duration - arc.begin;
@@ -119,7 +119,7 @@ pub fn nose_ahead(constants: &Constants, cushions: &Cushions, segment: &Segment)
                 continue;
             }
             is_away = false;
-            if let Some(time) = nose.meets(constants, &arc, hops.gravity(), rail)
+            if let Some(time) = nose.meets(constants, &arc, hops.cloth.gravity, rail)
                 && first.is_none_or(|(earliest, _)| time < earliest)
             {
                 first = Some((time, rail));
@@ -174,7 +174,7 @@ impl<'a> Pieces<'a> {
         };
         let arc = hops.arc(landings);
         let since = self.begin + after - arc.begin;
-        let fall = DVec3::new(0.0, 0.0, -0.5 * hops.gravity());
+        let fall = DVec3::new(0.0, 0.0, -0.5 * hops.cloth.gravity);
         let position = arc.position + since * (arc.velocity + since * fall);
         let velocity = arc.velocity + 2.0 * since * fall;
         // The last hops are shorter than time can tell.
@@ -199,7 +199,7 @@ fn passes_by(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64
     };
     let Some(hops) = flies.hops() else { return false };
     let state = hops.state_after(now - flies.start);
-    let way = Triangle::between(state.position.truncate(), state.velocity.truncate(), hops.last_velocity(), horizon);
+    let way = Triangle::between(state.position.truncate(), state.velocity.truncate(), hops.last_velocity, horizon);
     way.clears(lies.position, constants.diameter + constants.tolerance.surely_apart)
 }
 

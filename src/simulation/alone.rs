@@ -8,25 +8,15 @@
 use std::ops::ControlFlow;
 
 use super::{
-    EventKind, Observer, Rail, Segment,
+    EventKind, Observer, Segment,
     ball_ball::Triangle,
-    contact_mode::ContactMode,
     contacts::{PAIRS_OF, is_in_corner, put_at_cushion},
     cushions::cushion_ahead,
-    engine::{Ball, Engine},
+    engine::{Ball, ContactMode, Engine},
     predict::Ahead,
     savings::Savings,
 };
 use crate::{physics::Motion, table::BALLS};
-
-/// A free ball's course and its next event.
-struct Course {
-    segment: Segment,
-    lasts: f64,
-    /// Infinity for a course that meets no cushion.
-    rail_after: f64,
-    rail: Rail,
-}
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Whether `index` is the only ball that moves, freely and with no other ball in its way.
@@ -43,10 +33,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn play_alone(&mut self, index: usize, now: &mut f64) -> ControlFlow<()> {
         let others = PAIRS_OF[index].map(|(_, other)| self.balls[other].segment.position);
         let constants = &{ self.constants };
-        let mut course = Course::of(&self.balls[index]);
+        let mut ball = self.balls[index].alone();
         loop {
-            let Course { segment, lasts, rail_after, rail } = &course;
-            let next = course.ends();
+            let Ball { segment, lasts, rail_after, rail, .. } = &ball;
+            let next = ball.ends();
             let (mut after, lasts_after, kind);
             if rail_after < lasts {
                 let n = rail.normal();
@@ -83,51 +73,46 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let flow = kind.map_or(ControlFlow::Continue(()), |kind| self.tell(next, kind));
             let (ahead, rail) = cushion_ahead::<S>(constants, &after, lasts_after);
             let rail_after = if let Ahead::Meeting(after) = ahead { after } else { f64::INFINITY };
-            course = Course { segment: after, lasts: lasts_after, rail_after, rail };
-            let Segment { position, velocity, half_acceleration, .. } = course.segment;
-            let way = Triangle::new(position, velocity, half_acceleration, course.ends() - next);
+            ball = Ball { segment: after, lasts: lasts_after, rail_after, rail, mode: ContactMode::Free };
+            let Segment { position, velocity, half_acceleration, .. } = ball.segment;
+            let way = Triangle::new(position, velocity, half_acceleration, ball.ends() - next);
             let clears =
                 |other| S::COURSES_APART && way.clears(other, constants.diameter + constants.tolerance.surely_apart);
             if flow.is_break() || ahead == Ahead::Pressed || !(clears(others[0]) & clears(others[1])) {
                 if ahead == Ahead::Pressed {
-                    self.set(index, course.segment, course.lasts);
+                    self.set(index, ball.segment, ball.lasts);
                 } else {
-                    self.follow(index, course);
+                    self.follow(index, ball);
                 }
                 flow?;
                 self.look_ahead_of(next, index)?;
                 if !self.moves_alone(index) {
                     return ControlFlow::Continue(());
                 }
-                course = Course::of(&self.balls[index]);
+                ball = self.balls[index].alone();
             }
         }
-        self.follow(index, course);
+        self.follow(index, ball);
         ControlFlow::Continue(())
     }
 
     /// Puts a ball on a course whose next event is known.
     #[inline(always)]
-    fn follow(&mut self, index: usize, course: Course) {
-        self.times[index] = course.ends();
-        let ball = &mut self.balls[index];
-        ball.segment = course.segment;
-        ball.lasts = course.lasts;
-        ball.rail_after = course.rail_after;
-        ball.rail = course.rail;
+    fn follow(&mut self, index: usize, ball: Ball) {
+        self.times[index] = ball.ends();
+        self.balls[index] = ball;
     }
 }
 
-impl Course {
-    /// The same course, of which the compiler knows that nothing presses the ball.
+impl Ball {
+    /// The same free ball, of which the compiler knows that nothing presses it.
     #[inline(always)]
-    fn of(ball: &Ball) -> Self {
-        let &Segment { start, position, velocity, half_acceleration, spin, motion, .. } = &ball.segment;
+    fn alone(&self) -> Self {
+        let &Segment { start, position, velocity, half_acceleration, spin, motion, .. } = &self.segment;
         Self {
             segment: Segment { start, position, velocity, half_acceleration, spin, motion, course: None },
-            lasts: ball.lasts,
-            rail_after: ball.rail_after,
-            rail: ball.rail,
+            mode: ContactMode::Free,
+            ..*self
         }
     }
 

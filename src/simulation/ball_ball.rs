@@ -219,8 +219,8 @@ mod tests {
         assert!((position.x - (0.5 - 2.0 * constants.radius)).abs() < 1e-15);
     }
 
-    /// Two balls side by side of which one begins to press: the wait for a gap of rounding's size to close was 1e-7 s, in
-    /// which the slip of balls that never slip grew back to more than counts as none.
+    /// Two balls side by side of which one begins to press: to wait for a gap of rounding's size to close takes 1e-7 s, in
+    /// which the slip of balls that never slip grows back to more than counts as none.
     #[test]
     fn touching_balls_that_press_without_resting_meet_as_soon_as_they_close_at_a_speed_that_counts() {
         let constants = Constants::of(&Table::preset("thesis").unwrap());

@@ -5,11 +5,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{End, Event, Observer, Recorder, Recording, Segment, simulate};
-use crate::{
-    physics::Impulse,
-    table::{BALLS, Layout, Table},
-};
+use super::{Event, Observer, Recorder, Recording, Segment, ShotError, Start, simulate};
+use crate::table::{BALLS, Layout, Table};
 
 /// Records until it has taken too long, or too much has happened.
 #[derive(Debug)]
@@ -63,21 +60,25 @@ impl Observer for Bounded<'_> {
     }
 }
 
-/// Plays from event to event for [`Recording::played_by`], within the bounds of [`Bounded::new`]; tells also whether the shot was given up.
-pub fn within_bounds(
-    table: &Table,
-    layout: &Layout,
-    longest: Duration,
-    most: u32,
-) -> impl FnOnce(&Impulse, &mut Recorder) -> (End, bool) {
-    move |impulse, recorder| {
-        let mut bounded = Bounded::new(recorder, longest, most);
-        let end = simulate(table, layout, impulse, &mut bounded);
-        (end, bounded.is_over())
-    }
-}
-
 impl Recording {
+    /// Checks a shot and plays it from event to event within the bounds of [`Bounded::new`]; tells also whether it was given up.
+    ///
+    /// # Errors
+    /// As [`Recording::played_by`].
+    pub fn within_bounds(
+        table: &Table,
+        layout: &Layout,
+        start: Start<'_>,
+        longest: Duration,
+        most: u32,
+    ) -> Result<(Self, bool), ShotError> {
+        Self::played_by(table, layout, start, |impulse, recorder| {
+            let mut bounded = Bounded::new(recorder, longest, most);
+            let end = simulate(table, layout, impulse, &mut bounded);
+            (end, bounded.is_over())
+        })
+    }
+
     /// Whether its numbers have stayed within what numbers can hold.
     pub fn is_finite(&self) -> bool {
         let end = self.duration();

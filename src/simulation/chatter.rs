@@ -13,7 +13,7 @@ use super::{
     contacts::{PAIRS_OF, contacts_where},
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Contacts, Effort, resolve, slip},
+    physics::{ActiveSet, BallState, Contact, Contacts, Effort, Scene, slip},
     table::{BALLS, PAIRS, Table},
 };
 
@@ -55,7 +55,7 @@ struct Bounces {
     longest: f64,
     /// How long before this chatter the last bounce was, s.
     pause: f64,
-    /// The last flight over the one before.
+    /// The last flight over the one before; of a first bounce, which has none, not a number.
     shrinking: f64,
 }
 
@@ -121,7 +121,7 @@ impl Chatters {
         self.0[Self::place(contact)].last = now;
     }
 
-    /// The last flight of a contact over the one before.
+    /// The last flight of a contact over the one before; not a number behind its first bounce, of whose flights nothing is known.
     pub fn shrinking(&self, contact: &Contact) -> f64 {
         self.0[Self::place(contact)].shrinking
     }
@@ -215,6 +215,7 @@ pub fn chatter_end(
     if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slowest_coupled_bounce } {
         return None;
     }
+    // What is not a number, behind a first bounce, counts as the slowest: `min` returns the other.
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
     let cube = |x: f64| x * x * x;
     // Coupled contacts need not bounce ever more softly: all that is known is how softly they do.
@@ -230,7 +231,7 @@ pub fn chatter_end(
         return None;
     }
     let set = ActiveSet::of(table, balls, &contacts, none);
-    let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None, effort)?;
+    let resolved = Scene { table, balls, contacts: &contacts, set: &set }.resolve(tolerance.slack, None, effort)?;
     let index = resolved.contacts.iter().position(|pressing| pressing == contact)?;
     let pull = bodies * resolved.forces.normal[index];
     // Balls that never slip lose with each impact the slip that their flight has made, which the other contacts feel as a
@@ -272,19 +273,16 @@ fn meets_another(
 mod tests {
     use super::*;
 
+    /// How many bounces with these flights behind them are told, and when the last flight is over, s.
+    fn told(chatters: &mut Chatters, contact: &Contact, flights: impl Iterator<Item = f64>) -> (u32, f64) {
+        flights.fold((0, 0.0), |(told, now), flight| (told + u32::from(!chatters.bounce(contact, now)), now + flight))
+    }
+
     #[test]
     fn bounces_are_told_until_they_are_a_chatter() {
         let mut chatters = Chatters::new();
-        let contact = Contact::of_balls(0, 1);
-        let (mut now, mut flight) = (0.0, 0.1);
-        let mut told = 0;
-        for _ in 0..40 {
-            if !chatters.bounce(&contact, now) {
-                told += 1;
-            }
-            flight *= 0.9;
-            now += flight;
-        }
+        let flights = (1..=40).map(|bounce| 0.1 * 0.9_f64.powi(bounce));
+        let (told, now) = told(&mut chatters, &Contact::of_balls(0, 1), flights);
         assert_eq!(told, TOLD);
         assert!(chatters.ends(1, 0.0)[0] > now && chatters.ends(2, 0.0)[0] < now);
         assert!(chatters.ends(0, 0.0)[1] < now + 1.0);
@@ -294,18 +292,12 @@ mod tests {
     #[test]
     fn a_ball_that_another_contact_throws_back_goes_on_with_its_chatter() {
         let mut chatters = Chatters::new();
-        let contact = Contact::of_balls(0, 1);
-        let (mut now, mut longest, mut told) = (0.0, 0.1, 0);
-        for _ in 0..20 {
-            let mut flight = longest;
-            for _ in 0..12 {
-                told += u32::from(!chatters.bounce(&contact, now));
-                now += flight;
-                flight *= 0.3;
-            }
-            now += 0.9 * longest;
-            longest *= 0.95;
-        }
+        let flights = (0..20).flat_map(|round| {
+            let longest = 0.1 * 0.95_f64.powi(round);
+            let pause = move |bounce: i32| if bounce == 11 { 0.9 * longest } else { 0.0 };
+            (0..12).map(move |bounce| longest * 0.3_f64.powi(bounce) + pause(bounce))
+        });
+        let (told, now) = told(&mut chatters, &Contact::of_balls(0, 1), flights);
         assert_eq!(told, TOLD);
         assert!(chatters.ends(0, 0.0)[1] > now && chatters.ends(0, 0.0)[1] < now + 0.2);
     }
@@ -313,16 +305,8 @@ mod tests {
     /// Two contacts in turn throw a ball back, each with two bounces, after pauses that grow shorter.
     #[test]
     fn bounces_that_come_back_after_ever_shorter_pauses_are_one_chatter() {
-        let mut chatters = Chatters::new();
-        let contact = Contact::of_balls(0, 2);
-        let (mut now, mut pause, mut told) = (0.0, 6e-3, 0);
-        for _ in 0..50 {
-            for _ in 0..3 {
-                told += u32::from(!chatters.bounce(&contact, now));
-            }
-            pause *= 0.9;
-            now += pause;
-        }
+        let flights = (1..=50).flat_map(|round| [0.0, 0.0, 6e-3 * 0.9_f64.powi(round)]);
+        let (told, _) = told(&mut Chatters::new(), &Contact::of_balls(0, 2), flights);
         assert!(told <= 4 * TOLD, "{told} of 150 bounces are told");
     }
 

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::tolerance::Tolerance;
 use crate::{
-    physics::{Rolling, rolling_deceleration, sliding_deceleration, spin_deceleration},
+    physics::{Rolling, rolling_deceleration},
     table::Table,
 };
 
@@ -21,7 +21,7 @@ pub struct Constants {
     pub diameter: f64,
     /// Largest |x| and |y| of a ball's centre, m.
     pub reach: DVec2,
-    /// `mu_s g`, m/s².
+    /// Deceleration of the slip's friction, `mu_s g`, m/s².
     pub sliding: f64,
     /// Time that friction needs for each m/s of slip, `2 / 7 mu_s g` (thesis equation 25), s²/m.
     pub slide_time: f64,
@@ -35,7 +35,7 @@ pub struct Constants {
     pub level: bool,
     /// Acceleration of a table that is not level, m/s².
     pub tilt: DVec2,
-    /// `5 mu_sp g / 2R`, rad/s².
+    /// Rate at which `|w_z|` decays, `5 mu_sp g / 2R` (thesis equation 8), rad/s².
     pub spinning: f64,
     /// Upward velocity above which a rail lifts a ball off the cloth, m/s: infinity where balls stay on it.
     pub lifts: f64,
@@ -47,7 +47,7 @@ impl Constants {
     /// Works out the numbers of `table`.
     pub fn of(table: &Table) -> Self {
         let tolerance = Tolerance::of(table);
-        let sliding = sliding_deceleration(table);
+        let sliding = table.sliding_friction * table.gravity;
         let level = table.tilt == DVec2::ZERO;
         Self {
             length: table.length,
@@ -62,7 +62,7 @@ impl Constants {
             even: level && table.rolling_growth == 0.0,
             level,
             tilt: table.tilt,
-            spinning: spin_deceleration(table),
+            spinning: 2.5 * table.spinning_friction * table.gravity / table.radius,
             lifts: if table.flight.is_some() { tolerance.least_lift } else { f64::INFINITY },
             tolerance,
         }

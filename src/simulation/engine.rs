@@ -8,12 +8,8 @@ use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
     ball_ball::Triangle,
     chatter::Chatters,
-    contact_mode::ContactMode,
     contacts::PAIRS_OF,
-    guards::{
-        BOUNCE, IMPACT_IN_THE_AIR, MOST_IN_THE_AIR, MOST_RESTING, MOST_TURNS, MOST_TURNS_WITHOUT_REST,
-        MOST_WITHOUT_REST,
-    },
+    guards::{MOST_IN_THE_AIR, MOST_RESTING, MOST_TURNS, MOST_TURNS_WITHOUT_REST, MOST_WITHOUT_REST},
     resting::Resting,
     savings::{All, Savings},
 };
@@ -82,6 +78,18 @@ pub fn watch_with<S: Savings, O: Observer + ?Sized>(
     Engine::<S, O>::new(table, layout, observer).run(impulse);
 }
 
+/// What a ball's contacts do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum ContactMode {
+    /// It is free, or hits something now and then.
+    Free,
+    /// It chatters: bounces that have been told as the beginning of a contact, and are played one by one without being told. Or it
+    /// rests no more, and may bounce again.
+    Bouncing,
+    /// It rests against something, the limit of its bounces.
+    Resting,
+}
+
 /// A ball's present course and what it alone will do next.
 pub(super) struct Ball {
     pub(super) segment: Segment,
@@ -90,7 +98,6 @@ pub(super) struct Ball {
     /// When the ball meets `rail`, s after the segment's start; infinity if never.
     pub(super) rail_after: f64,
     pub(super) rail: Rail,
-    /// What its contacts do.
     pub(super) mode: ContactMode,
 }
 
@@ -300,6 +307,14 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         self.set(index, segment, lasts);
     }
 
+    /// Sends balls from where they have come to off on the free courses that follow from these states.
+    pub(super) fn relaunch(&mut self, now: f64, which: [bool; BALLS], states: &[BallState; BALLS]) {
+        for index in (0..BALLS).filter(|&index| which[index]) {
+            self.end_segment(index, now);
+            self.launch(index, now, &states[index]);
+        }
+    }
+
     /// Whether resting contacts have taken more work than any should.
     pub(super) fn resting_budget_spent(&self) -> bool {
         self.micro_collisions.is_none() && self.effort.spent() > MOST_RESTING
@@ -317,16 +332,6 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         self.effort_in_air.add(MOST_IN_THE_AIR + 1);
     }
 
-    /// Takes note of a bounce of a chatter on the cloth.
-    pub(super) fn chatter_bounce(&self) {
-        self.effort.add(BOUNCE);
-    }
-
-    /// Takes note of an impact in the air.
-    pub(super) fn impact_in_the_air(&self) {
-        self.effort_in_air.add(IMPACT_IN_THE_AIR);
-    }
-
     pub(super) fn state(&self, index: usize, now: f64) -> BallState {
         let segment = &self.balls[index].segment;
         segment.state_after(&self.constants, now - segment.start)
@@ -336,6 +341,24 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     pub(super) fn tell(&mut self, time: f64, kind: EventKind) -> ControlFlow<()> {
         let flow = self.observer.event(Event { time, kind });
         if S::EARLY_END { flow } else { ControlFlow::Continue(()) }
+    }
+
+    /// Tells that a ball on the cloth rolls by now, or stands: of its motion nothing has been told for a while.
+    pub(super) fn tell_motion(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+        match self.balls[index].segment.motion {
+            Motion::Rolling => self.tell(now, EventKind::SlidingRolling(index)),
+            Motion::Stationary => self.tell(now, EventKind::RollingStationary(index)),
+            _ => ControlFlow::Continue(()),
+        }
+    }
+
+    /// A ball that is free begins to bounce slowly.
+    pub(super) fn begin_contact(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+        if self.balls[index].mode != ContactMode::Free {
+            return ControlFlow::Continue(());
+        }
+        self.balls[index].mode = ContactMode::Bouncing;
+        self.tell(now, EventKind::ContactBegins(index))
     }
 
     /// Hands a finished segment to an observer that records.

@@ -6,9 +6,9 @@ use super::{
     EventKind, Observer, Segment,
     aloft::Nose,
     chatter::Chatters,
-    contact_mode::ContactMode,
     contacts::PAIRS_OF,
-    engine::{Ball, Engine, Meeting, only},
+    engine::{Ball, ContactMode, Engine, Meeting, only},
+    guards::IMPACT_IN_THE_AIR,
     hops::Hops,
     savings::Savings,
     segment::Course,
@@ -39,7 +39,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             Some(cloth) if !low || state.velocity.z > self.constants.tolerance.slowest_in_air => cloth,
             _ => {
                 self.launch(index, now, &state.seen_from_above());
-                return if was_low { ControlFlow::Continue(()) } else { self.tell(now, EventKind::Lands(index)) };
+                return if was_low { ControlFlow::Continue(()) } else { self.tell_landing(index, now) };
             }
         };
         let hops = Hops::new(&self.constants, &cloth, state);
@@ -51,12 +51,18 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             course: Some(Box::new(Course::Hops(hops))),
             ..Segment::at_rest(state.position.truncate())
         };
-        self.set(index, segment, hops.duration());
+        self.set(index, segment, hops.duration);
         if self.balls[index].mode != ContactMode::Free {
             self.balls[index].mode = ContactMode::Free;
             self.tell(now, EventKind::ContactEnds(index))?;
         }
         if was_low { self.tell(now, EventKind::Jumps(index)) } else { ControlFlow::Continue(()) }
+    }
+
+    /// Tells that a ball stays on the cloth, and what it does there unless it slides.
+    fn tell_landing(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+        self.tell(now, EventKind::Lands(index))?;
+        self.tell_motion(index, now)
     }
 
     /// Whether a ball in the air would come down on another one, were it let down where it is.
@@ -73,12 +79,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let Some(end) = self.balls[index].segment.hops().map(Hops::end) else { return ControlFlow::Continue(()) };
         self.end_segment(index, now);
         self.launch(index, now, &end);
-        self.tell(now, EventKind::Lands(index))?;
-        match self.balls[index].segment.motion {
-            Motion::Rolling => self.tell(now, EventKind::SlidingRolling(index))?,
-            Motion::Stationary => self.tell(now, EventKind::RollingStationary(index))?,
-            _ => {}
-        }
+        self.tell_landing(index, now)?;
         self.look_ahead_of(now, index)?;
         if S::ALONE && S::KEPT_PREDICTIONS && self.moves_alone(index) {
             return self.play_alone(index, time);
@@ -113,7 +114,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// A ball in the air meets the nose of a cushion, or comes down behind it.
     #[cold]
     pub(super) fn rebound_in_space(&mut self, index: usize, now: f64) -> ControlFlow<()> {
-        self.impact_in_the_air();
+        self.effort_in_air.add(IMPACT_IN_THE_AIR);
         let Ball { rail_after, rail, .. } = self.balls[index];
         let c = self.constants;
         let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
@@ -141,7 +142,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Two balls meet of which one at least is in the air.
     #[cold]
     pub(super) fn collide_in_space(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
-        self.impact_in_the_air();
+        self.effort_in_air.add(IMPACT_IN_THE_AIR);
         let (first, second) = PAIRS[pair];
         let Meeting { since, after, .. } = self.pairs[pair];
         let mut changed = only(first);
@@ -168,9 +169,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.tell_impact(now, EventKind::BallBall(first, second), told)?;
         for (index, state) in [(first, &one), (second, &other)] {
             self.launch_in_space(index, now, state)?;
-            if !told && self.is_on_cloth(index) && self.balls[index].mode == ContactMode::Free {
-                self.balls[index].mode = ContactMode::Bouncing;
-                self.tell(now, EventKind::ContactBegins(index))?;
+            if !told && self.is_on_cloth(index) {
+                self.begin_contact(index, now)?;
             }
         }
         self.look_ahead(now, self.with_freed(freed.is_some(), changed))
@@ -211,59 +211,52 @@ mod tests {
         table::{Flight, Layout, Table},
     };
 
-    struct Nobody;
+    /// Events and bounces.
+    #[derive(Default)]
+    struct Told(Vec<EventKind>);
 
-    impl Observer for Nobody {
-        fn event(&mut self, _: Event) -> ControlFlow<()> {
+    impl Observer for Told {
+        fn event(&mut self, event: Event) -> ControlFlow<()> {
+            self.0.push(event.kind);
             ControlFlow::Continue(())
+        }
+
+        fn bounce(&mut self, bounce: Event) {
+            self.0.push(bounce.kind);
         }
     }
 
-    /// What becomes of a ball 5 cm above the cloth at `place` when a shot has taken all the work that it may.
-    fn given_up_at(place: DVec2) -> Motion {
+    /// What is told of a ball 5 cm above the cloth at `place` when a shot has taken all the work that it may.
+    fn given_up_at(place: DVec2) -> Vec<EventKind> {
         let table = Table { flight: Some(Flight::default()), ..Table::default() };
         let layout = Layout::new([DVec2::ZERO, DVec2::new(0.5, 0.1), DVec2::new(-0.5, 0.1)]);
-        let mut observer = Nobody;
-        let mut engine = Engine::<All, Nobody>::new(&table, &layout, &mut observer);
-        engine.exhaust();
+        let mut told = Told::default();
+        let mut engine = Engine::<All, Told>::new(&table, &layout, &mut told);
         let velocity = DVec3::new(0.3, 0.0, -0.2);
         let state = SpatialState { position: place.extend(0.05), velocity, spin: DVec3::ZERO };
         assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
-        engine.balls[0].segment.motion
-    }
-
-    /// Events and bounces.
-    #[derive(Default)]
-    struct Count(u32);
-
-    impl Observer for Count {
-        fn event(&mut self, _: Event) -> ControlFlow<()> {
-            self.0 += 1;
-            ControlFlow::Continue(())
-        }
-
-        fn bounce(&mut self, _: Event) {
-            self.0 += 1;
-        }
+        engine.exhaust();
+        assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
+        told.0
     }
 
     /// What follows when a ball that leans on another's top by so much, rad, is let go with a velocity, m/s.
-    fn let_go(table: &Table, angle: f64, velocity: impl Fn(DVec3) -> DVec3) -> (u32, End) {
+    fn let_go(table: &Table, angle: f64, velocity: impl Fn(DVec3) -> DVec3) -> (usize, End) {
         let other = DVec2::new(0.3, 0.2);
         let layout = Layout::new([DVec2::ZERO, other, DVec2::new(-0.5, 0.1)]);
-        let mut count = Count::default();
-        let mut engine = Engine::<All, Count>::new(table, &layout, &mut count);
+        let mut told = Told::default();
+        let mut engine = Engine::<All, Told>::new(table, &layout, &mut told);
         let n = DVec3::new(angle.sin(), 0.0, angle.cos());
         let position = other.extend(0.0) + 2.0 * table.radius * n;
         let flow = engine.launch_in_space(0, 0.0, &SpatialState { position, velocity: velocity(n), spin: DVec3::ZERO });
         assert!(flow.is_continue() && engine.look_ahead_of(0.0, 0).is_continue());
         let time = engine.play_on(flow);
         let end = engine.finish(time);
-        (count.0, end)
+        (told.0.len(), end)
     }
 
-    /// The speed that a soft blow gave the lower ball was once lost in the cloth, and the speed with which the upper one rose came out of
-    /// its motion across: it stayed where it was, in ever shorter bounces without end.
+    /// Were the speed that a soft blow gives the lower ball lost in the cloth, and the speed with which the upper one rises taken out of
+    /// its motion across, it would stay where it is, in ever shorter bounces without end.
     #[test]
     fn a_ball_slides_off_anothers_top_however_softly_it_comes_to_lie_there() {
         for (preset, restitution) in
@@ -298,7 +291,9 @@ mod tests {
 
     #[test]
     fn a_ball_in_the_air_is_let_down_when_a_shot_is_given_up_but_not_on_another() {
-        assert_eq!(given_up_at(DVec2::new(0.2, 0.0)), Motion::Stationary);
-        assert_eq!(given_up_at(DVec2::new(0.49, 0.11)), Motion::Flying);
+        let jumps = EventKind::Jumps(0);
+        let let_down = [jumps, EventKind::Lands(0), EventKind::RollingStationary(0)];
+        assert_eq!(given_up_at(DVec2::new(0.2, 0.0)), let_down);
+        assert_eq!(given_up_at(DVec2::new(0.49, 0.11)), [jumps]);
     }
 }

@@ -29,7 +29,8 @@ pub struct Arc {
 #[derive(Clone, Copy, Debug)]
 pub struct Hops {
     start: SpatialState,
-    cloth: Cloth,
+    /// What it comes down on.
+    pub cloth: Cloth,
     radius: f64,
     /// When it first comes down, s since the start, and how fast, m/s.
     first: f64,
@@ -41,9 +42,10 @@ pub struct Hops {
     rub: f64,
     /// The landing at which no slip is left, counted from none; `None` if the ball still slides after the last hop.
     sticks: Option<u32>,
-    /// How long all of it lasts, s, and the velocity along the cloth at the end, m/s.
-    duration: f64,
-    last: DVec2,
+    /// How long all of it lasts, s.
+    pub duration: f64,
+    /// The velocity along the cloth after the last hop, m/s. All before it lie between the first and this one.
+    pub last_velocity: DVec2,
 }
 
 impl Hops {
@@ -69,11 +71,11 @@ impl Hops {
             rub,
             sticks: None,
             duration: 0.0,
-            last: DVec2::ZERO,
+            last_velocity: DVec2::ZERO,
         };
         hops.sticks = hops.sticking();
         hops.duration = hops.first + hops.per_speed() * landing * e / (1.0 - e);
-        hops.last = match hops.sticks {
+        hops.last_velocity = match hops.sticks {
             Some(_) => hops.rolling(),
             None => hops.rubbed(rub / (1.0 - e)).0,
         };
@@ -129,11 +131,6 @@ impl Hops {
     /// What two hops' flights last, s, for each m/s of the landing between them.
     fn per_speed(&self) -> f64 {
         2.0 / self.cloth.gravity
-    }
-
-    /// Duration of all of it, s.
-    pub fn duration(&self) -> f64 {
-        self.duration
     }
 
     /// The velocity along the cloth when no slip is left, m/s.
@@ -235,20 +232,10 @@ impl Hops {
         SpatialState { position, velocity: arc.velocity - fallen * DVec3::Z, spin }
     }
 
-    /// The velocity along the cloth after the last hop, m/s. All before it lie between the first and this one.
-    pub fn last_velocity(&self) -> DVec2 {
-        self.last
-    }
-
     /// The greatest speed along the cloth from that arc on, m/s.
     pub fn fastest(&self, arc: &Arc) -> f64 {
         // Velocities lie on a line: the longest stands at one of its ends.
-        arc.velocity.truncate().length_squared().max(self.last.length_squared()).sqrt()
-    }
-
-    /// Gravitational acceleration, m/s².
-    pub fn gravity(&self) -> f64 {
-        self.cloth.gravity
+        arc.velocity.truncate().length_squared().max(self.last_velocity.length_squared()).sqrt()
     }
 }
 
@@ -306,7 +293,7 @@ mod tests {
             let hops = Hops::new(&constants, &cloth, &start);
             let (time, ball) = one_by_one(&constants, &cloth, &start);
             let end = hops.end();
-            prop_assert!((time - hops.duration()).abs() < 1e-11, "{time} {}", hops.duration());
+            prop_assert!((time - hops.duration).abs() < 1e-11, "{time} {}", hops.duration);
             prop_assert!(end.position.distance(ball.position.truncate()) < 1e-10);
             prop_assert!(end.velocity.distance(ball.velocity.truncate()) < 1e-12);
             prop_assert!(end.spin.distance(ball.spin) < 1e-9);
@@ -340,7 +327,7 @@ mod tests {
         let cloth = Cloth { restitution: 0.5, friction: 0.2, gravity: 9.81 };
         let hops = Hops::new(&constants, &cloth, &started(0.05, [0.0; 3], [0.0, 0.0, 20.0]));
         let fall = (2.0 * 0.05 / 9.81_f64).sqrt();
-        assert!((hops.duration() - 3.0 * fall).abs() < 1e-15, "once down, and twice as long up and down in all");
+        assert!((hops.duration - 3.0 * fall).abs() < 1e-15, "once down, and twice as long up and down in all");
         assert_eq!(hops.end().position, DVec2::new(0.1, -0.2));
         assert_eq!(hops.end().spin, DVec3::new(0.0, 0.0, 20.0));
     }

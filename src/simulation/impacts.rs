@@ -5,9 +5,9 @@ use std::ops::ControlFlow;
 use super::{
     Event, EventKind, Observer, Rail,
     chatter::{Chatters, chatter_end},
-    contact_mode::ContactMode,
     contacts::{close_gaps, is_in_corner, put_at_cushion, touching},
     engine::{Ball, Engine, MOMENT, Meeting, only},
+    guards::BOUNCE,
     savings::Savings,
 };
 use crate::{
@@ -149,7 +149,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// All contacts that close now collide together, if there are several.
     #[cold]
     pub(super) fn collide_at_once(&mut self, now: f64) -> ControlFlow<(), bool> {
-        self.chatter_bounce();
+        self.effort.add(BOUNCE);
         let members = self.freed_members();
         let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
         let mut states: [BallState; BALLS] = std::array::from_fn(|index| match &held {
@@ -198,10 +198,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let slow = contact.opening_speed(&states) <= c.tolerance.slow_bounce && !climbs(impulse);
             told.push(!slow || self.slow_bounce(now, contact)?);
         }
-        for index in (0..BALLS).filter(|&index| changed[index]) {
-            self.end_segment(index, now);
-            self.launch(index, now, &states[index]);
-        }
+        self.relaunch(now, changed, &states);
         for ((contact, _), told) in met().zip(told) {
             self.tell_impact(now, kind(contact), told)?;
         }
@@ -225,17 +222,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Takes note of a slow bounce: tells the beginning of a chatter once, and whether the bounce itself is to be told.
     #[cold]
     pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
-        self.chatter_bounce();
+        self.effort.add(BOUNCE);
         let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
         if !chatters.bounce(contact, now) && self.micro_collisions.is_none() {
             return ControlFlow::Continue(true);
         }
         self.observer.contact_step()?;
         for ball in [Some(contact.first), contact.second].into_iter().flatten() {
-            if self.balls[ball].mode == ContactMode::Free {
-                self.balls[ball].mode = ContactMode::Bouncing;
-                self.tell(now, EventKind::ContactBegins(ball))?;
-            }
+            self.begin_contact(ball, now)?;
         }
         ControlFlow::Continue(false)
     }
@@ -322,10 +316,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         stop_by_impulses(self.table, &mut states, &ended, &ActiveSet::SLIPPING, &given_there);
         let changed = std::array::from_fn(|ball| rests.hold(ball));
-        for index in (0..BALLS).filter(|&index| changed[index]) {
-            self.end_segment(index, now);
-            self.launch(index, now, &states[index]);
-        }
+        self.relaunch(now, changed, &states);
         self.tell_impact(now, impact, told)?;
         for (contact, _) in
             contacts.iter().zip(given).filter(|(contact, given)| *given > 0.0 && kind(contact) != impact)

@@ -100,7 +100,7 @@ impl Recording {
             let lasts = pieces.get(n + 1).map_or(end, |next| next.start) - pieces[n].start;
             let first = hops.arc(0);
             // A later arc is no higher than what it falls from.
-            let top = (first.velocity.z / hops.gravity()).clamp(0.0, lasts);
+            let top = (first.velocity.z / hops.cloth.gravity).clamp(0.0, lasts);
             height = height.max(hops.state_after(top).position.z);
             distance.get_or_insert_with(|| first.velocity.truncate().length() * first.end.min(lasts));
         }

@@ -8,7 +8,11 @@
 
 use std::ops::ControlFlow;
 
-use super::{Constants, Observer, contact_mode::ContactMode, engine::Engine, savings::Savings};
+use super::{
+    Constants, Observer,
+    engine::{ContactMode, Engine},
+    savings::Savings,
+};
 use crate::{
     physics::{BallState, Effort, ImpactLaw},
     table::BALLS,
@@ -23,10 +27,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.effort = Effort::default();
         self.ended = None;
         if let Some(resting) = self.resting.take() {
-            for index in (0..BALLS).filter(|&index| resting.members[index]) {
-                self.end_segment(index, now);
-                self.launch(index, now, &resting.end[index]);
-                self.balls[index].mode = ContactMode::Bouncing;
+            self.relaunch(now, resting.members, &resting.end);
+            for (ball, _) in self.balls.iter_mut().zip(resting.members).filter(|(_, member)| *member) {
+                ball.mode = ContactMode::Bouncing;
             }
         }
         self.look_ahead(now, [true; BALLS])

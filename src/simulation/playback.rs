@@ -24,6 +24,25 @@ pub enum ShotError {
     Impulse(#[from] ImpulseError),
 }
 
+/// What sets the cue ball in motion.
+#[derive(Clone, Copy, Debug)]
+pub enum Start<'a> {
+    /// A stroke. Whatever motion it gives is accepted.
+    Stroke(&'a CueInputs),
+    /// The motion just after the stroke, as a film shows it, whatever stroke has given it.
+    Motion(&'a Impulse),
+}
+
+impl Start<'_> {
+    /// The motion, if it is possible.
+    fn impulse(self, table: &Table) -> Result<Impulse, ShotError> {
+        match self {
+            Self::Stroke(cue) => cue.validate().map(|()| strike(table, cue)).map_err(ShotError::from),
+            Self::Motion(impulse) => impulse.validate().map(|()| *impulse).map_err(ShotError::from),
+        }
+    }
+}
+
 /// One shot from the stroke until the last ball stands still.
 #[derive(Clone, Debug)]
 pub struct Recording {
@@ -39,68 +58,43 @@ impl Recording {
     /// # Errors
     /// What is wrong with the layout or the stroke.
     pub fn new(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
-        layout.validate(table)?;
-        cue.validate()?;
-        Ok(Self::simulated(table, layout, strike(table, cue)))
+        Self::simulated(table, layout, Start::Stroke(cue))
     }
 
-    /// Checks and plays a shot in which the cue ball has this motion just after the stroke, as a film shows it, whatever
-    /// stroke has given it.
+    /// Checks and plays a shot in which the cue ball has this motion just after the stroke.
     ///
     /// # Errors
     /// What is wrong with the layout or the motion.
     pub fn with_impulse(table: &Table, layout: &Layout, impulse: &Impulse) -> Result<Self, ShotError> {
+        Self::simulated(table, layout, Start::Motion(impulse))
+    }
+
+    fn simulated(table: &Table, layout: &Layout, start: Start<'_>) -> Result<Self, ShotError> {
+        let play = |impulse: &Impulse, kept: &mut Recorder| (simulate_with::<All, _>(table, layout, impulse, kept), ());
+        Ok(Self::played_by(table, layout, start, play)?.0)
+    }
+
+    /// Checks a shot and lets `play` play it, by whatever method: it gets what the stroke gives the cue ball, tells the
+    /// recorder what happens, and returns how the shot ended with anything else that it has to say. All balls then rest where they
+    /// have come to.
+    ///
+    /// # Errors
+    /// What is wrong with the layout, the stroke or the motion.
+    pub fn played_by<T>(
+        table: &Table,
+        layout: &Layout,
+        start: Start<'_>,
+        play: impl FnOnce(&Impulse, &mut Recorder) -> (End, T),
+    ) -> Result<(Self, T), ShotError> {
         layout.validate(table)?;
-        impulse.validate()?;
-        Ok(Self::simulated(table, layout, *impulse))
-    }
-
-    /// The shot of what was found possible.
-    fn simulated(table: &Table, layout: &Layout, impulse: Impulse) -> Self {
-        Self::record(table, impulse, |impulse, kept| (simulate_with::<All, _>(table, layout, impulse, kept), ())).0
-    }
-
-    /// Records what `play` plays, and lets all balls rest where they have come to.
-    fn record<T>(table: &Table, impulse: Impulse, play: impl FnOnce(&Impulse, &mut Recorder) -> (End, T)) -> (Self, T) {
-        let mut kept = Recorder::with_room();
+        let (impulse, mut kept) = (start.impulse(table)?, Recorder::with_room());
         let (end, more) = play(&impulse, &mut kept);
         for (ball, segments) in kept.segments.iter_mut().enumerate() {
             let BallState { position, spin, .. } = end.balls[ball];
             let motion = if end.off_table[ball] { Motion::OffTable } else { Motion::Stationary };
             segments.push(Segment { start: end.time, spin, motion, ..Segment::at_rest(position) });
         }
-        (Self { constants: Constants::of(table), impulse, kept, duration: end.time }, more)
-    }
-
-    /// Checks a shot and lets `play` play it, by whatever method: it gets what the stroke gives the cue ball, tells the
-    /// recorder what happens, and returns how the shot ended with anything else that it has to say.
-    ///
-    /// # Errors
-    /// What is wrong with the layout or the stroke.
-    pub fn played_by<T>(
-        table: &Table,
-        layout: &Layout,
-        cue: &CueInputs,
-        play: impl FnOnce(&Impulse, &mut Recorder) -> (End, T),
-    ) -> Result<(Self, T), ShotError> {
-        layout.validate(table)?;
-        cue.validate()?;
-        Self::played_by_impulse(table, layout, &strike(table, cue), play)
-    }
-
-    /// The same for a shot in which the cue ball has this motion just after the stroke.
-    ///
-    /// # Errors
-    /// What is wrong with the layout or the motion.
-    pub fn played_by_impulse<T>(
-        table: &Table,
-        layout: &Layout,
-        impulse: &Impulse,
-        play: impl FnOnce(&Impulse, &mut Recorder) -> (End, T),
-    ) -> Result<(Self, T), ShotError> {
-        layout.validate(table)?;
-        impulse.validate()?;
-        Ok(Self::record(table, *impulse, play))
+        Ok((Self { constants: Constants::of(table), impulse, kept, duration: end.time }, more))
     }
 
     /// What the stroke gave the cue ball.
@@ -211,6 +205,7 @@ impl Observer for Recorder {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulation::simulate;
     use glam::DVec3;
 
     #[test]
@@ -223,6 +218,20 @@ mod tests {
         assert!(struck.events().len() > 5);
         assert_eq!(moved.events(), struck.events());
         assert_eq!((moved.duration(), moved.final_layout()), (struck.duration(), struck.final_layout()));
+    }
+
+    /// On a ball of 1 mm a stroke gives a spin that no motion may have. One method played it, and the other refused it.
+    #[test]
+    fn a_stroke_is_played_whatever_it_gives_by_whatever_method() {
+        let table = Table { radius: 0.001, ..Table::preset("thesis").unwrap() };
+        let layout = Layout::opening(&table);
+        let cue = CueInputs::parse("0,0.45,0,0,25").unwrap();
+        let shot = Recording::new(&table, &layout, &cue).unwrap();
+        let play = |impulse: &Impulse, kept: &mut Recorder| (simulate(&table, &layout, impulse, kept), ());
+        let (same, ()) = Recording::played_by(&table, &layout, Start::Stroke(&cue), play).unwrap();
+        assert_eq!(same.events(), shot.events());
+        let refused = Recording::played_by(&table, &layout, Start::Motion(shot.impulse()), play);
+        assert!(matches!(refused, Err(ShotError::Impulse(ImpulseError::Spin(_)))), "{refused:?}");
     }
 
     #[test]

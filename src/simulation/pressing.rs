@@ -5,9 +5,8 @@ use std::ops::ControlFlow;
 use super::{
     EventKind, Observer, Segment,
     chatter::Chatters,
-    contact_mode::ContactMode,
     contacts::PAIRS_OF,
-    engine::Engine,
+    engine::{ContactMode, Engine, only},
     resting::{Outcome, Resting},
     savings::Savings,
     segment::Course,
@@ -40,13 +39,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if resting.is_still() && !self.is_touched(now, resting.members) {
             resting.come_to_rest();
         }
-        for index in (0..BALLS).filter(|&index| resting.members[index]) {
-            self.end_segment(index, now);
-            self.launch(index, now, &resting.end[index]);
-        }
+        let members = resting.members;
+        self.relaunch(now, members, &resting.end);
         // Whether they go on resting is asked of all contacts together.
         self.pressed = true;
-        let members = resting.members;
         // The guard: what takes part in another contact stands still, and begins anew.
         self.ended = (!self.is_exhausted()).then_some(resting);
         self.look_ahead(now, members)
@@ -76,10 +72,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let members = resting.members;
         self.cut(now);
         let states = self.resting.as_ref()?.end;
-        for index in (0..BALLS).filter(|&index| members[index] && !changed[index]) {
-            self.end_segment(index, now);
-            self.launch(index, now, &states[index]);
-        }
+        self.relaunch(now, std::array::from_fn(|index| members[index] && !changed[index]), &states);
         self.pressed = true;
         Some(states)
     }
@@ -148,7 +141,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }
         }
         let on_cloth = self.on_cloth();
-        self.resting = match Resting::begin(
+        let moved: [bool; BALLS];
+        (self.resting, moved) = match Resting::begin(
             self.table,
             &self.constants,
             now,
@@ -162,28 +156,20 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.next_step = resting.next_step;
                 let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
                 resting.contacts.iter().for_each(|contact| chatters.begin_rest(contact, now));
-                for index in (0..BALLS).filter(|&index| !resting.members[index]) {
-                    if resting.begin[index] != states[index] {
-                        states[index] = resting.begin[index];
-                        self.end_segment(index, now);
-                        self.launch(index, now, &states[index]);
-                        changed[index] = true;
-                    }
-                }
-                Some(resting)
+                let moved =
+                    std::array::from_fn(|index| !resting.members[index] && resting.begin[index] != states[index]);
+                states = std::array::from_fn(|index| if moved[index] { resting.begin[index] } else { states[index] });
+                (Some(resting), moved)
             }
-            Outcome::Free(ended, balls, effort) => {
+            Outcome::Free(ended, moved, effort) => {
                 self.effort.absorb(&effort);
-                // A slip that ends here ends for good.
-                for index in (0..BALLS).filter(|&index| balls[index]) {
-                    self.end_segment(index, now);
-                    self.launch(index, now, &ended[index]);
-                    changed[index] = true;
-                }
                 states = ended;
-                None
+                (None, moved)
             }
         };
+        // A slip that ends here ends for good.
+        self.relaunch(now, moved, &states);
+        *changed = std::array::from_fn(|index| changed[index] || moved[index]);
         let members = self.freed_members();
         for index in 0..BALLS {
             let was = self.balls[index].mode;
@@ -198,8 +184,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.balls[index].mode = ContactMode::Bouncing;
                 // A ball whose contact ended by what another did is still on its common course.
                 if self.balls[index].segment.motion == Motion::Resting {
-                    self.end_segment(index, now);
-                    self.launch(index, now, &states[index]);
+                    self.relaunch(now, only(index), &states);
                     changed[index] = true;
                 }
             }
@@ -217,11 +202,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }
             self.balls[index].mode = ContactMode::Free;
             self.tell(now, EventKind::ContactEnds(index))?;
-            match self.balls[index].segment.motion {
-                Motion::Rolling => self.tell(now, EventKind::SlidingRolling(index))?,
-                Motion::Stationary => self.tell(now, EventKind::RollingStationary(index))?,
-                _ => {}
-            }
+            self.tell_motion(index, now)?;
         }
         ControlFlow::Continue(())
     }

@@ -6,11 +6,9 @@
 //! ends like an exponential and everything stays smooth.
 
 mod bounds;
-mod breaking;
 mod course;
-mod interruption;
 mod stiffness;
-mod stillness;
+mod within;
 
 use glam::{DVec2, DVec3};
 
@@ -23,10 +21,7 @@ use super::{
     tolerance::Tolerance,
 };
 use crate::{
-    physics::{
-        ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, Resolved, accelerations, forces, resolve,
-        slip, sought,
-    },
+    physics::{ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, Resolved, Scene, slip},
     table::{BALLS, Table},
 };
 
@@ -220,7 +215,7 @@ impl Resting {
                 span = trial.step.best_length.max(shortest);
                 continue;
             }
-            let middle = self.forces(table, &self.set, &self.half_way(&trial), &trial.forces);
+            let middle = self.forces(self.scene(table, &self.half_way(&trial)), &trial.forces);
             let course = self.longest_course(&trial, &middle);
             trial.step.best_length = trial.step.best_length.min(course);
             let Some(shorter) = self.shorter(table, &trial, course).filter(|_| span > shortest) else {
@@ -353,19 +348,18 @@ impl Resting {
     fn attempt(&self, table: &Table, from: &Trial, span: f64) -> Trial {
         let begin = &from.step.end;
         let mut last = from.forces;
-        let contacts = &self.contacts;
         let (yields, mut is_lost) = (self.set.yields() || self.seeks(), false);
         let slope = |phase: &Phase| {
             let held = if yields || is_lost {
                 None
             } else {
-                self.effort.add(HELD * contacts.len() as u64);
-                accelerations(table, &phase.balls, contacts, &self.set, &self.first)
+                self.effort.add(HELD * self.contacts.len() as u64);
+                self.scene(table, &phase.balls).accelerations(&self.first)
             };
             let (linear, angular) = held.unwrap_or_else(|| {
                 // Where there are no forces, the step has failed.
                 if !is_lost {
-                    last = self.sought(table, &self.set, &phase.balls, &last, !yields);
+                    last = self.sought(self.scene(table, &phase.balls), &last, !yields);
                     is_lost = !yields && !last.converged;
                 }
                 (last.linear, last.angular)
@@ -376,7 +370,7 @@ impl Resting {
         let (length, tolerance) = (span - from.span, self.constants.tolerance.step);
         let stiff = self.stiff(table, from, length);
         let mut step = extrapolate(begin, &first, slope, stiff.as_ref(), length, (table.radius, tolerance));
-        let forces = self.forces(table, &self.set, &step.end.balls, &from.forces);
+        let forces = self.forces(self.scene(table, &step.end.balls), &from.forces);
         // Where a friction yields, forces are at the edge of the laws and rarely found to rounding; there the error of the step counts alone.
         if is_lost || !yields && !forces.converged {
             (step.error, step.best_length) = (f64::INFINITY, WITHOUT_FORCES * length);
@@ -392,7 +386,7 @@ impl Resting {
             return false;
         }
         let slack = self.constants.tolerance.slack;
-        let lawful = resolve(table, end, &self.contacts, &self.set, slack, Some(&trial.forces), &self.effort);
+        let lawful = self.scene(table, end).resolve(slack, Some(&trial.forces), &self.effort);
         lawful.is_some_and(|lawful| {
             trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * slack
                 && lawful.contacts[..] == self.contacts[..]
@@ -453,23 +447,24 @@ impl Resting {
         balls
     }
 
-    /// The forces in an active set; they have to be sought from `near` ones on where a friction yields, and where what is held does not
-    /// tell them.
-    fn forces(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
-        if set.yields() || self.seeks() {
-            return self.sought(table, set, state, near, false);
-        }
-        self.effort.add(HELD * self.contacts.len() as u64);
-        forces(table, state, &self.contacts, set, Some(&self.first))
-            .unwrap_or_else(|| self.sought(table, set, state, near, true))
+    /// Its contacts and its active set in some state.
+    fn scene<'a>(&'a self, table: &'a Table, balls: &'a State) -> Scene<'a> {
+        Scene { table, balls, contacts: &self.contacts, set: &self.set }
     }
 
-    /// The forces in an active set by the solver, by a short search if none are to be expected.
-    fn sought(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces, is_short: bool) -> Forces {
-        if self.is_given_up() {
-            return *near;
+    /// The forces in a scene; they have to be sought from `near` ones on where a friction yields, and where what is held does not
+    /// tell them.
+    fn forces(&self, scene: Scene<'_>, near: &Forces) -> Forces {
+        if scene.set.yields() || self.seeks() {
+            return self.sought(scene, near, false);
         }
-        sought(table, state, &self.contacts, set, (near, is_short), &self.effort)
+        self.effort.add(HELD * self.contacts.len() as u64);
+        scene.forces(Some(&self.first)).unwrap_or_else(|| self.sought(scene, near, true))
+    }
+
+    /// The forces in a scene by the solver, by a short search if none are to be expected.
+    fn sought(&self, scene: Scene<'_>, near: &Forces, is_short: bool) -> Forces {
+        if self.is_given_up() { *near } else { scene.sought(near, is_short, &self.effort) }
     }
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {

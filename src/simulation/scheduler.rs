@@ -6,10 +6,9 @@ use super::{
     Observer, Rail, Segment,
     aloft::nose_ahead,
     ball_ball::{Triangle, balls_ahead},
-    contact_mode::ContactMode,
     contacts::PAIRS_OF,
     cushions::cushion_ahead,
-    engine::{Ball, Engine, Meeting, only},
+    engine::{Ball, ContactMode, Engine, Meeting, only},
     predict::{Ahead, curved_cushion_ahead},
     savings::Savings,
 };

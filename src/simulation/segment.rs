@@ -3,9 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{Constants, hops::Hops};
-use crate::physics::{
-    BallState, Motion, SpatialState, decayed_spin, is_last_on_slope, roll_on_slope, slide_on_slope, slip,
-};
+use crate::physics::{BallState, Motion, SpatialState, decayed_spin, roll_on_slope, slide_on_slope, slip};
 
 /// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -135,7 +133,7 @@ impl Segment {
         if constants.level {
             return constants.rolling.is_last(self.velocity.length());
         }
-        is_last_on_slope(&constants.rolling, constants.tilt, self.velocity)
+        roll_on_slope(&constants.rolling, constants.tilt, self.velocity).velocity == DVec2::ZERO
     }
 
     /// The course that follows when this one's motion has lasted its full `duration`, s, and how long that can last.

@@ -141,7 +141,7 @@ fn slow_balls_stop_where_the_law_says() {
 
 #[test]
 fn the_last_band_stops_a_ball_where_it_is() {
-    // A ball that stopped in a band almost to rest was once put back by what was left of its speed. The last band begins here.
+    // A ball that stops in a band almost to rest must not be put back by what is left of its speed. The last band begins here.
     let table = Table::default();
     for step in 0..2000 {
         let speed = 0.0273 + 1e-7 * f64::from(step);
@@ -272,8 +272,8 @@ fn a_ball_that_rolls_along_the_rail_that_the_table_leans_to_comes_to_rest() {
     }
 }
 
-/// Two balls met opposite cushions at the same moment; the second's impact, as slow as the end of a chatter, was swallowed by
-/// the resting contact of the first.
+/// Where two balls meet opposite cushions at the same moment, the second's impact, as slow as the end of a chatter, must not be
+/// swallowed by the resting contact of the first.
 #[test]
 fn what_closes_faster_than_counts_as_nothing_is_no_resting_contact_yet() {
     let table = Table::preset("thesis").unwrap();

@@ -3,15 +3,12 @@
 use glam::{DVec2, DVec3};
 
 use super::{
-    ActiveSet, Contact, Contacts, Effort, Friction, MAX_CONTACTS,
+    ActiveSet, Contact, Contacts, Effort, Friction, MAX_CONTACTS, Scene,
     margin::{rates, with_margin},
     problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown, coefficient},
     solve::{Side, Solution, solve, solve_near},
 };
-use crate::{
-    physics::BallState,
-    table::{BALLS, Table},
-};
+use crate::table::{BALLS, Table};
 
 /// What begins to slip more slowly than this share of g holds: in a second it would come to 1e-9 m/s.
 pub(super) const DEPARTING: f64 = 1e-10;
@@ -73,96 +70,130 @@ impl Resolved {
     }
 }
 
-/// What a solution of the problem tells. `None` where nothing pushes by more than `slack`, m/s².
-pub(super) fn read_off(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &Contacts,
-    set: &ActiveSet,
-    slack: f64,
-    (problem, solution): (&Problem, &Solution),
-    effort: &Effort,
-) -> Option<Resolved> {
-    let spared = with_margin(problem, solution, DEPARTING * table.gravity, effort);
-    let solution = spared.as_ref().unwrap_or(solution);
-    let accelerations = problem.accelerations(&solution.sizes);
-    let mut resolved = Resolved {
-        contacts: *contacts,
-        set: *set,
-        forces: Forces::of(table.radius, problem, solution, &accelerations),
-        shared: false,
-        sticking: None,
-        paradox: [false; MAX_CONTACTS],
-    };
-    let never_slips = |index: usize| contacts[index].never_slips(table);
-    for (index, (unknown, side)) in problem.unknowns.iter().zip(&solution.sides).enumerate() {
-        if *side == Side::Holds {
-            // Balls that never slip stop at once, others slide on against their friction.
-            let stops = matches!(unknown.place, Place::Contact(index) if never_slips(index));
-            let ends = if stops { Friction::Sticks } else { Friction::Slips(DVec2::ZERO) };
-            resolved.sticking =
-                sticking_at(&resolved.sticking.unwrap_or(*set), unknown.place, ends).or(resolved.sticking);
-        }
-        let Side::Limited(force) = *side else { continue };
-        let rate = DVec2::from_array(rates(problem, solution, index)).length();
-        let holds = rate <= DEPARTING * table.gravity;
-        resolved.shared |= holds;
-        let size =
-            solution.sizes[unknown.first..][..unknown.count].iter().fold(0.0_f64, |size, x| libm::hypot(size, *x));
-        let starts = match unknown.count {
-            1 => Friction::Slips(-force),
-            _ if rate < SLOW_START * size => Friction::Yields,
-            _ => Friction::Slips(-STARTING * force),
-        };
-        match unknown.place {
-            _ if holds => {}
-            Place::Contact(index) if never_slips(index) => resolved.paradox[index] = true,
-            place => {
-                if let Some(friction) = resolved.set.friction_mut(place) {
-                    *friction = starts;
-                }
-            }
-        }
-    }
-    let pushes: [bool; MAX_CONTACTS] =
-        std::array::from_fn(|index| resolved.forces.normal[index] > slack && !resolved.paradox[index]);
-    resolved.contacts.retain(|index, _| pushes[index]);
-    if resolved.contacts.is_empty() && !resolved.is_paradox() {
-        return None;
-    }
-    let mut kept = [Friction::Sticks; MAX_CONTACTS];
-    let pushing = (0..contacts.len()).filter(|&index| pushes[index]);
-    for (friction, index) in kept.iter_mut().zip(pushing) {
-        *friction = resolved.set.contact[index];
-    }
-    resolved.set.contact = kept;
-    resolved.forces.slack = spin_slack(table.radius, balls, &resolved.set).min(slack_of(problem, &solution.sizes));
-    Some(resolved)
-}
-
 /// How a solution is sought, from a guess on.
 type Seek = fn(&Problem, &Sizes, &Effort) -> Solution;
 
-/// The problem and its solution. Balls that never slip grip without limit, unless no forces obey all laws then.
-pub(super) fn solved(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &[Contact],
-    set: &ActiveSet,
-    similar: Option<&Forces>,
-    (seek, effort): (Seek, &Effort),
-) -> (Problem, Solution) {
-    let mut problem = Problem::new(table, balls, contacts, set);
-    let mut solution = seek(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)), effort);
-    let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.place, side), (Place::Contact(index), Side::Limited(_)) if contacts[index].never_slips(table));
-    if problem.unknowns.iter().zip(&solution.sides).any(reaches_its_limit) {
-        problem.grip(contacts);
-        let gripped = solve_near(&problem, &solution.sizes, effort);
-        if gripped.converged {
-            solution = gripped;
+impl Scene<'_> {
+    /// The problem and its solution. Balls that never slip grip without limit, unless no forces obey all laws then.
+    pub(super) fn solved(self, similar: Option<&Forces>, seek: Seek, effort: &Effort) -> (Problem, Solution) {
+        let Self { table, contacts, .. } = self;
+        let mut problem = Problem::new(self);
+        let mut solution = seek(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)), effort);
+        let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.place, side), (Place::Contact(index), Side::Limited(_)) if contacts[index].never_slips(table));
+        if problem.unknowns.iter().zip(&solution.sides).any(reaches_its_limit) {
+            problem.grip(contacts);
+            let gripped = solve_near(&problem, &solution.sizes, effort);
+            if gripped.converged {
+                solution = gripped;
+            }
         }
+        (problem, solution)
     }
-    (problem, solution)
+
+    /// What a solution of the problem tells. `None` where nothing pushes by more than `slack`, m/s².
+    pub(super) fn read_off(
+        self,
+        slack: f64,
+        problem: &Problem,
+        solution: &Solution,
+        effort: &Effort,
+    ) -> Option<Resolved> {
+        let Self { table, contacts, set, .. } = self;
+        let spared = with_margin(problem, solution, DEPARTING * table.gravity, effort);
+        let solution = spared.as_ref().unwrap_or(solution);
+        let accelerations = problem.accelerations(&solution.sizes);
+        let mut resolved = Resolved {
+            contacts: Contacts::NONE,
+            set: *set,
+            forces: Forces::of(table.radius, problem, solution, &accelerations),
+            shared: false,
+            sticking: None,
+            paradox: [false; MAX_CONTACTS],
+        };
+        let never_slips = |index: usize| contacts[index].never_slips(table);
+        for (index, (unknown, side)) in problem.unknowns.iter().zip(&solution.sides).enumerate() {
+            if *side == Side::Holds {
+                // Balls that never slip stop at once, others slide on against their friction.
+                let stops = matches!(unknown.place, Place::Contact(index) if never_slips(index));
+                let ends = if stops { Friction::Sticks } else { Friction::Slips(DVec2::ZERO) };
+                resolved.sticking =
+                    sticking_at(&resolved.sticking.unwrap_or(*set), unknown.place, ends).or(resolved.sticking);
+            }
+            let Side::Limited(force) = *side else { continue };
+            let rate = DVec2::from_array(rates(problem, solution, index)).length();
+            let holds = rate <= DEPARTING * table.gravity;
+            resolved.shared |= holds;
+            let size =
+                solution.sizes[unknown.first..][..unknown.count].iter().fold(0.0_f64, |size, x| libm::hypot(size, *x));
+            let starts = match unknown.count {
+                1 => Friction::Slips(-force),
+                _ if rate < SLOW_START * size => Friction::Yields,
+                _ => Friction::Slips(-STARTING * force),
+            };
+            match unknown.place {
+                _ if holds => {}
+                Place::Contact(index) if never_slips(index) => resolved.paradox[index] = true,
+                place => {
+                    if let Some(friction) = resolved.set.friction_mut(place) {
+                        *friction = starts;
+                    }
+                }
+            }
+        }
+        let pushes = |index: &usize| resolved.forces.normal[*index] > slack && !resolved.paradox[*index];
+        let mut kept = [Friction::Sticks; MAX_CONTACTS];
+        for index in (0..contacts.len()).filter(pushes) {
+            kept[resolved.contacts.len()] = resolved.set.contact[index];
+            resolved.contacts.push(contacts[index]);
+        }
+        if resolved.contacts.is_empty() && !resolved.is_paradox() {
+            return None;
+        }
+        resolved.set.contact = kept;
+        let sizes = &solution.sizes;
+        let slack = problem.unknowns.iter().fold(f64::INFINITY, |slack, unknown| slack.min(slack_of(unknown, sizes)));
+        resolved.forces.slack = Scene { set: &resolved.set, ..self }.spin_slack().min(slack);
+        Some(resolved)
+    }
+
+    /// The forces by the solver, from `similar` ones on: where a friction yields, or what is held does not tell them, what holds is sought
+    /// anew in every state. A long search is not worth its time where there are mostly no forces: in steps that fail, as where the state
+    /// before has none.
+    pub fn sought(self, similar: &Forces, is_short: bool, effort: &Effort) -> Forces {
+        let Self { table, set, .. } = self;
+        let seek = if similar.converged && !is_short { solve } else { solve_near };
+        let (problem, solution) = self.solved(Some(similar), seek, effort);
+        let accelerations = problem.accelerations(&solution.sizes);
+        let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);
+        forces.slack = self.spin_slack();
+        for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
+            let friction = match unknown.place {
+                Place::Normal(_) | Place::Spin(_) => Friction::Sticks,
+                Place::Cloth(ball) => set.cloth[ball],
+                Place::Roll(ball) => set.roll[ball],
+                Place::Contact(index) => set.contact[index],
+            };
+            // Any law that changes sides ends the active set: as fast as its rate grows, or its force falls below the limit.
+            let rows = &problem.rates[unknown.first..][..unknown.count];
+            let slack = match side {
+                Side::Holds if friction == Friction::Yields => -slack_of(unknown, &solution.sizes),
+                Side::Holds => slack_of(unknown, &solution.sizes),
+                Side::Limited(_) if friction == Friction::Yields => f64::INFINITY,
+                _ => -rows.iter().fold(0.0_f64, |rate, row| libm::hypot(rate, row.dot(&accelerations))),
+            };
+            forces.slack = forces.slack.min(slack);
+        }
+        forces.slack = forces.slack.min(table.gravity);
+        forces
+    }
+
+    /// A spin that has turned round has ended before.
+    fn spin_slack(self) -> f64 {
+        self.set.spin.iter().zip(self.balls).fold(f64::INFINITY, |slack, (spin, ball)| match spin {
+            Friction::Slips(sign) if sign.x != 0.0 => slack.min(self.table.radius * ball.spin.z * sign.x),
+            _ => slack,
+        })
+    }
 }
 
 /// The set in which a friction that yields does something else; none where it does not yield.
@@ -176,49 +207,8 @@ fn sticking_at(set: &ActiveSet, place: Place, does: Friction) -> Option<ActiveSe
     Some(set)
 }
 
-/// The forces by the solver, from `similar` ones on: where a friction yields, or what is held does not tell them, what holds is sought anew
-/// in every state. A long search is not worth its time where there are mostly no forces: in steps that fail, as where the state before
-/// has none.
-pub fn sought(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &[Contact],
-    set: &ActiveSet,
-    (similar, is_short): (&Forces, bool),
-    effort: &Effort,
-) -> Forces {
-    let seek = if similar.converged && !is_short { solve } else { solve_near };
-    let (problem, solution) = solved(table, balls, contacts, set, Some(similar), (seek, effort));
-    let accelerations = problem.accelerations(&solution.sizes);
-    let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);
-    forces.slack = spin_slack(table.radius, balls, set);
-    for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
-        let friction = match unknown.place {
-            Place::Normal(_) | Place::Spin(_) => Friction::Sticks,
-            Place::Cloth(ball) => set.cloth[ball],
-            Place::Roll(ball) => set.roll[ball],
-            Place::Contact(index) => set.contact[index],
-        };
-        // Any law that changes sides ends the active set: as fast as its rate grows, or its force falls below the limit.
-        let rows = &problem.rates[unknown.first..][..unknown.count];
-        let slack = match side {
-            Side::Holds if friction == Friction::Yields => -slack_of_one(unknown, &solution.sizes),
-            Side::Holds => slack_of_one(unknown, &solution.sizes),
-            Side::Limited(_) if friction == Friction::Yields => f64::INFINITY,
-            _ => -rows.iter().fold(0.0_f64, |rate, row| libm::hypot(rate, row.dot(&accelerations))),
-        };
-        forces.slack = forces.slack.min(slack);
-    }
-    forces.slack = forces.slack.min(table.gravity);
-    forces
-}
-
-/// By how much the laws hold of forces that were found by supposing which do.
-fn slack_of(problem: &Problem, sizes: &[f64]) -> f64 {
-    problem.unknowns.iter().fold(f64::INFINITY, |slack, unknown| slack.min(slack_of_one(unknown, sizes)))
-}
-
-fn slack_of_one(unknown: &Unknown, sizes: &[f64]) -> f64 {
+/// By how much a law holds of a force that was found by supposing which laws do.
+fn slack_of(unknown: &Unknown, sizes: &[f64]) -> f64 {
     let own = &sizes[unknown.first..][..unknown.count];
     let size = own.iter().fold(0.0_f64, |length, x| libm::hypot(length, *x));
     match (unknown.place, unknown.limit) {
@@ -226,14 +216,6 @@ fn slack_of_one(unknown: &Unknown, sizes: &[f64]) -> f64 {
         (_, Limit::Fixed(limit)) => limit - size,
         (_, Limit::Coulomb(mu, contact)) => mu * sizes[contact] - size,
     }
-}
-
-/// A spin that has turned round has ended before.
-fn spin_slack(radius: f64, balls: &[BallState; BALLS], set: &ActiveSet) -> f64 {
-    set.spin.iter().zip(balls).fold(f64::INFINITY, |slack, (spin, ball)| match spin {
-        Friction::Slips(sign) if sign.x != 0.0 => slack.min(radius * ball.spin.z * sign.x),
-        _ => slack,
-    })
 }
 
 impl Forces {
@@ -317,32 +299,42 @@ impl Forces {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::forces, *};
-    use crate::physics::{resolve, slip};
+    use super::*;
+    use crate::physics::{BallState, slip};
 
-    fn resolved(ball: BallState, contacts: &[Contact]) -> Option<Resolved> {
-        let table = Table::preset("thesis").unwrap();
-        let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
-        let mut list = Contacts::NONE;
-        for contact in contacts {
-            list.push(*contact);
-        }
-        let set = ActiveSet::of(&table, &balls, contacts, 1e-10);
-        resolve(&table, &balls, &list, &set, 1e-11, None, &Effort::default())
+    /// The first of these balls at the right cushion of `thesis`, with this velocity and spin.
+    struct AtCushion {
+        table: Table,
+        balls: [BallState; BALLS],
+        contacts: [Contact; 1],
+        set: ActiveSet,
     }
 
-    fn right_cushion() -> (Table, Contact, DVec2) {
-        let table = Table::preset("thesis").unwrap();
-        let position = DVec2::new(table.half_length(), 0.0);
-        (table, Contact::with_cushion(0, DVec2::NEG_X), position)
+    impl AtCushion {
+        fn new(velocity: DVec2, spin: DVec3) -> Self {
+            let table = Table::preset("thesis").unwrap();
+            let mut balls = [table.half_length(), 0.5, -0.5].map(|x| BallState::at_rest(DVec2::new(x, 0.0)));
+            (balls[0].velocity, balls[0].spin) = (velocity, spin);
+            let contacts = [Contact::with_cushion(0, DVec2::NEG_X)];
+            let set = ActiveSet::of(&table, &balls, &contacts, 1e-10);
+            Self { table, balls, contacts, set }
+        }
+
+        fn scene(&self) -> Scene<'_> {
+            Scene { table: &self.table, balls: &self.balls, contacts: &self.contacts, set: &self.set }
+        }
+    }
+
+    /// Topspin towards the cushion, and some speed along it.
+    fn pressed() -> (AtCushion, Resolved) {
+        let ball = AtCushion::new(DVec2::new(0.0, 0.7), DVec3::new(3.0, 80.0, -5.0));
+        let resolved = ball.scene().resolve(1e-11, None, &Effort::default()).unwrap();
+        (ball, resolved)
     }
 
     #[test]
     fn a_cushion_pushes_back_just_what_the_cloth_presses() {
-        let (table, contact, position) = right_cushion();
-        // Topspin towards the right cushion, and some speed along it.
-        let ball = BallState { position, velocity: DVec2::new(0.0, 0.7), spin: DVec3::new(3.0, 80.0, -5.0) };
-        let forces = resolved(ball, &[contact]).unwrap().forces;
+        let (AtCushion { table, balls: [ball, ..], .. }, Resolved { forces, .. }) = pressed();
         let u = slip(table.radius, ball.velocity, ball.spin).normalize();
         let pressed = table.sliding_friction * table.gravity * -u.x;
         assert!((forces.normal[0] - pressed).abs() < 1e-13);
@@ -354,44 +346,31 @@ mod tests {
 
     #[test]
     fn what_is_held_agrees_with_the_solver() {
-        let (table, contact, position) = right_cushion();
-        let ball = BallState { position, velocity: DVec2::new(0.0, 0.7), spin: DVec3::new(3.0, 80.0, -5.0) };
-        let resolved = resolved(ball, &[contact]).unwrap();
-        let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
-        let held = forces(&table, &balls, &[contact], &resolved.set, None).unwrap();
-        assert!(resolved.forces.converged && held.distance(&resolved.forces, table.radius) < 1e-12);
+        let (ball, resolved) = pressed();
+        let held = Scene { set: &resolved.set, ..ball.scene() }.forces(None).unwrap();
+        assert!(resolved.forces.converged && held.distance(&resolved.forces, ball.table.radius) < 1e-12);
     }
 
     /// Nor is the search for such forces free of charge.
     #[test]
     fn a_cushion_never_pulls() {
-        let (table, contact, position) = right_cushion();
-        let ball = BallState { position, velocity: DVec2::ZERO, spin: DVec3::new(0.0, -80.0, 0.0) };
-        let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
-        let mut contacts = Contacts::NONE;
-        contacts.push(contact);
-        let (set, effort) = (ActiveSet::of(&table, &balls, &contacts, 1e-10), Effort::default());
-        assert!(resolve(&table, &balls, &contacts, &set, 1e-11, None, &effort).is_none() && effort.spent() > 0);
+        let (ball, effort) = (AtCushion::new(DVec2::ZERO, DVec3::new(0.0, -80.0, 0.0)), Effort::default());
+        assert!(ball.scene().resolve(1e-11, None, &effort).is_none() && effort.spent() > 0);
     }
 
     /// What keeps a rolling ball from opening the contact also keeps it from slipping upwards there: the matrix is singular.
     #[test]
     fn forces_that_are_not_unique_are_found() {
-        let (table, contact, position) = right_cushion();
-        let spin = DVec3::new(-0.5, 0.0, -0.5) / table.radius;
-        let ball = BallState { position, velocity: DVec2::new(0.0, 0.5), spin };
-        let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
-        let set = ActiveSet::of(&table, &balls, &[contact], 1e-10);
-        assert_eq!((set.cloth[0], set.contact[0]), (Friction::Sticks, Friction::Sticks));
-        let held = forces(&table, &balls, &[contact], &set, None).unwrap();
-        let slips = contact.slip(
-            table.radius,
-            &[0, 1, 2].map(|index: usize| BallState {
-                velocity: held.linear[index],
-                spin: held.angular[index],
-                ..balls[index]
-            }),
-        );
+        let radius = Table::preset("thesis").unwrap().radius;
+        let ball = AtCushion::new(DVec2::new(0.0, 0.5), DVec3::new(-0.5, 0.0, -0.5) / radius);
+        assert_eq!((ball.set.cloth[0], ball.set.contact[0]), (Friction::Sticks, Friction::Sticks));
+        let held = ball.scene().forces(None).unwrap();
+        let rates = std::array::from_fn(|index| BallState {
+            velocity: held.linear[index],
+            spin: held.angular[index],
+            ..ball.balls[index]
+        });
+        let slips = ball.contacts[0].slip(radius, &rates);
         assert!(held.linear[0].x.abs() < 1e-13 && slips.length() < 1e-13 && held.linear[0].y < 0.0, "{held:?}");
     }
 }

@@ -4,7 +4,7 @@
 
 /// Evaluates an expression with `ROOM` as the smallest compiled size (1, 2, 3 or all) that holds the contacts.
 macro_rules! in_room {
-    ($contacts:ident, $room:ident => $value:expr) => {
+    ($contacts:expr, $room:ident => $value:expr) => {
         match $contacts.len() {
             0 | 1 => in_room!(@ $room, 1, $value),
             2 => in_room!(@ $room, 2, $value),
@@ -29,12 +29,12 @@ use self::joint::{Joint, Movement, Response, Triple};
 use self::sticking::{Cloth, Sticking};
 pub use self::stopping::stop_by_impulses;
 use super::{
-    ActiveSet, Contact, Forces, Friction, MAX_CONTACTS,
+    ActiveSet, Contact, Forces, Friction, MAX_CONTACTS, Scene,
     linear::{PROXIMITY, eliminate, factorize, substitute},
     problem::{coefficient, rolling_resistance},
 };
 use crate::{
-    physics::{BallState, slip},
+    physics::slip,
     table::{BALLS, Table},
 };
 
@@ -77,15 +77,10 @@ fn entries<const ROOM: usize>(matrix: &mut Matrix<ROOM>) -> &mut [f64] {
 }
 
 impl<const ROOM: usize> Held<ROOM> {
-    /// The system of the `contacts`; `has_friction` says whether the normal force of one that slips brings its friction with it.
+    /// The system of the contacts; `has_friction` says whether the normal force of one that slips brings its friction with it.
     #[inline(always)]
-    fn new(
-        table: &Table,
-        balls: &[BallState; BALLS],
-        contacts: &[Contact],
-        set: &ActiveSet,
-        has_friction: impl Fn(&Contact) -> bool,
-    ) -> Self {
+    fn new(scene: Scene<'_>, has_friction: impl Fn(&Contact) -> bool) -> Self {
+        let Scene { table, balls, contacts, set } = scene;
         let joint = |index: usize| {
             let contact = &contacts[index];
             let mu = if has_friction(contact) { coefficient(table, contact) } else { 0.0 };
@@ -96,7 +91,7 @@ impl<const ROOM: usize> Held<ROOM> {
             joints,
             contacts: contacts.len().min(ROOM),
             sticking: std::array::from_fn(|ball| Sticking::of(set, ball)),
-            members: std::array::from_fn(|ball| contacts.iter().any(|contact| contact.has(ball))),
+            members: std::array::from_fn(|ball| scene.holds(ball)),
             sizes: [[0.0; 3]; ROOM],
             redundant: false,
             inconsistent: 0.0,
@@ -105,14 +100,8 @@ impl<const ROOM: usize> Held<ROOM> {
 
     /// The same with the forces that come nearest to `similar` ones where they are not unique.
     #[inline(always)]
-    fn near(
-        table: &Table,
-        balls: &[BallState; BALLS],
-        contacts: &[Contact],
-        set: &ActiveSet,
-        similar: Option<&Forces>,
-    ) -> Self {
-        let mut system = Self::new(table, balls, contacts, set, |_| true);
+    fn near(scene: Scene<'_>, similar: Option<&Forces>) -> Self {
+        let mut system = Self::new(scene, |_| true);
         if let Some(similar) = similar {
             system.redundant = similar.redundant;
             for (index, joint) in system.joints[..system.contacts].iter().enumerate() {
@@ -358,40 +347,51 @@ impl<const ROOM: usize> Held<ROOM> {
     }
 }
 
-/// The forces where what pushes and holds is known: a smooth function of the state, also a little beyond the active set's end,
-/// which [`Forces::slack`] tells. Where they are not unique they are those nearest to the `similar` ones.
-pub fn forces(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &[Contact],
-    set: &ActiveSet,
-    similar: Option<&Forces>,
-) -> Option<Forces> {
-    in_room!(contacts, ROOM => {
-        Some(Solved::<ROOM>::new(table, balls, contacts, set, similar)?.forces(table, balls, contacts, set))
-    })
-}
+impl Scene<'_> {
+    /// The forces where what pushes and holds is known: a smooth function of the state, also a little beyond the active set's end,
+    /// which [`Forces::slack`] tells. Where they are not unique they are those nearest to the `similar` ones.
+    pub fn forces(self, similar: Option<&Forces>) -> Option<Forces> {
+        in_room!(self.contacts, ROOM => Some(Solved::<ROOM>::new(self, similar)?.forces(self)))
+    }
 
-/// The accelerations under these forces: linear ones in m/s², angular ones in rad/s².
-pub fn accelerations(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &[Contact],
-    set: &ActiveSet,
-    similar: &Forces,
-) -> Option<([DVec2; BALLS], [DVec3; BALLS])> {
-    let moved = in_room!(contacts, ROOM => {
-        let mut system = Held::<ROOM>::near(table, balls, contacts, set, Some(similar));
-        let free = free(table, balls, set, system.members);
-        if let Some(ball) = set.eased() {
-            Solved::easing(table, balls, contacts, system, &free, ball)?.moved
-        } else {
-            // However the forces that hold a ball are divided, it moves alike.
-            system.redundant = system.redundant && system.fix_redundant_friction(|_| true).is_none();
-            system.solve(&free, true)?
+    /// The accelerations under these forces: linear ones in m/s², angular ones in rad/s².
+    pub fn accelerations(self, similar: &Forces) -> Option<([DVec2; BALLS], [DVec3; BALLS])> {
+        let moved = in_room!(self.contacts, ROOM => {
+            let mut system = Held::<ROOM>::near(self, Some(similar));
+            let free = self.free(system.members);
+            if let Some(ball) = self.set.eased() {
+                Solved::easing(self, system, &free, ball)?.moved
+            } else {
+                // However the forces that hold a ball are divided, it moves alike.
+                system.redundant = system.redundant && system.fix_redundant_friction(|_| true).is_none();
+                system.solve(&free, true)?
+            }
+        });
+        Some((moved.linear, moved.angular.map(|angular| angular / self.table.radius)))
+    }
+
+    /// How the `members` would move without their contacts.
+    #[inline(always)]
+    fn free(self, members: [bool; BALLS]) -> Movement {
+        let Self { table, balls, set, .. } = self;
+        let [sliding, _, spinning] = frictions(table);
+        let mut free = Movement::NONE;
+        for ball in (0..BALLS).filter(|&ball| members[ball]) {
+            let state = &balls[ball];
+            let (linear, angular) = (&mut free.linear[ball], &mut free.angular[ball]);
+            if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
+                *linear = -sliding * against;
+                *angular = (2.5 * sliding * against.perp()).extend(0.0);
+            } else if let Some(against) = set.roll[ball].direction(state.velocity) {
+                *linear = -rolling_resistance(table, state) * against;
+            }
+            *linear += table.tilt;
+            if let Friction::Slips(sign) = set.spin[ball] {
+                angular.z = -2.5 * spinning * sign.x;
+            }
         }
-    });
-    Some((moved.linear, moved.angular.map(|angular| angular / table.radius)))
+        free
+    }
 }
 
 /// A system of forces and the accelerations that follow from it.
@@ -405,24 +405,19 @@ struct Solved<const ROOM: usize> {
 }
 
 impl<const ROOM: usize> Solved<ROOM> {
-    fn new(
-        table: &Table,
-        balls: &[BallState; BALLS],
-        contacts: &[Contact],
-        set: &ActiveSet,
-        similar: Option<&Forces>,
-    ) -> Option<Self> {
-        let mut system = Held::near(table, balls, contacts, set, similar);
-        let free = free(table, balls, set, system.members);
-        if let Some(ball) = set.eased() {
-            return Self::easing(table, balls, contacts, system, &free, ball);
+    fn new(scene: Scene<'_>, similar: Option<&Forces>) -> Option<Self> {
+        let mut system = Held::near(scene, similar);
+        let free = scene.free(system.members);
+        if let Some(ball) = scene.set.eased() {
+            return Self::easing(scene, system, &free, ball);
         }
         let moved = system.solve(&free, true)?;
         Some(Self { system, free, moved, within: f64::INFINITY })
     }
 
     /// All forces, and by how much their laws hold.
-    fn forces(&self, table: &Table, balls: &[BallState; BALLS], contacts: &[Contact], set: &ActiveSet) -> Forces {
+    fn forces(&self, scene: Scene<'_>) -> Forces {
+        let Scene { table, balls, contacts, set } = scene;
         let Self { system, free, moved, within } = self;
         let unheld = system.unheld(free);
         let [sliding, rolling, spinning] = frictions(table);
@@ -462,28 +457,6 @@ impl<const ROOM: usize> Solved<ROOM> {
         }
         forces
     }
-}
-
-/// How the `members` would move without their contacts.
-#[inline(always)]
-fn free(table: &Table, balls: &[BallState; BALLS], set: &ActiveSet, members: [bool; BALLS]) -> Movement {
-    let [sliding, _, spinning] = frictions(table);
-    let mut free = Movement::NONE;
-    for ball in (0..BALLS).filter(|&ball| members[ball]) {
-        let state = &balls[ball];
-        let (linear, angular) = (&mut free.linear[ball], &mut free.angular[ball]);
-        if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
-            *linear = -sliding * against;
-            *angular = (2.5 * sliding * against.perp()).extend(0.0);
-        } else if let Some(against) = set.roll[ball].direction(state.velocity) {
-            *linear = -rolling_resistance(table, state) * against;
-        }
-        *linear += table.tilt;
-        if let Friction::Slips(sign) = set.spin[ball] {
-            angular.z = -2.5 * spinning * sign.x;
-        }
-    }
-    free
 }
 
 /// What the cloth's frictions of sliding, rolling and spinning can do to a ball, per mass, m/s².

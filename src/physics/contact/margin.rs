@@ -104,7 +104,7 @@ mod tests {
     use glam::{DVec2, DVec3};
 
     use crate::{
-        physics::{ActiveSet, BallState, Contact, Contacts, Effort, resolve},
+        physics::{ActiveSet, BallState, Contact, Effort, Scene},
         table::Table,
     };
 
@@ -118,12 +118,11 @@ mod tests {
         balls[0].velocity = DVec2::new(-0.0313, -0.001_09);
         balls[0].spin = DVec3::new(29.64, -0.28, 13.58);
         balls[1].spin.z = -0.7;
-        let mut contacts = Contacts::NONE;
-        contacts.push(Contact::with_cushion(1, DVec2::NEG_X));
-        contacts.push(Contact::with_cushion(1, DVec2::Y));
-        contacts.push(Contact::of_balls(0, 1));
+        let cushions = [DVec2::NEG_X, DVec2::Y].map(|normal| Contact::with_cushion(1, normal));
+        let contacts = [cushions[0], cushions[1], Contact::of_balls(0, 1)];
         let set = ActiveSet::of(&table, &balls, &contacts, 1e-10);
-        let resolved = resolve(&table, &balls, &contacts, &set, 1e-11, None, &Effort::default()).unwrap();
+        let scene = Scene { table: &table, balls: &balls, contacts: &contacts, set: &set };
+        let resolved = scene.resolve(1e-11, None, &Effort::default()).unwrap();
         assert!(resolved.forces.converged && !resolved.shared);
         assert!(resolved.forces.slack > 1e-3 * table.gravity, "{}", resolved.forces.slack);
         assert!(resolved.forces.linear[1].length() < 1e-10);

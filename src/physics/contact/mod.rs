@@ -3,7 +3,7 @@
 //!
 //! Every force obeys one of two laws: a contact pushes just as hard as is needed to stay closed and never pulls; friction
 //! holds up to its limit and then slips. All of them together form a complementarity problem in at most a few dozen
-//! unknowns: [`resolve`] solves it, [`forces`] follows its solution while nothing changes sides.
+//! unknowns: [`Scene::resolve`] solves it, [`Scene::forces`] follows its solution while nothing changes sides.
 
 mod active_set;
 mod effort;
@@ -21,16 +21,35 @@ use super::BallState;
 use crate::table::{BALLS, Table};
 pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
 pub use effort::Effort;
-pub use forces::{Forces, Resolved, sought};
-pub use held::{accelerations, forces, stop_by_impulses};
+pub use forces::{Forces, Resolved};
+pub use held::stop_by_impulses;
 pub use linear::{factorize, substitute};
-pub use resolve::resolve;
 
 /// Speed at which balls that never slip begin to bounce where no forces hold them together (Painlevé's paradox), in units of
 /// `√(g R)`. What would hold the slip parts them, and once they have parted, and nothing holds, they come back: each bounce is
 /// higher than the last, and takes their slip as every impact of theirs does (17). How high they have got after a time
 /// depends on the first bounce by its logarithm alone. Larger: what is added counts. Smaller: the bounces take longer to grow.
 pub const FIRST_BOUNCE: f64 = 8e-10;
+
+/// Balls in contact in one state, and what their frictions do.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// Where they are.
+    pub table: &'a Table,
+    /// Their state.
+    pub balls: &'a [BallState; BALLS],
+    /// Their contacts.
+    pub contacts: &'a [Contact],
+    /// What the frictions of cloth and contacts do, as far as that is known.
+    pub set: &'a ActiveSet,
+}
+
+impl Scene<'_> {
+    /// Whether a ball takes part in any contact.
+    fn holds(&self, ball: usize) -> bool {
+        self.contacts.iter().any(|contact| contact.has(ball))
+    }
+}
 
 /// A ball's contact with a cushion or with another ball.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{ActiveSet, Contact, Friction, MAX_CONTACTS};
+use super::{ActiveSet, Contact, Friction, MAX_CONTACTS, Scene};
 use crate::{
     physics::{BallState, Rolling, slip},
     table::{BALLS, Table},
@@ -147,7 +147,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    pub fn new(table: &Table, balls: &[BallState; BALLS], contacts: &[Contact], set: &ActiveSet) -> Self {
+    pub fn new(scene: Scene<'_>) -> Self {
+        let Scene { table, balls, contacts, set } = scene;
         let room = 3 * contacts.len() + 5 * BALLS;
         let mut problem = Self {
             unknowns: Vec::with_capacity(room),
@@ -175,7 +176,7 @@ impl Problem {
             problem.push(Place::Contact(index), Limit::Coulomb(mu, index), &rows, [0.0, turning]);
         }
         for (ball, state) in balls.iter().enumerate() {
-            if contacts.iter().any(|contact| contact.has(ball)) {
+            if scene.holds(ball) {
                 problem.lay_on_cloth(table, ball, state, set);
             }
         }

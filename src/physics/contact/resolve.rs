@@ -8,17 +8,13 @@
 use glam::DVec2;
 
 use super::{
-    ActiveSet, Contacts, Effort, Forces, Friction,
-    forces::{DEPARTING, Resolved, read_off, solved},
-    held::forces,
+    Effort, Forces, Friction, Scene,
+    forces::{DEPARTING, Resolved},
     margin::rates,
     problem::{Place, Problem},
     solve::{Side, Solution, solve, solve_near},
 };
-use crate::{
-    physics::BallState,
-    table::{BALLS, Table},
-};
+use crate::table::{BALLS, Table};
 
 /// Halvings of the range in which the share lies that eases. They tell which contacts hold there; the share itself follows from their
 /// forces.
@@ -27,88 +23,79 @@ const HALVINGS: usize = 20;
 /// What is held may be so much above its limit, as a share of g: a thousand roundings.
 const ROUNDING: f64 = 1e-12;
 
-/// Finds which of the `contacts` push and which frictions hold, and the forces; `set` tells what slips already. `None`
-/// where nothing pushes by more than `slack`, m/s². Where forces are not unique they are near to the `similar` ones.
-pub fn resolve(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &Contacts,
-    set: &ActiveSet,
-    slack: f64,
-    similar: Option<&Forces>,
-    effort: &Effort,
-) -> Option<Resolved> {
-    let (mut problem, mut solution) = solved(table, balls, contacts, set, similar, (solve, effort));
-    if let Some(eased) = easing(table, balls, contacts, set, slack, (&mut problem, &mut solution), effort) {
-        return Some(eased);
+impl Scene<'_> {
+    /// Finds which of the contacts push and which frictions hold, and the forces; the active set tells what slips already. `None`
+    /// where nothing pushes by more than `slack`, m/s². Where forces are not unique they are near to the `similar` ones.
+    pub fn resolve(self, slack: f64, similar: Option<&Forces>, effort: &Effort) -> Option<Resolved> {
+        let (mut problem, mut solution) = self.solved(similar, solve, effort);
+        self.easing(slack, &mut problem, &mut solution, effort)
+            .or_else(|| self.read_off(slack, &problem, &solution, effort))
     }
-    read_off(table, balls, contacts, set, slack, (&problem, &solution), effort)
-}
 
-/// What holds where a ball's resistance eases; none where none does. From a ball that slides even without its resistance the problem and
-/// its solution lose it.
-fn easing(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &Contacts,
-    set: &ActiveSet,
-    slack: f64,
-    (problem, solution): (&mut Problem, &mut Solution),
-    effort: &Effort,
-) -> Option<Resolved> {
-    let rolls = |ball: usize| set.cloth[ball] == Friction::Sticks && matches!(set.roll[ball], Friction::Slips(_));
-    for ball in (0..BALLS).filter(|&ball| contacts.hold(ball) && rolls(ball) && !set.yields()) {
-        if !begins_to_slide(table, problem, solution, ball) {
-            continue;
-        }
-        let without = |share: f64, near: &Solution| {
-            let mut eased = problem.clone();
-            eased.ease(table, ball, &balls[ball], share);
-            let solution = solve_near(&eased, &near.sizes, effort);
-            (eased, solution)
-        };
-        let mut rolling = without(1.0, solution);
-        if begins_to_slide(table, &rolling.0, &rolling.1, ball) {
-            (*problem, *solution) = rolling;
-            continue;
-        }
-        let eased = |(problem, solution): &(Problem, Solution)| {
-            let mut resolved = read_off(table, balls, contacts, set, slack, (problem, solution), effort)?;
-            resolved.set.roll[ball] = Friction::Eases;
-            // With more of the resistance what begins to slip without it may hold.
-            resolved
-                .set
-                .contact
-                .iter_mut()
-                .filter(|friction| friction.begins())
-                .for_each(|begins| *begins = Friction::Sticks);
-            let forces = forces(table, balls, &resolved.contacts, &resolved.set, Some(&resolved.forces))
-                .filter(|held| held.slack >= -ROUNDING * table.gravity)?;
-            Some(Resolved { forces, shared: false, ..resolved })
-        };
-        // What pushes and holds without the resistance mostly does so with part of it, too.
-        if let Some(resolved) = eased(&rolling) {
-            return Some(resolved);
-        }
-        let (mut sliding, mut most) = (0.0, 1.0);
-        for _ in 0..HALVINGS {
-            let share = 0.5 * (sliding + most);
-            let tried = without(share, &rolling.1);
-            if !tried.1.converged {
-                // Nor would those on either side of it.
-                break;
+    /// What holds where a ball's resistance eases; none where none does. From a ball that slides even without its resistance the problem
+    /// and its solution lose it.
+    fn easing(self, slack: f64, problem: &mut Problem, solution: &mut Solution, effort: &Effort) -> Option<Resolved> {
+        let Self { table, balls, set, .. } = self;
+        let rolls = |ball: usize| set.cloth[ball] == Friction::Sticks && matches!(set.roll[ball], Friction::Slips(_));
+        for ball in (0..BALLS).filter(|&ball| self.holds(ball) && rolls(ball) && !set.yields()) {
+            if !begins_to_slide(table, problem, solution, ball) {
+                continue;
             }
-            if begins_to_slide(table, &tried.0, &tried.1, ball) {
-                sliding = share;
-            } else {
-                (rolling, most) = (tried, share);
+            let without = |share: f64, near: &Solution| {
+                let mut eased = problem.clone();
+                eased.ease(table, ball, &balls[ball], share);
+                let solution = solve_near(&eased, &near.sizes, effort);
+                (eased, solution)
+            };
+            let mut rolling = without(1.0, solution);
+            if begins_to_slide(table, &rolling.0, &rolling.1, ball) {
+                (*problem, *solution) = rolling;
+                continue;
+            }
+            // What pushes and holds without the resistance mostly does so with part of it, too.
+            if let Some(resolved) = self.eased(ball, slack, &rolling.0, &rolling.1, effort) {
+                return Some(resolved);
+            }
+            let (mut sliding, mut most) = (0.0, 1.0);
+            for _ in 0..HALVINGS {
+                let share = 0.5 * (sliding + most);
+                let tried = without(share, &rolling.1);
+                if !tried.1.converged {
+                    // Nor would those on either side of it.
+                    break;
+                }
+                if begins_to_slide(table, &tried.0, &tried.1, ball) {
+                    sliding = share;
+                } else {
+                    (rolling, most) = (tried, share);
+                }
+            }
+            if let Some(resolved) = self.eased(ball, slack, &rolling.0, &rolling.1, effort) {
+                return Some(resolved);
             }
         }
-        if let Some(resolved) = eased(&rolling) {
-            return Some(resolved);
-        }
+        None
     }
-    None
+
+    /// What a solution tells in which a ball rolls with less than its resistance: it rolls with as much as its friction can hold.
+    fn eased(
+        self,
+        ball: usize,
+        slack: f64,
+        problem: &Problem,
+        solution: &Solution,
+        effort: &Effort,
+    ) -> Option<Resolved> {
+        let mut resolved = self.read_off(slack, problem, solution, effort)?;
+        resolved.set.roll[ball] = Friction::Eases;
+        // With more of the resistance what begins to slip without it may hold.
+        let begins = resolved.set.contact.iter_mut().filter(|friction| friction.begins());
+        begins.for_each(|begins| *begins = Friction::Sticks);
+        let scene = Scene { contacts: &resolved.contacts, set: &resolved.set, ..self };
+        let forces =
+            scene.forces(Some(&resolved.forces)).filter(|held| held.slack >= -ROUNDING * self.table.gravity)?;
+        Some(Resolved { forces, shared: false, ..resolved })
+    }
 }
 
 /// Whether the cloth cannot hold a ball that has rolled.
@@ -124,13 +111,13 @@ mod tests {
     use glam::{DVec2, DVec3};
 
     use crate::{
-        physics::{ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, Resolved, forces, resolve, slip},
+        physics::{ActiveSet, BallState, Contact, Effort, Forces, Friction, Resolved, Scene, slip},
         table::Table,
     };
 
     /// A ball rolls along the lower cushion, against which another one presses it, whose velocity, spin and place as seen from the first
     /// ball are those of `second`.
-    fn pressed(table: &Table, speed: f64, about_vertical: f64, second: [DVec3; 3]) -> ([BallState; 3], Contacts) {
+    fn pressed(table: &Table, speed: f64, about_vertical: f64, second: [DVec3; 3]) -> ([BallState; 3], [Contact; 2]) {
         let position = DVec2::new(0.0, -table.half_width());
         let spin = DVec3::new(0.0, speed / table.radius, about_vertical);
         let rolls = BallState { position, velocity: DVec2::new(speed, 0.0), spin };
@@ -140,9 +127,7 @@ mod tests {
             velocity: velocity.truncate(),
             spin,
         };
-        let mut contacts = Contacts::NONE;
-        contacts.push(Contact::with_cushion(0, DVec2::Y));
-        contacts.push(Contact::of_balls(0, 1));
+        let contacts = [Contact::with_cushion(0, DVec2::Y), Contact::of_balls(0, 1)];
         ([rolls, presses, BallState::at_rest(DVec2::new(0.9, 0.4))], contacts)
     }
 
@@ -152,23 +137,25 @@ mod tests {
         Table { rolling_friction: 1.1 * table.rolling_friction, ..table }
     }
 
-    fn resolved(table: &Table, (balls, contacts): &([BallState; 3], Contacts)) -> Resolved {
+    fn resolved(table: &Table, (balls, contacts): &([BallState; 3], [Contact; 2])) -> Resolved {
         let set = ActiveSet::of(table, balls, contacts, 1e-4);
-        resolve(table, balls, contacts, &set, 1e-11, None, &Effort::default()).expect("they press each other")
+        let scene = Scene { table, balls, contacts, set: &set };
+        scene.resolve(1e-11, None, &Effort::default()).expect("they press each other")
     }
 
     /// The first ball keeps rolling, the cloth does all it can, and no law is broken. With the whole resistance one would be, and with
     /// next to none the ball would roll with all of it.
-    fn rolls_with_part_of_its_resistance(table: &Table, scene: &([BallState; 3], Contacts)) -> Forces {
-        let Resolved { set, forces: eased, shared, .. } = resolved(table, scene);
+    fn rolls_with_part_of_its_resistance(table: &Table, pressed: &([BallState; 3], [Contact; 2])) -> Forces {
+        let Resolved { set, forces: eased, shared, .. } = resolved(table, pressed);
         assert_eq!((set.cloth[0], set.roll[0], shared), (Friction::Sticks, Friction::Eases, false));
         let limit = table.sliding_friction * table.gravity;
         assert!((eased.cloth[0].length() - limit).abs() < 1e-12, "{:?} of {limit}", eased.cloth[0]);
         assert!(slip(table.radius, eased.linear[0], eased.angular[0]).length() < 1e-12 && eased.slack > -1e-12);
         let whole = ActiveSet { roll: [Friction::Slips(DVec2::ZERO); 3], ..set };
-        assert!(forces(table, &scene.0, &scene.1, &whole, Some(&eased)).expect("forces").slack < -1e-4);
+        let scene = Scene { table, balls: &pressed.0, contacts: &pressed.1, set: &whole };
+        assert!(scene.forces(Some(&eased)).expect("forces").slack < -1e-4);
         let smooth = Table { rolling_friction: 1e-3 * table.rolling_friction, ..table.clone() };
-        let Resolved { set, .. } = resolved(&smooth, scene);
+        let Resolved { set, .. } = resolved(&smooth, pressed);
         assert_eq!((set.cloth[0], set.roll[0]), (Friction::Sticks, Friction::Slips(DVec2::ZERO)));
         eased
     }

@@ -31,19 +31,37 @@ impl BallImpact {
         Self { restitution, fade: None, ..self }
     }
 
-    /// Whether it is the same for slow and fast impacts.
-    const fn is_plain(&self) -> bool {
-        self.fade.is_none() && self.by_slip.is_none()
-    }
-
     /// Velocities and spins after a collision. Returns the normal impulse per mass `P/m`, m/s, which is zero or less for balls that do
     /// not approach.
+    ///
+    /// Equations (17) to (21), with equal and opposite impulses and Coulomb's law up to the no-slip limit 1/7.
     #[inline(always)]
     pub fn resolve(&self, radius: f64, first: &mut BallState, second: &mut BallState) -> f64 {
-        if self.is_plain() {
-            return collide_balls(radius, self.restitution, self.friction, first, second);
+        let n = (first.position - second.position).normalize();
+        let approach = (second.velocity - first.velocity).dot(n);
+        let normal = 0.5 * (1.0 + self.restitution_at(approach)) * approach;
+        if normal <= 0.0 {
+            return normal;
         }
-        self.resolve_by_speed(radius, first, second)
+        let t = n.perp();
+        let spin = first.spin + second.spin;
+        // The contact's slip (21) along t and z; n×w has the components (-w_z, w·t) there.
+        let slip_t = (first.velocity - second.velocity).dot(t) - radius * spin.z;
+        let slip_z = radius * (spin.x * t.x + spin.y * t.y);
+        // No speed on a table comes near an overflow of its square, which `hypot` would guard against at some cost.
+        let slip = (slip_t * slip_t + slip_z * slip_z).sqrt();
+        let friction = self.by_slip.map_or(self.friction, |law| Some(law.at(libm::hypot(slip_t, slip_z))));
+        let factor = match friction {
+            Some(mu) if 7.0 * mu * normal < slip => mu * normal / slip,
+            _ => 1.0 / 7.0,
+        };
+        let change = normal * n - factor * slip_t * t;
+        first.velocity += change;
+        second.velocity -= change;
+        let twist = contact_twist(radius, factor * slip_t, factor * slip_z, t);
+        first.spin += twist;
+        second.spin += twist;
+        normal
     }
 
     /// The same for balls of which one at least is in the air: the line of centres has any direction. They part with the speed
@@ -88,60 +106,6 @@ impl BallImpact {
             _ => 1.0 / 7.0,
         }
     }
-
-    #[inline(never)]
-    fn resolve_by_speed(&self, radius: f64, first: &mut BallState, second: &mut BallState) -> f64 {
-        let n = (first.position - second.position).normalize();
-        let apart = first.velocity - second.velocity;
-        let restitution = self.restitution_at(-apart.dot(n));
-        let friction = match self.by_slip {
-            None => self.friction,
-            Some(law) => {
-                let (t, spin) = (n.perp(), first.spin + second.spin);
-                let along = apart.dot(t) - radius * spin.z;
-                Some(law.at(libm::hypot(along, radius * spin.truncate().dot(t))))
-            }
-        };
-        collide_balls(radius, restitution, friction, first, second)
-    }
-}
-
-/// Velocities and spins after a collision; `restitution` 0 to 1, `friction` the coefficient or `None` for a contact that
-/// never slips. Returns the normal impulse per mass.
-///
-/// Equations (17) to (21), with equal and opposite impulses and Coulomb's law up to the no-slip limit 1/7.
-#[inline]
-fn collide_balls(
-    radius: f64,
-    restitution: f64,
-    friction: Option<f64>,
-    first: &mut BallState,
-    second: &mut BallState,
-) -> f64 {
-    let n = (first.position - second.position).normalize();
-    let approach = (second.velocity - first.velocity).dot(n);
-    let normal = 0.5 * (1.0 + restitution) * approach;
-    if normal <= 0.0 {
-        return normal;
-    }
-    let t = n.perp();
-    let spin = first.spin + second.spin;
-    // The contact's slip (21) along t and z; n×w has the components (-w_z, w·t) there.
-    let slip_t = (first.velocity - second.velocity).dot(t) - radius * spin.z;
-    let slip_z = radius * (spin.x * t.x + spin.y * t.y);
-    // No speed on a table comes near an overflow of its square, which `hypot` would guard against at some cost.
-    let slip = (slip_t * slip_t + slip_z * slip_z).sqrt();
-    let factor = match friction {
-        Some(mu) if 7.0 * mu * normal < slip => mu * normal / slip,
-        _ => 1.0 / 7.0,
-    };
-    let change = normal * n - factor * slip_t * t;
-    first.velocity += change;
-    second.velocity -= change;
-    let twist = contact_twist(radius, factor * slip_t, factor * slip_z, t);
-    first.spin += twist;
-    second.spin += twist;
-    normal
 }
 
 #[cfg(test)]

@@ -166,7 +166,7 @@ mod tests {
         }
     }
 
-    /// All that the upper ball has would not do to follow one that moves away as fast: they met again and again, without end.
+    /// All that the upper ball has would not do to follow one that moves away as fast: they would meet again and again, without end.
     #[test]
     fn balls_that_go_the_same_way_part_by_what_they_slide_along_each_other() {
         let (n, slowest) = (DVec3::new(0.6 * 1.2_f64.sin(), 0.8 * 1.2_f64.sin(), 1.2_f64.cos()), 2e-3);

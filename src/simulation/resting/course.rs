@@ -1,9 +1,13 @@
-//! The course of a ball along one step of a resting contact.
+//! The courses of balls along one step of a resting contact, and their end in rest.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::{MOST_STRAY, Resting};
-use crate::simulation::segment::Curve;
+use crate::{
+    physics::BallState,
+    simulation::{Constants, Tolerance, segment::Curve},
+    table::BALLS,
+};
 
 impl Resting {
     /// Half the acceleration at the start of the step, and the rest of a ball's course as polynomials.
@@ -30,5 +34,23 @@ impl Resting {
         let mean = (p1.spin - p0.spin) / h;
         let spin = [w0, (3.0 * mean - 2.0 * w0 - w1) / h, (w0 + w1 - 2.0 * mean) / (h * h)];
         (0.5 * a0, Curve { position, spin })
+    }
+
+    /// Whether no member moves or rolls any more at the end of this step. One that only spins about its vertical counts as still: if it
+    /// presses, its contact begins anew.
+    pub fn is_still(&self) -> bool {
+        let Constants { radius, tolerance: Tolerance { still, .. }, .. } = self.constants;
+        let is_slow = |ball: &BallState| {
+            ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < still * still
+        };
+        (0..BALLS).all(|ball| !self.members[ball] || is_slow(&self.end[ball]))
+    }
+
+    /// Brings the members to rest at the end of this step.
+    pub fn come_to_rest(&mut self) {
+        for (ball, _) in self.end.iter_mut().zip(self.members).filter(|(_, member)| *member) {
+            ball.velocity = DVec2::ZERO;
+            ball.spin = DVec3::new(0.0, 0.0, ball.spin.z);
+        }
     }
 }

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::{Phase, Place, Resting, STIFF, Trial};
 use crate::{
-    physics::{Forces, Friction},
+    physics::{Forces, Friction, Scene},
     simulation::extrapolation::{Mode, Stiff},
     table::Table,
 };
@@ -82,7 +82,7 @@ impl Resting {
             }
         }
         let slope = |forces: &Forces| self.slope(table.radius, balls, (&forces.linear, &forces.angular));
-        let turned = self.forces(table, &set, balls, &from.forces);
+        let turned = self.forces(Scene { set: &set, ..self.scene(table, balls) }, &from.forces);
         let mut column = Phase::ZERO;
         if !turned.converged {
             return Mode { row, column };

@@ -119,7 +119,7 @@ impl Ball {
     /// The state `time` later, with velocity and acceleration as they are now.
     fn after(&self, constants: &Constants, time: f64) -> SpatialState {
         if let Some(hops) = self.segment.hops() {
-            return aloft::falling(&self.state, hops.gravity(), time);
+            return aloft::falling(&self.state, hops.cloth.gravity, time);
         }
         let BallState { position, velocity, spin } = self.state.seen_from_above();
         Segment { position, velocity, spin, ..self.segment.clone() }.state_after(constants, time).into()

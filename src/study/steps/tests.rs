@@ -1,10 +1,13 @@
 //! What fixed steps miss, and that smaller ones miss less.
 
 use super::*;
-use crate::{physics::CueInputs, simulation::Recording};
+use crate::{
+    physics::CueInputs,
+    simulation::{Recording, Start},
+};
 
 fn record(steps: Steps, table: &Table, layout: &Layout, cue: &CueInputs) -> (Recording, Stepped) {
-    let play = Recording::played_by(table, layout, cue, |impulse, recorder| {
+    let play = Recording::played_by(table, layout, Start::Stroke(cue), |impulse, recorder| {
         let stepped = steps.simulate(table, layout, impulse, recorder);
         (stepped.end, stepped)
     });

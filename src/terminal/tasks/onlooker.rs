@@ -4,7 +4,7 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use crate::{
     physics::CueInputs,
-    simulation::{Recording, within_bounds},
+    simulation::{Recording, Start},
     table::{Layout, Table},
     terminal::{
         Shot,
@@ -106,8 +106,7 @@ impl Onlooker {
 
 /// The shot, if it can be played within bounds.
 fn recorded(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Recording> {
-    let play = within_bounds(table, layout, LONGEST, MOST);
-    let (recording, is_over) = Recording::played_by(table, layout, cue, play).ok()?;
+    let (recording, is_over) = Recording::within_bounds(table, layout, Start::Stroke(cue), LONGEST, MOST).ok()?;
     (!is_over && recording.is_finite() && recording.duration() <= LONGEST_SHOT).then_some(recording)
 }
 

@@ -6,14 +6,10 @@
 
 use glam::DVec2;
 
-use super::{Held, Movement, SINGULAR, Solved, Triple, coefficient, entries, factorize, frictions, rolling_resistance};
-use crate::{
-    physics::{
-        BallState,
-        contact::{Contact, forces::DEPARTING},
-    },
-    table::{BALLS, Table},
+use super::{
+    Held, Movement, SINGULAR, Scene, Solved, Triple, coefficient, entries, factorize, frictions, rolling_resistance,
 };
+use crate::{physics::contact::forces::DEPARTING, table::BALLS};
 
 /// Newton steps towards both limits; from the share that the cloth alone asks for it takes four or five.
 const MOST_STEPS: usize = 20;
@@ -80,9 +76,7 @@ impl<const ROOM: usize> Solved<ROOM> {
     #[cold]
     #[inline(never)]
     pub(super) fn easing(
-        table: &Table,
-        balls: &[BallState; BALLS],
-        contacts: &[Contact],
+        Scene { table, balls, contacts, .. }: Scene<'_>,
         mut system: Held<ROOM>,
         free: &Movement,
         ball: usize,

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{ActiveSet, Contact, Held, MAX_CONTACTS, Movement};
+use super::{ActiveSet, Contact, Held, MAX_CONTACTS, Movement, Scene};
 use crate::{
     physics::BallState,
     table::{BALLS, Table},
@@ -24,7 +24,8 @@ pub fn stop_by_impulses(
     set: &ActiveSet,
     given: &[f64; MAX_CONTACTS],
 ) {
-    if let Some(stopped) = in_room!(contacts, ROOM => stopped_in::<ROOM>(table, balls, contacts, set, given)) {
+    let scene = Scene { table, balls, contacts, set: &set.slipping_where(set) };
+    if let Some(stopped) = in_room!(contacts, ROOM => stopped_in::<ROOM>(scene, given)) {
         for (ball, state) in balls.iter_mut().enumerate() {
             if contacts.iter().any(|contact| contact.has(ball)) {
                 (state.velocity, state.spin) = (stopped.linear[ball], stopped.angular[ball] / table.radius);
@@ -34,16 +35,10 @@ pub fn stop_by_impulses(
 }
 
 /// The movement that is left; `None` where all speeds stay.
-fn stopped_in<const ROOM: usize>(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &[Contact],
-    set: &ActiveSet,
-    given: &[f64; MAX_CONTACTS],
-) -> Option<Movement> {
+fn stopped_in<const ROOM: usize>(scene: Scene<'_>, given: &[f64; MAX_CONTACTS]) -> Option<Movement> {
+    let Scene { table, balls, .. } = scene;
     // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
-    let has_friction = |contact: &Contact| !contact.never_slips(table);
-    let mut system = Held::<ROOM>::new(table, balls, contacts, &set.slipping_where(set), has_friction);
+    let mut system = Held::<ROOM>::new(scene, |contact| !contact.never_slips(table));
     let speeds =
         Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
     let before = system.to_stop(&speeds);

@@ -1,6 +1,7 @@
 //! Impulses that stop what is to stand still, and contacts that cannot all be held.
 
 use super::*;
+use crate::physics::BallState;
 
 /// A ball at a cushion, which it slips on and leaves at some speed.
 fn rubbing(opening: f64) -> (Table, [BallState; BALLS], [Contact; 1]) {
@@ -28,7 +29,7 @@ fn what_would_have_to_pull_gains_no_energy() {
     assert!(stopped(-1e-9, 0.0) < -1e-11);
 }
 
-/// It was taken for rounding of the spin's 40 rad/s and left, and carried the ball on.
+/// Taken for rounding of the spin's 40 rad/s, it would be left, and carry the ball on.
 #[test]
 fn a_speed_that_is_rounding_beside_a_spin_is_stopped() {
     assert!(stopped(1e-13, 0.0) <= f64::EPSILON);
@@ -40,8 +41,8 @@ fn a_push_that_was_too_large_is_taken_back_with_its_friction() {
     assert!(stopped(1e-9, 1e-6) > 1e-11);
 }
 
-/// A ball between a cushion and one that lies still, along which it slides: its course would have to bend to touch both. It was held by
-/// the forces of the moment in which it had hardly moved, and gained energy.
+/// A ball between a cushion and one that lies still, along which it slides: its course would have to bend to touch both. Held by the
+/// forces of the moment in which it has hardly moved, it would gain energy.
 #[test]
 fn a_ball_cannot_both_stay_on_a_cushion_and_go_round_another() {
     let table = Table::preset("textbook").unwrap();
@@ -52,10 +53,11 @@ fn a_ball_cannot_both_stay_on_a_cushion_and_go_round_another() {
         balls[0].spin = DVec3::new(7.0, 4.0, 0.0);
         let contacts = [Contact::with_cushion(0, DVec2::Y), Contact::of_balls(0, 1)];
         let set = ActiveSet::of(&table, &balls, &contacts, 1e-9);
+        let scene = Scene { table: &table, balls: &balls, contacts: &contacts, set: &set };
         let mut pressed = Forces::NONE;
         // The cushion takes what the cloth's friction pushes, the other ball no more than it can without being moved.
         pressed.normal[..2].copy_from_slice(&[1.75, 0.04]);
-        forces(&table, &balls, &contacts, &set, Some(&pressed)).expect("forces").slack
+        scene.forces(Some(&pressed)).expect("forces").slack
     };
     assert!(slack(0.0) > 0.0, "{}", slack(0.0));
     for speed in [1e-3, 0.1, 1.0] {
