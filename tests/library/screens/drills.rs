@@ -121,10 +121,10 @@ fn a_text_that_has_no_room_is_read_page_by_page() {
     let player = player.press("v");
     let large = player.text(120, 40);
     assert!(large.contains("cue at least") && !large.contains("PgDn"), "{large}");
-    is_page(&player, "Task · PgDn 1/2", false);
+    is_page(&player, "Task: straight · PgDn 1/2", false);
     let player = player.press("PageDown");
-    is_page(&player, "Task · PgDn 2/2", true);
-    is_page(&player.press("PageDown"), "Task · PgDn 1/2", false);
+    is_page(&player, "Task: straight · PgDn 2/2", true);
+    is_page(&player.press("PageDown"), "Task: straight · PgDn 1/2", false);
 }
 
 #[test]

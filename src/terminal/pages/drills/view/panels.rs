@@ -38,8 +38,9 @@ pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
 /// on the panel to the right is empty, the words run under it to the column `end`.
 pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16), ui: &mut Ui) {
     let settled = turn.watched().filter(|watched| watched.is_settled);
-    let task = if turn.is_coachs_turn() { "The coach's turn" } else { "Task" };
-    let title = settled.map_or(task.to_owned(), |watched| chances(turn, watched, ui.caps));
+    let rule = turn.exercise.rule;
+    let task = if turn.is_coachs_turn() { "The coach's turn".to_owned() } else { format!("Task: {rule}") };
+    let title = settled.map_or(task, |watched| chances(turn, watched, ui.caps));
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
         paragraphs.extend(differences(turn, watched, units, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
