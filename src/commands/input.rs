@@ -3,7 +3,7 @@
 use std::{
     collections::HashMap,
     fmt::Display,
-    io::{self, BufRead, BufReader, Read, Write},
+    io::{self, BufRead, BufReader, Write},
     ops::RangeInclusive,
     path::{Path, PathBuf},
     str::FromStr,
@@ -23,7 +23,7 @@ use crate::{
     learning::{Policy, policy::file::Origin},
     physics::{CueError, CueInputs},
     printing,
-    storage::{self, Places},
+    storage::{self, LONGEST_LINE, NextLine, Places, next_line},
     table::{CueBall, Layout, PRESETS, Table, TableError},
 };
 
@@ -162,38 +162,6 @@ pub fn minutes(value: f64) -> Result<Duration, Failure> {
 /// Longest time that is waited for, minutes: a thousand years.
 const MOST_MINUTES: f64 = 5e8;
 
-/// Longest line, bytes; a question has some hundred.
-const LONGEST_LINE: u64 = 1 << 20;
-
-/// Most bytes of a line that is too long that are passed over: a device that has no lines at all comes to an end.
-const MOST_PASSED_OVER: u64 = 1 << 28;
-
-/// What comes next of the input.
-enum Next {
-    /// A line with its end.
-    Line,
-    /// One that is too long, passed over.
-    TooLong,
-    /// Nothing.
-    End,
-}
-
-/// Reads the next line.
-fn next_line(reader: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<Next> {
-    line.clear();
-    let read = reader.by_ref().take(LONGEST_LINE).read_until(b'\n', line)? as u64;
-    if read < LONGEST_LINE || line.ends_with(b"\n") {
-        return Ok(if read > 0 { Next::Line } else { Next::End });
-    }
-    line.clear();
-    let mut rest = reader.by_ref().take(MOST_PASSED_OVER);
-    if rest.skip_until(b'\n')? as u64 == MOST_PASSED_OVER {
-        let sentence = format!("a line has more than {MOST_PASSED_OVER} bytes, and accepted are up to {LONGEST_LINE}");
-        return Err(io::Error::new(io::ErrorKind::InvalidData, sentence));
-    }
-    Ok(Next::TooLong)
-}
-
 /// Answers every line of JSON Lines in `file` (`-` is the standard input) on the standard output, in order. A line that
 /// is refused gets an `error` and the rest go on; the command then ends as wrong input.
 pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
@@ -213,12 +181,12 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
         index += 1;
         let unreadable = |error| Failure::failed(format_args!("{file} cannot be read at line {index}: {error}"));
         let question = match next_line(&mut reader, &mut line).map_err(unreadable)? {
-            Next::End => break,
-            Next::Line if line.trim_ascii().is_empty() => continue,
-            Next::Line => {
+            NextLine::End => break,
+            NextLine::Line if line.trim_ascii().is_empty() => continue,
+            NextLine::Line => {
                 question(&line).map_err(|reason| format!("line {index} is not a valid JSON question: {reason}"))
             }
-            Next::TooLong => Err(format!("line {index} is too long; accepted are up to {LONGEST_LINE} bytes")),
+            NextLine::TooLong => Err(format!("line {index} is too long; accepted are up to {LONGEST_LINE} bytes")),
         };
         lines += 1;
         let answered =

@@ -2,7 +2,7 @@
 
 use std::{
     fmt::Display,
-    io::{self, BufRead, IsTerminal, Write},
+    io::{self, IsTerminal, Write},
     iter,
     path::Path,
 };
@@ -15,7 +15,7 @@ use crate::{
     coach::{Units, words::LengthUnit},
     physics::Impulse,
     printing::{self, OneLine},
-    storage::room_in,
+    storage::{LONGEST_LINE, NextLine, next_line, room_in},
     terminal::Settings,
 };
 
@@ -40,9 +40,14 @@ pub fn ask(words: &str) -> Result<Option<String>, Failure> {
         let _ = printing::stderr().write_all(words.as_bytes());
     }
     let mut line = Vec::new();
-    let read = io::stdin().lock().read_until(b'\n', &mut line);
-    let read = read.map_err(|error| Failure::failed(format_args!("the input cannot be read: {error}")))?;
-    Ok((read > 0).then(|| String::from_utf8_lossy(line.trim_ascii()).into_owned()))
+    match next_line(&mut io::stdin().lock(), &mut line) {
+        Ok(NextLine::Line) => Ok(Some(String::from_utf8_lossy(line.trim_ascii()).into_owned())),
+        Ok(NextLine::End) => Ok(None),
+        Ok(NextLine::TooLong) => {
+            Err(Failure::wrong_input(format_args!("a line is too long; accepted are up to {LONGEST_LINE} bytes")))
+        }
+        Err(error) => Err(Failure::failed(format_args!("the input cannot be read: {error}"))),
+    }
 }
 
 /// A line on the standard output; a text of several is shown as one.

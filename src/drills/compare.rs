@@ -24,18 +24,27 @@ pub fn chance(shooter: impl Into<Shooter>, rule: Rule, table: &Table, layout: &L
 pub struct Advice {
     /// The stroke.
     pub cue: CueInputs,
+    /// Whether it makes the point if it is played as meant.
+    pub solved: bool,
     /// In the attempts that [`chance`] takes.
     pub chance: SuccessRate,
 }
 
-/// What the coach would play, with what the request holds to be in doubt; `None` where it finds no point.
+/// What the coach would play, with what the request holds to be in doubt. `None` where it finds no point, unless it is to play itself:
+/// then it is its best attempt.
 ///
 /// # Errors
 /// Where the layout is impossible.
-pub fn advise(coach: &Coach, layout: &Layout, request: &Request) -> Result<Option<Advice>, LayoutError> {
+pub fn advise(
+    coach: &Coach,
+    layout: &Layout,
+    request: &Request,
+    is_to_play: bool,
+) -> Result<Option<Advice>, LayoutError> {
     let answer = coach.recommend(layout, request)?;
     let chance = |cue| chance(request.shooter(), request.rule, coach.table(), layout, &cue);
-    Ok(answer.solved.then(|| Advice { cue: answer.cue, chance: chance(answer.cue) }))
+    let is_told = answer.solved || is_to_play;
+    Ok(is_told.then(|| Advice { cue: answer.cue, solved: answer.solved, chance: chance(answer.cue) }))
 }
 
 /// What `meant` has more than `advised` in every input; the direction is turned by the smaller angle, from -π to π.
@@ -75,7 +84,7 @@ mod tests {
         let coach = Coach::new(table.clone());
         let skill = Skill::CLUB;
         let request = Request { skill, doubt: Doubt::FULL, budget: Duration::from_secs(2), ..Request::default() };
-        let advice = advise(&coach, &layout, &request).unwrap().unwrap();
+        let advice = advise(&coach, &layout, &request, false).unwrap().unwrap();
         let away = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: PI, speed: 0.3 };
         assert_eq!(chance(request.shooter(), request.rule, &table, &layout, &away).rate, 0.0);
         assert!(advice.chance.rate > 0.3, "{advice:?}");

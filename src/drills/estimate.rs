@@ -166,19 +166,20 @@ pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
 fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
     let (mut shots, mut left_out) = (Vec::<Shot>::new(), 0);
     for session in sessions.iter().filter(|session| session.venue == Venue::Table) {
-        for attempt in &session.attempts {
-            // In a game at a real table nobody knows where the balls have gone.
-            let exercise = session.exercise_of(attempt).filter(|_| !session.is_game());
-            let exercise = exercise.and_then(|exercise| Some((exercise, exercise.table().ok()?)));
-            let Some((exercise, table)) = exercise else {
+        // In a game at a real table nobody knows where the balls have gone.
+        let exercises = session.exercises.iter().filter(|_| !session.is_game());
+        let exercises: Vec<_> = exercises.filter_map(|one| Some((one, one.table().ok()?, one.model_shot()))).collect();
+        for attempt in session.attempts.iter().filter(|attempt| !attempt.by_coach) {
+            let known = exercises.iter().find(|(exercise, ..)| exercise.name == attempt.exercise);
+            let Some((exercise, table, model_shot)) = known else {
                 left_out += 1;
                 continue;
             };
             // The exercise's own shot is for its own layout; the coach's says something only where the player saw it.
-            let own = exercise.model_shot().filter(|_| attempt.layout.is_none());
+            let own = model_shot.filter(|_| attempt.layout.is_none());
             let shown = attempt.advised.filter(|_| attempt.helped);
             let layout = attempt.layout.unwrap_or(exercise.layout);
-            let Some(cue) = shown.or(own).filter(|_| layout.validate(&table).is_ok()) else {
+            let Some(cue) = shown.or(own).filter(|_| layout.validate(table).is_ok()) else {
                 left_out += 1;
                 continue;
             };
@@ -192,7 +193,7 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
                     shot.tried += tried;
                     shot.made += made;
                 }
-                None => shots.push(Shot { rule, table, layout, cue, tried, made }),
+                None => shots.push(Shot { rule, table: table.clone(), layout, cue, tried, made }),
             }
         }
     }
@@ -292,6 +293,13 @@ mod tests {
         assert!(six.iter().all(|found| found.high / found.low < 2.0), "{six:?}");
         let found = &six[0];
         assert_eq!((found.attempts, found.shots, found.left_out), (400, 8, 0));
+        let mut of_coach = logged(&exercises, 2.0, 1);
+        of_coach[0].attempts.iter_mut().for_each(|attempt| attempt.by_coach = true);
+        assert_eq!(
+            shots(&of_coach).0.iter().map(|shot| shot.tried).sum::<usize>(),
+            350,
+            "the coach's are not the player's"
+        );
         assert_eq!(found.skill, Some(Skill::level((100.0 * found.scale).round() / 100.0)));
         let mut faultless = logged(&exercises, 1.0, 2);
         faultless.iter_mut().flat_map(|session| &mut session.attempts).for_each(|attempt| attempt.made = true);

@@ -9,7 +9,7 @@ use crate::{
     physics::{CueError, CueInputs, ImpulseError, has_room},
     simulation::ShotError,
     storage::{LONGEST_NAME, is_name},
-    table::{Layout, LayoutError, Table, TableError},
+    table::{Layout, LayoutError, PRESETS, Table},
 };
 
 /// What an exercise is about.
@@ -168,8 +168,14 @@ pub enum ExerciseError {
         text: String,
     },
     /// Its table is none that is bundled.
-    #[error(transparent)]
-    Table(#[from] TableError),
+    #[error("an exercise lies on a bundled table, and {0:?} is none; accepted are {names}", names = PRESETS.join(", "))]
+    Table(String),
+    /// Its grade is none.
+    #[error("grade {0} is not accepted; grades go from 0, for none, to 5")]
+    Grade(u8),
+    /// A share of strokes that are made is none.
+    #[error("{0} is no share of strokes that are made; accepted is a number from 0 to 1")]
+    Share(f64),
     /// Its layout is impossible.
     #[error(transparent)]
     Layout(#[from] LayoutError),
@@ -214,7 +220,7 @@ impl Exercise {
     /// # Errors
     /// A name that is not bundled, or a layout that is impossible on that table.
     pub fn table(&self) -> Result<Table, ExerciseError> {
-        let table = Table::preset(&self.table)?;
+        let table = Table::preset(&self.table).map_err(|_| ExerciseError::Table(self.table.clone()))?;
         self.layout.validate(&table)?;
         Ok(table)
     }
@@ -239,6 +245,11 @@ impl Exercise {
                 return Err(ExerciseError::Text { field, text: text.clone() });
             }
         }
+        if self.grade > HARDEST {
+            return Err(ExerciseError::Grade(self.grade));
+        }
+        let shares = self.par.map(|par| [par.beginner, par.club, par.world_class]);
+        shares.into_iter().flatten().try_for_each(check_share)?;
         let table = self.table()?;
         if let Some(shot) = &self.shot {
             shot.validate()?;
@@ -246,6 +257,14 @@ impl Exercise {
         }
         Ok(())
     }
+}
+
+/// The highest grade.
+const HARDEST: u8 = 5;
+
+/// Checks a share of strokes that are made.
+pub(super) fn check_share(share: f64) -> Result<(), ExerciseError> {
+    if (0.0..=1.0).contains(&share) { Ok(()) } else { Err(ExerciseError::Share(share)) }
 }
 
 /// Whether a terminal takes this for a command and no letter: control characters, ends of lines, and marks that turn the
@@ -276,5 +295,20 @@ mod tests {
         }
         let title = "日本語 🎱 é".to_owned();
         Exercise { title, ..exercise("one") }.validate().unwrap();
+    }
+
+    #[test]
+    fn grades_shares_and_tables_that_are_none_are_refused_by_what_is_accepted() {
+        let par = |share| Some(Par { beginner: 0.0, club: share, world_class: 1.0 });
+        Exercise { grade: 5, par: par(0.5), ..exercise("one") }.validate().unwrap();
+        for (wrong, says) in [
+            (Exercise { grade: 6, ..exercise("one") }, "to 5"),
+            (Exercise { par: par(7e10), ..exercise("one") }, "from 0 to 1"),
+            (Exercise { par: par(f64::NAN), ..exercise("one") }, "from 0 to 1"),
+            (Exercise { table: "mine".to_owned(), ..exercise("one") }, "accepted are match, textbook, thesis"),
+        ] {
+            let said = wrong.validate().unwrap_err().to_string();
+            assert!(said.contains(says), "{said}");
+        }
     }
 }

@@ -124,7 +124,7 @@ impl Session {
             layout: (layout != exercise.layout).then_some(layout),
             meant: Some(meant),
             played: Some(stroke),
-            helped,
+            helped: helped && !self.is_coachs_turn(),
             by_coach: self.is_coachs_turn(),
             ..Attempt::new(&exercise.name, played.made)
         };

@@ -219,7 +219,35 @@ impl Session {
     /// Whether the next stroke is the coach's: that of the other side in a match against it.
     pub fn is_coachs_turn(&self) -> bool {
         let is_against = matches!(self.goal, Goal::Match { against_coach: true, .. });
-        is_against && self.venue == Venue::Program && self.cue_ball_now() != self.cue_ball
+        is_against && self.cue_ball_now() != self.cue_ball
+    }
+
+    /// The inning that is played, like `inning 2 of 10`; nothing where it has no innings.
+    pub fn inning_words(&self) -> Option<String> {
+        let (innings, sides) = match self.goal {
+            Goal::Game { innings } => (innings, 1),
+            Goal::Match { innings, .. } => (innings, 2),
+            _ => return None,
+        };
+        let now = self.misses() as u32 / sides + 1;
+        Some(if innings == 0 { format!("inning {now}") } else { format!("inning {} of {innings}", now.min(innings)) })
+    }
+
+    /// Who plays one side of a match.
+    pub fn side_words(&self, cue_ball: CueBall) -> String {
+        let is_against = matches!(self.goal, Goal::Match { against_coach: true, .. });
+        match (is_against, cue_ball == self.cue_ball) {
+            (true, true) => format!("you ({cue_ball})"),
+            (true, false) => format!("coach ({cue_ball})"),
+            _ => cue_ball.to_string(),
+        }
+    }
+
+    /// The points of both sides of a match, like `you (white) 3 : 1 coach (yellow)`; nothing of what is no match.
+    pub fn score_words(&self) -> Option<String> {
+        let [one, other] =
+            [self.cue_ball, self.cue_ball.other()].map(|ball| (self.side_words(ball), self.side(ball).made));
+        self.is_match().then(|| format!("{} {} : {} {}", one.0, one.1, other.1, other.0))
     }
 
     /// The score of one side of a match.
@@ -287,6 +315,26 @@ pub mod tests {
             session.log(result == 'x').unwrap();
         }
         session
+    }
+
+    #[test]
+    fn a_match_of_before_the_coach_could_play_in_it_is_read_and_written_as_it_was() {
+        let text = r#"{"match":{"innings":10}}"#;
+        let goal: Goal = serde_json::from_str(text).unwrap();
+        assert_eq!(goal, Goal::Match { innings: 10, against_coach: false });
+        assert_eq!(serde_json::to_string(&goal).unwrap(), text);
+    }
+
+    #[test]
+    fn a_match_tells_its_inning_and_its_score() {
+        let mut played = session(Goal::Match { innings: 3, against_coach: true }, "xx-x--");
+        assert_eq!(played.inning_words().as_deref(), Some("inning 2 of 3"));
+        assert_eq!(played.score_words().as_deref(), Some("you (white) 2 : 1 coach (yellow)"));
+        assert!(played.is_coachs_turn() && !session(played.goal, "xx-x-").is_coachs_turn());
+        played.goal = Goal::Match { innings: 0, against_coach: false };
+        assert_eq!(played.score_words().as_deref(), Some("white 2 : 1 yellow"));
+        assert_eq!(played.inning_words().as_deref(), Some("inning 2"));
+        assert!(session(Goal::Free, "x").score_words().is_none() && session(Goal::Free, "x").inning_words().is_none());
     }
 
     #[test]

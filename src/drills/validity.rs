@@ -1,7 +1,7 @@
 //! What a session must hold to be counted: all that other code relies on is checked, whoever wrote its file.
 
-use super::{Attempt, Exercise, ExerciseError, Session};
-use crate::{physics::CueInputs, table::Table};
+use super::{Attempt, Exercise, ExerciseError, Session, exercise::check_share};
+use crate::physics::CueInputs;
 
 /// The first second of the year 10000, Unix time: no session is as late, and dates have four digits for the year.
 const YEAR_10000: u64 = 253_402_300_800;
@@ -58,8 +58,9 @@ impl Session {
 impl Attempt {
     fn validate(&self, exercise: &Exercise) -> Result<(), ExerciseError> {
         if let Some(layout) = &self.layout {
-            layout.validate(&Table::preset(&exercise.table)?)?;
+            layout.validate(&exercise.table()?)?;
         }
+        [self.chance, self.advised_chance].into_iter().flatten().try_for_each(check_share)?;
         for cue in [self.meant, self.advised].iter().flatten() {
             cue.validate()?;
         }
@@ -91,7 +92,8 @@ mod tests {
         changed(&|session| session.attempts[1].meant = Some(good)).unwrap();
         changed(&|session| session.attempts[1].played = Some(CueInputs { b: 1.2, speed: 100.5, ..good })).unwrap();
         let bad = CueInputs { theta: 1e9, ..good };
-        let refused: [&dyn Fn(&mut Session); 6] = [
+        let refused: [&dyn Fn(&mut Session); 7] = [
+            &|session| session.attempts[1].chance = Some(5e300),
             &|session| session.started = u64::MAX,
             &|session| session.attempts[1].at = YEAR_10000,
             &|session| session.attempts[1].advised = Some(bad),
@@ -99,9 +101,15 @@ mod tests {
             &|session| session.attempts[1].played = Some(bad),
             &|session| session.attempts[1].layout = Some(Layout::new([DVec2::ZERO; 3])),
         ];
-        for (change, says) in
-            refused.into_iter().zip(["time 18446", "time 253", "attempt 2", "theta", "theta", "white and yellow"])
-        {
+        for (change, says) in refused.into_iter().zip([
+            "no share",
+            "time 18446",
+            "time 253",
+            "attempt 2",
+            "theta",
+            "theta",
+            "white and yellow",
+        ]) {
             let error = changed(change).unwrap_err().to_string();
             assert!(error.contains(says), "{error}");
         }

@@ -220,7 +220,7 @@ mod tests {
         assert_eq!((moved.duration(), moved.final_layout()), (struck.duration(), struck.final_layout()));
     }
 
-    /// On a ball of 1 mm a stroke gives a spin that no motion may have. One method played it, and the other refused it.
+    /// On a ball of 1 mm a stroke gives a spin that no motion may have. No method may refuse it.
     #[test]
     fn a_stroke_is_played_whatever_it_gives_by_whatever_method() {
         let table = Table { radius: 0.001, ..Table::preset("thesis").unwrap() };

@@ -2,6 +2,7 @@
 
 mod atomic;
 mod confinement;
+mod lines;
 mod lock;
 mod name;
 mod notices;
@@ -15,6 +16,7 @@ pub use atomic::{
     Staged, create_atomic, remove_abandoned_files, remove_partial_files, replace, target_of, write_atomic,
 };
 pub use confinement::{confine, may_read};
+pub use lines::{LONGEST_LINE, NextLine, next_line};
 pub use lock::Lock;
 pub use name::{LONGEST_NAME, is_letter, is_name};
 pub use notices::notice;

@@ -166,7 +166,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
                 Venue::Program => "here".to_owned(),
                 Venue::Table => "table".to_owned(),
             },
-            session.goal.words(),
+            session.score_words().unwrap_or_else(|| session.goal.words()),
             record.made.to_string(),
             record.tried.to_string(),
             share(record),

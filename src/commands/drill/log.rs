@@ -210,6 +210,7 @@ impl Log {
                         self.keep().or_else(|failure| if failure.is_silent() { Ok(()) } else { Err(failure) })?;
                     } else {
                         self.lock = None;
+                        refused += 1;
                         tell(self.nothing_to_undo());
                     }
                 }

@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use serde::Serialize;
-use serde_json::json;
 
 use super::{
     options::{PlayOptions, StrokeInput},
@@ -46,6 +45,20 @@ pub struct StrokeByStroke<'a> {
     shown: Option<(String, Layout)>,
 }
 
+/// Where the balls lie.
+#[derive(Serialize)]
+struct Position<'a> {
+    kind: &'static str,
+    number: usize,
+    exercise: &'a str,
+    title: &'a str,
+    rule: &'static str,
+    table: &'a str,
+    /// The colour of the cue ball, which comes first in the layout.
+    cue_ball: CueBall,
+    layout: &'a Layout,
+}
+
 /// What came of a stroke.
 #[derive(Serialize)]
 struct AttemptLine<'a> {
@@ -84,6 +97,13 @@ struct Advised {
     difference: CueInputs,
     /// What to change, in words.
     changes: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Refused {
+    kind: &'static str,
+    line: usize,
+    error: String,
 }
 
 #[derive(Serialize)]
@@ -138,12 +158,8 @@ impl<'a> StrokeByStroke<'a> {
         let number = self.session.attempts.len() + 1;
         let cue_ball = self.session.cue_ball_now();
         if self.options.json {
-            json_line(&json!({
-                "kind": "position", "number": number, "exercise": name, "title": title, "rule": rule.name(), "table": table,
-                // The colour of the ball that comes first in the layout.
-                "cue_ball": cue_ball,
-                "layout": layout,
-            }))?;
+            let rule = rule.name();
+            json_line(&Position { kind: "position", number, exercise: name, title, rule, table, cue_ball, layout })?;
         } else {
             let title = if title == name { String::new() } else { format!("{title}; ") };
             // Where it is white in every stroke, it is not said.
@@ -166,7 +182,7 @@ impl<'a> StrokeByStroke<'a> {
         let own = if helped { None } else { self.own(layout) };
         let advice = match own {
             Some(cue) if self.compares => {
-                Some(Advice { cue, chance: chance(self.session.shooter(), rule, table, layout, &cue) })
+                Some(Advice { cue, solved: true, chance: chance(self.session.shooter(), rule, table, layout, &cue) })
             }
             _ if helped || self.compares => self.advice(table, layout)?,
             _ => None,
@@ -233,7 +249,9 @@ impl<'a> StrokeByStroke<'a> {
             let over = over.map_or(String::new(), |over| format!(": {over} is in the way of a lower one"));
             line(format_args!("   the cue is raised to {:.2} degrees{over}", meant.theta.to_degrees()))?;
         }
-        line(format_args!("{number}: {verdict}; run {run}; this shot is made {} of the time", percent(&share)))?;
+        let side =
+            if self.session.is_match() { format!(", {}", self.session.side_words(cue_ball)) } else { String::new() };
+        line(format_args!("{number}{side}: {verdict}; run {run}; this shot is made {} of the time", percent(&share)))?;
         if helped {
             line(format_args!("   the coach played {}", shot_text(&meant)))?;
         } else if let Some(advice) = advice {
@@ -271,15 +289,14 @@ impl<'a> StrokeByStroke<'a> {
         let jumps = !self.options.no_jumps;
         let request = Request { rule, skill, doubt, plan, jumps, budget, seed, ..Request::default() };
         let coach = self.coaches.get(&table.name)?;
-        let advice = advise(coach, layout, &request).map_err(Failure::wrong_input)?;
+        let advice = advise(coach, layout, &request, self.session.is_coachs_turn()).map_err(Failure::wrong_input)?;
         self.advice = advice.map(|advice| (*layout, advice));
         Ok(advice)
     }
 
     pub fn refuse(&self, number: usize, failure: &Failure) -> Result<(), Failure> {
         if self.options.json {
-            let error = failure.to_string();
-            return Ok(json_line(&json!({ "kind": "refused", "line": number, "error": error }))?);
+            return Ok(json_line(&Refused { kind: "refused", line: number, error: failure.to_string() })?);
         }
         tell(format_args!("line {number}: {failure}"));
         Ok(())
@@ -305,11 +322,13 @@ impl<'a> StrokeByStroke<'a> {
                 nearest: mark.map(|mark| mark.nearest),
             })?);
         }
-        line(words(&record))?;
-        if session.is_match() {
+        if let Some(score) = session.score_words() {
+            line(score)?;
             for cue_ball in [session.cue_ball, session.cue_ball.other()] {
-                line(format_args!("{cue_ball}: {}", words(&session.side(cue_ball))))?;
+                line(format_args!("{}: {}", session.side_words(cue_ball), words(&session.side(cue_ball))))?;
             }
+        } else {
+            line(words(&record))?;
         }
         match (session.goal, mark) {
             (Goal::Run(points), _) if session.is_over() => {

@@ -11,7 +11,7 @@ use crc::{CRC_32_ISO_HDLC, Crc};
 use glam::DVec2;
 
 use self::bytes::{Cut, Reader, Writer};
-use super::{Exercise, ExerciseError, exercise::match_table};
+use super::{Exercise, ExerciseError, bare_tag, exercise::match_table};
 use crate::{game::Rule, physics::CueInputs, table::Layout};
 
 /// What a code begins with.
@@ -155,6 +155,9 @@ fn content_of(reader: &mut Reader) -> Result<Exercise, CodeError> {
     let cushions = u32::from(reader.byte()?);
     let rule = Rule::ALL.into_iter().find(|rule| rule.cushions() == cushions).ok_or(CodeError::Damaged)?;
     let has = reader.byte()?;
+    if has & !(EXACT | SHOT) != 0 {
+        return Err(CodeError::Damaged);
+    }
     let mut coordinate = || -> Result<f64, Cut> {
         if has & EXACT == 0 {
             Ok(f64::from(i16::from_be_bytes(reader.chunk()?)) / GRID)
@@ -180,7 +183,9 @@ fn content_of(reader: &mut Reader) -> Result<Exercise, CodeError> {
     let title = Some(reader.text()?).filter(|title| !title.is_empty()).unwrap_or_else(|| name.clone());
     let mut tags = Vec::new();
     while !reader.is_at_end() {
-        tags.push(reader.text()?);
+        // A tag is one word, with or without a # before it.
+        let text = reader.text()?;
+        tags.extend(text.split_whitespace().map(bare_tag).filter(|tag| !tag.is_empty()).map(str::to_owned));
     }
     Ok(Exercise { title, tags, shot, ..Exercise::own(&name, rule, &table, Layout::new(balls)) })
 }

@@ -115,6 +115,19 @@ fn what_is_no_code_or_newer_is_refused_with_a_sentence() {
 }
 
 #[test]
+fn tags_are_words_and_signs_that_mean_nothing_yet_are_damage() {
+    let tags = ["two words", "#bare", "#", ""].map(str::to_owned);
+    let text = code(&plain(layout(1, 0)), "", &tags);
+    assert_eq!(decode(&text).unwrap().tags, ["two", "words", "bare"]);
+    let mut bytes = base32::decode(text.strip_prefix(PREFIX).unwrap()).unwrap();
+    bytes.truncate(bytes.len() - size_of_val(&CHECKSUM.checksum(&[])));
+    // Behind the version, the table's empty name and the rule.
+    bytes[3] |= 4;
+    bytes.extend(CHECKSUM.checksum(&bytes).to_be_bytes());
+    assert!(matches!(decode(&format!("{PREFIX}{}", base32::encode(&bytes))), Err(CodeError::Damaged)));
+}
+
+#[test]
 fn an_exercise_that_cannot_be_played_is_neither_written_nor_read() {
     let table = Table::default();
     let mut overlapping = plain(layout(1, 0));

@@ -54,7 +54,9 @@ impl Practice {
 impl Store {
     /// All that is kept, and a sentence for every file that cannot be read and is missing.
     pub fn export(&self) -> (Practice, Vec<String>) {
-        let (positions, sessions) = (self.positions(), self.sessions());
+        let (positions, mut sessions) = (self.positions(), self.sessions());
+        // One whose attempts were all taken back is none.
+        sessions.items.retain(|session| !session.attempts.is_empty());
         let mut notes = [positions.notes, sessions.notes].concat();
         let player = self.own_skill().unwrap_or_else(|error| {
             notes.push(error.to_string());

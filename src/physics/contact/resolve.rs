@@ -77,7 +77,8 @@ impl Scene<'_> {
         None
     }
 
-    /// What a solution tells in which a ball rolls with less than its resistance: it rolls with as much as its friction can hold.
+    /// A solution in which the friction cannot hold a ball against its whole rolling resistance: the ball rolls on with as much of it as the
+    /// friction holds.
     fn eased(
         self,
         ball: usize,

@@ -1,5 +1,5 @@
-//! Places within a step: the moment at which a law of its active set breaks, and the end before its time where another event comes
-//! first.
+//! Moments within a step: the one at which a law of its active set breaks, and the one at which another event ends the step
+//! early.
 
 use super::{MAX_GUESSES, Resting, State, Trial};
 use crate::table::Table;

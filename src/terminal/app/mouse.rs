@@ -100,7 +100,7 @@ impl App {
         *self.page_mut().message_mut() = None;
         self.toasts.go_on();
         match found {
-            Ok(line) => (0..lines.unsigned_abs()).find_map(|_| self.update(line)),
+            Ok(line) => (0..lines.unsigned_abs()).fold(None, |effect, _| self.update(line).or(effect)),
             Err(reason) => {
                 self.toasts.push(reason.to_owned(), true);
                 None

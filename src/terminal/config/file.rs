@@ -180,6 +180,9 @@ mod tests {
         let report = file.run(&task(&path, theme("mono")));
         assert!(report.troubles[0].contains("holds until the program ends"), "{report:?}");
         assert_eq!(fs::read_to_string(&path).unwrap(), "speed = \n");
+        fs::remove_file(&path).unwrap();
+        let settings = file.run(&task(&path, theme("light"))).settings.unwrap();
+        assert_eq!((settings.speed, settings.palette), (Settings::default().speed, Palette::Light), "made anew");
     }
 
     #[test]

@@ -44,30 +44,33 @@ pub fn follow_in_lines(
     let mut onlooker = Onlooker::new(folder.to_owned());
     let mut teller = Teller { name, units, told: Told::default() };
     let mut waiting: Option<(Box<SeenTable>, Instant)> = None;
-    while !stop.load(Ordering::Relaxed) {
+    let mut is_over = false;
+    while !is_over {
+        is_over = stop.load(Ordering::Relaxed);
+        let mut is_damaged = false;
         match onlooker.look() {
-            Some(Seen::Nothing) => return Ok(()),
-            Some(Seen::Damaged) => {
-                waiting = None;
-                // Programs are told of tables alone.
-                if !json {
-                    writeln!(out, "{}", damage_words(name))?;
-                }
-            }
+            Some(Seen::Nothing) => is_over = true,
+            Some(Seen::Damaged) => is_damaged = true,
             Some(Seen::Table(seen)) if json => printing::json_line(out, &seen.shown)?,
             Some(Seen::Table(seen)) => waiting = Some((seen, Instant::now())),
             None => {}
         }
         let is_due = |(seen, since): &mut (Box<SeenTable>, Instant)| {
-            since.elapsed() >= QUIET || seen.shown.shot.is_some_and(|shot| shot.playing)
+            is_over || is_damaged || since.elapsed() >= QUIET || seen.shown.shot.is_some_and(|shot| shot.playing)
         };
         if let Some((seen, _)) = waiting.take_if(is_due) {
             for line in teller.news(&seen) {
                 writeln!(out, "{line}")?;
             }
         }
+        // Programs are told of tables alone.
+        if is_damaged && !json {
+            writeln!(out, "{}", damage_words(name))?;
+        }
         out.flush()?;
-        thread::sleep(INTERVAL);
+        if !is_over {
+            thread::sleep(INTERVAL);
+        }
     }
     Ok(())
 }

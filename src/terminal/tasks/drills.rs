@@ -63,6 +63,8 @@ pub struct Position {
     pub plan: bool,
     /// Whether jumps and massés may be advised.
     pub jumps: bool,
+    /// Whether the coach is to play the stroke itself.
+    pub is_coachs: bool,
     /// The exercise's own shot, where the balls lie for it; otherwise the coach is asked.
     pub own: Option<CueInputs>,
     /// Set when the answer is no longer wanted.

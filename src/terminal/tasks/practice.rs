@@ -137,7 +137,7 @@ impl PracticeWorker {
         self.taught = None;
         let Position { table, layout, rule, shooter, .. } = position;
         let advice = if let Some(cue) = position.own {
-            Some(Advice { cue, chance: chance(*shooter, *rule, table, layout, &cue) })
+            Some(Advice { cue, solved: true, chance: chance(*shooter, *rule, table, layout, &cue) })
         } else {
             let cancel = Arc::clone(&position.cancel);
             let request = Request {
@@ -151,12 +151,13 @@ impl PracticeWorker {
                 ..Request::default()
             };
             let coach = self.coach(table);
-            advise(coach, layout, &request).map_err(|error| error.to_string())?
+            advise(coach, layout, &request, position.is_coachs).map_err(|error| error.to_string())?
         };
         self.taught = advice.map(|advice| (position.id, advice));
         let taught = advice.map(|advice| {
             let source = if position.own.is_some() { "exercise" } else { "coach" };
-            let shot = Shot::new(table, layout, advice.cue, true, source).map_err(|error| error.to_string())?;
+            let shot =
+                Shot::new(table, layout, advice.cue, advice.solved, source).map_err(|error| error.to_string())?;
             Ok(Taught { advice, is_own: position.own.is_some(), shot: Arc::new(shot) })
         });
         taught.transpose()

@@ -36,6 +36,12 @@ fn results_at_a_table_are_scored_as_by_hand() {
     let text = drill(folder.path(), &["history", "mine"]).err;
     assert!(text.contains("not tried yet"), "{text}");
     assert_eq!(undo(1), Some(1));
+    let refused = fed(command(folder.path(), &["drill", "log", "mine"]), "undo\n");
+    assert!(refused.code == Some(2) && refused.err.contains("to take back"), "{}", refused.err);
+    // What was taken back whole is no session to others.
+    let file = folder.path().join("all.json");
+    let written = drill(folder.path(), &["export", file.to_str().unwrap()]);
+    assert!((written.out + &written.err).contains("0 sessions"), "{}", written.code.unwrap());
 }
 
 #[test]

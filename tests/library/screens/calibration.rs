@@ -164,7 +164,7 @@ fn odd_marks_are_named_and_what_is_typed_stays() {
 #[test]
 fn a_stroke_may_be_said_to_have_been_played_from_the_far_end() {
     let form = new().press("Enter C-e");
-    form.says("this stroke was played from the far end: count everything from there. far end; time:");
+    form.says("far end; time: seconds from the stroke until the ball stops");
     let form = form.type_in("9.6").press("Enter").type_in("5.4").press("Enter Enter Enter");
     assert!(kept(&form).trials[0].far_end);
     form.shows(&["far end: 9.6, 5.4"]);

@@ -89,7 +89,7 @@ pub fn advice(job: &Job) -> Advice {
 /// A shot that the coach teaches in the drills.
 fn taught(position: &Position, cue: &str) -> Taught {
     let Proposal { shot, made, .. } = proposal(&position.table, &position.layout, cue, 400);
-    let advice = carom::drills::Advice { cue: shot.cue, chance: made.expect("it was judged") };
+    let advice = carom::drills::Advice { cue: shot.cue, solved: true, chance: made.expect("it was judged") };
     Taught { advice, is_own: false, shot }
 }
 

@@ -54,36 +54,70 @@ impl Player {
 #[test]
 fn in_a_match_of_two_the_turn_passes_with_a_miss_and_the_score_is_each_sides_own() {
     let player = Player::practising(NO_COLOUR).press("o o o");
-    player.says("match, 10 innings");
+    player.says("Score: match").says("inning 1 of 10");
     player.says("Stroke of white");
     let missed = player.misses();
-    missed.says("white: 0 in 1 inning, best");
+    missed.says("white: 0, best run 0").says("inning 1 of 10");
     let next = missed.press("Enter");
     next.says("Stroke of yellow");
     assert_eq!(next.app.page().cue_ball().name(), "yellow");
 }
 
+/// At a match against the coach, which teaches `taught`, after a miss.
+fn against_the_coach(taught: Option<&'static str>, shorter: &str) -> Player {
+    let mut player = Player::practising(NO_COLOUR).press("o o o o");
+    if !shorter.is_empty() {
+        player = player.press(shorter);
+    }
+    player.says("Score: against the coach");
+    player.taught = taught;
+    player.misses().press("Enter")
+}
+
+const SHOT: &str = "0,0.2,2,140,3";
+
 #[test]
 fn in_a_match_against_the_coach_it_makes_the_strokes_of_the_other_ball_and_they_count_on_its_side_alone() {
-    let shot = "0,0.2,2,140,3";
-    for (taught, meant) in [(Some(shot), CueInputs::parse(shot).unwrap().speed), (None, FIRST_SPEED)] {
-        let mut player = Player::practising(NO_COLOUR).press("o o o o");
-        player.says("Score: against the coach");
-        player.taught = taught;
-        let turn = player.misses().press("Enter");
-        for says in ["The coach's turn", "Stroke of yellow", "with errors as large as yours; Space plays it"] {
+    for (taught, meant) in [(Some(SHOT), CueInputs::parse(SHOT).unwrap().speed), (None, FIRST_SPEED)] {
+        let turn = against_the_coach(taught, "");
+        let words = if taught.is_some() {
+            "with errors as large as yours; Space plays it"
+        } else {
+            "Space plays full at a ball"
+        };
+        for says in ["The coach's turn: straight", "Stroke of yellow", words] {
             turn.says(says);
         }
         let turn = turn.press("Left");
         turn.warns("the coach plays this stroke: Space");
         let played = turn.press("Space Enter");
-        for says in ["coach (yellow): ", "you (white): 0 in 1 inning", "the coach: ", "the coach's hand: "] {
+        for says in ["coach (yellow): ", "you (white): 0, best run 0", " (the coach)", "the coach's hand: "] {
             played.says(says);
         }
         let session = &played.store().sessions().items[0];
         let by_coach: Vec<bool> = session.attempts.iter().map(|attempt| attempt.by_coach).collect();
-        assert_eq!(by_coach, [false, true]);
+        assert_eq!((by_coach, session.attempts[1].helped), (vec![false, true], false));
         assert!((session.attempts[1].meant.unwrap().speed - meant).abs() < 1e-9, "what the coach has shown is played");
         assert_eq!(Record::of([session], |_, _| true).tried, 1, "the record is the player's");
     }
+}
+
+#[test]
+fn a_match_against_the_coach_is_left_gone_on_with_and_ends_with_its_score() {
+    let turn = against_the_coach(Some(SHOT), "< < < < < < < < <");
+    turn.says("inning 1 of 1");
+    turn.says("coach makes 40 %");
+    let left = turn.press("Esc Enter");
+    left.says("you (white) 0 : 0 coach (yellow): it goes on here, inning 1 of 1").says("coach makes 40 %");
+    let noted = left.press("m");
+    noted.warns("the coach has no cue at a real table");
+    let mut over = noted.press("Space Enter");
+    // A point of the coach's is followed by another stroke of its own.
+    while over.store().sessions().items[0].attempts.last().unwrap().made {
+        over.says("coach (yellow): ");
+        over = over.press("Enter Space Enter");
+    }
+    over.says("the match is over: you (white) 0 : ");
+    assert!(over.store().sessions().items[0].is_over());
+    over.press("Enter").says("inning 1 of 1").says("no attempt yet");
 }

@@ -68,7 +68,12 @@ fn without_a_shot_of_the_coach_a_stroke_begins_full_at_a_ball_and_one_plays_on_f
     assert!(on.judged.is_some(), "the next stroke is there to be set");
     let back = on.press("Esc");
     assert!(back.app.place() == KeyContext::Coach && back.app.coach.shot().is_none());
-    let asked = back.press("w Esc Enter").answer();
+    let before = back.app.coach.layout().balls[0].x;
+    let back = back.press("h");
+    assert!(back.app.coach.layout().balls[0].x < before, "balls are placed again");
+    let undone = back.press("w n u");
+    assert_eq!(undone.app.place(), KeyContext::OwnStroke, "one step back, and the stroke is there");
+    let asked = undone.press("Esc Enter").answer();
     assert!(asked.app.coach.what_if().is_none() && asked.app.coach.shot().is_some());
     // What is asked otherwise is about another stroke.
     let player = Player::with(TRUE_COLOUR).press("w F5 Down F2");

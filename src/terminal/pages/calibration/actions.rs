@@ -132,11 +132,7 @@ impl CalibrationPage {
         let Some(Input::Marks(form)) = &mut self.input else { return };
         match action {
             Action::Field(by) => form.step(by),
-            Action::FarEnd => {
-                form.far_end = !form.far_end;
-                let end = if form.far_end { "the far end: count everything from there" } else { "your own end" };
-                self.message = Some(Message::plain(format!("this stroke was played from {end}")));
-            }
+            Action::FarEnd => form.far_end = !form.far_end,
             _ => {
                 if let Err(sentence) = form.turn_tape() {
                     self.message = Some(Message::warning(sentence));

@@ -86,6 +86,10 @@ impl CoachPage {
                 let layout = Layout::random(&self.balls.present().table, &mut self.rng);
                 self.place(layout);
             }
+            Action::Undo if self.what_if().is_some() => {
+                self.undo();
+                return self.take_over();
+            }
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Recommend => return Some(self.ask()),
@@ -175,7 +179,7 @@ impl CoachPage {
 
     /// Leaves the shot, which is paused, and a stroke of the player's own beside it.
     fn place_balls(&mut self) {
-        self.compared = None;
+        self.own_stroke = None;
         self.playback.pause();
         self.mode = Mode::Placing;
     }

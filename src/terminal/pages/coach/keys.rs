@@ -161,7 +161,7 @@ pub const COACH: &[Binding<A, W>] = &[
         ]),
     bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
         "turn the panels: shot and balls, chances, margins and maps, plan").known_as("diamonds words"),
-    bind(Shot, W::Idle, &[letter('w', A::WhatIf)], Some(("own stroke", 1)),
+    bind(Shot, W::Idle, &[letter('w', A::WhatIf)], Some(("try", 1)),
         "a stroke of your own, which begins as the shot that is shown, to change it and see what comes of it").known_as("adopt compare try own"),
     bind(Shot, W::Anytime, &[letter('y', A::NextSystem)], None,
         "diamond systems on the table: the shot's own, then the others, then none")
@@ -260,18 +260,19 @@ pub const FOLLOW: &[Binding<A, W>] = &[
         "the jump from the side: height over way, or the table alone").known_as("jump hop height flight profile"),
 ];
 
-/// The player's own stroke beside the coach's.
+/// A stroke of the player's own.
 #[rustfmt::skip]
 pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
     bind(Stroke, W::Anytime, &[letter(' ', A::PlayPause), key(Enter, A::PlayPause)], Some(("play", 1)),
         "play and pause your stroke"),
     bind(Stroke, W::Anytime, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("leave", 1)),
-        "leave your stroke; the coach's shot is as it was"),
+        "leave your stroke; the balls and the coach's shot are as they were"),
     bind(Stroke, W::Anytime, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
         "take the balls as your stroke leaves them, for the next one"),
 ], [
     bind(Stroke, W::StrokeChanged, &[letter('u', A::StrokeBack), letter('z', A::StrokeBack)], Some(("undo", 1)),
         "take the last change of the stroke back"),
+    bind(Stroke, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change of the balls back"),
     bind(Stroke, W::StrokeUndone, &[letter('U', A::StrokeAgain), letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)],
         Some(("redo", 1)), "make a change of the stroke again that was taken back"),
     bind(Stroke, W::Anytime, &[letter(',', A::Event(-1)), letter('.', A::Event(1))], Some(("event", 2)),
@@ -282,5 +283,6 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
     bind(Stroke, W::Anytime, &[letter('<', A::Pace(-1)), letter('>', A::Pace(1))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),
     bind(Stroke, W::Anytime, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
+    bind(Stroke, W::Anytime, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise"),
     bind(Program, W::Named, &[letter('F', A::TurnShown)], None, "let others follow your table (carom follow NAME), or no longer"),
 ]);

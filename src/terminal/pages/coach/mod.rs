@@ -2,7 +2,7 @@
 //!
 //! [`actions`] is what each key does to it, [`request`] how the coach is asked, [`dragging`] what the mouse does to balls,
 //! [`saving`] how they are saved as a position, [`positions`] how they are typed;
-//! [`lesson`] teaches diamond systems, [`own_stroke`] is the player's own stroke beside the coach's, [`spectators`] are others who
+//! [`lesson`] teaches diamond systems, [`own_stroke`] is the player's own stroke, [`spectators`] are others who
 //! look on.
 
 mod actions;
@@ -131,8 +131,8 @@ pub struct CoachPage {
     pub player: Option<Player>,
     /// Who else is at this table.
     company: Company,
-    /// The player's own stroke beside the coach's.
-    compared: Option<own_stroke::Compared>,
+    /// The player's own stroke, while there is one.
+    own_stroke: Option<own_stroke::Own>,
     balls: History<Position>,
     /// The selected ball is held by the mouse.
     drag: Option<Drag>,
@@ -185,7 +185,7 @@ impl CoachPage {
             units: Units::default(),
             player: None,
             company: Company::Alone,
-            compared: None,
+            own_stroke: None,
             balls: History::new(Position {
                 table: Arc::new(table),
                 policy: None,

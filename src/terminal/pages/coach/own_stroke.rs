@@ -24,7 +24,7 @@ const LEAST: usize = 100;
 
 /// The player's own stroke, beside the coach's where there is one.
 #[derive(Debug)]
-pub struct Compared {
+pub struct Own {
     stroke: OwnStroke,
     pub(super) what_if: WhatIf,
     /// The balls, on their table, and the question that it is about.
@@ -34,18 +34,17 @@ pub struct Compared {
 impl CoachPage {
     /// The player's own stroke beside the coach's shot that is shown, or beside none; nothing where another is shown by now.
     pub fn what_if(&self) -> Option<&WhatIf> {
-        let Compared { what_if: own, about, .. } = self.compared.as_ref().filter(|_| self.pending.is_none())?;
+        let Own { what_if, about: (table, layout, query), .. } =
+            self.own_stroke.as_ref().filter(|_| self.pending.is_none())?;
         let shown = self.proposal().map(|proposal| Arc::as_ptr(&proposal.shot));
-        (own.coach.as_ref().map(Arc::as_ptr) == shown && *about == self.subject()).then_some(own)
-    }
-
-    fn subject(&self) -> (Arc<Table>, Layout, CoachQuery) {
-        (Arc::clone(&self.balls.present().table), *self.layout(), self.query.clone())
+        let is_here = Arc::ptr_eq(table, &self.balls.present().table) && layout == self.layout();
+        let is_beside = what_if.coach.as_ref().map(Arc::as_ptr) == shown && *query == self.query;
+        (is_here && is_beside).then_some(what_if)
     }
 
     /// Whether the stroke can be set as it was before its last change, and after it again.
     pub(super) fn can_travel(&self) -> (bool, bool) {
-        self.compared.as_ref().map_or((false, false), |compared| compared.stroke.can_travel())
+        self.own_stroke.as_ref().map_or((false, false), |own| own.stroke.can_travel())
     }
 
     /// Takes the coach's shot over into the player's own stroke; without one that is aimed full at a ball.
@@ -59,8 +58,8 @@ impl CoachPage {
         };
         match what_if {
             Ok(what_if) => {
-                let about = self.subject();
-                self.compared = Some(Compared { stroke: OwnStroke::new(cue), what_if, about });
+                let about = (Arc::clone(&self.balls.present().table), *self.layout(), self.query.clone());
+                self.own_stroke = Some(Own { stroke: OwnStroke::new(cue), what_if, about });
             }
             Err(error) => return self.refuse(error),
         }
@@ -81,21 +80,25 @@ impl CoachPage {
 
     /// Leaves the player's own stroke; the coach's shot is as it was.
     pub(super) fn leave_own_stroke(&mut self) {
-        self.compared = None;
-        self.watch_from_the_stroke();
+        self.own_stroke = None;
+        if self.proposal().is_some() {
+            self.watch_from_the_stroke();
+        } else {
+            self.rest();
+        }
     }
 
-    /// Forgets a stroke that stands beside no shot any more.
+    /// Forgets a stroke that is about other balls, another question or another shot of the coach.
     pub(super) fn forget_own_stroke(&mut self) {
         if self.what_if().is_none() {
-            self.compared = None;
+            self.own_stroke = None;
         }
     }
 
     /// Changes the player's own stroke.
     pub(super) fn change_stroke(&mut self, change: StrokeChange) -> Option<Effect> {
         let (table, layout) = (Arc::clone(&self.balls.present().table), *self.layout());
-        let mut stroke = self.compared.as_ref()?.stroke.clone();
+        let mut stroke = self.own_stroke.as_ref()?.stroke.clone();
         match stroke.change(change, &table, &layout) {
             Ok(()) => self.strike(stroke),
             Err(error) => self.refuse(error),
@@ -104,18 +107,18 @@ impl CoachPage {
 
     /// Sets the player's own stroke as it was before its last change, or after it again.
     pub(super) fn travel_stroke(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Option<Effect> {
-        let mut stroke = self.compared.as_ref()?.stroke.clone();
+        let mut stroke = self.own_stroke.as_ref()?.stroke.clone();
         step(&mut stroke);
         self.strike(stroke)
     }
 
     fn strike(&mut self, stroke: OwnStroke) -> Option<Effect> {
-        let mut compared = self.compared.take()?;
-        let struck = compared.what_if.strike(stroke.cue(), self.scene());
+        let mut own = self.own_stroke.take()?;
+        let struck = own.what_if.strike(stroke.cue(), self.scene());
         if struck.is_ok() {
-            compared.stroke = stroke;
+            own.stroke = stroke;
         }
-        self.compared = Some(compared);
+        self.own_stroke = Some(own);
         if let Err(error) = struck {
             return self.refuse(error);
         }
@@ -129,13 +132,13 @@ impl CoachPage {
         if self.query.skill.is_perfect() {
             return None;
         }
-        let cue = self.compared.as_ref()?.what_if.shot.cue;
+        let cue = self.own_stroke.as_ref()?.what_if.shot.cue;
         let judged = self.proposal().filter(|coach| !coach.is_early).and_then(|coach| coach.made);
         let attempts = judged.map_or(JUDGED, |made| made.trials.max(LEAST));
         let advised = self.advised().map(|advised| advised.seed);
         let job = self.job(None);
         let seed = advised.unwrap_or(job.seed);
-        let cancel = self.compared.as_mut()?.what_if.ask(job.id);
+        let cancel = self.own_stroke.as_mut()?.what_if.ask(job.id);
         Some(Effect::Ask(Box::new(Job { stroke: Some((cue, attempts)), seed, cancel, ..job })))
     }
 
@@ -221,6 +224,6 @@ mod tests {
         page.take_skill(crate::coach::Skill::CLUB);
         assert!(page.what_if().is_none() && page.shot().is_none());
         page.update(Action::NextView);
-        assert!(page.compared.is_none());
+        assert!(page.own_stroke.is_none());
     }
 }

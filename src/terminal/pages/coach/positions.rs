@@ -68,7 +68,7 @@ impl CoachPage {
             let names = self.cue_ball().names();
             let one = names[self.selected];
             let words = format!(
-                "where? \"2d,0.5d\" for {one}, three places for {}, {}, red, \"red 4d,3.5d\" for red, or a share code: ",
+                "where? 2d,0.5d for {one}; three such places for {}, {} and red; red 4d,3.5d for red; or a share code: ",
                 names[0], names[1]
             );
             return Some((words, Some(field)));

@@ -122,8 +122,8 @@ impl CoachPage {
                 }
             }
             (CoachNews::Judged(made), _) => {
-                if let Some(compared) = &mut self.compared {
-                    compared.what_if.judged(answer.id, made);
+                if let Some(own) = &mut self.own_stroke {
+                    own.what_if.judged(answer.id, made);
                 }
             }
             (CoachNews::Next(next), _) if is_study => {
@@ -173,7 +173,7 @@ impl CoachPage {
     /// Takes a closer look at the shot that is shown, as long as there is something to find out, and at no other. A stroke of the
     /// player's own comes before that.
     pub(super) fn study(&mut self) -> Option<Effect> {
-        let advised = self.advised().filter(|_| self.pending.is_none() && self.compared.is_none());
+        let advised = self.advised().filter(|_| self.pending.is_none() && self.own_stroke.is_none());
         let wanted = advised.map(AdviceState::choice).filter(|choice| !choice.is_studied);
         let wanted = wanted.map(|choice| Arc::clone(&choice.proposal.shot));
         if let (Some(studying), Some(shot)) = (&self.studying, &wanted)

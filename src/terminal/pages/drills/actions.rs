@@ -6,7 +6,7 @@ use crate::{
         DrillAction as Action, DrillCondition, DrillContext, DrillTask, Effect,
         pages::{
             Page,
-            drills::{Balls, DrillsPage, Question, Turn, question::LONGEST},
+            drills::{Balls, DrillsPage, Question, RepetitionOptions, Turn, question::LONGEST},
         },
         ui::{Message, TextField},
         words::player_words,
@@ -52,7 +52,10 @@ impl DrillsPage {
             Action::Category(step) => self.catalogue.choose_category(step),
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
             Action::All => self.catalogue.show_all(),
-            Action::Search => self.question = Some(Question::Search(TextField::new(LONGEST))),
+            Action::Search => {
+                let before = (self.catalogue.sought(), self.catalogue.mark);
+                self.question = Some(Question::Search(TextField::new(LONGEST), before.0, before.1));
+            }
             Action::Open => return self.open_marked(),
             Action::Exam(level) => return self.begin_exam(level),
             Action::BeginExam => self.pages = vec![DrillContext::Library, DrillContext::Exercise],
@@ -117,10 +120,11 @@ impl DrillsPage {
             return Some(self.begin(self.options.goal, exercises));
         };
         let left = self.left.remove(place);
-        (self.options.goal, self.options.shifted) = (left.goal, left.shifted);
-        let (what, made) = (left.goal.words(), left.attempts.len());
+        let inning = left.inning_words().map(|inning| format!(", {inning}"));
+        let after = inning.unwrap_or_else(|| format!(" after {} played", left.attempts.len()));
+        let what = left.score_words().unwrap_or_else(|| left.goal.words());
         let tasks = self.practise(left);
-        self.message = Some(Message::plain(format!("{what}: it goes on here after {made} played")));
+        self.message = Some(Message::plain(format!("{what}: it goes on here{after}")));
         Some(Effect::Drill(tasks))
     }
 
@@ -134,6 +138,10 @@ impl DrillsPage {
 
     /// Opens the page of what is to be played next in a session; gives what is to be found out for it.
     pub(super) fn practise(&mut self, session: Session) -> Vec<DrillTask> {
+        if !session.is_exam() {
+            // What comes after it is repeated alike, wherever the session was left.
+            self.options = RepetitionOptions { goal: session.goal, shifted: session.shifted };
+        }
         match Turn::new(session) {
             Ok(Some(mut turn)) => {
                 turn.jumps = self.jumps;
@@ -173,7 +181,9 @@ impl DrillsPage {
 
     fn open_records(&mut self) -> Effect {
         self.pages.push(DrillContext::Record);
-        let name = self.turn.as_ref().filter(|turn| !turn.is_exam()).map(|turn| turn.exercise.name.clone());
+        // Games and matches from an exercise are no repetitions of it.
+        let is_repeated = |turn: &&Turn| !turn.is_exam() && !turn.session.is_game();
+        let name = self.turn.as_ref().filter(is_repeated).map(|turn| turn.exercise.name.clone());
         self.records.open(name);
         // Another program may have noted something.
         Effect::Drill(vec![self.load()])
@@ -217,8 +227,9 @@ impl DrillsPage {
     }
 
     fn no(&mut self) {
-        if let Some(Question::Search(_)) = self.question.take() {
-            self.catalogue.find_text("");
+        if let Some(Question::Search(_, before, mark)) = self.question.take() {
+            self.catalogue.find_text(&before);
+            self.catalogue.mark = mark;
         }
     }
 
@@ -227,7 +238,7 @@ impl DrillsPage {
             |exercise: Box<Exercise>, replace| Some(Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)]));
         let question = self.question.take()?;
         let answer = match &question {
-            Question::Search(_) => return None,
+            Question::Search(..) => return None,
             Question::Code(typed) => self.decoded(typed.text()),
             Question::Replace(exercise) => return save(exercise.clone(), true),
             Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),

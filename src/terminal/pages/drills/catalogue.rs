@@ -97,6 +97,11 @@ impl Catalogue {
         self.refilter(|filter| filter.grade = if filter.grade == Some(grade) { None } else { Some(grade) });
     }
 
+    /// The words that are looked for; empty where none are.
+    pub fn sought(&self) -> String {
+        self.filter.text.clone().unwrap_or_default()
+    }
+
     /// Shows what has `text` in it, and marks the first that has it in its title, if the marked one has not.
     pub fn find_text(&mut self, text: &str) {
         self.refilter(|filter| filter.text = (!text.is_empty()).then(|| text.to_owned()));

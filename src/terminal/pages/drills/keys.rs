@@ -114,7 +114,9 @@ pub enum DrillCondition {
     Free,
     /// The same, where another session may begin: in free repetition once the shot that is watched has come to its end.
     Restart,
-    /// The same, where the goal has a length.
+    /// The same, where a point at a real table can be noted.
+    Noted,
+    /// Where another session may begin, and the goal has a length.
     Counted,
     /// While a shot is watched.
     Watching,
@@ -259,7 +261,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
         "turn the pages of a text that is longer than its room").each(&[
         "the next page of a text that is longer than its room", "the page before of a text that is longer than its room",
         ]),
-    bind(Score, W::Restart, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/miss", 2)),
+    bind(Score, W::Noted, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/miss", 2)),
         "note a point, a miss at a real table; nothing is played here").each(&[
         "note a point at a real table; nothing is played here", "note a miss at a real table; nothing is played here",
         ]),

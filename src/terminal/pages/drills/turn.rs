@@ -15,21 +15,20 @@ use crate::{
     drills::{Attempt, Exercise, ExerciseError, Goal, Session, Venue},
     game::Point,
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
-    statistics::SuccessRate,
     table::{CueBall, Layout, Table},
     terminal::{
-        DrillTask, JudgedStroke, Outcome, Position, Shot, Stroke, Taught,
+        DrillTask, Outcome, Position, Shot, Stroke, Taught,
         pages::drills::{
             Watched,
             sight::{Sight, sight},
         },
-        shot::{OwnStroke, Playback, Profile, StrokeChange, WhatIf, aiming, stroke::TipSlips, what_if},
+        shot::{OwnStroke, Playback, Profile, StrokeChange, WhatIf, aiming, stroke::TipSlips},
         ui::Message,
     },
 };
 
 /// Numbers of the questions to the coach, whatever exercise they are about: an answer may come when another is open.
-static QUESTIONS: AtomicU64 = AtomicU64::new(1);
+pub(super) static QUESTIONS: AtomicU64 = AtomicU64::new(1);
 
 /// What is going on.
 #[derive(Debug)]
@@ -84,9 +83,9 @@ pub struct Turn {
     /// The session as it will be once all notes are saved.
     ahead: Option<Session>,
     /// The stroke that is set, with what it was before.
-    stroke: OwnStroke,
+    pub(super) stroke: OwnStroke,
     /// The stroke beside the one that is taught, once that was taken over.
-    what_if: Option<WhatIf>,
+    pub(super) what_if: Option<WhatIf>,
     position: u64,
     cancel: Arc<AtomicBool>,
 }
@@ -100,6 +99,8 @@ impl Turn {
         let (Some(exercise), Some((table, layout))) = (session.exercise().cloned(), session.position()?) else {
             return Ok(None);
         };
+        // What the coach is to play is there to be seen.
+        let is_coachs = session.is_coachs_turn();
         Ok(Some(Self {
             stroke: OwnStroke::new(aiming::first_stroke(Point::of(exercise.rule, &table, &layout), &layout)),
             what_if: None,
@@ -111,8 +112,8 @@ impl Turn {
             layout,
             stage: Stage::Aiming,
             lesson: Lesson::Pending,
-            shows_hint: false,
-            is_helped: false,
+            shows_hint: is_coachs,
+            is_helped: is_coachs,
             is_from_side: false,
             text_page: 0,
             ahead: None,
@@ -154,58 +155,6 @@ impl Turn {
     /// Whether the stroke can be set as it was before its last change, and after it again.
     pub(super) const fn can_travel(&self) -> (bool, bool) {
         self.stroke.can_travel()
-    }
-
-    /// The stroke beside the one that is taught, while the player sets it.
-    pub fn what_if(&self) -> Option<&WhatIf> {
-        self.what_if.as_ref().filter(|_| self.is_aiming())
-    }
-
-    /// Takes the stroke that is taught over into the one that is set; the attempt counts as one with a hint.
-    pub(super) fn take_over(&mut self) -> Vec<DrillTask> {
-        let Lesson::Known(taught) = &self.lesson else { return Vec::new() };
-        let (cue, shot) = (taught.advice.cue, Arc::clone(&taught.shot));
-        self.stroke.set(cue);
-        self.what_if = Some(WhatIf::new(shot, self.scene()));
-        (self.is_helped, self.shows_hint, self.text_page) = (true, false, 0);
-        self.judge()
-    }
-
-    /// Takes the stroke that is taught off the table.
-    pub(super) fn leave_what_if(&mut self) {
-        self.what_if = None;
-    }
-
-    /// Compares the stroke as it is set now with the one that is taught, if that is wanted.
-    fn compare(&mut self) -> Vec<DrillTask> {
-        let Some(mut what_if) = self.what_if.take() else { return Vec::new() };
-        // What cannot be simulated cannot be compared; playing it will say why.
-        if what_if.strike(self.stroke(), self.scene()).is_err() {
-            return Vec::new();
-        }
-        self.what_if = Some(what_if);
-        self.judge()
-    }
-
-    /// Asks how often the player makes the stroke that is compared.
-    fn judge(&mut self) -> Vec<DrillTask> {
-        let (table, layout, rule) = (self.table.clone(), self.layout, self.exercise.rule);
-        let shooter = self.session.shooter();
-        let Some(what_if) = &mut self.what_if else { return Vec::new() };
-        let id = QUESTIONS.fetch_add(1, Ordering::Relaxed);
-        let (cue, cancel) = (what_if.shot.cue, what_if.ask(id));
-        vec![DrillTask::Judge(Box::new(JudgedStroke { id, table, layout, rule, shooter, cue, cancel }))]
-    }
-
-    const fn scene(&self) -> what_if::Scene<'_> {
-        what_if::Scene { table: &self.table, layout: &self.layout, rule: self.exercise.rule }
-    }
-
-    /// How often the player makes the stroke of question `id`.
-    pub(super) fn stroke_judged(&mut self, id: u64, made: SuccessRate) {
-        if let Some(what_if) = &mut self.what_if {
-            what_if.judged(id, made);
-        }
     }
 
     /// Whose strokes are played.
@@ -255,10 +204,15 @@ impl Turn {
         matches!(self.stage, Stage::Waiting)
     }
 
+    /// Whether the coach is still thinking about the stroke that it is to make.
+    pub fn is_coach_thinking(&self) -> bool {
+        self.is_coachs_turn() && matches!(self.lesson, Lesson::Pending)
+    }
+
     /// The line of aim, while the stroke is set.
     pub fn sight(&self) -> Option<Sight> {
-        let is_open = self.is_coachs_turn() && matches!(self.lesson, Lesson::Pending);
-        (self.is_aiming() && !is_open).then(|| sight(&self.table, &self.layout, self.stroke().phi))
+        let is_there = self.is_aiming() && !self.is_coach_thinking();
+        is_there.then(|| sight(&self.table, &self.layout, self.stroke().phi))
     }
 
     /// The stroke that is taught, if it is known and there is one.
@@ -317,9 +271,14 @@ impl Turn {
     pub fn verdict(&self, unit: LengthUnit) -> Option<Message> {
         let watched = self.watched().filter(|watched| watched.is_settled)?;
         let Outcome { played, .. } = &watched.outcome;
-        let text = played.words(self.cue_ball, unit);
-        let verdict = if played.made { Message::good(text) } else { Message::warning(text) };
-        Some(if watched.is_by_coach() { verdict.after("the coach") } else { verdict })
+        let mut text = played.words(self.cue_ball, unit);
+        if watched.is_by_coach() {
+            text += " (the coach)";
+        }
+        if let Some(score) = self.session.score_words().filter(|_| self.session.is_over()) {
+            text = format!("{text}; the match is over: {score}");
+        }
+        Some(if played.made { Message::good(text) } else { Message::warning(text) })
     }
 
     /// Asks for the stroke that is taught in this position. Nobody waits for the one before any more.
@@ -337,6 +296,7 @@ impl Turn {
             shooter: self.session.shooter(),
             plan: self.session.is_game(),
             jumps: self.jumps,
+            is_coachs: self.session.is_coachs_turn(),
             own: self.exercise.model_shot().filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),
         }))]
@@ -471,7 +431,7 @@ impl Turn {
         (self.exercise, self.table, self.layout) = (exercise, table, layout);
         self.cue_ball = self.session.cue_ball_now();
         self.stage = Stage::Aiming;
-        // What the coach is to play is there to be seen, and no longer when the player is to strike.
+        // What the coach is to play is no longer there when the player is to strike.
         self.shows_hint = self.is_coachs_turn() || self.shows_hint && !is_moved;
         if is_moved {
             self.what_if = None;

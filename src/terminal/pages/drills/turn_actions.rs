@@ -34,17 +34,24 @@ impl Turn {
                 | Condition::Ended
                 | Condition::Free
                 | Condition::Restart
+                | Condition::Noted
                 | Condition::Counted
                 | Condition::Adoptable,
             ) => Some("the stroke is being played"),
-            (_, Condition::Playable | Condition::Aiming) if !self.is_aiming() => {
-                Some("a shot is being watched; Enter goes on")
+            (Stage::Aiming, Condition::Playable | Condition::Set) if self.is_coachs_turn() => {
+                refuse(self.is_coach_thinking(), "the coach is still thinking")
             }
-            (_, Condition::Playable | Condition::Set) if self.is_coachs_turn() => {
-                refuse(matches!(self.lesson, Lesson::Pending), "the coach is still thinking")
-            }
-            (_, Condition::Aiming | Condition::Watching) if self.is_coachs_turn() => {
+            (Stage::Aiming, Condition::Aiming | Condition::Watching) if self.is_coachs_turn() => {
                 Some("the coach plays this stroke: Space")
+            }
+            (Stage::Aiming, Condition::Taught) if self.is_coachs_turn() => Some("the coach's stroke is shown already"),
+            (_, Condition::Noted) => {
+                let is_against = matches!(self.session.goal, Goal::Match { against_coach: true, .. });
+                refuse(is_against, "the coach has no cue at a real table; o chooses another goal")
+                    .or_else(|| self.disabled_reason(Condition::Restart))
+            }
+            (_, Condition::Playable | Condition::Aiming) => {
+                refuse(!self.is_aiming(), "a shot is being watched; Enter goes on")
             }
             (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
             (_, Condition::Running | Condition::Ended) => match self.watched() {
@@ -114,12 +121,13 @@ impl DrillsPage {
             // The question counts a stroke that is still being watched, and so must the score beside it.
             turn.finish_watching();
             let Session { goal, attempts, .. } = turn.newest();
+            let own = attempts.iter().filter(|attempt| !attempt.by_coach).count();
             let what = match goal {
                 Goal::Run(_) => "run",
                 Goal::Match { .. } => "match",
                 _ => "game",
             };
-            self.question = Some(Question::GiveUp(action, what, attempts.len()));
+            self.question = Some(Question::GiveUp(action, what, own));
             return None;
         }
         self.act(action)
@@ -163,7 +171,8 @@ impl DrillsPage {
                     Goal::Free => Goal::Run(FIRST_RUN),
                     Goal::Run(_) => Goal::Game { innings: FIRST_GAME },
                     Goal::Game { .. } => Goal::Match { innings: FIRST_GAME, against_coach: false },
-                    Goal::Match { against_coach: false, .. } => {
+                    // At a real table the coach has no cue.
+                    Goal::Match { against_coach: false, .. } if turn.newest().venue == Venue::Program => {
                         Goal::Match { innings: FIRST_GAME, against_coach: true }
                     }
                     Goal::Match { .. } | Goal::Exam => Goal::Free,

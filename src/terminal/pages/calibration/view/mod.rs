@@ -42,8 +42,10 @@ impl PageView for CalibrationPage {
 
     fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
         let (question, typed) = question(self)?;
-        let asked = Asked::new(self.message.as_ref(), &question, typed);
-        Some(Asked { has_own_keys: matches!(self.input, Some(Input::Marks(_))), ..asked })
+        // The form of a stroke has rows for its question alone.
+        let has_own_keys = matches!(self.input, Some(Input::Marks(_)));
+        let asked = Asked::new(self.message.as_ref().filter(|_| !has_own_keys), &question, typed);
+        Some(Asked { has_own_keys, ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {

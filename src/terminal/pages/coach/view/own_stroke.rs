@@ -1,4 +1,4 @@
-//! The panels while the player's own stroke stands beside the coach's.
+//! The panels while the player sets a stroke of their own.
 
 use ratatui::layout::Rect;
 

@@ -74,7 +74,13 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
 fn draw_precision(drills: &DrillsPage, turn: &Turn, panes: &Panes, ui: &mut Ui) {
     panels::draw_stroke(turn, drills.units, panes.stroke, ui);
     let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
-    draw_tip(Some(meant), drills.units.tip == TipUnit::Tips, &turn.table, panes.tip, ui);
+    draw_tip(
+        Some(meant).filter(|_| !turn.is_coach_thinking()),
+        drills.units.tip == TipUnit::Tips,
+        &turn.table,
+        panes.tip,
+        ui,
+    );
     let watched = turn.watched().filter(|_| !turn.shows_hint);
     let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
     match spin {
@@ -83,13 +89,10 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, panes: &Panes, ui: &mut Ui) 
     }
 }
 
-/// What counts, how hard it is, and how it is repeated.
+/// How hard it is, and how it is repeated.
 fn about(turn: &Turn, caps: Capabilities) -> String {
-    let exercise = &turn.exercise;
-    let mut parts = vec![exercise.rule.to_string()];
-    if exercise.grade > 0 {
-        parts.push(format!("grade {}", exercise.grade));
-    }
+    let grade = turn.exercise.grade;
+    let mut parts = if grade > 0 { vec![format!("grade {grade}")] } else { Vec::new() };
     if turn.session.shifted {
         parts.push("shifted".to_owned());
     }
@@ -138,6 +141,9 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
     Message::plain(match (turn.watched().is_some(), &turn.lesson) {
         (true, _) => "the shot is on its way; Enter goes to its end",
         (false, Lesson::Pending) if turn.is_coachs_turn() => "the coach is thinking about its stroke",
+        (false, Lesson::Missing) if turn.is_coachs_turn() => {
+            "the coach knows no stroke here; Space plays full at a ball"
+        }
         (false, _) if turn.is_coachs_turn() => "the coach's stroke, with errors as large as yours; Space plays it",
         (false, Lesson::Pending) => "set the stroke and play it; the coach is still thinking",
         (false, Lesson::Missing) => "set the stroke and play it; the coach has found no shot here",
@@ -150,7 +156,7 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
         (false, Lesson::Known(_)) if turn.shows_hint => {
             "this is the coach's shot; the attempt counts as one with a hint"
         }
-        (false, Lesson::Known(_)) if turn.is_exam() => "set the stroke and play it",
+        (false, Lesson::Known(_)) if turn.is_exam() || turn.session.is_match() => "set the stroke and play it",
         (false, Lesson::Known(_)) => "set the stroke and play it; at a real table: m made, n missed",
     })
 }

@@ -29,6 +29,9 @@ pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
     // In a match there are two sides.
     let title = if turn.session.is_match() { format!("Stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
     let inner = draw_title(title, area, ui);
+    if turn.is_coach_thinking() {
+        return;
+    }
     let numbers = stroke_rows(&cue, units, turn.table.radius, ui.caps);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
     draw_lines(numbers.map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
@@ -39,7 +42,8 @@ pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
 pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16), ui: &mut Ui) {
     let settled = turn.watched().filter(|watched| watched.is_settled);
     let rule = turn.exercise.rule;
-    let task = if turn.is_coachs_turn() { "The coach's turn".to_owned() } else { format!("Task: {rule}") };
+    let task = if turn.is_coachs_turn() { "The coach's turn" } else { "Task" };
+    let task = format!("{task}: {rule}");
     let title = settled.map_or(task, |watched| chances(turn, watched, ui.caps));
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
@@ -170,7 +174,7 @@ fn hint(turn: &Turn, taught: &Taught, units: Units, caps: Capabilities) -> Strin
     let advice = &taught.advice;
     let sentence = taught.shot.words.sentence(turn.cue_ball, units);
     let words = format!("{} makes {}: {sentence}", teacher(taught), percent(advice.chance.rate));
-    if turn.is_coachs_turn() {
+    if turn.is_coachs_turn() || turn.watched().is_some_and(Watched::is_by_coach) {
         return spell(&words, caps);
     }
     let yours = told(turn, &turn.raised_stroke(), &advice.cue, units).unwrap_or_else(|| "the same".to_owned());

@@ -176,7 +176,7 @@ fn started(session: &Session) -> String {
 /// What was practised, and where.
 fn what(session: &Session, scope: Option<&str>) -> String {
     let title = session.exercises.first().map_or("", |exercise| exercise.title.as_str());
-    let goal = session.goal.words();
+    let goal = session.score_words().unwrap_or_else(|| session.goal.words());
     let place = if session.venue == Venue::Table { ", real table" } else { "" };
     if scope.is_some() || session.goal == Goal::Exam {
         format!("{goal}{place}")

@@ -13,7 +13,7 @@ use crate::{
             DrillsPage, Turn,
             view::{best_run, percent},
         },
-        ui::{Ui, columns, draw_title, write_paragraphs},
+        ui::{Ui, draw_title, write_paragraphs},
         words::chance_words,
     },
 };
@@ -22,10 +22,10 @@ use crate::{
 pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) -> u16 {
     let session = turn.told();
     let place = if session.venue == Venue::Table { "Real table: " } else { "Score: " };
-    let (title, room) = (format!("{place}{}", session.goal.words()), usize::from(area.width.saturating_sub(4)));
-    // Where there is no room the innings stay away.
-    let short = title.split(',').next().filter(|_| columns(&title) > room).map(str::to_owned);
-    let inner = draw_title(short.unwrap_or(title), area, ui);
+    let title = format!("{place}{}", session.goal.words());
+    // The innings of a match are told below.
+    let title = title.split(',').next().filter(|_| session.is_match()).unwrap_or(&title).to_owned();
+    let inner = draw_title(title, area, ui);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let top = draw_marks(&session, text, ui);
     let text = Rect { y: top, height: text.bottom() - top, ..text };
@@ -82,6 +82,9 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
         }
         return lines;
     }
+    if session.is_match() {
+        lines.extend(session.inning_words());
+    }
     if tried == 0 {
         lines.push("no attempt yet".to_owned());
         return lines;
@@ -90,13 +93,8 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
     let plural = |count: usize, one: &str| if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") };
     if session.is_match() {
         for cue_ball in [session.cue_ball, session.cue_ball.other()] {
-            let Record { made, innings, high_run, .. } = session.side(cue_ball);
-            let side = match session.goal {
-                Goal::Match { against_coach: true, .. } if cue_ball == session.cue_ball => format!("you ({cue_ball})"),
-                Goal::Match { against_coach: true, .. } => format!("coach ({cue_ball})"),
-                _ => cue_ball.to_string(),
-            };
-            lines.push(format!("{side}: {made} in {}, best run {high_run}", plural(innings, "inning")));
+            let Record { made, high_run, .. } = session.side(cue_ball);
+            lines.push(format!("{}: {made}, best run {high_run}", session.side_words(cue_ball)));
         }
     } else if session.is_game() {
         lines.push(format!("{} in {}{average}", plural(made, "point"), plural(record.innings, "inning")));
@@ -109,7 +107,7 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
     let (helped, unhelped): (Vec<_>, Vec<_>) = own.partition(|attempt| attempt.helped);
     if !helped.is_empty() {
         let share = helped.len() as f64 / (helped.len() + unhelped.len()) as f64;
-        lines.push(format!("{} of yours with a hint ({})", helped.len(), percent(share)));
+        lines.push(format!("{} of your attempts with a hint ({})", helped.len(), percent(share)));
     }
     lines
 }

@@ -77,7 +77,7 @@ fn draw_words(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
     ];
     if let Some(other) = settings.other_in_file(entry) {
         let now = (entry.get)(&settings.settings);
-        let keep = if settings.is_writable { " Enter twice keeps it." } else { "" };
+        let keep = if settings.is_writable { format!(" Enter twice writes {now} into it.") } else { String::new() };
         paragraphs.insert(0, (format!("Now {now}; the file has {other}.{keep}"), ui.theme.warning()));
     }
     write_words(paragraphs, inner, ui);

@@ -1,0 +1,66 @@
+//! What if: the stroke that is set beside the one that is taught, once that was taken over.
+
+use std::sync::{Arc, atomic::Ordering};
+
+use crate::{
+    statistics::SuccessRate,
+    terminal::{
+        DrillTask, JudgedStroke,
+        pages::drills::{Lesson, Turn, turn::QUESTIONS},
+        shot::{WhatIf, what_if},
+    },
+};
+
+impl Turn {
+    /// The stroke beside the one that is taught, while the player sets it.
+    pub fn what_if(&self) -> Option<&WhatIf> {
+        self.what_if.as_ref().filter(|_| self.is_aiming())
+    }
+
+    /// Takes the stroke that is taught over into the one that is set; the attempt counts as one with a hint.
+    pub(super) fn take_over(&mut self) -> Vec<DrillTask> {
+        let Lesson::Known(taught) = &self.lesson else { return Vec::new() };
+        let (cue, shot) = (taught.advice.cue, Arc::clone(&taught.shot));
+        self.stroke.set(cue);
+        self.what_if = Some(WhatIf::new(shot, self.scene()));
+        (self.is_helped, self.shows_hint, self.text_page) = (true, false, 0);
+        self.judge()
+    }
+
+    /// Takes the stroke that is taught off the table.
+    pub(super) fn leave_what_if(&mut self) {
+        self.what_if = None;
+    }
+
+    /// Compares the stroke as it is set now with the one that is taught, if that is wanted.
+    pub(super) fn compare(&mut self) -> Vec<DrillTask> {
+        let Some(mut what_if) = self.what_if.take() else { return Vec::new() };
+        // What cannot be simulated cannot be compared; playing it will say why.
+        if what_if.strike(self.stroke(), self.scene()).is_err() {
+            return Vec::new();
+        }
+        self.what_if = Some(what_if);
+        self.judge()
+    }
+
+    /// Asks how often the player makes the stroke that is compared.
+    fn judge(&mut self) -> Vec<DrillTask> {
+        let (table, layout, rule) = (self.table.clone(), self.layout, self.exercise.rule);
+        let shooter = self.session.shooter();
+        let Some(what_if) = &mut self.what_if else { return Vec::new() };
+        let id = QUESTIONS.fetch_add(1, Ordering::Relaxed);
+        let (cue, cancel) = (what_if.shot.cue, what_if.ask(id));
+        vec![DrillTask::Judge(Box::new(JudgedStroke { id, table, layout, rule, shooter, cue, cancel }))]
+    }
+
+    const fn scene(&self) -> what_if::Scene<'_> {
+        what_if::Scene { table: &self.table, layout: &self.layout, rule: self.exercise.rule }
+    }
+
+    /// How often the player makes the stroke of question `id`.
+    pub(super) fn stroke_judged(&mut self, id: u64, made: SuccessRate) {
+        if let Some(what_if) = &mut self.what_if {
+            what_if.judged(id, made);
+        }
+    }
+}

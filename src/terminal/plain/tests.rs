@@ -1,0 +1,178 @@
+//! The conversation as somebody holds it.
+
+use super::*;
+use crate::coach::words::LengthUnit;
+use std::time::Instant;
+
+fn talk(lines: &str) -> String {
+    talk_of(None, lines)
+}
+
+/// With a player whose own skill this is.
+fn talk_of(own: Option<Skill>, lines: &str) -> String {
+    let table = Table::default();
+    let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
+    let mut output = Vec::new();
+    let settings = Settings { think_ms: 1_000, ..Settings::default() };
+    let beginning = Beginning { layout, own, seed: 1 };
+    converse(Coach::new(table), beginning, &settings, lines.as_bytes(), &mut output, "").unwrap();
+    String::from_utf8(output).unwrap()
+}
+
+#[test]
+fn a_line_that_is_too_long_is_refused_and_the_talk_goes_on() {
+    let said = talk(&format!("{}\nwhere\nquit", "x".repeat(2 << 20)));
+    assert!(said.contains("too long; accepted are up to 1048576 bytes") && said.len() < 2000, "{}", said.len());
+    assert_eq!(said.matches("White lies at").count(), 2, "{said}");
+}
+
+#[test]
+fn a_shot_is_told_its_margins_its_course_and_its_end() {
+    let said = talk("shot\nnumbers\nmargins\ntell\ngo on\nundo\nquit\nwhere");
+    for words in [
+        "percent of the time, between",
+        "hits yellow",
+        "table lengths), ",
+        "Pattern: ",
+        "\nPoint: ",
+        "Direction: up to",
+        "white meets yellow.",
+        "all balls lie still",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    assert!(!said.contains(['%', '\u{b0}']), "signs are words: {said}");
+    let first = "White lies at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
+    assert_eq!(said.matches(first).count(), 2, "at the start and after undo, but not after quit: {said}");
+}
+
+#[test]
+fn distances_and_speeds_are_told_in_the_unit_of_the_settings() {
+    let table = Table::default();
+    let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
+    let units = Units { length: LengthUnit::Feet, ..Units::default() };
+    let settings = Settings { think_ms: 1_000, units, ..Settings::default() };
+    let (mut output, beginning) = (Vec::new(), Beginning { layout, own: None, seed: 1 });
+    let lines = b"words\nshot\nnumbers\nmargins\ntell\n";
+    converse(Coach::new(table), beginning, &settings, &lines[..], &mut output, "").unwrap();
+    let said = String::from_utf8(output).unwrap();
+    for words in
+        ["-19.69 and 0.00 inches from the middle", "0.121 inches each", "feet a second, ", "feet a second softer"]
+    {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    assert!(!said.contains("m/s") && !said.contains("metres a second"), "{said}");
+    assert!(!said.contains("millimetres"), "{said}");
+}
+
+#[test]
+fn the_system_of_a_shot_is_told_and_what_the_words_mean() {
+    let said = talk("system\nwords\nrule three-cushion\nballs 2d,2.6d 2d,2d 6d,2d\nshot\nsystem");
+    assert!(said.contains("There is no shot yet") && said.contains("3.1 millimetres each"), "{said}");
+    let told = said.lines().last().unwrap();
+    let is_told = told.contains("Aim through the diamond") || told.starts_with("Parallel shift");
+    assert!(is_told || told == "No diamond system describes this shot.", "{said}");
+}
+
+/// Why a shot leads, and which system describes it, is worked out after the search: in less time than 2000 shots take on the
+/// same machine, half of a short search's.
+#[test]
+#[ignore = "compares times: cargo test --profile quick --lib the_reasons -- --ignored"]
+fn the_reasons_take_no_longer_than_a_short_search() {
+    let table = Table::default();
+    let layout = Layout::opening(&table);
+    let coach = Coach::new(table.clone());
+    let request = Request { simulations: 4000, budget: Duration::from_secs(60), ..Request::default() };
+    let advice = coach.recommend(&layout, &request).unwrap();
+    let timed = |work: &dyn Fn()| {
+        let start = Instant::now();
+        work();
+        start.elapsed()
+    };
+    // The least of three: what else runs on the machine only adds to a time.
+    let least = |work: &dyn Fn()| (0..3).map(|_| timed(work)).min().unwrap();
+    let record = || Recording::new(&table, &layout, &advice.cue).unwrap();
+    let shots = least(&|| (0..500).for_each(|_| drop(record())));
+    let reasons = least(&|| {
+        why(request.shooter(), request.rule, &table, &layout, &advice, 0).unwrap();
+        guide(&table, &record()).inspect(|guide| assert!(!guide.to_string().is_empty()));
+    });
+    assert!(reasons < 4 * shots, "{reasons:?} for the reasons, {shots:?} for 500 shots");
+}
+
+#[test]
+fn a_filmed_shot_is_told_beside_its_simulation() {
+    let said = talk("film\nfilm 90\nfilm 91\nwhere");
+    for words in [
+        "There are 91 filmed shots",
+        "Shot 90 of the film: a point, ",
+        "fitted on the first 2 seconds",
+        "\n1 second: from the film",
+        "5 seconds: from the film, in centimetres: white ",
+        "all balls lie still: white ",
+        "There is no filmed shot 91",
+        "White lies at 2.59 diamonds along and 2.00 up, -500 and 0",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}
+
+#[test]
+fn the_other_player_has_the_other_ball_and_every_colour_is_told_right() {
+    let said = talk(
+        "cue ball yellow\nfirst white\nwhere\nmove yellow up 10\nshot\nnumbers\ntell\nundo\nundo\nwhere\ncue ball white\n",
+    );
+    let told = "Yellow lies at 4.00 diamonds along and 2.03 up, 0 and 10 millimetres from the middle.";
+    assert!(said.contains("The cue ball is yellow.") && said.contains(told), "{said}");
+    assert!(said.contains("Met first: white.") && said.contains("hits white"), "{said}");
+    assert!(said.contains("yellow meets") && !said.contains("white meets yellow"), "{said}");
+    assert!(said.trim_end().ends_with("The cue ball is white already."), "{said}");
+}
+
+#[test]
+fn the_skill_that_is_kept_plays_and_where_none_is_that_is_said() {
+    assert!(talk("skill own").contains("No skill of your own is kept yet"));
+    let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
+    let said = talk_of(own.parse().ok(), "skill own\nskill 0.6\nshot\nskill 7\n");
+    for words in [
+        &format!("The player is you: {own}."),
+        "The player averages 0.6 points an inning at three-cushion.",
+        "\nA player who averages 0.6 makes it ",
+        "accepted are 0.1 to 2.5 points an inning at three-cushion, or world-class",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}
+
+#[test]
+fn why_chances_and_plan_are_answered_in_sentences_without_the_course_again() {
+    assert!(talk("why").contains("There is no shot yet") && talk("chances").contains("There is no shot yet"));
+    let said = talk("skill club\nshot\nwhy\nchances\nplan\nplan off\nplan");
+    for words in
+        ["The first shot. It is made ", "Shot 1. A club player makes it ", "\nThe next point ", "Say plan on to change"]
+    {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let reasons = said.lines().find(|line| line.starts_with("It is made ")).unwrap();
+    assert!(!reasons.contains(';') && !said.contains("cushions in all") && !said.contains(" and more."), "{said}");
+}
+
+#[test]
+fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
+    let said = talk(
+        "tell\nother\ngo on\nmove white left 0\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nmove red right 9000\nfirst white\nrule one-cushion\n",
+    );
+    for words in [
+        "no shot yet",
+        "no other shot",
+        "nothing to take back",
+        "fly",
+        "0.0000 m apart",
+        "It stops there, in contact with yellow.",
+        "It stops there, at the rail.",
+        "\"white\" cannot be met first; use any, yellow, red, cushion",
+        "The rule is one-cushion",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}
