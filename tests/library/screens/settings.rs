@@ -175,7 +175,7 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
         "4 changed",
         "rule        •◂ three-cushion ▸ now",
         "Now \"three-cushion\"; the file has",
-        "\"straight\". Enter twice writes",
+        "into it.",
     ]);
     let player = player.press("Right Right");
     assert_eq!(player.app.coach.query.rule, Rule::OneCushion);
