@@ -57,7 +57,7 @@ fn in_a_match_of_two_the_turn_passes_with_a_miss_and_the_score_is_each_sides_own
     player.says("Score: match").says("inning 1 of 10");
     player.says("Stroke of white");
     let missed = player.misses();
-    missed.says("white: 0, best run 0").says("inning 1 of 10");
+    missed.says("white: 0, best 0").says("inning 1 of 10");
     let next = missed.press("Enter");
     next.says("Stroke of yellow");
     assert_eq!(next.app.page().cue_ball().name(), "yellow");
@@ -91,7 +91,7 @@ fn in_a_match_against_the_coach_it_makes_the_strokes_of_the_other_ball_and_they_
         let turn = turn.press("Left");
         turn.warns("the coach plays this stroke: Space");
         let played = turn.press("Space Enter");
-        for says in ["coach (yellow): ", "you (white): 0, best run 0", " (the coach)", "the coach's hand: "] {
+        for says in ["coach (yellow): ", "you (white): 0, best 0", " (the coach)", "the coach's hand: "] {
             played.says(says);
         }
         let session = &played.store().sessions().items[0];

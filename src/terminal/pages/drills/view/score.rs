@@ -94,7 +94,7 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
     if session.is_match() {
         for cue_ball in [session.cue_ball, session.cue_ball.other()] {
             let Record { made, high_run, .. } = session.side(cue_ball);
-            lines.push(format!("{}: {made}, best run {high_run}", session.side_words(cue_ball)));
+            lines.push(format!("{}: {made}, best {high_run}", session.side_words(cue_ball)));
         }
     } else if session.is_game() {
         lines.push(format!("{} in {}{average}", plural(made, "point"), plural(record.innings, "inning")));
