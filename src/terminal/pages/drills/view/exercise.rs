@@ -44,7 +44,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         other_name: turn.taught().map_or("", panels::teacher),
         time,
         spots: &spots,
-        ..TableView::new(&turn.table, &turn.layout, ui)
+        ..TableView::new(&turn.table, &turn.layout)
     };
     draw_table(&view, panes.table, ui);
     if let Some(profile) = profile {

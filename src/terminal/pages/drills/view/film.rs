@@ -39,7 +39,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
         shot: scene.map(|scene| scene.shot.as_ref()),
         time: film.playback.time,
         film: scene.map(|scene| scene.replay.filmed_places(film.playback.time)),
-        ..TableView::new(table(), &listed.layout, ui)
+        ..TableView::new(table(), &listed.layout)
     };
     draw_table(&view, panes.table, ui);
     let time = film.playback.readout;

@@ -103,7 +103,7 @@ fn draw_shot(listed: &Listed, area: Rect, ui: &mut Ui) {
     ];
     let rows: usize = paragraphs.iter().map(|(text, _)| wrap(text, usize::from(width)).len()).sum();
     let room = Rect { height: inner.height.saturating_sub(rows as u16), ..inner };
-    let view = TableView::new(table(), &listed.layout, ui);
+    let view = TableView::new(table(), &listed.layout);
     draw_table(&view, room, ui);
     let outer = Mapping::fit(table(), room).outer();
     let left = outer.x.min(inner.right().saturating_sub(width + 1)).max(inner.x + 1);

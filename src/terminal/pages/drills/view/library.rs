@@ -147,7 +147,7 @@ fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut 
     }
     let room =
         Rect { height: inner.height.saturating_sub(rows(&paragraphs)).max(TABLE_ROWS.min(inner.height)), ..inner };
-    let view = TableView::new(&table, &exercise.layout, ui);
+    let view = TableView::new(&table, &exercise.layout);
     draw_table(&view, room, ui);
     let outer = Mapping::fit(&table, room).outer();
     let left = outer.x.min(inner.right() - width - 1).max(inner.x + 1);
