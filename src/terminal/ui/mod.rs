@@ -42,7 +42,10 @@ pub use self::{
     tip::{draw_face, draw_tip, tip_rows},
     what_if::{Beside, draw_what_if},
 };
-use crate::terminal::{Capabilities, Keys};
+use crate::terminal::{
+    Capabilities, Keys,
+    keymap::{Binding, chord_of, keys_text},
+};
 
 /// The drawing context: where to draw, with which colours and characters, and the user's own keys to name.
 #[derive(Debug)]
@@ -55,6 +58,13 @@ pub struct Ui<'a> {
     pub keys: &'a Keys,
     /// The cells of the screen.
     pub buffer: &'a mut Buffer,
+}
+
+impl Ui<'_> {
+    /// The first key that does `action` by this table; empty where none does.
+    pub fn key_of<A: PartialEq, W>(&self, table: &[Binding<A, W>], action: &A) -> String {
+        keys_text(chord_of(table, action).and_then(|chord| self.keys.for_work_of(chord).next()), self.caps)
+    }
 }
 
 /// What `draw` draws into an empty `area`, in the colours and characters of `caps`.

@@ -9,7 +9,6 @@ use crate::{
     table::CueBall,
     terminal::{
         Capabilities, DrillAction, Taught,
-        keymap::{chord_of, keys_text},
         pages::drills::{
             Lesson, Meets, Sight, Turn, Watched,
             keys::EXERCISE,
@@ -88,8 +87,7 @@ fn write_pages(
     let lines = lines_of(paragraphs, |row| width(row % rows));
     let pages = lines.len().div_ceil(rows).max(1);
     let page = page.rem_euclid(pages.cast_signed()).cast_unsigned();
-    let turns = chord_of(EXERCISE, &DrillAction::TurnText(1)).into_iter();
-    let key = keys_text(turns.flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps);
+    let key = ui.key_of(EXERCISE, &DrillAction::TurnText(1));
     let title = if pages > 1 { format!("{title}{}{key} {}/{pages}", separator(ui.caps), page + 1) } else { title };
     let inner = draw_title(title, area, ui);
     let shown = lines.chunks(rows).nth(page).unwrap_or_default();
