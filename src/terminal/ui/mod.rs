@@ -37,7 +37,7 @@ pub use self::{
     status_line::{draw_question, draw_status},
     stroke::stroke_rows,
     table::{Spot, TableView, ball_at, cue_sign, draw_table},
-    text::{columns, cut, end_of, ending, shorten, spell, wrap, write_right},
+    text::{columns, cut, end_of, ending, shorten, spell, wrap, wrap_by, write_right},
     theme::Theme,
     tip::{draw_face, draw_tip, tip_rows},
     what_if::{Beside, draw_what_if},

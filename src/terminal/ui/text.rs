@@ -64,12 +64,17 @@ pub fn shorten(text: &str, room: usize, caps: Capabilities) -> String {
 /// The words of `text` in lines of at most `width` columns; a longer word begins a line and is broken, behind a `/` of a path where it
 /// has one. A character that is wider than that stands alone.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
+    wrap_by(text, |_| width)
+}
+
+/// The same in lines of which each is as wide as `width` says of its number.
+pub fn wrap_by(text: &str, width: impl Fn(usize) -> usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut taken = 0;
     for word in text.split_whitespace() {
         let wide = columns(word);
         let last = lines.len() - 1;
-        if lines[last].is_empty() || taken + 1 + wide <= width {
+        if lines[last].is_empty() || taken + 1 + wide <= width(last) {
             if !lines[last].is_empty() {
                 lines[last].push(' ');
                 taken += 1;
@@ -78,16 +83,17 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
             lines.push(String::new());
             taken = 0;
         }
-        let is_long = wide > width;
+        let is_long = wide > width(lines.len() - 1);
         for part in word.split_inclusive('/') {
             let wide = columns(part);
-            if is_long && taken > 0 && taken + wide > width && wide <= width {
+            let room = width(lines.len() - 1);
+            if is_long && taken > 0 && taken + wide > room && wide <= room {
                 lines.push(String::new());
                 taken = 0;
             }
             for grapheme in part.graphemes(true) {
                 let wide = grapheme_columns(grapheme);
-                if taken + wide > width && taken > 0 {
+                if taken + wide > width(lines.len() - 1) && taken > 0 {
                     lines.push(String::new());
                     taken = 0;
                 }

@@ -14,7 +14,7 @@ use crate::{
             keys::EXERCISE,
             view::{percent, separator},
         },
-        ui::{Ui, draw_lines, draw_title, pair, spell, stroke_rows, wrap},
+        ui::{Ui, draw_lines, draw_title, pair, spell, stroke_rows, wrap_by},
         words::{fixed, rail_name},
     },
 };
@@ -100,15 +100,8 @@ fn write_pages(
 fn lines_of(paragraphs: &[(String, Style)], width: impl Fn(usize) -> usize) -> Vec<(String, Style)> {
     let mut lines: Vec<(String, Style)> = Vec::new();
     for (words, style) in paragraphs {
-        let mut rest = words.split_whitespace().collect::<Vec<_>>().join(" ");
-        loop {
-            let first = wrap(&rest, width(lines.len())).swap_remove(0);
-            rest = rest[first.len()..].trim_start().to_owned();
-            lines.push((first, *style));
-            if rest.is_empty() {
-                break;
-            }
-        }
+        let before = lines.len();
+        lines.extend(wrap_by(words, |row| width(before + row)).into_iter().map(|line| (line, *style)));
     }
     lines
 }
