@@ -30,7 +30,9 @@ pub use self::{
     field::{Dot, draw_field, face_in, spot_mark},
     input::{TextField, Typed, is_typed},
     message::{Message, Tone},
-    panel::{draw_lines, draw_nothing, draw_title, frame, pair, write_paragraphs},
+    panel::{
+        below_title, draw_header, draw_lines, draw_nothing, draw_title, frame, pair, separator, split, write_paragraphs,
+    },
     profile::{draw_profile, side_view_below},
     sight::draw_sight,
     spin::draw_spin,

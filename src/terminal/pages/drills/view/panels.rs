@@ -9,12 +9,8 @@ use crate::{
     table::CueBall,
     terminal::{
         Capabilities, DrillAction, Taught,
-        pages::drills::{
-            Lesson, Meets, Sight, Turn, Watched,
-            keys::EXERCISE,
-            view::{percent, separator},
-        },
-        ui::{Ui, draw_lines, draw_title, pair, spell, stroke_rows, wrap_by},
+        pages::drills::{Lesson, Meets, Sight, Turn, Watched, keys::EXERCISE, view::percent},
+        ui::{Ui, draw_lines, draw_title, pair, separator, spell, stroke_rows, wrap_by},
         words::{fixed, rail_name},
     },
 };
