@@ -40,6 +40,13 @@ pub struct Capabilities {
 }
 
 impl Capabilities {
+    /// All that most terminals of today can show.
+    pub const TRUE_COLOUR: Self = Self { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+    /// Text without colours.
+    pub const NO_COLOUR: Self = Self { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+    /// Text without colours, in ASCII.
+    pub const ASCII: Self = Self { unicode: false, ..Self::NO_COLOUR };
+
     /// Reads the environment: `NO_COLOR`, `COLORTERM`, `TERM`, the locale, and `CAROM_GLYPHS` (`octant`, `sextant`,
     /// `half` or `letters`), with which a user whose font has octants, or lacks sextants, chooses once and for all.
     /// What was `chosen` in the settings goes before what the environment lets guess, and before `NO_COLOR`, but not before
@@ -118,7 +125,7 @@ mod tests {
     #[test]
     fn a_modern_terminal_gets_sextants_in_true_colour() {
         let found = caps(&[("TERM", "xterm-256color"), ("COLORTERM", "truecolor"), ("LANG", "de_DE.UTF-8")]);
-        assert_eq!(found, Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true });
+        assert_eq!(found, Capabilities::TRUE_COLOUR);
     }
 
     #[test]
@@ -139,7 +146,7 @@ mod tests {
     #[test]
     fn windows_terminal_is_known_by_its_name_where_no_locale_says_otherwise() {
         let found = caps(&[("WT_SESSION", "1")]);
-        assert_eq!(found, Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true });
+        assert_eq!(found, Capabilities::TRUE_COLOUR);
         assert_eq!(caps(&[("WT_SESSION", "1"), ("LANG", "C"), ("TERM", "xterm")]).depth, Depth::Ansi);
     }
 

@@ -125,19 +125,11 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
 fn with_what_was_left(app: App, places: &Places) -> App {
     // A file that cannot be read is named by the drill screens.
     let own = Store::new(places).own_skill().unwrap_or_default();
-    let (last, unread) = match SavedSession::load_or_put_aside(&places.last) {
-        Ok(last) => (last, None),
-        Err(sentence) => (None, Some(sentence)),
-    };
-    let (draft, torn) = match StrokeDraft::read_or_put_aside(&places.draft) {
-        Ok(draft) => (draft, None),
-        Err(sentence) => (None, Some(sentence)),
-    };
-    app.with_last(last)
-        .with_draft(draft)
-        .with_own_skill(own.map(|own| own.skill))
-        .with_notice(unread.as_deref())
-        .with_notice(torn.as_deref())
+    let last = SavedSession::load_or_put_aside(&places.last);
+    let draft = StrokeDraft::read_or_put_aside(&places.draft);
+    let notices = [last.as_ref().err().cloned(), draft.as_ref().err().cloned()];
+    let app = app.with_last(last.unwrap_or_default()).with_draft(draft.unwrap_or_default());
+    notices.iter().fold(app.with_own_skill(own.map(|own| own.skill)), |app, notice| app.with_notice(notice.as_deref()))
 }
 
 /// The coach as a conversation in lines, on the standard input and output, for the player whose files are at `places`. Returns how many

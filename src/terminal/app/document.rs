@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::terminal::{
-    Capabilities, Depth, Glyphs, KeyContext,
+    Capabilities, KeyContext,
     app::bindings::{Bound, listed},
     keymap::keys_text,
 };
@@ -40,11 +40,11 @@ pub fn document() -> String {
 }
 
 fn write_page<'a>(text: &mut String, name: &str, bindings: impl Iterator<Item = &'a Bound>) {
-    let caps = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
     // Writing into a text never fails.
     let _ = write!(text, "\n## {name}\n\n| keys | what they do |\n|---|---|\n");
     for binding in bindings {
-        let keys = keys_text(binding.keys.iter().map(|(chord, ..)| *chord), caps).replace('|', "\\|");
+        let keys =
+            keys_text(binding.keys.iter().map(|(chord, ..)| *chord), Capabilities::TRUE_COLOUR).replace('|', "\\|");
         let _ = writeln!(text, "| `{keys}` | {} |", binding.description);
     }
 }

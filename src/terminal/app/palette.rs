@@ -122,14 +122,12 @@ mod tests {
     use crossterm::event::KeyCode;
 
     use super::*;
-    use crate::terminal::{CoachAction, Depth, Glyphs};
-
-    const LOOK: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+    use crate::terminal::CoachAction;
 
     fn found(typed: &str) -> Vec<Command> {
         let mut command_palette = CommandPalette::default();
         command_palette.input(Typed::Paste(typed));
-        command_palette.found(commands(KeyContext::Coach, &Keys::default(), LOOK))
+        command_palette.found(commands(KeyContext::Coach, &Keys::default(), Capabilities::NO_COLOUR))
     }
 
     #[test]

@@ -109,14 +109,12 @@ impl<'a> SavedSession<'a> {
     pub fn load(path: &Path) -> Result<Option<Self>, String> {
         let bytes = storage::read_if_there(path, storage::PRACTICE).map_err(|error| error.to_string())?;
         let Some(bytes) = bytes else { return Ok(None) };
-        let header: Header =
-            serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {}", json_flaw(&error)))?;
+        let damage = |error| format!("it is damaged: {}", json_flaw(&error));
+        let header: Header = serde_json::from_slice(&bytes).map_err(damage)?;
         if header.version != VERSION {
             return Err(format!("it is of version {}, and {VERSION} is understood", header.version));
         }
-        let last: Self =
-            serde_json::from_slice(&bytes).map_err(|error| format!("it is damaged: {}", json_flaw(&error)))?;
-        last.checked().map(Some)
+        serde_json::from_slice::<Self>(&bytes).map_err(damage)?.checked().map(Some)
     }
 
     /// The same on the table that it means now, if the balls can lie there.

@@ -108,12 +108,11 @@ pub fn keys_text(chords: impl IntoIterator<Item = Chord>, caps: Capabilities) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::{Depth, Glyphs};
 
     #[test]
     fn keys_are_written_as_on_the_keyboard() {
         let chords = [KeyCode::Left, KeyCode::Down, KeyCode::Up, KeyCode::Right].map(Chord::shift);
-        let caps = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+        let caps = Capabilities::TRUE_COLOUR;
         assert_eq!(keys_text(chords.into_iter().chain([Chord::char('H'), Chord::char('J')]), caps), "Shift-←↓↑→ HJ");
         let plain = Capabilities { unicode: false, ..caps };
         assert_eq!(keys_text(chords, plain), "Shift-arrows");

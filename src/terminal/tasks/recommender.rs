@@ -11,8 +11,8 @@ use std::{
 
 use crate::{
     coach::{
-        Coach, Improvement, Input, Recommendation, Request, Sensitivity, Skill, Why, judge, scatter, systems::guide,
-        why,
+        Coach, Improvement, Input, Recommendation, Request, Sensitivity, Skill, Source, Why, judge, scatter,
+        systems::guide, why,
     },
     learning::Policy,
     physics::CueInputs,
@@ -210,26 +210,17 @@ impl CoachWorker {
 
 /// What the coach has found, ready to be shown.
 fn proposals(job: &Job, layout: &Layout, found: Recommendation) -> Result<Advice, String> {
-    let record = |cue, solved, source: String| {
-        Shot::new(&job.table, layout, cue, solved, source).map(Arc::new).map_err(|error| error.to_string())
+    let proposal = |cue, solved, source: Source, made, risk, next| {
+        let shot = Shot::new(&job.table, layout, cue, solved, source.to_string()).map_err(|error| error.to_string())?;
+        Ok(Proposal { shot: Arc::new(shot), made, risk, next, is_early: false })
     };
-    let best = Proposal {
-        shot: record(found.cue, found.solved, found.source.to_string())?,
-        made: found.make_probability,
-        risk: found.risk,
-        next: found.next_probability,
-        is_early: false,
-    };
-    let others = found.alternatives.iter().map(|other| {
-        Ok(Proposal {
-            shot: record(other.cue, true, other.source.to_string())?,
-            made: other.make_probability,
-            risk: None,
-            next: other.next_probability,
-            is_early: false,
-        })
-    });
-    let proposals = std::iter::once(Ok(best)).chain(others).collect::<Result<_, String>>()?;
+    let best =
+        proposal(found.cue, found.solved, found.source, found.make_probability, found.risk, found.next_probability);
+    let others = found
+        .alternatives
+        .iter()
+        .map(|other| proposal(other.cue, true, other.source, other.make_probability, None, other.next_probability));
+    let proposals = std::iter::once(best).chain(others).collect::<Result<_, String>>()?;
     let effort = Some(Effort { simulations: found.simulations, elapsed: found.elapsed });
     Ok(Advice { proposals, seed: job.seed, effort, found: found.solved.then(|| Arc::new(found)) })
 }

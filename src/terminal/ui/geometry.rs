@@ -93,6 +93,19 @@ impl Mapping {
     }
 }
 
+/// Divides `area` for `table` with a column of panels to its right and so many rows of others `below` both: what the table does
+/// not need goes to the column, up to a width that is still good to read. Gives the table's room, and the column, which ends with
+/// the table; `widths` are its least and most, with the blank before it.
+pub fn with_column(table: &Table, area: Rect, below: u16, widths: (u16, u16)) -> (Rect, Rect) {
+    let room = Rect { width: area.width.saturating_sub(widths.0), height: area.height.saturating_sub(below), ..area };
+    let outer = Mapping::fit(table, room).outer();
+    let width = area.width.saturating_sub(outer.width).clamp(widths.0, widths.1) - 1;
+    let left = area.right().saturating_sub(width);
+    let room = Rect { width: left - 1 - area.x, ..room };
+    let bottom = Mapping::fit(table, room).outer().bottom().min(area.bottom());
+    (room, Rect::new(left, area.y, width, bottom - area.y))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -191,7 +191,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::terminal::{Capabilities, Depth, Glyphs};
+    use crate::terminal::Capabilities;
 
     /// `text` with a bar where the cursor is, after these keys.
     fn after(text: &str, keys: &[(KeyModifiers, KeyCode)]) -> String {
@@ -206,8 +206,7 @@ mod tests {
     /// What is seen of a field of `width` columns, and the columns that are reversed.
     fn drawn(field: &TextField, width: u16) -> (String, Vec<u16>) {
         let area = Rect::new(0, 0, width, 1);
-        let caps = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
-        let buffer = crate::terminal::ui::drawn(area, caps, |ui| field.draw(area, ui));
+        let buffer = crate::terminal::ui::drawn(area, Capabilities::NO_COLOUR, |ui| field.draw(area, ui));
         let text = buffer.content().iter().map(|cell| cell.symbol().to_owned()).collect::<String>();
         let is_reversed = |x: &u16| buffer[(*x, 0)].modifier.contains(Modifier::REVERSED);
         (text, (0..width).filter(is_reversed).collect())

@@ -30,19 +30,24 @@ pub use self::{
     field::{Dot, draw_field, face_in, spot_mark},
     input::{TextField, Typed, is_typed},
     message::{Message, Tone},
-    panel::{draw_lines, draw_nothing, draw_title, frame, pair, write_paragraphs},
+    panel::{
+        below_title, draw_header, draw_lines, draw_nothing, draw_title, frame, pair, separator, split, write_paragraphs,
+    },
     profile::{draw_profile, side_view_below},
     sight::draw_sight,
     spin::draw_spin,
     status_line::{draw_question, draw_status},
     stroke::stroke_rows,
     table::{Spot, TableView, ball_at, cue_sign, draw_table},
-    text::{columns, cut, end_of, ending, shorten, spell, wrap, write_right},
+    text::{columns, cut, end_of, ending, shorten, spell, wrap, wrap_by, write_right},
     theme::Theme,
     tip::{draw_face, draw_tip, tip_rows},
     what_if::{Beside, draw_what_if},
 };
-use crate::terminal::{Capabilities, Keys};
+use crate::terminal::{
+    Capabilities, Keys,
+    keymap::{Binding, chord_of, keys_text},
+};
 
 /// The drawing context: where to draw, with which colours and characters, and the user's own keys to name.
 #[derive(Debug)]
@@ -55,6 +60,13 @@ pub struct Ui<'a> {
     pub keys: &'a Keys,
     /// The cells of the screen.
     pub buffer: &'a mut Buffer,
+}
+
+impl Ui<'_> {
+    /// The first key that does `action` by this table; empty where none does.
+    pub fn key_of<A: PartialEq, W>(&self, table: &[Binding<A, W>], action: &A) -> String {
+        keys_text(chord_of(table, action).and_then(|chord| self.keys.for_work_of(chord).next()), self.caps)
+    }
 }
 
 /// What `draw` draws into an empty `area`, in the colours and characters of `caps`.

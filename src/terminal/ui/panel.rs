@@ -1,7 +1,10 @@
-//! What panels have in common: a title on a rule, a frame, paragraphs, and words where there is nothing to show.
+//! What pages and their panels have in common: a header, titles, frames, paragraphs, and words where there is nothing to show.
 
 use ratatui::{
-    layout::Rect,
+    layout::{
+        Constraint::{Fill, Length},
+        Layout, Rect,
+    },
     style::Style,
     symbols::border,
     text::{Line, Span},
@@ -10,8 +13,27 @@ use ratatui::{
 
 use crate::terminal::{
     Capabilities,
-    ui::{Theme, Ui, cut, wrap},
+    ui::{Theme, Ui, columns, cut, shorten, wrap, write_right},
 };
+
+/// Draws the first row of a page behind the tabs: what it is, more about that, and what stands at its right end. Where there is no
+/// room, the last parts of `more` go first.
+pub fn draw_header(title: &str, more: &str, right: &Span, area: Rect, ui: &mut Ui) {
+    let taken = if right.content.is_empty() { 0 } else { right.width() + 2 };
+    let room = usize::from(area.width).saturating_sub(taken);
+    let title = shorten(title, room.saturating_sub(1), ui.caps);
+    let mut line = Line::from(Span::styled(format!(" {title}"), ui.theme.text()));
+    let parts = std::iter::successors(Some(more), |more| more.rsplit_once(separator(ui.caps)).map(|(parts, _)| parts));
+    let more = parts.map(|parts| format!("  {parts}")).find(|more| line.width() + columns(more) <= room);
+    line.push_span(Span::styled(more.unwrap_or_default(), ui.theme.faint()));
+    ui.buffer.set_line(area.x, area.y, &line, room as u16);
+    write_right(ui.buffer, area.x, area.right(), area.y, &right.content, right.style);
+}
+
+/// What stands between two parts of a header.
+pub const fn separator(caps: Capabilities) -> &'static str {
+    caps.pick(" · ", " - ")
+}
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
 pub fn draw_title<'a>(title: impl Into<Line<'a>>, area: Rect, ui: &mut Ui) -> Rect {
@@ -26,7 +48,17 @@ pub fn draw_title<'a>(title: impl Into<Line<'a>>, area: Rect, ui: &mut Ui) -> Re
         title.push_span(" ");
         ui.buffer.set_line(area.x + 1, area.y, &title.style(ui.theme.text()), area.width.saturating_sub(1));
     }
-    Rect { y: area.y + 1, height: area.height - 1, ..area }
+    below_title(area)
+}
+
+/// What a panel's title leaves of it.
+pub const fn below_title(area: Rect) -> Rect {
+    Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
+}
+
+/// The left `width` columns of `area`, and the others behind a blank one.
+pub fn split(width: u16, area: Rect) -> [Rect; 2] {
+    Layout::horizontal([Length(width), Fill(1)]).spacing(1).areas(area)
 }
 
 /// The frame where there are only plain characters.

@@ -210,8 +210,7 @@ mod tests {
 
     #[test]
     fn a_jump_over_a_ball_is_seen_from_the_side_in_letters_and_in_colours() {
-        let letters = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
-        let (rows, _) = picture(None, letters);
+        let (rows, _) = picture(None, Capabilities::ASCII);
         let text = rows.join("\n");
         assert!(rows[0].starts_with("- Side view - white jumps, ") && rows[0].contains(" mm high, "), "{text}");
         assert!(rows[7].contains("yellow") && rows[7].trim_end().ends_with('m'), "{text}");
@@ -220,10 +219,9 @@ mod tests {
         let course = rows[1..7].iter().position(|row| row.as_bytes()[column] == b'*').unwrap();
         assert!(course < top, "the course is above the ball\n{text}");
         assert!(!text.contains('W'));
-        let (moving, _) = picture(Some(0.05), letters);
+        let (moving, _) = picture(Some(0.05), Capabilities::ASCII);
         assert_eq!(moving.join("\n").matches('W').count(), 1);
-        let blocks = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
-        let (_, buffer) = picture(None, blocks);
+        let (_, buffer) = picture(None, Capabilities::TRUE_COLOUR);
         let theme = Theme::new(Depth::True);
         let has = |color| buffer.content().iter().any(|cell| cell.fg == color || cell.bg == color);
         assert!(has(theme.accent) && has(theme.signs[1]));

@@ -105,15 +105,15 @@ fn draw_hit(hit: &Hit, area: Rect, ui: &mut Ui) -> Rect {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::{Capabilities, Depth, Glyphs};
+    use crate::terminal::Capabilities;
     use glam::DVec2;
 
     /// The picture in letters, a line a row, and how many of them are `letter`.
     fn drawn(fullness: f64, left: bool, letter: char) -> (String, usize) {
         let area = Rect::new(0, 0, 40, 10);
-        let caps = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
         let hit = Hit { ball: 2, place: DVec2::ZERO, fullness, left };
-        let buffer = crate::terminal::ui::drawn(area, caps, |ui| assert_eq!(draw_hit(&hit, area, ui), area));
+        let buffer =
+            crate::terminal::ui::drawn(area, Capabilities::ASCII, |ui| assert_eq!(draw_hit(&hit, area, ui), area));
         let text: String = buffer.content().iter().map(ratatui::buffer::Cell::symbol).collect();
         (text[5 * 40..6 * 40].to_owned(), text.matches(letter).count())
     }

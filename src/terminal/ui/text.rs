@@ -64,12 +64,17 @@ pub fn shorten(text: &str, room: usize, caps: Capabilities) -> String {
 /// The words of `text` in lines of at most `width` columns; a longer word begins a line and is broken, behind a `/` of a path where it
 /// has one. A character that is wider than that stands alone.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
+    wrap_by(text, |_| width)
+}
+
+/// The same in lines of which each is as wide as `width` says of its number.
+pub fn wrap_by(text: &str, width: impl Fn(usize) -> usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut taken = 0;
     for word in text.split_whitespace() {
         let wide = columns(word);
         let last = lines.len() - 1;
-        if lines[last].is_empty() || taken + 1 + wide <= width {
+        if lines[last].is_empty() || taken + 1 + wide <= width(last) {
             if !lines[last].is_empty() {
                 lines[last].push(' ');
                 taken += 1;
@@ -78,16 +83,17 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
             lines.push(String::new());
             taken = 0;
         }
-        let is_long = wide > width;
+        let is_long = wide > width(lines.len() - 1);
         for part in word.split_inclusive('/') {
             let wide = columns(part);
-            if is_long && taken > 0 && taken + wide > width && wide <= width {
+            let room = width(lines.len() - 1);
+            if is_long && taken > 0 && taken + wide > room && wide <= room {
                 lines.push(String::new());
                 taken = 0;
             }
             for grapheme in part.graphemes(true) {
                 let wide = grapheme_columns(grapheme);
-                if taken + wide > width && taken > 0 {
+                if taken + wide > width(lines.len() - 1) && taken > 0 {
                     lines.push(String::new());
                     taken = 0;
                 }
@@ -128,10 +134,6 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::terminal::{Depth, Glyphs};
-
-    const UNICODE: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
-    const ASCII: Capabilities = Capabilities { unicode: false, ..UNICODE };
 
     #[test]
     fn long_sentences_are_broken_between_words() {
@@ -145,10 +147,10 @@ mod tests {
     #[test]
     fn what_is_cut_says_so() {
         let lines = wrap("one two three four", 7);
-        assert_eq!(cut(lines.clone(), 2, 7, UNICODE), ["one two", "three\u{2026}"]);
-        assert_eq!(cut(lines.clone(), 1, 7, ASCII), ["one..."]);
-        assert_eq!(cut(lines.clone(), 3, 7, UNICODE), lines);
-        assert_eq!(shorten("one two three four", 7, ASCII), "one...");
+        assert_eq!(cut(lines.clone(), 2, 7, Capabilities::NO_COLOUR), ["one two", "three\u{2026}"]);
+        assert_eq!(cut(lines.clone(), 1, 7, Capabilities::ASCII), ["one..."]);
+        assert_eq!(cut(lines.clone(), 3, 7, Capabilities::NO_COLOUR), lines);
+        assert_eq!(shorten("one two three four", 7, Capabilities::ASCII), "one...");
     }
 
     #[test]
@@ -159,10 +161,10 @@ mod tests {
         }
         assert_eq!(wrap("당구 연습 쿠션", 9), ["당구 연습", "쿠션"]);
         assert_eq!(wrap("당구연습", 5), ["당구", "연습"], "half of a syllable cannot be drawn");
-        assert_eq!(cut(wrap("당구 연습 쿠션", 9), 1, 9, UNICODE), ["당구 연…"]);
-        assert_eq!(end_of("runs/당구연습", 6, UNICODE), "…연습");
-        assert_eq!(end_of("당구연습", 8, UNICODE), "당구연습");
-        assert_eq!(end_of("runs", 2, ASCII), "..");
+        assert_eq!(cut(wrap("당구 연습 쿠션", 9), 1, 9, Capabilities::NO_COLOUR), ["당구 연…"]);
+        assert_eq!(end_of("runs/당구연습", 6, Capabilities::NO_COLOUR), "…연습");
+        assert_eq!(end_of("당구연습", 8, Capabilities::NO_COLOUR), "당구연습");
+        assert_eq!(end_of("runs", 2, Capabilities::ASCII), "..");
         assert_eq!(beginning("e\u{301}e\u{301}", 1), "e\u{301}", "a letter keeps its accent");
         assert_eq!(wrap(&family.repeat(2), 3), [family, family]);
     }
@@ -180,9 +182,9 @@ mod tests {
             }
             let letters = |text: &str| text.split_whitespace().collect::<String>();
             prop_assert_eq!(letters(&lines.concat()), letters(&text));
-            prop_assert!(columns(&end_of(&text, width, UNICODE)) <= width);
+            prop_assert!(columns(&end_of(&text, width, Capabilities::NO_COLOUR)) <= width);
             prop_assert!(columns(beginning(&text, width)) <= width && columns(ending(&text, width)) <= width);
-            prop_assert!(columns(&shorten(&text, width, UNICODE)) <= widest);
+            prop_assert!(columns(&shorten(&text, width, Capabilities::NO_COLOUR)) <= widest);
         }
     }
 }

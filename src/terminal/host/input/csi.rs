@@ -18,7 +18,6 @@ pub fn event(parameters: &[u8], last: u8) -> Option<Event> {
     match last {
         b'~' => numbered(first, numbers),
         b'u' => unicode(first, numbers.next()),
-        b'M' => mouse::numbered(text),
         b'I' if text.is_empty() => Some(Event::FocusGained),
         b'O' if text.is_empty() => Some(Event::FocusLost),
         b'Z' => modified(KeyCode::BackTab, numbers.next()).map(|event| with(event, KeyModifiers::SHIFT)),

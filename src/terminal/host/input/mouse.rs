@@ -1,4 +1,4 @@
-//! Reports of the mouse, in the three forms that terminals have.
+//! Reports of the mouse, in the form that is asked for and the one of terminals that do not know it.
 
 use crossterm::event::{Event, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
@@ -11,13 +11,6 @@ pub fn sgr(parameters: &str, last: u8) -> Option<Event> {
         (kind, b'M' | b'm') => kind,
         _ => return None,
     };
-    event(kind, modifiers, column, row)
-}
-
-/// The same with the button from 32 on and without a release of its own.
-pub fn numbered(parameters: &str) -> Option<Event> {
-    let [button, column, row] = numbers(parameters)?;
-    let (kind, modifiers) = button_of(u8::try_from(button).ok()?.checked_sub(32)?)?;
     event(kind, modifiers, column, row)
 }
 

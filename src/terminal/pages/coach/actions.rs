@@ -220,8 +220,7 @@ impl CoachPage {
     /// The same table and policy with the balls elsewhere, on which there is no advice yet.
     pub(super) fn position(&self, layout: Layout) -> Position {
         let Position { table, policy, cue_ball, .. } = self.balls.present();
-        let (table, policy) = (Arc::clone(table), policy.clone());
-        Position { table, policy, layout, cue_ball: *cue_ball, terms: None, advised: Vec::new() }
+        Position { policy: policy.clone(), cue_ball: *cue_ball, ..Position::new(Arc::clone(table), layout) }
     }
 
     fn undo(&mut self) {

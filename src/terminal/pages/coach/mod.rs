@@ -75,6 +75,13 @@ struct Position {
     advised: Vec<AdviceState>,
 }
 
+impl Position {
+    /// Balls on a table, of which nothing has been asked yet.
+    const fn new(table: Arc<Table>, layout: Layout) -> Self {
+        Self { table, policy: None, layout, cue_ball: CueBall::White, terms: None, advised: Vec::new() }
+    }
+}
+
 /// What the panel beside the shot's tells; see the screen for what goes with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
@@ -186,14 +193,7 @@ impl CoachPage {
             player: None,
             company: Company::Alone,
             own_stroke: None,
-            balls: History::new(Position {
-                table: Arc::new(table),
-                policy: None,
-                layout,
-                cue_ball: CueBall::White,
-                terms: None,
-                advised: Vec::new(),
-            }),
+            balls: History::new(Position::new(Arc::new(table), layout)),
             drag: None,
             of_settings: CoachQuery::default().terms(),
             of_start: CoachQuery::default().terms(),
@@ -395,7 +395,7 @@ impl CoachPage {
         let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
         let cue_ball = self.cue_ball();
         let terms = Some([self.query.terms(), query.terms()]).filter(|[before, after]| before != after);
-        self.balls.push(Position { table, policy: query.policy.clone(), layout, cue_ball, terms, advised: Vec::new() });
+        self.balls.push(Position { policy: query.policy.clone(), cue_ball, terms, ..Position::new(table, layout) });
         self.query = query;
         self.rest();
     }

@@ -160,14 +160,7 @@ impl CoachPage {
         self.query = CoachQuery { rule: shown.rule, skill: shown.skill, ..self.query.clone() };
         self.selected = shown.selected;
         let table = Arc::new(shown.table);
-        let mut position = Position {
-            table,
-            policy: None,
-            layout: shown.layout,
-            cue_ball: shown.cue_ball,
-            terms: None,
-            advised: Vec::new(),
-        };
+        let mut position = Position { cue_ball: shown.cue_ball, ..Position::new(table, shown.layout) };
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
         if let Some((shot, told)) = shot.zip(shown.shot) {

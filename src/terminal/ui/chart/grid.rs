@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn of_two_curves_in_a_cell_the_upper_one_is_shown_alone() {
-        let caps = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+        let caps = Capabilities::TRUE_COLOUR;
         let (theme, area) = (Theme::new(Depth::True), Rect::new(0, 0, 2, 1));
         let mut grid = Grid::new(area, caps, &theme);
         grid.set_run(Layer::Own, 0, 0, 0);

@@ -13,9 +13,9 @@ use crate::{
     simulation::TOLD_HEIGHT,
     table::{BALLS, Layout, PAIRS, Table},
     terminal::{
-        Capabilities, Glyphs, Mapping, Shot,
+        Glyphs, Mapping, Shot,
         ui::{
-            Theme, Ui,
+            Ui,
             sprites::Sprite,
             table::{
                 cushions::{draw_counts, draw_cushions},
@@ -76,15 +76,11 @@ pub struct TableView<'a> {
     /// Where a film shows the balls at the same moment: outlines below the balls. The outlines of what lies ahead in the
     /// shot are left out then.
     pub film: Option<[DVec2; BALLS]>,
-    /// The colours.
-    pub theme: &'a Theme,
-    /// What the terminal can show.
-    pub caps: Capabilities,
 }
 
 impl<'a> TableView<'a> {
     /// The balls as they lie, with nothing else.
-    pub const fn new<'b: 'a>(table: &'a Table, layout: &'a Layout, ui: &Ui<'b>) -> Self {
+    pub const fn new(table: &'a Table, layout: &'a Layout) -> Self {
         Self {
             table,
             layout,
@@ -99,8 +95,6 @@ impl<'a> TableView<'a> {
             spots: &[],
             note: None,
             film: None,
-            theme: ui.theme,
-            caps: ui.caps,
         }
     }
 }
@@ -115,7 +109,7 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     let balls = shot.map_or(view.layout.balls, |shot| shot.recording.positions(view.time));
     let marked = (!view.is_moving).then(|| balls[view.front]);
     draw_rails(&mapping, view.table.diamond(), marked, ui);
-    let glyphs = view.caps.glyphs;
+    let glyphs = ui.caps.glyphs;
     let sprite = Sprite::new(&mapping, glyphs);
     let reach = sprite.reach(&mapping, glyphs);
     let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
@@ -124,7 +118,7 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     let off_table = std::array::from_fn(|ball| shot.is_some_and(|shot| is_gone(shot, ball, view.time, &mapping)));
     let balls = apart_on_cloth(balls, heights, 2.0 * reach);
     let time = if view.is_moving { view.time } else { 0.0 };
-    let scene = Scene { view, mapping, time, balls, heights, off_table, sprite, clear };
+    let scene = Scene { view, caps: ui.caps, mapping, time, balls, heights, off_table, sprite, clear };
     paint::paint(&scene, ui);
     if view.is_numbered {
         draw_counts(view.table, &mapping, ui);

@@ -35,7 +35,7 @@ const BALL_WEIGHT: u8 = 32;
 
 /// Draws the cloth with all that is on it.
 pub fn paint(scene: &Scene, ui: &mut Ui) {
-    match scene.view.caps.glyphs {
+    match ui.caps.glyphs {
         Glyphs::Letters => in_letters(scene, ui),
         _ => in_blocks(scene, ui),
     }
@@ -51,7 +51,7 @@ fn path_color(theme: &Theme, ball: usize, age: Age) -> Color {
 }
 
 fn in_blocks(scene: &Scene, ui: &mut Ui) {
-    let (theme, glyphs, mapping) = (scene.view.theme, scene.view.caps.glyphs, &scene.mapping);
+    let (theme, glyphs, mapping) = (ui.theme, ui.caps.glyphs, &scene.mapping);
     let mut canvas = Canvas::new(mapping.bed, glyphs, theme.cloth);
     let (width, height) = canvas.size();
     let grid = DVec2::new(f64::from(width), f64::from(height))
@@ -95,7 +95,7 @@ fn in_blocks(scene: &Scene, ui: &mut Ui) {
 }
 
 fn in_letters(scene: &Scene, ui: &mut Ui) {
-    let (theme, caps, mapping) = (scene.view.theme, scene.view.caps, &scene.mapping);
+    let (theme, caps, mapping) = (ui.theme, ui.caps, &scene.mapping);
     ui.buffer.set_style(mapping.bed, Style::new().bg(theme.cloth));
     let mut put = |place: DVec2, symbol: char, color: Color| {
         let cell = &mut ui.buffer[mapping.to_cell(place)];
@@ -159,26 +159,24 @@ mod tests {
         let layout = Layout::parse(layout, &table).unwrap();
         let shot = Shot::new(&table, &layout, CueInputs::parse(cue).unwrap(), false, "test").unwrap();
         let buffer = drawn(AREA, caps, |ui| {
-            let view = TableView { shot: Some(&shot), time, ..TableView::new(&table, &layout, ui) };
+            let view = TableView { shot: Some(&shot), time, ..TableView::new(&table, &layout) };
             draw_table(&view, AREA, ui);
         });
         (buffer, shot, Mapping::fit(&table, AREA))
     }
 
-    const LETTERS: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
-    const BLOCKS: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
     const JUMP: (&str, &str) = ("-0.5,-0.2 0.9,0.4 1.2,0.5", "0,0,45,0,5");
 
     #[test]
     fn a_ball_in_the_air_stands_above_its_shadow_in_letters() {
-        let (buffer, shot, mapping) = flown(JUMP.0, JUMP.1, 0.05, LETTERS);
+        let (buffer, shot, mapping) = flown(JUMP.0, JUMP.1, 0.05, Capabilities::ASCII);
         assert!(shot.recording.height(0, 0.05) > 0.02);
         let (x, y) = mapping.to_cell(shot.recording.positions(0.05)[0]);
         assert_eq!((buffer[(x, y)].symbol(), buffer[(x, y - 1)].symbol()), ("o", "W"), "{buffer:?}");
         let aloft = shot.paths[0].iter().filter(|dot| dot.is_aloft()).count();
         let drawn = |sign: &str| buffer.content().iter().filter(|cell| cell.symbol() == sign).count();
         assert!(aloft > 8 && drawn("'") > 2 && drawn(".") > 0, "{aloft} {buffer:?}");
-        let (before, _, mapping) = flown(JUMP.0, JUMP.1, 0.0, LETTERS);
+        let (before, _, mapping) = flown(JUMP.0, JUMP.1, 0.0, Capabilities::ASCII);
         assert_eq!(before[mapping.to_cell(DVec2::new(-0.5, -0.2))].symbol(), "W", "on the cloth");
     }
 
@@ -188,8 +186,8 @@ mod tests {
             buffer.content().iter().filter(|cell| cell.fg == color || cell.bg == color).count()
         };
         let theme = Theme::new(Depth::True);
-        let (lying, ..) = flown(JUMP.0, JUMP.1, 0.0, BLOCKS);
-        let (flying, ..) = flown(JUMP.0, JUMP.1, 0.05, BLOCKS);
+        let (lying, ..) = flown(JUMP.0, JUMP.1, 0.0, Capabilities::TRUE_COLOUR);
+        let (flying, ..) = flown(JUMP.0, JUMP.1, 0.05, Capabilities::TRUE_COLOUR);
         assert_eq!(count(&lying, theme.shadow()), 0);
         assert!(count(&flying, theme.shadow()) > 0);
         assert!(count(&flying, theme.balls[0]) >= count(&lying, theme.balls[0]));
@@ -198,7 +196,7 @@ mod tests {
     #[test]
     fn a_ball_off_the_table_is_not_drawn() {
         let has_white = |time| {
-            let (buffer, shot, _) = flown("0.9,0 0,0.3 0,-0.3", "0,0,30,0,9", time, LETTERS);
+            let (buffer, shot, _) = flown("0.9,0 0,0.3 0,-0.3", "0,0,30,0,9", time, Capabilities::ASCII);
             assert_eq!(shot.recording.off_table(), [true, false, false]);
             buffer.content().iter().any(|cell| cell.symbol() == "W")
         };

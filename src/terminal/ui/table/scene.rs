@@ -57,6 +57,7 @@ pub struct Ghost {
 /// What is drawn of a table, with where the balls are.
 pub struct Scene<'a> {
     pub view: &'a TableView<'a>,
+    pub caps: Capabilities,
     pub mapping: Mapping,
     /// Seconds since the stroke, none while balls are placed.
     pub time: f64,
@@ -79,7 +80,7 @@ impl Scene<'_> {
 
     /// Half of a ball's picture, m.
     fn reach(&self) -> f64 {
-        self.sprite.reach(&self.mapping, self.view.caps.glyphs)
+        self.sprite.reach(&self.mapping, self.caps.glyphs)
     }
 
     /// Whether the picture of one of these balls, or a ring in place of one, reaches into the cell of a place.
@@ -92,7 +93,7 @@ impl Scene<'_> {
 
     /// Where the picture of a ball in the air stands: above its shadow by its height, and by enough to be seen apart.
     pub fn lifted(&self, ball: usize) -> DVec2 {
-        let rows = match self.view.caps.glyphs {
+        let rows = match self.caps.glyphs {
             Glyphs::Letters => 1.0,
             glyphs => 2.0 / f64::from(sub_pixels(glyphs).1),
         };
@@ -108,14 +109,14 @@ impl Scene<'_> {
 
     /// Whether a dot of a path is drawn at `place` over the table, where it is the `number`th: a way through the air is broken.
     fn is_drawn(&self, number: usize, dot: &Dot) -> bool {
-        let is_kept = !dot.is_aloft() || number.is_multiple_of(2) || self.view.caps.glyphs == Glyphs::Letters;
+        let is_kept = !dot.is_aloft() || number.is_multiple_of(2) || self.caps.glyphs == Glyphs::Letters;
         is_kept && self.mapping.is_on_bed(dot.place) && self.is_clear(dot.place)
     }
 
     /// Calls `draw` with each dot of the predicted paths that no ball and no ghost hides.
     pub fn each_dot(&self, mut draw: impl FnMut(usize, &Dot, Age)) {
         let Some(shot) = self.view.shot else { return };
-        let columns = if self.view.caps.glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
+        let columns = if self.caps.glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
         let stride = (columns / (self.mapping.scale().x * DOT_SPACING)).round().max(1.0) as usize;
         let ghosts = self.ghosts();
         let absent: Vec<DVec2> =
@@ -161,7 +162,7 @@ impl Scene<'_> {
     pub fn each_cue_dot(&self, mut draw: impl FnMut(DVec2, char)) {
         let Some(shot) = self.view.shot.filter(|_| self.view.time == 0.0) else { return };
         let ahead = DVec2::from_angle(shot.cue.phi);
-        let (tip, sign) = (1.2 * self.reach(), cue_sign(ahead, self.view.caps));
+        let (tip, sign) = (1.2 * self.reach(), cue_sign(ahead, self.caps));
         let places = (0..=(CUE_LENGTH / CUE_DOTS) as u32)
             .map(|dot| self.balls[0] - ahead * (tip + f64::from(dot) * CUE_DOTS))
             .take_while(|place| self.mapping.is_on_bed(*place));
@@ -199,7 +200,7 @@ mod tests {
         physics::CueInputs,
         table::{Layout, Table},
         terminal::{
-            Depth, Shot,
+            Shot,
             ui::{
                 drawn,
                 table::{CLEAR_PICTURES, CLEAR_RADII, apart},
@@ -214,16 +215,15 @@ mod tests {
         let layout = Layout::parse("-1,0 0,0.02 0.6,0.1", &table).unwrap();
         let shot = Shot::new(&table, &layout, CueInputs::parse("0,0.3,0,0,4").unwrap(), true, "test").unwrap();
         assert_eq!(shot.contacts.len(), 2, "{:?}", shot.contacts);
-        let caps = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
-        drawn(Rect::default(), caps, |ui| {
-            let view = TableView { shot: Some(&shot), time, ..TableView::new(&table, &layout, ui) };
+        drawn(Rect::default(), Capabilities::TRUE_COLOUR, |ui| {
+            let view = TableView { shot: Some(&shot), time, ..TableView::new(&table, &layout) };
             let mapping = Mapping::fit(&table, Rect::new(0, 0, columns, 60));
             let sprite = Sprite::new(&mapping, Glyphs::Sextant);
             let reach = sprite.reach(&mapping, Glyphs::Sextant);
             let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
             let balls = apart(shot.recording.positions(time), 2.0 * reach);
             let (heights, off_table) = ([0.0; BALLS], [false; BALLS]);
-            let lying = Scene { view: &view, mapping, time, balls, heights, off_table, sprite, clear };
+            let lying = Scene { view: &view, caps: ui.caps, mapping, time, balls, heights, off_table, sprite, clear };
             check(&lying, &shot);
         });
     }

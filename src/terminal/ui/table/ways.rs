@@ -139,14 +139,11 @@ mod tests {
         },
     };
 
-    const BLOCKS: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
-    const LETTERS: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
-
     /// The table with a note at a place, and without.
     fn noted(layout: &Layout, place: DVec2, area: Rect, caps: Capabilities) -> [Buffer; 2] {
         let table = Table::default();
         [Some((place, "kiss 7 %")), None].map(|note| {
-            drawn(area, caps, |ui| draw_table(&TableView { note, ..TableView::new(&table, layout, ui) }, area, ui))
+            drawn(area, caps, |ui| draw_table(&TableView { note, ..TableView::new(&table, layout) }, area, ui))
         })
     }
 
@@ -161,7 +158,7 @@ mod tests {
             for turn in 0..12 {
                 let way = DVec2::from_angle(f64::from(turn) * std::f64::consts::FRAC_PI_6);
                 let place = red + table.radius * way;
-                for (caps, sign) in [(BLOCKS, "\u{d7}"), (LETTERS, "*")] {
+                for (caps, sign) in [(Capabilities::TRUE_COLOUR, "\u{d7}"), (Capabilities::ASCII, "*")] {
                     let [with, without] = noted(&layout, place, area, caps);
                     let marks: Vec<_> = area.positions().filter(|at| with[*at].symbol() == sign).collect();
                     let [mark] = marks[..] else { panic!("{columns} {turn}: {marks:?}\n{with:?}") };
@@ -171,7 +168,11 @@ mod tests {
                     // The picture of the ball is whole.
                     let is_of_ball = |buffer: &Buffer, at| {
                         let cell = &buffer[at];
-                        if caps == LETTERS { cell.symbol() == "R" } else { [cell.fg, cell.bg].contains(&color) }
+                        if caps == Capabilities::ASCII {
+                            cell.symbol() == "R"
+                        } else {
+                            [cell.fg, cell.bg].contains(&color)
+                        }
                     };
                     for at in area.positions().filter(|at| is_of_ball(&without, *at)) {
                         assert_eq!(with[at], without[at], "{columns} {turn}: {at}");
@@ -186,7 +187,7 @@ mod tests {
         let (table, area) = (Table::default(), Rect::new(0, 0, 112, 30));
         let layout = Layout::parse("-1,0.3 -0.9,-0.4 0.4,0.1", &table).unwrap();
         let place = DVec2::new(0.0, -0.2);
-        let [with, _] = noted(&layout, place, area, BLOCKS);
+        let [with, _] = noted(&layout, place, area, Capabilities::TRUE_COLOUR);
         assert_eq!(with[Mapping::fit(&table, area).to_cell(place)].symbol(), "\u{d7}");
     }
 }

@@ -7,7 +7,7 @@ mod values;
 
 use ratatui::{
     layout::{Position, Rect},
-    text::{Line, Span},
+    text::Span,
 };
 
 use crate::terminal::{
@@ -16,7 +16,7 @@ use crate::terminal::{
         Asked, PageArea, PageView, Target,
         calibration::{CalibrationPage, Input, Side},
     },
-    ui::{Message, TextField, Ui, columns, shorten, write_right},
+    ui::{self, Message, TextField, Ui, columns, split},
 };
 
 /// Columns of the tests: at least, and where there is room.
@@ -122,14 +122,10 @@ fn draw_header(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let [long, short] = if page.is_daily { ["today's check of", "today:"] } else { ["your table, from", "from"] };
     let what =
         if long.len() + columns(&name) + 2 < room { format!("{long} {name}") } else { format!("{short} {name}") };
-    let line =
-        Line::from(Span::styled(format!(" {}", shorten(&what, room.saturating_sub(1), ui.caps)), ui.theme.text()));
-    ui.buffer.set_line(area.x, area.y, &line, room as u16);
-    write_right(ui.buffer, area.x, area.right(), area.y, &count, ui.theme.faint());
+    ui::draw_header(&what, "", &Span::styled(count, ui.theme.faint()), area, ui);
 }
 
 /// The part of the tests, and that beside them.
 fn halves(area: Rect) -> [Rect; 2] {
-    let list = Rect { width: if area.width >= WIDE { LIST_WIDE } else { LIST }, ..area };
-    [list, Rect { x: list.right() + 1, width: area.width.saturating_sub(list.width + 1), ..area }]
+    split(if area.width >= WIDE { LIST_WIDE } else { LIST }, area)
 }

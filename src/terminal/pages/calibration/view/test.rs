@@ -125,7 +125,7 @@ fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mu
     spots.extend(cue.map(|place| Spot { place, is_ball: false, color: ui.theme.cue, letter: sign }));
     let marks = sketch.places.iter().flatten();
     spots.extend(marks.map(|place| Spot { place: *place, is_ball: true, color: ui.theme.mark, letter: 'o' }));
-    let view = TableView { spots: &spots, is_numbered: false, ..TableView::new(table, &sketch.layout, ui) };
+    let view = TableView { spots: &spots, is_numbered: false, ..TableView::new(table, &sketch.layout) };
     draw_table(&view, area, ui);
     number_rails(table, &mapping, ui);
     letter_marks(test, sketch, &mapping, ui);

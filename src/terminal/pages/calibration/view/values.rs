@@ -9,7 +9,6 @@ use crate::{
     calibration::{Calibration, Change, Test},
     terminal::{
         CalibrationAction,
-        keymap::{chord_of, keys_text},
         pages::calibration::{CalibrationPage, keys::TESTS},
         ui::{Ui, columns, draw_title, shorten, wrap, write_right},
     },
@@ -49,8 +48,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let height = usize::from(area.height.saturating_sub(1)).max(1);
     let pages = rows.len().div_ceil(height).max(1);
     let number = page.values_page.rem_euclid(pages.cast_signed()).cast_unsigned();
-    let turns = chord_of(TESTS, &CalibrationAction::Page(1)).into_iter();
-    let key = keys_text(turns.flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps);
+    let key = ui.key_of(TESTS, &CalibrationAction::Page(1));
     let paged = if pages > 1 { format!(", {} of {pages}: {key}", number + 1) } else { String::new() };
     let inner = draw_title(format!("The table's values{paged}"), area, ui);
     for (row, y) in rows.chunks(height).nth(number).unwrap_or_default().iter().zip(inner.y..inner.bottom()) {

@@ -7,7 +7,6 @@ use crate::{
     game::Rule,
     terminal::{
         CoachAction,
-        keymap::{chord_of, keys_text},
         pages::coach::{CoachPage, keys::COACH},
         ui::{Ui, draw_title, write_paragraphs},
         words::skill_word,
@@ -17,7 +16,7 @@ use crate::{
 /// Draws the panel.
 pub fn draw_asked(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The coach", area, ui);
-    let [skill_key, rule_key] = [CoachAction::NextSkill, CoachAction::NextRule].map(|action| key_of(&action, ui));
+    let [skill_key, rule_key] = [CoachAction::NextSkill, CoachAction::NextRule].map(|action| ui.key_of(COACH, &action));
     let paragraphs = [
         (format!("Its shots are for {} at {}.", whom(coach.query.skill), game(coach.query.rule)), ui.theme.text()),
         (format!("{skill_key}: how well you play; {rule_key}: the rule."), ui.theme.faint()),
@@ -43,10 +42,4 @@ const fn game(rule: Rule) -> &'static str {
         Rule::OneCushion => "one-cushion",
         Rule::ThreeCushion => "three-cushion",
     }
-}
-
-/// The key that does this on the coach's table.
-pub fn key_of(action: &CoachAction, ui: &Ui) -> String {
-    let chord = chord_of(COACH, action);
-    keys_text(chord.into_iter().flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps)
 }

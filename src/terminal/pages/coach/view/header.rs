@@ -9,7 +9,7 @@ use crate::{
     coach::FirstMet,
     terminal::{
         CoachAction, Mode,
-        pages::coach::{CoachPage, view::asked::key_of},
+        pages::coach::{CoachPage, keys::COACH},
         ui::{Ui, end_of},
         words::{fixed, rule_word, skill_word},
     },
@@ -86,7 +86,7 @@ fn question(coach: &CoachPage, has_plan: bool, ui: &Ui) -> Line<'static> {
     }
     let mut line = Line::default();
     for (action, words) in parts {
-        line.push_span(Span::styled(format!(" {}", key_of(&action, ui)), ui.theme.accent()));
+        line.push_span(Span::styled(format!(" {}", ui.key_of(COACH, &action)), ui.theme.accent()));
         line.push_span(Span::styled(format!(" {words}"), ui.theme.text()));
     }
     line

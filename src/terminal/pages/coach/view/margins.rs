@@ -70,7 +70,7 @@ pub fn draw_margins(
             let is_tightest = Some(n) == tightest;
             let (factor, unit) = margin.told_in(unit);
             let yours = yours(factor * skill.error(margin.input));
-            Row { margin, factor, unit, yours, is_tightest, theme: ui.theme, caps: ui.caps }
+            Row { margin, factor, unit, yours, is_tightest }
         })
         .collect();
     if tall {
@@ -134,13 +134,11 @@ struct Row<'a> {
     /// The player's standard error, in that unit.
     yours: String,
     is_tightest: bool,
-    theme: &'a Theme,
-    caps: Capabilities,
 }
 
 impl Row<'_> {
-    fn style(&self) -> Style {
-        if self.is_tightest { self.theme.accent() } else { self.theme.text() }
+    fn style(&self, theme: &Theme) -> Style {
+        if self.is_tightest { theme.accent() } else { theme.text() }
     }
 
     /// The word that other views have for it.
@@ -154,10 +152,10 @@ impl Row<'_> {
         }
     }
 
-    fn letter(&self) -> &'static str {
+    fn letter(&self, caps: Capabilities) -> &'static str {
         match self.margin.input {
-            Input::Elevation => self.caps.pick("θ", "th"),
-            Input::Direction => self.caps.pick("φ", "ph"),
+            Input::Elevation => caps.pick("θ", "th"),
+            Input::Direction => caps.pick("φ", "ph"),
             input => input.name(),
         }
     }
@@ -170,31 +168,31 @@ impl Row<'_> {
 
     fn draw_whole(&self, in_letters: bool, area: Rect, ui: &mut Ui) {
         let (x, y) = (area.x, area.y);
-        ui.buffer.set_string(x + 1, y, if in_letters { self.letter() } else { self.word() }, self.theme.faint());
+        ui.buffer.set_string(x + 1, y, if in_letters { self.letter(ui.caps) } else { self.word() }, ui.theme.faint());
         // An inch has hundredths that are a quarter of a millimetre.
         let decimals = if self.unit == LengthUnit::Feet.fine().1 { 3 } else { 2 };
         let [less, more] = self.sizes(decimals);
-        write_right(ui.buffer, x + NAME_END, x + LESS_END, y, &less, self.style());
-        write_right(ui.buffer, x + NAME_END, x + MORE_END, y, &more, self.style());
-        write_right(ui.buffer, x + NAME_END, x + YOURS_END, y, &self.yours, self.theme.text());
+        write_right(ui.buffer, x + NAME_END, x + LESS_END, y, &less, self.style(ui.theme));
+        write_right(ui.buffer, x + NAME_END, x + MORE_END, y, &more, self.style(ui.theme));
+        write_right(ui.buffer, x + NAME_END, x + YOURS_END, y, &self.yours, ui.theme.text());
         let unit = match self.unit {
-            "degrees" => self.caps.pick("°", "deg"),
+            "degrees" => ui.caps.pick("°", "deg"),
             unit => unit,
         };
-        let mark = if self.is_tightest { self.caps.pick(" ◂", " <") } else { "" };
-        let line = Line::from(vec![Span::styled(unit, self.theme.faint()), Span::styled(mark, self.theme.accent())]);
+        let mark = if self.is_tightest { ui.caps.pick(" ◂", " <") } else { "" };
+        let line = Line::from(vec![Span::styled(unit, ui.theme.faint()), Span::styled(mark, ui.theme.accent())]);
         ui.buffer.set_line(x + UNIT, y, &line, area.right().saturating_sub(x + UNIT));
     }
 
     fn draw_half(&self, x: u16, y: u16, ui: &mut Ui) {
-        let mark = if self.is_tightest { self.caps.pick("▸", ">") } else { " " };
-        ui.buffer.set_string(x, y, mark, self.theme.accent());
-        ui.buffer.set_string(x + 1, y, self.letter(), self.theme.faint());
+        let mark = if self.is_tightest { ui.caps.pick("▸", ">") } else { " " };
+        ui.buffer.set_string(x, y, mark, ui.theme.accent());
+        ui.buffer.set_string(x + 1, y, self.letter(ui.caps), ui.theme.faint());
         let [less, more] = self.sizes(2);
-        write_right(ui.buffer, x + 3, x + 8, y, &less, self.style());
-        write_right(ui.buffer, x + 8, x + 14, y, &more, self.style());
+        write_right(ui.buffer, x + 3, x + 8, y, &less, self.style(ui.theme));
+        write_right(ui.buffer, x + 8, x + 14, y, &more, self.style(ui.theme));
         // They are less than 1 as a rule, so that their points stand one below the other.
-        ui.buffer.set_stringn(x + 15, y, &self.yours, 5, self.theme.faint());
+        ui.buffer.set_stringn(x + 15, y, &self.yours, 5, ui.theme.faint());
     }
 }
 

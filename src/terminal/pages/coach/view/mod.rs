@@ -85,7 +85,7 @@ impl PageView for CoachPage {
             is_numbered: lesson.is_none(),
             spots: &spots,
             note: kiss.as_ref().map(|(place, words)| (*place, words.as_str())),
-            ..TableView::new(self.table(), self.layout(), ui)
+            ..TableView::new(self.table(), self.layout())
         };
         draw_table(&view, panes.table, ui);
         if let Some(lesson) = lesson {

@@ -5,7 +5,10 @@ use ratatui::layout::Rect;
 
 use crate::{
     table::Table,
-    terminal::{Mapping, ui::side_view_below},
+    terminal::{
+        Mapping,
+        ui::{geometry::with_column, side_view_below, split},
+    },
 };
 
 /// Rows of the panels below the table where all of them stand there: a title and seven lines at least; of every so many
@@ -126,36 +129,25 @@ impl Panes {
 
     fn some_beside(table: &Table, area: Rect) -> Self {
         let middle = Self::middle(area);
-        let room = Rect {
-            width: middle.width.saturating_sub(BESIDE.0),
-            height: middle.height.saturating_sub(BELOW_BESIDE),
-            ..middle
-        };
-        let outer = Mapping::fit(table, room).outer();
-        // What the table does not need goes to the column beside it, up to a width that is still good to read.
-        let width = middle.width.saturating_sub(outer.width).clamp(BESIDE.0, BESIDE.1) - 1;
-        let left = area.right().saturating_sub(width);
-        let room = Rect { width: left - 1 - area.x, ..room };
-        let outer = Mapping::fit(table, room).outer();
-        let bottom = outer.bottom().min(middle.bottom());
-        let rows = bottom - middle.y;
+        let (room, column) = with_column(table, middle, BELOW_BESIDE, BESIDE);
+        let (bottom, rows) = (column.bottom(), column.height);
         let (least, easy, wide) = (SHOT_ROWS[0], SHOT_ROWS[1], SHOT_ROWS[2]);
-        let is_wide = width >= WIDE_COLUMN;
+        let is_wide = column.width >= WIDE_COLUMN;
         let (shot, most) = match () {
             () if is_wide => (wide, PRECISION_ROWS.1),
             () if rows >= TALL => (easy, PRECISION_ROWS.0),
             () => (least, PRECISION_ROWS.0),
         };
         let precision_rows = rows.saturating_sub(shot).min(most);
-        let precision = Rect::new(left, bottom - precision_rows, width, precision_rows);
-        let (tip, sight) = if is_wide { halves(precision) } else { stacked(precision) };
+        let precision = Rect { y: bottom - precision_rows, height: precision_rows, ..column };
+        let (tip, sight) = if is_wide { split(column.width / 2, precision).into() } else { stacked(precision) };
         let half = area.width / 2;
         let below = |x: u16, width: u16| Rect::new(area.x + x, bottom, width, middle.bottom() - bottom);
         Self {
             table: room,
             info: below(0, half),
             more: [Rect::ZERO; 2],
-            shot: Rect::new(left, middle.y, width, rows - precision_rows),
+            shot: Rect { height: rows - precision_rows, ..column },
             tip,
             sight,
             events: below(half + 1, area.width - half - 1),
@@ -174,13 +166,6 @@ fn stacked(area: Rect) -> (Rect, Rect) {
     let rows = SIGHT_ROWS[usize::from(area.height >= MANY_ROWS)].min(area.height);
     let tip = Rect { height: area.height - rows, ..area };
     (tip, Rect { y: tip.bottom(), height: rows, ..area })
-}
-
-/// Tip and sight side by side.
-fn halves(area: Rect) -> (Rect, Rect) {
-    let width = area.width / 2;
-    let tip = Rect { width, ..area };
-    (tip, Rect { x: tip.right() + 1, width: area.width - width - 1, ..area })
 }
 
 #[cfg(test)]

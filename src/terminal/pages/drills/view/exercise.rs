@@ -9,12 +9,12 @@ use crate::{
         Capabilities, Shot,
         pages::drills::{
             DrillsPage, Lesson, Meets, Sight, Turn,
-            view::{draw_header, panels, panes::Panes, score, separator},
+            view::{draw_header, panels, panes::Panes, score},
         },
         shot::Meeting,
         ui::{
             Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_profile, draw_sight, draw_spin, draw_table,
-            draw_tip, draw_what_if,
+            draw_tip, draw_what_if, separator,
         },
     },
 };
@@ -44,7 +44,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         other_name: turn.taught().map_or("", panels::teacher),
         time,
         spots: &spots,
-        ..TableView::new(&turn.table, &turn.layout, ui)
+        ..TableView::new(&turn.table, &turn.layout)
     };
     draw_table(&view, panes.table, ui);
     if let Some(profile) = profile {

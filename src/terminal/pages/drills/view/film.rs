@@ -1,6 +1,6 @@
 //! A filmed shot that is watched: simulated balls, the film's as outlines, and how far they are apart.
 
-use ratatui::layout::Rect;
+use ratatui::{layout::Rect, text::Span};
 
 use crate::{
     coach::{
@@ -13,15 +13,12 @@ use crate::{
         FilmScene, Glyphs,
         pages::drills::{
             DrillsPage,
-            view::{
-                films::{draw_film_header, outcome},
-                panes::Panes,
-            },
+            view::{films::outcome, panes::Panes},
         },
         shot::film::{Listed, table},
         ui::{
-            ListedEvents, Message, TableView, Ui, draw_events, draw_lines, draw_sight, draw_spin, draw_table, draw_tip,
-            draw_title, pair, tip_rows, write_paragraphs,
+            ListedEvents, Message, TableView, Ui, draw_events, draw_header, draw_lines, draw_sight, draw_spin,
+            draw_table, draw_tip, draw_title, pair, separator, tip_rows, write_paragraphs,
         },
         words::{fixed, speed_words},
     },
@@ -31,15 +28,15 @@ use crate::{
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let (film, unit) = (&drills.film, drills.units.length);
     let Some(listed) = film.marked() else { return Message::plain("the film has no shots") };
-    let more = about(listed, unit, ui.caps.pick(" · ", " - "));
-    draw_film_header(&format!("filmed shot {}", listed.filmed.number), &more, header, ui);
+    let more = about(listed, unit, separator(ui.caps));
+    draw_header(&format!("filmed shot {}", listed.filmed.number), &more, &Span::default(), header, ui);
     let panes = Panes::new(table(), area);
     let scene = film.scene();
     let view = TableView {
         shot: scene.map(|scene| scene.shot.as_ref()),
         time: film.playback.time,
         film: scene.map(|scene| scene.replay.filmed_places(film.playback.time)),
-        ..TableView::new(table(), &listed.layout, ui)
+        ..TableView::new(table(), &listed.layout)
     };
     draw_table(&view, panes.table, ui);
     let time = film.playback.readout;

@@ -2,7 +2,7 @@
 
 use ratatui::{
     layout::{Position, Rect},
-    text::{Line, Span},
+    text::Span,
 };
 
 use crate::terminal::{
@@ -12,7 +12,10 @@ use crate::terminal::{
         drills::{DrillsPage, view::READABLE},
     },
     shot::film::{Listed, listed, table},
-    ui::{Message, TableView, Ui, draw_table, draw_title, list, wrap, write_paragraphs, write_right},
+    ui::{
+        Message, TableView, Ui, below_title, draw_header, draw_table, draw_title, list, split, wrap, write_paragraphs,
+        write_right,
+    },
     words::fixed,
 };
 
@@ -27,8 +30,8 @@ const LENGTH_END: u16 = 32;
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let points = listed().iter().filter(|listed| listed.is_point).count();
     let more = format!("{} shots of a match, {points} points", listed().len());
-    draw_film_header("filmed shots", &more, header, ui);
-    let [list, preview] = halves(area);
+    draw_header("filmed shots", &more, &Span::default(), header, ui);
+    let [list, preview] = split(LIST, area);
     draw_list(drills, list, ui);
     if let Some(listed) = drills.film.marked() {
         draw_shot(listed, preview, ui);
@@ -36,32 +39,16 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     Message::plain("choose a shot; Enter plays it, filmed balls and simulated ones together")
 }
 
-/// The first row of a page of the film, which names no player.
-pub fn draw_film_header(title: &str, more: &str, area: Rect, ui: &mut Ui) {
-    let line = Line::from(vec![
-        Span::styled(format!(" {title}"), ui.theme.text()),
-        Span::styled(format!("  {more}"), ui.theme.faint()),
-    ]);
-    ui.buffer.set_line(area.x, area.y, &line, area.width);
-}
-
 /// What became of a shot by the film.
 pub const fn outcome(listed: &Listed) -> &'static str {
     if listed.is_point { "point" } else { "no point" }
 }
 
-fn halves(area: Rect) -> [Rect; 2] {
-    let list = Rect { width: LIST.min(area.width), ..area };
-    [list, Rect { x: list.right() + 1, width: area.width.saturating_sub(list.width + 1), ..area }]
-}
-
 /// What the mouse points at.
 pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
-    let [area, _] = halves(area);
+    let [area, _] = split(LIST, area);
     let mark = drills.film.mark;
-    // The first row is the title's.
-    let below = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
-    let line = list::line_at(mark, listed().len(), below, at.y);
+    let line = list::line_at(mark, listed().len(), below_title(area), at.y);
     area.contains(at).then(|| Target::list(line, mark))
 }
 
@@ -103,7 +90,7 @@ fn draw_shot(listed: &Listed, area: Rect, ui: &mut Ui) {
     ];
     let rows: usize = paragraphs.iter().map(|(text, _)| wrap(text, usize::from(width)).len()).sum();
     let room = Rect { height: inner.height.saturating_sub(rows as u16), ..inner };
-    let view = TableView::new(table(), &listed.layout, ui);
+    let view = TableView::new(table(), &listed.layout);
     draw_table(&view, room, ui);
     let outer = Mapping::fit(table(), room).outer();
     let left = outer.x.min(inner.right().saturating_sub(width + 1)).max(inner.x + 1);

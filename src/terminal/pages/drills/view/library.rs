@@ -17,8 +17,8 @@ use crate::{
             },
         },
         ui::{
-            Message, TableView, Theme, Ui, columns, draw_table, draw_title, list::Grouped, shorten, wrap,
-            write_paragraphs, write_right,
+            Message, TableView, Theme, Ui, below_title, columns, draw_table, draw_title, list::Grouped, shorten, split,
+            wrap, write_paragraphs, write_right,
         },
         words,
     },
@@ -56,16 +56,13 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
 /// The list's part of the page, and that of the marked exercise.
 fn halves(area: Rect) -> [Rect; 2] {
     let share = |of| area.width * of / 100;
-    let list = Rect { width: share(LIST.0).min(LIST_ENOUGH.max(share(LIST.1))), ..area };
-    [list, Rect { x: list.right() + 1, width: area.width - list.width - 1, ..area }]
+    split(share(LIST.0).min(LIST_ENOUGH.max(share(LIST.1))), area)
 }
 
 /// What the mouse points at.
 pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
     let [list, _] = halves(area);
-    // The first row is the title's.
-    let below = Rect { y: list.y + 1, height: list.height.saturating_sub(1), ..list };
-    let line = grouped(drills).entry_at(below, at.y);
+    let line = grouped(drills).entry_at(below_title(list), at.y);
     list.contains(at).then(|| Target::list(line, drills.catalogue.mark))
 }
 
@@ -147,7 +144,7 @@ fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut 
     }
     let room =
         Rect { height: inner.height.saturating_sub(rows(&paragraphs)).max(TABLE_ROWS.min(inner.height)), ..inner };
-    let view = TableView::new(&table, &exercise.layout, ui);
+    let view = TableView::new(&table, &exercise.layout);
     draw_table(&view, room, ui);
     let outer = Mapping::fit(&table, room).outer();
     let left = outer.x.min(inner.right() - width - 1).max(inner.x + 1);

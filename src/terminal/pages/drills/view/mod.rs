@@ -13,7 +13,7 @@ mod score;
 
 use ratatui::{
     layout::{Position, Rect},
-    text::{Line, Span},
+    text::Span,
 };
 
 use crate::{
@@ -24,7 +24,7 @@ use crate::{
             Asked, PageArea, PageView, Target,
             drills::{DrillsPage, Question},
         },
-        ui::{Message, Ui, columns, shorten, write_right},
+        ui::{self, Message, Ui},
         words::{self, skill_word},
     },
 };
@@ -62,23 +62,10 @@ impl PageView for DrillsPage {
     }
 }
 
-/// The first row of a page behind the tabs: what it is, more about that, and who plays.
+/// The header of a page whose strokes have the errors of a player, who is named.
 fn draw_header(drills: &DrillsPage, title: &str, more: &str, area: Rect, ui: &mut Ui) {
-    let player = format!("player: {} ", skill_word(drills.skill()));
-    let room = usize::from(area.width).saturating_sub(columns(&player) + 2);
-    let title = shorten(title, room.saturating_sub(1), ui.caps);
-    let mut line = Line::from(Span::styled(format!(" {title}"), ui.theme.text()));
-    // What stands last has to go first.
-    let parts = std::iter::successors(Some(more), |more| more.rsplit_once(separator(ui.caps)).map(|(parts, _)| parts));
-    let more = parts.map(|parts| format!("  {parts}")).find(|more| line.width() + columns(more) <= room);
-    line.push_span(Span::styled(more.unwrap_or_default(), ui.theme.faint()));
-    ui.buffer.set_line(area.x, area.y, &line, room as u16);
-    write_right(ui.buffer, area.x, area.right(), area.y, &player, ui.theme.text());
-}
-
-/// What stands between two parts of a header.
-const fn separator(caps: Capabilities) -> &'static str {
-    caps.pick(" · ", " - ")
+    let player = Span::styled(format!("player: {} ", skill_word(drills.skill())), ui.theme.text());
+    ui::draw_header(title, more, &player, area, ui);
 }
 
 /// The highest run of an exercise; none where the order of makes and misses is not known.

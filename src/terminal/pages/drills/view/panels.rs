@@ -9,13 +9,8 @@ use crate::{
     table::CueBall,
     terminal::{
         Capabilities, DrillAction, Taught,
-        keymap::{chord_of, keys_text},
-        pages::drills::{
-            Lesson, Meets, Sight, Turn, Watched,
-            keys::EXERCISE,
-            view::{percent, separator},
-        },
-        ui::{Ui, draw_lines, draw_title, pair, spell, stroke_rows, wrap},
+        pages::drills::{Lesson, Meets, Sight, Turn, Watched, keys::EXERCISE, view::percent},
+        ui::{Ui, draw_lines, draw_title, pair, separator, spell, stroke_rows, wrap_by},
         words::{fixed, rail_name},
     },
 };
@@ -92,8 +87,7 @@ fn write_pages(
     let lines = lines_of(paragraphs, |row| width(row % rows));
     let pages = lines.len().div_ceil(rows).max(1);
     let page = page.rem_euclid(pages.cast_signed()).cast_unsigned();
-    let turns = chord_of(EXERCISE, &DrillAction::TurnText(1)).into_iter();
-    let key = keys_text(turns.flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps);
+    let key = ui.key_of(EXERCISE, &DrillAction::TurnText(1));
     let title = if pages > 1 { format!("{title}{}{key} {}/{pages}", separator(ui.caps), page + 1) } else { title };
     let inner = draw_title(title, area, ui);
     let shown = lines.chunks(rows).nth(page).unwrap_or_default();
@@ -106,15 +100,8 @@ fn write_pages(
 fn lines_of(paragraphs: &[(String, Style)], width: impl Fn(usize) -> usize) -> Vec<(String, Style)> {
     let mut lines: Vec<(String, Style)> = Vec::new();
     for (words, style) in paragraphs {
-        let mut rest = words.split_whitespace().collect::<Vec<_>>().join(" ");
-        loop {
-            let first = wrap(&rest, width(lines.len())).swap_remove(0);
-            rest = rest[first.len()..].trim_start().to_owned();
-            lines.push((first, *style));
-            if rest.is_empty() {
-                break;
-            }
-        }
+        let before = lines.len();
+        lines.extend(wrap_by(words, |row| width(before + row)).into_iter().map(|line| (line, *style)));
     }
     lines
 }

@@ -4,7 +4,10 @@ use ratatui::layout::Rect;
 
 use crate::{
     table::Table,
-    terminal::{Mapping, ui::side_view_below},
+    terminal::{
+        Mapping,
+        ui::{geometry::with_column, side_view_below},
+    },
 };
 
 /// Rows of the panels below the table where all of them stand there: a title and seven lines.
@@ -87,25 +90,17 @@ impl Panes {
     }
 
     fn some_beside(table: &Table, area: Rect) -> Self {
-        let height = area.height.saturating_sub(BELOW_BESIDE);
-        let room = Rect { width: area.width.saturating_sub(BESIDE.0), height, ..area };
-        let outer = Mapping::fit(table, room).outer();
-        // What the table does not need goes to the column beside it, up to a width that is still good to read.
-        let width = area.width.saturating_sub(outer.width).clamp(BESIDE.0, BESIDE.1) - 1;
-        let left = area.right().saturating_sub(width);
-        let room = Rect { width: left - 1 - area.x, ..room };
-        let bottom = Mapping::fit(table, room).outer().bottom().min(area.bottom());
-        let rows = bottom - area.y;
-        let precision_rows = rows.saturating_sub(STROKE_ROWS).min(PRECISION_ROWS);
+        let (room, column) = with_column(table, area, BELOW_BESIDE, BESIDE);
+        let bottom = column.bottom();
+        let precision_rows = column.height.saturating_sub(STROKE_ROWS).min(PRECISION_ROWS);
         let sight_rows = SIGHT_ROWS.min(precision_rows);
-        let column = |y: u16, height: u16| Rect::new(left, y, width, height);
         let aim = area.width * AIM.0 / AIM.1;
         let below = |x: u16, width: u16| Rect::new(area.x + x, bottom, width, area.bottom() - bottom);
         Self {
             table: room,
-            stroke: column(area.y, rows - precision_rows),
-            tip: column(bottom - precision_rows, precision_rows - sight_rows),
-            sight: column(bottom - sight_rows, sight_rows),
+            stroke: Rect { height: column.height - precision_rows, ..column },
+            tip: Rect { y: bottom - precision_rows, height: precision_rows - sight_rows, ..column },
+            sight: Rect { y: bottom - sight_rows, height: sight_rows, ..column },
             aim: below(0, aim),
             score: below(aim + 1, area.width - aim - 1),
         }

@@ -16,7 +16,7 @@ use crate::{
         ui::{
             Message, Ui,
             chart::{Chart, Curve, SeriesId, draw_chart},
-            draw_lines, draw_title, pair, shorten, wrap, write_paragraphs, write_right,
+            draw_lines, draw_title, pair, shorten, split, wrap, write_paragraphs, write_right,
         },
         words::chance_words,
     },
@@ -40,9 +40,8 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     // The title, the numbers, a blank row, and what is known of the skill.
     let needed = skill.as_ref().map_or(0, |(words, _)| 2 + rows.len() + wrap(words, usize::from(width) - 1).len());
     let top = Rect { height: (area.height / 2).max(11).max(needed as u16), ..area };
-    let numbers = Rect { width, ..top };
+    let [numbers, chart] = split(width, top);
     draw_numbers(rows, skill.as_ref(), scope, numbers, ui);
-    let chart = Rect { x: numbers.right() + 1, width: top.width - numbers.width - 1, ..top };
     let points = points(&sessions, scope);
     let curves = [Curve { points: &points, odd: NonFinite::default(), whose: SeriesId::Own }];
     let tried = points.last().map_or(0, |point| point.shots.1);

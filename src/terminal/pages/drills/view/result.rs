@@ -9,7 +9,7 @@ use crate::{
             DrillsPage, Turn,
             view::{draw_header, percent},
         },
-        ui::{Message, Ui, draw_title, shorten, write_paragraphs, write_right},
+        ui::{Message, Ui, draw_title, shorten, split, write_paragraphs, write_right},
     },
 };
 
@@ -21,7 +21,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let session = &turn.session;
     draw_header(drills, "exam", "", header, ui);
     let score = SCORE.max(area.width * 2 / 5);
-    let list = Rect { width: area.width - score - 1, ..area };
+    let [list, score] = split(area.width - score - 1, area);
     let inner = draw_title("Exercises", list, ui);
     let signs = ui.caps.pick(["●", "○"], ["x", "o"]);
     for (n, (attempt, y)) in session.attempts.iter().zip(inner.y..inner.bottom()).enumerate() {
@@ -35,9 +35,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         ui.buffer.set_stringn(inner.x + 6, y, title, room, ui.theme.text());
         write_right(ui.buffer, inner.x, inner.right(), y, &chance, ui.theme.faint());
     }
-    let end = list.right();
-    write_right(ui.buffer, list.x, end + 1, list.y, " your stroke makes ", ui.theme.faint());
-    let score = Rect { x: end + 1, width: score, ..area };
+    write_right(ui.buffer, list.x, score.x, list.y, " your stroke makes ", ui.theme.faint());
     let inner = draw_title("Score", score, ui);
     let text = Rect { x: inner.x + 1, y: inner.y + 1, width: inner.width - 2, height: inner.height.saturating_sub(1) };
     let Some(mark) = exam::mark(session) else { return Message::plain("nothing was played") };

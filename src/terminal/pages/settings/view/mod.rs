@@ -11,7 +11,7 @@ use ratatui::{
 use crate::terminal::{
     Capabilities, SettingsContext, SettingsPage,
     pages::{Asked, PageArea, PageView, Target, settings::Input},
-    ui::{Message, Ui, end_of, write_paragraphs},
+    ui::{Message, Ui, below_title, end_of, split, write_paragraphs},
 };
 
 /// Columns of the list, of a hundred, and at most.
@@ -43,8 +43,7 @@ impl PageView for SettingsPage {
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
         let [list, _] = halves(self.page, area.body);
-        // The first row is the title's.
-        let below = Rect { y: list.y + 1, height: list.height.saturating_sub(1), ..list };
+        let below = below_title(list);
         let (line, mark) = match self.page {
             SettingsContext::Keys => (keys::list(self).entry_at(below, at.y), self.keys.mark),
             _ => (values::list(self).entry_at(below, at.y), self.mark),
@@ -76,8 +75,7 @@ fn halves(page: SettingsContext, area: Rect) -> [Rect; 2] {
         let list = Rect { height: area.height.saturating_sub(BELOW), ..area };
         return [list, Rect { y: list.bottom(), height: area.height - list.height, ..area }];
     }
-    let list = Rect { width: (area.width * LIST.0 / 100).min(LIST.1), ..area };
-    [list, Rect { x: list.right() + 1, width: area.width - list.width - 1, ..area }]
+    split((area.width * LIST.0 / 100).min(LIST.1), area)
 }
 
 /// Writes the words on what is marked into a panel, with blank rows between the paragraphs where there is room.

@@ -8,7 +8,7 @@ mod panes;
 mod replay;
 mod runs;
 
-use ratatui::layout::{Position, Rect};
+use ratatui::{layout::Position, text::Span};
 
 use crate::{
     table::Table,
@@ -18,7 +18,7 @@ use crate::{
             Asked, PageArea, PageView, Target,
             training::{TrainingPage, view::panes::Panes},
         },
-        ui::{Message, Ui},
+        ui::{Message, Ui, draw_header},
     },
 };
 
@@ -37,13 +37,13 @@ impl PageView for TrainingPage {
                 if is_bad { Message::warning(sentence) } else { Message::plain(sentence) }
             }
             (TrainingContext::Form, _) => {
-                title("a new run", head, ui);
+                draw_header("a new run", "", &Span::default(), head, ui);
                 form::draw(self, body, ui);
                 Message::plain(form::status_line(self))
             }
             (open, _) => {
                 let words = if open == TrainingContext::Compare { "compare with" } else { "training runs" };
-                title(words, head, ui);
+                draw_header(words, "", &Span::default(), head, ui);
                 runs::draw(self, body, ui);
                 runs::status_line(self)
             }
@@ -63,9 +63,4 @@ impl PageView for TrainingPage {
             _ => None,
         }
     }
-}
-
-/// The first row of the pages that show no run.
-fn title(words: &str, area: Rect, ui: &mut Ui) {
-    ui.buffer.set_stringn(area.x + 1, area.y, words, usize::from(area.width.saturating_sub(1)), ui.theme.text());
 }

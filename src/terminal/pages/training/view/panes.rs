@@ -2,7 +2,10 @@
 
 use ratatui::layout::Rect;
 
-use crate::{table::Table, terminal::Mapping};
+use crate::{
+    table::Table,
+    terminal::{Mapping, ui::split},
+};
 
 /// Rows below the charts on the smallest screen: a title and eight lines.
 const BELOW: u16 = 9;
@@ -38,15 +41,8 @@ impl Panes {
         let room = Rect { height: rows.saturating_sub(1), width: area.width.saturating_sub(NUMBERS.0), ..below };
         let table = Mapping::fit(table, room).outer().width.min(room.width);
         let numbers = area.width.saturating_sub(table + 1).min(NUMBERS.1);
-        Self {
-            charts,
-            numbers: Rect { width: numbers, ..below },
-            replay: Rect {
-                x: (below.x + numbers + 1).min(below.right()),
-                width: below.width.saturating_sub(numbers + 1),
-                ..below
-            },
-        }
+        let [numbers, replay] = split(numbers, below);
+        Self { charts, numbers, replay }
     }
 }
 

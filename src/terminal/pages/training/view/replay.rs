@@ -44,7 +44,6 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     if usize::from(area.right().saturating_sub(free)) > after.len() {
         write_right(ui.buffer, free, area.right().saturating_sub(1), area.y, &after, ui.theme.faint());
     }
-    let view =
-        TableView { shot: shot.as_ref(), time: replay.playback.time, ..TableView::new(table, &example.layout, ui) };
+    let view = TableView { shot: shot.as_ref(), time: replay.playback.time, ..TableView::new(table, &example.layout) };
     draw_table(&view, inner, ui);
 }
