@@ -243,11 +243,12 @@ impl Session {
         }
     }
 
-    /// The points of both sides of a match, like `you (white) 3 : 1 coach (yellow)`; nothing of what is no match.
+    /// The points of both sides of a match, like `you 3 : 1 coach`; nothing of what is no match.
     pub fn score_words(&self) -> Option<String> {
-        let [one, other] =
-            [self.cue_ball, self.cue_ball.other()].map(|ball| (self.side_words(ball), self.side(ball).made));
-        self.is_match().then(|| format!("{} {} : {} {}", one.0, one.1, other.1, other.0))
+        let sides = [self.cue_ball, self.cue_ball.other()];
+        let [one, other] = sides.map(|ball| self.side_words(ball).split(' ').next().unwrap_or_default().to_owned());
+        let [points, others] = sides.map(|ball| self.side(ball).made);
+        self.is_match().then(|| format!("{one} {points} : {others} {other}"))
     }
 
     /// The score of one side of a match.
@@ -329,7 +330,7 @@ pub mod tests {
     fn a_match_tells_its_inning_and_its_score() {
         let mut played = session(Goal::Match { innings: 3, against_coach: true }, "xx-x--");
         assert_eq!(played.inning_words().as_deref(), Some("inning 2 of 3"));
-        assert_eq!(played.score_words().as_deref(), Some("you (white) 2 : 1 coach (yellow)"));
+        assert_eq!(played.score_words().as_deref(), Some("you 2 : 1 coach"));
         assert!(played.is_coachs_turn() && !session(played.goal, "xx-x-").is_coachs_turn());
         played.goal = Goal::Match { innings: 0, against_coach: false };
         assert_eq!(played.score_words().as_deref(), Some("white 2 : 1 yellow"));

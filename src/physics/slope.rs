@@ -155,8 +155,8 @@ mod tests {
 
     const SPEEDS: [f64; 4] = [0.05, 0.3, 1.0, 2.0];
 
-    /// Compares courses on slopes in eight directions with integrated ones. `most` is by how much a ball of this speed may be off at
-    /// the end and on the way, m; `slip` is that of a ball of 1 m/s.
+    /// Compares courses on slopes in eight directions with integrated ones. `most` gives, for a speed, by how much a ball may be off
+    /// at the end and on the way, m; `slip` is that of a ball of 1 m/s.
     fn keeps_to_the_integrated_course(
         rolling: Rolling,
         tilt: f64,

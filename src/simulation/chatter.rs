@@ -215,7 +215,7 @@ pub fn chatter_end(
     if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slowest_coupled_bounce } {
         return None;
     }
-    // Behind a first bounce it is not a number, and counts as the slowest: `min` returns the other operand.
+    // Behind a first bounce the shrinking is not a number, and counts as the slowest: `min` returns the other operand.
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
     let cube = |x: f64| x * x * x;
     // Coupled contacts need not bounce ever more softly: all that is known is how softly they do.

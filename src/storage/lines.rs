@@ -11,7 +11,7 @@ const MOST_PASSED_OVER: u64 = 1 << 28;
 /// What comes next of the input.
 #[derive(Debug)]
 pub enum NextLine {
-    /// A line with its end.
+    /// A line, with its end if it has one.
     Line,
     /// One that is too long, passed over.
     TooLong,
@@ -22,11 +22,11 @@ pub enum NextLine {
 /// Reads the next line into `line`.
 ///
 /// # Errors
-/// Whatever reading reports; and a line that never ends.
+/// Whatever reading reports; and a line that goes on for 2²⁸ bytes.
 pub fn next_line(reader: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<NextLine> {
     line.clear();
-    let read = reader.by_ref().take(LONGEST_LINE).read_until(b'\n', line)? as u64;
-    if read < LONGEST_LINE || line.ends_with(b"\n") {
+    let read = reader.by_ref().take(LONGEST_LINE + 1).read_until(b'\n', line)? as u64;
+    if read <= LONGEST_LINE || line.ends_with(b"\n") {
         return Ok(if read > 0 { NextLine::Line } else { NextLine::End });
     }
     line.clear();

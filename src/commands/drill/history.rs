@@ -180,7 +180,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
         tell(format_args!("{}: not tried yet", subject.name()));
         return Ok(());
     }
-    print_table(["started (UTC)", "where", "goal", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;
+    print_table(["started (UTC)", "where", "goal or score", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;
     line(format_args!("rate   {}", bars(&tried)))?;
     line(format_args!("in all {}", words(&subject.record(sessions))))
 }

@@ -1,5 +1,7 @@
 //! `carom drill log`: makes and misses at a real table.
 
+use std::io::{self, IsTerminal};
+
 use serde::Serialize;
 
 use super::{
@@ -194,7 +196,7 @@ impl Log {
 
     /// Takes results from the standard input, and answers each.
     fn read(&mut self) -> Result<(), Failure> {
-        let mut refused = 0;
+        let (mut refused, mut has_nothing) = (0, false);
         while let Some(text) = ask("make, miss or undo: ")? {
             if text.is_empty() {
                 continue;
@@ -210,12 +212,16 @@ impl Log {
                         self.keep().or_else(|failure| if failure.is_silent() { Ok(()) } else { Err(failure) })?;
                     } else {
                         self.lock = None;
-                        refused += 1;
+                        has_nothing = true;
                         tell(self.nothing_to_undo());
                     }
                 }
             }
         }
-        of_refused_lines(refused)
+        of_refused_lines(refused)?;
+        if has_nothing && !io::stdin().is_terminal() {
+            return Err(Failure::failed("an undo had nothing to take back, as was told"));
+        }
+        Ok(())
     }
 }

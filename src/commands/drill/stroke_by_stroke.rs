@@ -69,6 +69,7 @@ struct AttemptLine<'a> {
     made: bool,
     verdict: String,
     helped: bool,
+    by_coach: bool,
     run: u32,
     meant: CueInputs,
     played: CueInputs,
@@ -171,7 +172,7 @@ impl<'a> StrokeByStroke<'a> {
         Ok(())
     }
 
-    /// Plays one stroke; when its result is printed, it is safe on the disk. `false` where the coach is to play and finds no point.
+    /// Plays one stroke; when its result is printed, it is safe on the disk. `false` where the coach is asked for a stroke and finds no point.
     pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: StrokeInput) -> Result<bool, Failure> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
         let helped = matches!(stroke, StrokeInput::Coach);
@@ -217,15 +218,17 @@ impl<'a> StrokeByStroke<'a> {
         let units = if self.options.json { Units { tip: TipUnit::Mm, ..Units::default() } } else { units() };
         let (verdict, run) = (played.words(cue_ball, units.length), self.session.run());
         let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue, units));
+        let last = self.session.attempts.last();
         if self.options.json {
             let turn = AttemptLine {
                 kind: "attempt",
                 number,
-                exercise: self.session.attempts.last().map_or("", |attempt| &attempt.exercise),
+                exercise: last.map_or("", |last| &last.exercise),
                 cue_ball,
                 made: played.made,
                 verdict,
-                helped,
+                helped: last.is_some_and(|last| last.helped),
+                by_coach: last.is_some_and(|last| last.by_coach),
                 run,
                 meant,
                 played: played.stroke,

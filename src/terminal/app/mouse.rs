@@ -100,6 +100,7 @@ impl App {
         *self.page_mut().message_mut() = None;
         self.toasts.go_on();
         match found {
+            // Of the places on the way nothing is wanted: what the last one asks for is done.
             Ok(line) => (0..lines.unsigned_abs()).fold(None, |effect, _| self.update(line).or(effect)),
             Err(reason) => {
                 self.toasts.push(reason.to_owned(), true);

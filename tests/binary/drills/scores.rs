@@ -37,7 +37,7 @@ fn results_at_a_table_are_scored_as_by_hand() {
     assert!(text.contains("not tried yet"), "{text}");
     assert_eq!(undo(1), Some(1));
     let refused = fed(command(folder.path(), &["drill", "log", "mine"]), "undo\n");
-    assert!(refused.code == Some(2) && refused.err.contains("to take back"), "{}", refused.err);
+    assert!(refused.code == Some(1) && refused.err.contains("to take back"), "{}", refused.err);
     // What was taken back whole is no session to others.
     let file = folder.path().join("all.json");
     let written = drill(folder.path(), &["export", file.to_str().unwrap()]);

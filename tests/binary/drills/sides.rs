@@ -50,7 +50,8 @@ fn the_coach_plays_the_other_side_and_alone_one_keeps_ones_ball() {
     let attempts = of_kind(&lines, "attempt");
     assert!(attempts.iter().any(|attempt| attempt["cue_ball"] == "yellow"), "{lines:?}");
     for attempt in &attempts {
-        assert_eq!(attempt["helped"], attempt["cue_ball"] == "yellow", "{attempt}");
+        assert_eq!(attempt["by_coach"], attempt["cue_ball"] == "yellow", "{attempt}");
+        assert_eq!(attempt["helped"], false, "{attempt}");
     }
     let alone = ["play", "--ball", "yellow", "--innings", "2", "--seed", "1", "--json"];
     let lines = fed(command(folder.path(), &alone), &MISS.repeat(5)).json();

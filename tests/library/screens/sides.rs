@@ -108,7 +108,7 @@ fn a_match_against_the_coach_is_left_gone_on_with_and_ends_with_its_score() {
     turn.says("inning 1 of 1");
     turn.says("coach makes 40 %");
     let left = turn.press("Esc Enter");
-    left.says("you (white) 0 : 0 coach (yellow): it goes on here, inning 1 of 1").says("coach makes 40 %");
+    left.says("you 0 : 0 coach: it goes on here, inning 1 of 1").says("coach makes 40 %");
     let noted = left.press("m");
     noted.warns("the coach has no cue at a real table");
     let mut over = noted.press("Space Enter");
@@ -117,7 +117,7 @@ fn a_match_against_the_coach_is_left_gone_on_with_and_ends_with_its_score() {
         over.says("coach (yellow): ");
         over = over.press("Enter Space Enter");
     }
-    over.says("the match is over: you (white) 0 : ");
+    over.says("the match is over: you 0 : ");
     assert!(over.store().sessions().items[0].is_over());
     over.press("Enter").says("inning 1 of 1").says("no attempt yet");
 }

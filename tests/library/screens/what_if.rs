@@ -71,8 +71,12 @@ fn without_a_shot_of_the_coach_a_stroke_begins_full_at_a_ball_and_one_plays_on_f
     let before = back.app.coach.layout().balls[0].x;
     let back = back.press("h");
     assert!(back.app.coach.layout().balls[0].x < before, "balls are placed again");
-    let undone = back.press("w n u");
-    assert_eq!(undone.app.place(), KeyContext::OwnStroke, "one step back, and the stroke is there");
+    let placed = *back.app.coach.layout();
+    let undone = back.press("w n n u");
+    assert_ne!(*undone.app.coach.layout(), placed);
+    let undone = undone.press("z u");
+    assert_eq!((undone.app.place(), *undone.app.coach.layout()), (KeyContext::OwnStroke, placed), "no further back");
+    undone.warns("the stroke is as it was at first");
     let asked = undone.press("Esc Enter").answer();
     assert!(asked.app.coach.what_if().is_none() && asked.app.coach.shot().is_some());
     // What is asked otherwise is about another stroke.

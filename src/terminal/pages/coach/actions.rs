@@ -52,6 +52,7 @@ impl CoachPage {
             ),
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled networks are asked already"),
             CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is as it was at first"),
+            CoachCondition::PlayedOn => refuse(self.played_on() == 0, "the stroke is as it was at first"),
             CoachCondition::StrokeUndone => refuse(!self.can_travel().1, "no change of the stroke was taken back"),
             CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
         }
@@ -86,10 +87,7 @@ impl CoachPage {
                 let layout = Layout::random(&self.balls.present().table, &mut self.rng);
                 self.place(layout);
             }
-            Action::Undo if self.what_if().is_some() => {
-                self.undo();
-                return self.take_over();
-            }
+            Action::Undo if self.what_if().is_some() => return self.play_back(),
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Recommend => return Some(self.ask()),
@@ -223,7 +221,7 @@ impl CoachPage {
         Position { policy: policy.clone(), cue_ball: *cue_ball, ..Position::new(Arc::clone(table), layout) }
     }
 
-    fn undo(&mut self) {
+    pub(super) fn undo(&mut self) {
         let left = self.balls.present().clone();
         self.balls.undo();
         let terms = left.terms.map(|[before, after]| [after, before]);

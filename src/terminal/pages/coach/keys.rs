@@ -132,6 +132,8 @@ pub enum CoachCondition {
     StrokeChanged,
     /// Where a change of it was taken back.
     StrokeUndone,
+    /// Where the player's own strokes have moved the balls.
+    PlayedOn,
     /// Where a policy is asked that a user has trained.
     Trained,
     /// Where an earlier session can be gone on with.
@@ -266,13 +268,13 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
     bind(Stroke, W::Anytime, &[letter(' ', A::PlayPause), key(Enter, A::PlayPause)], Some(("play", 1)),
         "play and pause your stroke"),
     bind(Stroke, W::Anytime, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("leave", 1)),
-        "leave your stroke; the balls and the coach's shot are as they were"),
+        "leave your stroke; a shot of the coach's beside it is as it was"),
     bind(Stroke, W::Anytime, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
         "take the balls as your stroke leaves them, for the next one"),
 ], [
     bind(Stroke, W::StrokeChanged, &[letter('u', A::StrokeBack), letter('z', A::StrokeBack)], Some(("undo", 1)),
         "take the last change of the stroke back"),
-    bind(Stroke, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change of the balls back"),
+    bind(Stroke, W::PlayedOn, &[letter('u', A::Undo), letter('z', A::Undo)], Some(("undo", 1)), "put the balls back where your last stroke was played"),
     bind(Stroke, W::StrokeUndone, &[letter('U', A::StrokeAgain), letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)],
         Some(("redo", 1)), "make a change of the stroke again that was taken back"),
     bind(Stroke, W::Anytime, &[letter(',', A::Event(-1)), letter('.', A::Event(1))], Some(("event", 2)),

@@ -29,6 +29,8 @@ pub struct Own {
     pub(super) what_if: WhatIf,
     /// The balls, on their table, and the question that it is about.
     about: (Arc<Table>, Layout, CoachQuery),
+    /// How many strokes of the player's own have brought the balls there, one after the other.
+    played_on: usize,
 }
 
 impl CoachPage {
@@ -59,7 +61,7 @@ impl CoachPage {
         match what_if {
             Ok(what_if) => {
                 let about = (Arc::clone(&self.balls.present().table), *self.layout(), self.query.clone());
-                self.own_stroke = Some(Own { stroke: OwnStroke::new(cue), what_if, about });
+                self.own_stroke = Some(Own { stroke: OwnStroke::new(cue), what_if, about, played_on: 0 });
             }
             Err(error) => return self.refuse(error),
         }
@@ -68,17 +70,38 @@ impl CoachPage {
         self.judge()
     }
 
+    /// How many strokes of the player's own have brought the balls where they lie.
+    pub(super) fn played_on(&self) -> usize {
+        self.own_stroke.as_ref().map_or(0, |own| own.played_on)
+    }
+
     /// Takes the balls as the player's own stroke leaves them, for the next one.
     pub(super) fn play_on(&mut self) -> Option<Effect> {
         let end = self.what_if()?.shot.recording.final_layout();
         if let Err(error) = end.validate(self.table()) {
             return self.refuse(error);
         }
+        let played_on = self.played_on() + 1;
         self.place(end);
-        self.take_over()
+        self.take_over_after(played_on)
     }
 
-    /// Leaves the player's own stroke; the coach's shot is as it was.
+    /// Puts the balls back where the last stroke of the player's own was played.
+    pub(super) fn play_back(&mut self) -> Option<Effect> {
+        let played_on = self.played_on().checked_sub(1)?;
+        self.undo();
+        self.take_over_after(played_on)
+    }
+
+    fn take_over_after(&mut self, played_on: usize) -> Option<Effect> {
+        let effect = self.take_over();
+        if let Some(own) = &mut self.own_stroke {
+            own.played_on = played_on;
+        }
+        effect
+    }
+
+    /// Leaves the player's own stroke; a shot of the coach's beside it is as it was.
     pub(super) fn leave_own_stroke(&mut self) {
         self.own_stroke = None;
         if self.proposal().is_some() {

@@ -53,8 +53,9 @@ impl DrillsPage {
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
             Action::All => self.catalogue.show_all(),
             Action::Search => {
-                let before = (self.catalogue.sought(), self.catalogue.mark);
-                self.question = Some(Question::Search(TextField::new(LONGEST), before.0, before.1));
+                let marked = self.catalogue.marked().map(|exercise| exercise.name.clone()).unwrap_or_default();
+                let before = self.catalogue.sought();
+                self.question = Some(Question::Search { typed: TextField::new(LONGEST), before, marked });
             }
             Action::Open => return self.open_marked(),
             Action::Exam(level) => return self.begin_exam(level),
@@ -227,9 +228,9 @@ impl DrillsPage {
     }
 
     fn no(&mut self) {
-        if let Some(Question::Search(_, before, mark)) = self.question.take() {
+        if let Some(Question::Search { before, marked, .. }) = self.question.take() {
             self.catalogue.find_text(&before);
-            self.catalogue.mark = mark;
+            self.catalogue.mark_named(&marked);
         }
     }
 
@@ -238,7 +239,7 @@ impl DrillsPage {
             |exercise: Box<Exercise>, replace| Some(Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)]));
         let question = self.question.take()?;
         let answer = match &question {
-            Question::Search(..) => return None,
+            Question::Search { .. } => return None,
             Question::Code(typed) => self.decoded(typed.text()),
             Question::Replace(exercise) => return save(exercise.clone(), true),
             Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),

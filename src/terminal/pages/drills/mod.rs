@@ -230,14 +230,14 @@ impl DrillsPage {
     /// The key context: the page's, or that of the search over it.
     pub fn place(&self) -> DrillContext {
         match &self.question {
-            Some(Question::Search(..)) => DrillContext::Search,
+            Some(Question::Search { .. }) => DrillContext::Search,
             _ => self.page(),
         }
     }
 
     /// Lists what has the words that are being typed.
     fn search(&mut self) {
-        if let Some(Question::Search(typed, ..)) = &self.question {
+        if let Some(Question::Search { typed, .. }) = &self.question {
             self.catalogue.find_text(typed.text().trim());
         }
     }
@@ -281,7 +281,7 @@ impl Page for DrillsPage {
 
     fn field_mut(&mut self) -> Option<&mut TextField> {
         match self.question.as_mut()? {
-            Question::Search(typed, ..) | Question::Code(typed) => Some(typed),
+            Question::Search { typed, .. } | Question::Code(typed) => Some(typed),
             _ => None,
         }
     }

@@ -11,8 +11,15 @@ pub(super) const LONGEST: usize = 4000;
 /// A question that waits for an answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Question {
-    /// Words to look for; those that were looked for before, and the line that was marked then.
-    Search(TextField, String, usize),
+    /// Words to look for.
+    Search {
+        /// As far as they are typed.
+        typed: TextField,
+        /// Those that were looked for before.
+        before: String,
+        /// The name of the exercise that was marked then.
+        marked: String,
+    },
     /// A share code.
     Code(TextField),
     /// Whether the position of the same name may be replaced.
@@ -30,7 +37,7 @@ impl Question {
     /// The question as it stands on the status line, without what is typed.
     pub fn text(&self) -> String {
         match self {
-            Self::Search(..) => "find: ".to_owned(),
+            Self::Search { .. } => "find: ".to_owned(),
             Self::Code(_) => "paste or type the code of a position: ".to_owned(),
             Self::Replace(exercise) => {
                 format!("there is a position called {} already; replace it?", exercise.name)
@@ -49,7 +56,7 @@ impl Question {
     /// The text that is typed, where some is.
     pub fn field(&self) -> Option<&TextField> {
         match self {
-            Self::Search(typed, ..) | Self::Code(typed) => Some(typed),
+            Self::Search { typed, .. } | Self::Code(typed) => Some(typed),
             _ => None,
         }
     }

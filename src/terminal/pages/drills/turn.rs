@@ -113,7 +113,7 @@ impl Turn {
             stage: Stage::Aiming,
             lesson: Lesson::Pending,
             shows_hint: is_coachs,
-            is_helped: is_coachs,
+            is_helped: false,
             is_from_side: false,
             text_page: 0,
             ahead: None,
@@ -202,6 +202,11 @@ impl Turn {
     /// Whether it waits for what came of a stroke.
     pub const fn is_waiting(&self) -> bool {
         matches!(self.stage, Stage::Waiting)
+    }
+
+    /// Whether a stroke of the coach's is to come, or is watched.
+    pub fn is_with_coach(&self) -> bool {
+        self.is_coachs_turn() || self.watched().is_some_and(Watched::is_by_coach)
     }
 
     /// Whether the coach is still thinking about the stroke that it is to make.

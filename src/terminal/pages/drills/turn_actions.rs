@@ -38,20 +38,31 @@ impl Turn {
                 | Condition::Counted
                 | Condition::Adoptable,
             ) => Some("the stroke is being played"),
-            (Stage::Aiming, Condition::Playable | Condition::Set) if self.is_coachs_turn() => {
-                refuse(self.is_coach_thinking(), "the coach is still thinking")
+            (
+                Stage::Aiming,
+                Condition::Playable
+                | Condition::Set
+                | Condition::Aiming
+                | Condition::Watching
+                | Condition::Taught
+                | Condition::Adoptable,
+            ) if self.is_coach_thinking() => Some("the coach is still thinking"),
+            (Stage::Aiming, Condition::Playable | Condition::Set) if self.is_coachs_turn() => None,
+            (Stage::Aiming, Condition::Taught) if self.is_coachs_turn() && self.hint().is_some() => {
+                Some("the coach's stroke is shown already")
             }
-            (Stage::Aiming, Condition::Aiming | Condition::Watching) if self.is_coachs_turn() => {
+            (Stage::Aiming, Condition::Aiming | Condition::Watching | Condition::Adoptable)
+                if self.is_coachs_turn() =>
+            {
                 Some("the coach plays this stroke: Space")
             }
-            (Stage::Aiming, Condition::Taught) if self.is_coachs_turn() => Some("the coach's stroke is shown already"),
+            (_, Condition::Playable | Condition::Aiming) => {
+                refuse(!self.is_aiming(), "a shot is being watched; Enter goes on")
+            }
             (_, Condition::Noted) => {
                 let is_against = matches!(self.session.goal, Goal::Match { against_coach: true, .. });
                 refuse(is_against, "the coach has no cue at a real table; o chooses another goal")
                     .or_else(|| self.disabled_reason(Condition::Restart))
-            }
-            (_, Condition::Playable | Condition::Aiming) => {
-                refuse(!self.is_aiming(), "a shot is being watched; Enter goes on")
             }
             (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
             (_, Condition::Running | Condition::Ended) => match self.watched() {

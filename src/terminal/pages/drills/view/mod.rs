@@ -50,7 +50,7 @@ impl PageView for DrillsPage {
     fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
         let question = self.question.as_ref()?;
         let asked = Asked::new(self.message.as_ref(), &question.text(), question.field());
-        Some(Asked { has_own_keys: matches!(question, Question::Search(..)), ..asked })
+        Some(Asked { has_own_keys: matches!(question, Question::Search { .. }), ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {

@@ -37,7 +37,7 @@ pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
 pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16), ui: &mut Ui) {
     let settled = turn.watched().filter(|watched| watched.is_settled);
     let rule = turn.exercise.rule;
-    let task = if turn.is_coachs_turn() { "The coach's turn" } else { "Task" };
+    let task = if turn.is_with_coach() { "The coach's turn" } else { "Task" };
     let task = format!("{task}: {rule}");
     let title = settled.map_or(task, |watched| chances(turn, watched, ui.caps));
     let mut paragraphs = Vec::new();
@@ -161,7 +161,7 @@ fn hint(turn: &Turn, taught: &Taught, units: Units, caps: Capabilities) -> Strin
     let advice = &taught.advice;
     let sentence = taught.shot.words.sentence(turn.cue_ball, units);
     let words = format!("{} makes {}: {sentence}", teacher(taught), percent(advice.chance.rate));
-    if turn.is_coachs_turn() || turn.watched().is_some_and(Watched::is_by_coach) {
+    if turn.is_with_coach() {
         return spell(&words, caps);
     }
     let yours = told(turn, &turn.raised_stroke(), &advice.cue, units).unwrap_or_else(|| "the same".to_owned());
