@@ -39,6 +39,15 @@ fn a_title_that_makes_no_name_is_mended_and_escape_saves_nothing() {
 }
 
 #[test]
+fn an_answer_that_comes_late_does_not_take_the_place_of_what_is_asked_meanwhile() {
+    let mut player = at_coach().press("s").type_in("mine").press("Enter p").type_in("2d,");
+    let position = player.store().positions().items[0].clone();
+    player.app.coach.saved(Box::new(position), Ok(false));
+    player.says("mine is not saved: there is another of this name").says("code: 2d,");
+    assert_eq!(player.app.place(), KeyContext::Question { is_typed: true });
+}
+
+#[test]
 fn a_name_that_is_taken_is_asked_about_and_a_bundled_one_refused() {
     let twice = at_coach().press("s").type_in("mine").press("Enter Right s").type_in("mine").press("Enter");
     twice.says("there is a position called mine already; replace it?");
