@@ -234,21 +234,25 @@ impl Session {
     }
 
     /// Who plays one side of a match.
-    pub fn side_words(&self, cue_ball: CueBall) -> String {
-        let is_against = matches!(self.goal, Goal::Match { against_coach: true, .. });
-        match (is_against, cue_ball == self.cue_ball) {
-            (true, true) => format!("you ({cue_ball})"),
-            (true, false) => format!("coach ({cue_ball})"),
-            _ => cue_ball.to_string(),
+    fn side_name(&self, cue_ball: CueBall) -> &'static str {
+        match self.goal {
+            Goal::Match { against_coach: true, .. } if cue_ball == self.cue_ball => "you",
+            Goal::Match { against_coach: true, .. } => "coach",
+            _ => cue_ball.name(),
         }
+    }
+
+    /// The same with the ball, like `you (white)`.
+    pub fn side_words(&self, cue_ball: CueBall) -> String {
+        let name = self.side_name(cue_ball);
+        if name == cue_ball.name() { name.to_owned() } else { format!("{name} ({cue_ball})") }
     }
 
     /// The points of both sides of a match, like `you 3 : 1 coach`; nothing of what is no match.
     pub fn score_words(&self) -> Option<String> {
-        let sides = [self.cue_ball, self.cue_ball.other()];
-        let [one, other] = sides.map(|ball| self.side_words(ball).split(' ').next().unwrap_or_default().to_owned());
-        let [points, others] = sides.map(|ball| self.side(ball).made);
-        self.is_match().then(|| format!("{one} {points} : {others} {other}"))
+        let [one, other] =
+            [self.cue_ball, self.cue_ball.other()].map(|ball| (self.side_name(ball), self.side(ball).made));
+        self.is_match().then(|| format!("{} {} : {} {}", one.0, one.1, other.1, other.0))
     }
 
     /// The score of one side of a match.
