@@ -170,10 +170,10 @@ pub enum ExerciseError {
     /// Its table is none that is bundled.
     #[error("an exercise lies on a bundled table, and {0:?} is none; accepted are {names}", names = PRESETS.join(", "))]
     Table(String),
-    /// Its grade is none.
+    /// Its grade is above 5.
     #[error("grade {0} is not accepted; grades go from 0, for none, to 5")]
     Grade(u8),
-    /// A share of strokes that are made is none.
+    /// A share of strokes that are made is not from 0 to 1.
     #[error("{0} is no share of strokes that are made; accepted is a number from 0 to 1")]
     Share(f64),
     /// Its layout is impossible.

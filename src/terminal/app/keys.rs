@@ -64,12 +64,17 @@ impl App {
             return self.take_both(key);
         }
         let found = found?;
-        *self.page_mut().message_mut() = None;
-        self.toasts.go_on();
         if meant.code == KeyCode::Esc {
             self.toasts.clear();
         }
-        match found {
+        self.perform(found)
+    }
+
+    /// Does what a key or the mouse has asked for, or says why not.
+    pub(super) fn perform(&mut self, asked: Result<Action, &'static str>) -> Option<Effect> {
+        *self.page_mut().message_mut() = None;
+        self.toasts.go_on();
+        match asked {
             Ok(action) => self.update(action),
             Err(reason) => {
                 self.toasts.push(reason.to_owned(), true);

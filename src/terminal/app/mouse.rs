@@ -97,26 +97,13 @@ impl App {
     fn move_mark(&mut self, lines: isize) -> Option<Effect> {
         let arrow = KeyEvent::from(if lines < 0 { KeyCode::Up } else { KeyCode::Down });
         let found = bindings::find(&arrow, self.place(), |when| self.disabled_reason(when))?;
-        *self.page_mut().message_mut() = None;
-        self.toasts.go_on();
-        match found {
-            // Of the places on the way nothing is wanted: what the last one asks for is done.
-            Ok(line) => (0..lines.unsigned_abs()).fold(None, |effect, _| self.update(line).or(effect)),
-            Err(reason) => {
-                self.toasts.push(reason.to_owned(), true);
-                None
-            }
-        }
+        // A refusal is told once. Of the places on the way nothing is wanted: what the last one asks for is done.
+        let times = if found.is_ok() { lines.unsigned_abs() } else { 1 };
+        (0..times).fold(None, |effect, _| self.perform(found).or(effect))
     }
 
     /// Does what a key would do that may be used at such a time, or says why not.
     fn attempt(&mut self, when: Condition, action: Action) -> Option<Effect> {
-        *self.page_mut().message_mut() = None;
-        self.toasts.go_on();
-        if let Some(reason) = self.disabled_reason(when) {
-            self.toasts.push(reason.to_owned(), true);
-            return None;
-        }
-        self.update(action)
+        self.perform(self.disabled_reason(when).map_or(Ok(action), Err))
     }
 }

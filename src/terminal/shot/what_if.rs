@@ -47,7 +47,9 @@ impl WhatIf {
     /// The coach's shot, taken over as it is.
     pub fn new(coach: Arc<Shot>, scene: Scene) -> Self {
         let verdict = Verdict::of(scene.rule, scene.table, scene.layout, &coach.recording);
-        Self::of((Arc::clone(&coach), verdict, true), Some(coach))
+        let shot = Arc::clone(&coach);
+        let (made, question, cancel) = (None, None, Arc::default());
+        Self { coach: Some(coach), shot, verdict, has_room: true, made, question, cancel }
     }
 
     /// A stroke of the player's own alone; rails and balls behind raise the cue that is set lower.
@@ -55,11 +57,8 @@ impl WhatIf {
     /// # Errors
     /// What the simulator refuses.
     pub fn alone(cue: &CueInputs, scene: Scene) -> Result<Self, ShotError> {
-        Ok(Self::of(struck(cue, scene)?, None))
-    }
-
-    fn of((shot, verdict, has_room): (Arc<Shot>, Verdict, bool), coach: Option<Arc<Shot>>) -> Self {
-        Self { coach, shot, verdict, has_room, made: None, question: None, cancel: Arc::default() }
+        let (shot, verdict, has_room) = struck(cue, scene)?;
+        Ok(Self { coach: None, shot, verdict, has_room, made: None, question: None, cancel: Arc::default() })
     }
 
     /// Takes another stroke for the player's own; rails and balls behind raise the cue that is set lower. How often it is made is

@@ -110,7 +110,7 @@ fn a_match_against_the_coach_is_left_gone_on_with_and_ends_with_its_score() {
     let left = turn.press("Esc Enter");
     left.says("you 0 : 0 coach: it goes on here, inning 1 of 1").says("coach makes 40 %");
     let noted = left.press("m");
-    noted.warns("the coach has no cue at a real table");
+    noted.warns("the coach cannot play at a real table");
     let mut over = noted.press("Space Enter");
     // A point of the coach's is followed by another stroke of its own.
     while over.store().sessions().items[0].attempts.last().unwrap().made {

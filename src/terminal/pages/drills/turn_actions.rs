@@ -61,7 +61,7 @@ impl Turn {
             }
             (_, Condition::Noted) => {
                 let is_against = matches!(self.session.goal, Goal::Match { against_coach: true, .. });
-                refuse(is_against, "the coach has no cue at a real table; o chooses another goal")
+                refuse(is_against, "the coach cannot play at a real table; o chooses another goal")
                     .or_else(|| self.disabled_reason(Condition::Restart))
             }
             (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
@@ -182,7 +182,7 @@ impl DrillsPage {
                     Goal::Free => Goal::Run(FIRST_RUN),
                     Goal::Run(_) => Goal::Game { innings: FIRST_GAME },
                     Goal::Game { .. } => Goal::Match { innings: FIRST_GAME, against_coach: false },
-                    // At a real table the coach has no cue.
+                    // At a real table the coach cannot play.
                     Goal::Match { against_coach: false, .. } if turn.newest().venue == Venue::Program => {
                         Goal::Match { innings: FIRST_GAME, against_coach: true }
                     }
