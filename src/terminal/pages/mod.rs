@@ -127,10 +127,15 @@ impl Target {
     }
 }
 
-/// What comes after `one` in `all`; after the last, and where it is not among them, the first.
-fn after<T: Copy + PartialEq>(all: &[T], one: &T) -> T {
-    let place = all.iter().position(|other| other == one).map_or(0, |place| place + 1);
-    all[place % all.len()]
+/// The place `steps` after `from` among `count`, around the end.
+const fn around(from: usize, steps: isize, count: usize) -> usize {
+    (from.cast_signed() + steps).rem_euclid(count.cast_signed()).cast_unsigned()
+}
+
+/// The element `steps` after `from`, around the end; the first where `from` is not among them.
+fn neighbour<T: Clone + PartialEq>(all: &[T], from: T, steps: isize) -> T {
+    let Some(place) = all.iter().position(|one| *one == from) else { return all.first().cloned().unwrap_or(from) };
+    all[around(place, steps, all.len())].clone()
 }
 
 /// The next of the players there are: the named ones, the user's `own` skill where one is kept, and that of the settings.
@@ -141,5 +146,5 @@ fn next_skill(now: Skill, own: Option<Skill>, set: Skill) -> Skill {
             all.push(skill);
         }
     }
-    after(&all, &now)
+    neighbour(&all, now, 1)
 }

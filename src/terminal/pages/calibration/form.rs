@@ -3,7 +3,7 @@
 use crate::{
     calibration::{Entry, RAILS, TAPED, Test, Unit, Written},
     table::Table,
-    terminal::{StrokeDraft, ui::TextField},
+    terminal::{StrokeDraft, pages::around, ui::TextField},
 };
 
 /// Longest mark, bytes.
@@ -67,7 +67,7 @@ impl Form {
 
     /// Goes to another field, around the ends.
     pub fn step(&mut self, by: isize) {
-        self.field = (self.field + self.fields.len()).saturating_add_signed(by) % self.fields.len();
+        self.field = around(self.field, by, self.fields.len());
     }
 
     /// Whether something is typed that is not kept yet.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::{
     coach::{Recommendation, Why},
     physics::CueInputs,
-    terminal::{Advice, CoachQuery, Proposal, ShotAnalysis},
+    terminal::{Advice, CoachQuery, Proposal, ShotAnalysis, pages::around},
 };
 
 /// Advice on a layout.
@@ -73,7 +73,6 @@ impl AdviceState {
 
     /// Shows another shot, the next where positive; after the last comes the first.
     pub fn turn(&mut self, shots: isize) {
-        let count = self.choices.len();
-        self.chosen = (self.chosen + count).saturating_add_signed(shots) % count;
+        self.chosen = around(self.chosen, shots, self.choices.len());
     }
 }

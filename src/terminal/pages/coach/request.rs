@@ -13,9 +13,9 @@ use crate::{
     terminal::{
         Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot, Terms,
         pages::{
-            Page, after,
+            Page,
             coach::{Choice, CoachPage, Position},
-            next_skill,
+            neighbour, next_skill,
         },
         ui::Message,
         words::{chance_words, skill_word},
@@ -221,7 +221,7 @@ impl CoachPage {
     }
 
     pub(super) fn next_rule(&mut self) {
-        let rule = after(&Rule::ALL, &self.query.rule);
+        let rule = neighbour(&Rule::ALL, self.query.rule, 1);
         self.ask_for(Terms { rule, ..self.query.terms() });
     }
 
@@ -236,7 +236,7 @@ impl CoachPage {
     }
 
     pub(super) fn next_first_met(&mut self) {
-        let first = after(&FirstMet::ALL, &self.query.first);
+        let first = neighbour(&FirstMet::ALL, self.query.first, 1);
         self.ask_for(Terms { first, ..self.query.terms() });
     }
 

@@ -3,6 +3,7 @@
 use crate::{
     drills::{Category, Exercise, Filter, Library},
     game::Rule,
+    terminal::pages::neighbour,
 };
 
 /// The library as it is listed.
@@ -79,10 +80,8 @@ impl Catalogue {
     /// Shows the next category, or the one before; before the first and after the last comes everything.
     pub fn choose_category(&mut self, step: isize) {
         self.refilter(|filter| {
-            let all = Category::ALL.len() + 1;
-            let now = filter.category.and_then(|now| Category::ALL.iter().position(|one| *one == now));
-            let next = (now.map_or(0, |now| now + 1) + all).saturating_add_signed(step) % all;
-            filter.category = next.checked_sub(1).map(|next| Category::ALL[next]);
+            let all: Vec<_> = std::iter::once(None).chain(Category::ALL.map(Some)).collect();
+            filter.category = neighbour(&all, filter.category, step);
         });
     }
 

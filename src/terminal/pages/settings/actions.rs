@@ -10,7 +10,7 @@ use crate::{
         config::{ENTRIES, Entry},
         keymap::Chord,
         pages::{
-            Page as _,
+            Page as _, around,
             settings::{Input, LONGEST, SettingsPage, TABLE},
         },
         ui::TextField,
@@ -86,7 +86,7 @@ impl SettingsPage {
                 let count = choices.len();
                 let place = choices.iter().position(|choice| *choice == now);
                 let mut others = (1..=count.cast_signed()).map(|steps| match place {
-                    Some(place) => (place.cast_signed() + steps * step).rem_euclid(count.cast_signed()).cast_unsigned(),
+                    Some(place) => around(place, steps * step, count),
                     None => steps.cast_unsigned() - 1,
                 });
                 // A table of the player's own may not be readable.

@@ -9,6 +9,7 @@ use crate::terminal::{
         remap::{chord as chord_named, name},
         works_of,
     },
+    pages::around,
 };
 
 /// The pages whose keys are listed, and what the marks are at.
@@ -48,8 +49,7 @@ impl OwnKeys {
 
     /// Lists another page's keys, the next where positive; after the last comes the first.
     pub fn choose_place(&mut self, pages: isize) {
-        let count = self.pages.len();
-        self.page = (self.page + count).saturating_add_signed(pages) % count;
+        self.page = around(self.page, pages, self.pages.len());
         self.mark = 0;
     }
 

@@ -1,6 +1,9 @@
 //! Which charts are shown of a run, how, and which part of it.
 
-use crate::{learning::run::quantity::Quantity, terminal::ui::chart::whole};
+use crate::{
+    learning::run::quantity::Quantity,
+    terminal::{pages::around, ui::chart::whole},
+};
 
 /// Degrees of smoothing, as shares of the shots that are shown, and the one at the start: what is raw shows behind it.
 const SMOOTHING: [f64; 4] = [0.0, 0.01, 0.03, 0.1];
@@ -224,11 +227,6 @@ impl Charts {
             part.end = None;
         }
     }
-}
-
-/// The place `steps` after `from` among `count`, around the end.
-pub fn around(from: usize, steps: isize, count: usize) -> usize {
-    (from.cast_signed() + steps).rem_euclid(count.cast_signed()).cast_unsigned()
 }
 
 #[cfg(test)]

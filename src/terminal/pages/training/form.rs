@@ -12,7 +12,10 @@ use crate::{
         run::{list::Summary, run_name},
     },
     printing::{shell_word, timestamp},
-    terminal::{Launch, pages::training::charts::around},
+    terminal::{
+        Launch,
+        pages::{around, neighbour},
+    },
 };
 
 /// Tables that a run can be started on.
@@ -241,10 +244,4 @@ impl Form {
         let arguments = std::iter::once("train".into()).chain(options).collect();
         Ok(Launch { arguments, folder })
     }
-}
-
-/// The element `steps` after `from`, around the end; the first where `from` is not among them.
-fn neighbour<T: Clone + PartialEq>(all: &[T], from: T, steps: isize) -> T {
-    let Some(place) = all.iter().position(|one| *one == from) else { return all.first().cloned().unwrap_or(from) };
-    all[around(place, steps, all.len())].clone()
 }
