@@ -65,6 +65,6 @@ pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
         lines.push(format!("{time} {seconds}: from the film, in {small}: {}.", distances(time)));
     }
     lines.push(format!("{} seconds: all balls lie still: {}.", fixed(end, 2), distances(end)));
-    lines.push(format!("The simulated shot is {}.", outcome(scene.is_point)));
+    lines.push(format!("The simulated shot is {}.", outcome(scene.shot.solved)));
     Ok(lines.join("\n"))
 }

@@ -49,8 +49,6 @@ pub struct FilmScene {
     pub shot: Arc<Shot>,
     /// The stroke with a level cue that gives the fitted motion, where one does.
     pub stroke: Option<CueInputs>,
-    /// Whether the simulated shot is a point at three cushions.
-    pub is_point: bool,
 }
 
 impl FilmScene {
@@ -70,8 +68,8 @@ impl FilmScene {
             phi: impulse.velocity.to_angle(),
             speed: impulse.velocity.length(),
         });
-        let is_point = replay.is_simulated_point(Rule::ThreeCushion);
-        let shot = Arc::new(Shot::of(table(), replay.recording.clone(), shown, is_point, "film"));
-        Ok(Self { replay, shot, stroke, is_point })
+        let solved = replay.is_simulated_point(Rule::ThreeCushion);
+        let shot = Arc::new(Shot::of(table(), replay.recording.clone(), shown, solved, "film"));
+        Ok(Self { replay, shot, stroke })
     }
 }

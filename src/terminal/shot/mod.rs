@@ -27,7 +27,7 @@ pub use self::{
 use crate::{
     coach::{Hit, Pattern, ShotWords, Technique, Verdict},
     game::Rule,
-    physics::{CueInputs, Impulse},
+    physics::CueInputs,
     simulation::{EventKind, Rail, Recording, ShotError, TOLD_HEIGHT},
     table::{BALLS, CueBall, Layout, Table},
 };
@@ -84,8 +84,6 @@ pub enum Meeting {
 pub struct Shot {
     /// What the player has to do.
     pub cue: CueInputs,
-    /// What the stroke gives the cue ball.
-    pub impulse: Impulse,
     /// Whether the shot makes the point.
     pub solved: bool,
     /// Where the shot comes from.
@@ -94,8 +92,6 @@ pub struct Shot {
     pub recording: Recording,
     /// The dots of the three balls' paths.
     pub paths: [Vec<Dot>; BALLS],
-    /// The first contact of the cue ball with an object ball.
-    pub contact: Option<Hit>,
     /// Its first contact with each object ball that it meets.
     pub contacts: Vec<Contact>,
     /// What a player calls it.
@@ -129,11 +125,9 @@ impl Shot {
         let layout = Layout::new(recording.positions(0.0));
         Self {
             cue,
-            impulse: *recording.impulse(),
             solved,
             source: source.into(),
             paths: std::array::from_fn(|ball| dots(&recording, ball)),
-            contact: technique.first,
             contacts: (1..BALLS).filter_map(|ball| first_contact(&recording, ball)).collect(),
             words: ShotWords::of_technique(table, &layout, &cue, &technique),
             pattern: Pattern::of(&technique),
@@ -170,7 +164,7 @@ impl Shot {
             EventKind::BallBall(0, _) => Some(None),
             _ => None,
         });
-        match (first.flatten(), self.contact) {
+        match (first.flatten(), self.words.first) {
             (Some(rail), hit) => Meeting::Rail(rail, hit),
             (None, Some(hit)) => Meeting::Ball(hit),
             (None, None) => Meeting::Nothing,
@@ -179,7 +173,7 @@ impl Shot {
 
     /// How the cue ball meets the first object ball, in words, for who plays with `cue_ball`.
     pub fn contact_words(&self, cue_ball: CueBall) -> Option<String> {
-        let contact = self.contact?;
+        let contact = self.words.first?;
         let side = if contact.left { "left" } else { "right" };
         let percent = (100.0 * contact.fullness).round();
         Some(format!("hits {} {percent} % full, {side} side", cue_ball.names()[contact.ball]))
@@ -225,7 +219,7 @@ mod tests {
     fn fullness_and_side_are_those_the_player_sees() {
         // The object ball lies half a radius to the right of the cue ball's way along x: its left side is hit.
         let half = shot("-0.7,0 0,-0.03075 0.9,0.5", "0,0,0,0,3");
-        let contact = half.contact.unwrap();
+        let contact = half.words.first.unwrap();
         assert_eq!(contact.ball, 1);
         assert!((contact.fullness - 0.5).abs() < 0.01, "{contact:?}");
         assert_eq!(half.contact_words(CueBall::White).unwrap(), "hits yellow 50 % full, left side");
@@ -236,7 +230,7 @@ mod tests {
     fn each_object_ball_is_met_where_the_cue_ball_touches_it_for_the_first_time() {
         let shot = shot("-1,0 0,0.02 0.6,0.1", "0,0.3,0,0,4");
         let [yellow, red] = shot.contacts[..] else { panic!("{:?}", shot.contacts) };
-        assert!(yellow.time < red.time && yellow.place.distance(shot.contact.unwrap().place) < 1e-12);
+        assert!(yellow.time < red.time && yellow.place.distance(shot.words.first.unwrap().place) < 1e-12);
         for contact in [yellow, red] {
             assert!((contact.place.distance(contact.other) - 0.0615).abs() < 1e-9, "{contact:?}");
         }
@@ -256,7 +250,7 @@ mod tests {
 
     #[test]
     fn a_ball_that_is_touched_from_the_start_is_met_along_the_stroke() {
-        let contact = shot("0,0 0.0615,0 0.9,0.5", "0,0,0,0,3").contact.unwrap();
+        let contact = shot("0,0 0.0615,0 0.9,0.5", "0,0,0,0,3").words.first.unwrap();
         assert!((contact.fullness - 1.0).abs() < 1e-9, "{contact:?}");
     }
 

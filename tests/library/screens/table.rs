@@ -90,7 +90,7 @@ fn draw_is_told_from_follow_and_both_from_rolling() {
 #[test]
 fn a_cushion_that_is_met_before_a_ball_is_named_instead_of_the_fullness() {
     let bank = shown(TRUE_COLOUR, "0,0,3,-173,4");
-    let contact = bank.app.coach.shot().unwrap().contact;
+    let contact = bank.app.coach.shot().unwrap().words.first;
     assert_eq!(contact.map(|hit| hit.ball), Some(1), "back from the short rail to the yellow ball");
     for (width, height) in SIZES {
         let text = bank.text(width, height);

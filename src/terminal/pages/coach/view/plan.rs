@@ -123,7 +123,7 @@ pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
         // The way through the air is broken, as it is when that shot is shown.
         let dots = dots.filter(|(number, dot)| !dot.is_aloft() || number % 2 == 0);
         let dots = dots.map(move |(_, dot)| spot(dot.place, false));
-        dots.chain(next.shot.contact.map(|contact| spot(contact.place, true)))
+        dots.chain(next.shot.words.first.map(|contact| spot(contact.place, true)))
     });
     cloud.chain(way).collect()
 }

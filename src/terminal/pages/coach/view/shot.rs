@@ -115,7 +115,7 @@ fn low_lines(shot: &Shot, rows: Vec<Row>, theme: &Theme, caps: Capabilities) -> 
         Span::styled(format!("{:gap$}{theta}", ""), theme.faint()),
         Span::styled(theta_angle, theme.text()),
     ]);
-    let w = shot.impulse.spin;
+    let w = shot.recording.impulse().spin;
     let spin = [w.x, w.y, w.z].map(|part| fixed(part, 0));
     // Where blanks have no room, the signs divide the numbers.
     let blank = |part: &String| if part.starts_with('-') { part.clone() } else { format!(" {part}") };
@@ -139,7 +139,7 @@ fn wide_rows(shot: &Shot, aim: String, radius: f64, unit: LengthUnit, caps: Capa
         _ => format!("R, {} mm {word}", fixed((1000.0 * radius * value).abs(), 1)),
     };
     let degree = caps.pick("°", " deg");
-    let (v, w) = (factor * shot.impulse.velocity, shot.impulse.spin);
+    let (v, w) = (factor * shot.recording.impulse().velocity, shot.recording.impulse().spin);
     let value = |text: String| format!("{text:>7}");
     let elevation = fixed(cue.theta.to_degrees(), 1);
     let words = if elevation == "0.0" { "level cue" } else { "cue raised" };
@@ -162,7 +162,7 @@ fn narrow_rows(shot: &Shot, unit: LengthUnit, caps: Capabilities) -> Vec<Row> {
     let cue = &shot.cue;
     let (factor, symbol) = unit.speed();
     let degree = caps.pick("°", " deg");
-    let (v, w) = (factor * shot.impulse.velocity, shot.impulse.spin);
+    let (v, w) = (factor * shot.recording.impulse().velocity, shot.recording.impulse().spin);
     let none = String::new;
     vec![
         ("a", format!("{:>6}", fixed(cue.a, 3)), across_word(cue.a).into()),

@@ -76,7 +76,7 @@ fn distance(metres: f64, unit: LengthUnit) -> String {
 fn status_line(scene: &FilmScene, listed: &Listed, time: f64, unit: LengthUnit) -> Message {
     let white = distance(scene.replay.apart(time)[0], unit);
     if time >= scene.replay.duration() {
-        let simulated = if scene.is_point { "a point" } else { "no point" };
+        let simulated = if scene.shot.solved { "a point" } else { "no point" };
         let filmed = if listed.is_point { "a point" } else { "no point" };
         return Message::plain(format!("at rest, white {white} from the film; simulated {simulated}, filmed {filmed}"));
     }
@@ -93,7 +93,7 @@ fn draw_stroke(scene: Option<&FilmScene>, units: Units, area: Rect, ui: &mut Ui)
         None => [("cue", "not level".to_owned()), ("", String::new())],
     };
     let rows = [
-        ("ball", speed_words(scene.shot.impulse.velocity.length(), units.length, 2)),
+        ("ball", speed_words(scene.replay.recording.impulse().velocity.length(), units.length, 2)),
         side,
         height,
         ("fitted", format!("2 s, {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),
