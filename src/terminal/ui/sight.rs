@@ -5,8 +5,8 @@ use ratatui::{layout::Rect, style::Modifier, text::Span};
 use crate::{
     coach::Hit,
     terminal::{
-        shot::Meeting,
-        ui::{Ink, Theme, Ui, draw_field, draw_title, field::Mark},
+        shot::{Meeting, Spin},
+        ui::{Ink, Theme, Ui, draw_field, draw_title, field::Mark, spin::draw_spin},
         words::rail_name,
     },
 };
@@ -19,8 +19,16 @@ const FULL: f64 = 0.995;
 /// Sign of the part of the object ball behind the cue ball.
 const BEHIND: char = '#';
 
+/// Draws how the cue ball spins while a shot plays, else how it meets the first object ball.
+pub fn draw_spin_or_sight(spin: Option<Spin>, meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
+    match spin {
+        Some(spin) => draw_spin(&spin, area, ui),
+        None => draw_sight(meeting, area, ui),
+    }
+}
+
 /// Draws the panel: how the object ball is met, or what is met before it.
-pub fn draw_sight(meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
+fn draw_sight(meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     let is_low = area.height <= LOW + 1;
     let title = match meeting.filter(|_| is_low) {
         // A share by itself looks like a chance.

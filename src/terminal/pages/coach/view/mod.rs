@@ -45,8 +45,8 @@ use crate::{
         },
         shot::playback::passed,
         ui::{
-            ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_sight, draw_spin,
-            draw_table, draw_tip, spell, write_paragraphs,
+            ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_spin_or_sight, draw_table,
+            draw_tip, spell, write_paragraphs,
         },
         words::{event_words, fine, fixed, in_diamonds, percent},
     },
@@ -200,10 +200,8 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     let how_long = shot.is_some() && !coach.is_in_numbers && coach.units.tip == TipUnit::Tips;
     draw_tip(shot.map(|shot| &shot.cue), how_long, table, panes.tip, ui);
     let time = coach.watched().map(|_| coach.playback.readout);
-    match shot.zip(time).and_then(|(shot, time)| shot.spin(time, table.radius)) {
-        Some(spin) => draw_spin(&spin, panes.sight, ui),
-        None => draw_sight(shot.map(Shot::meeting), panes.sight, ui),
-    }
+    let spin = shot.zip(time).and_then(|(shot, time)| shot.spin(time, table.radius));
+    draw_spin_or_sight(spin, shot.map(Shot::meeting), panes.sight, ui);
     match () {
         () if told.is_some() && is_beside || is_explained => {}
         () if shot.is_none() && coach.followed().is_none() => draw_asked(coach, panes.events, ui),

@@ -13,7 +13,7 @@ use crate::{
         },
         shot::Meeting,
         ui::{
-            Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_profile, draw_sight, draw_spin, draw_table,
+            Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_profile, draw_spin_or_sight, draw_table,
             draw_tip, draw_what_if, separator,
         },
     },
@@ -83,10 +83,7 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, panes: &Panes, ui: &mut Ui) 
     );
     let watched = turn.watched().filter(|_| !turn.shows_hint);
     let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
-    match spin {
-        Some(spin) => draw_spin(&spin, panes.sight, ui),
-        None => draw_sight(meeting(turn), panes.sight, ui),
-    }
+    draw_spin_or_sight(spin, meeting(turn), panes.sight, ui);
 }
 
 /// How hard it is, and how it is repeated.

@@ -17,8 +17,8 @@ use crate::{
         },
         shot::film::{Listed, table},
         ui::{
-            ListedEvents, Message, TableView, Ui, draw_events, draw_header, draw_lines, draw_sight, draw_spin,
-            draw_table, draw_tip, draw_title, pair, separator, tip_rows, write_paragraphs,
+            ListedEvents, Message, TableView, Ui, draw_events, draw_header, draw_lines, draw_spin_or_sight, draw_table,
+            draw_tip, draw_title, pair, separator, tip_rows, write_paragraphs,
         },
         words::{fixed, speed_words},
     },
@@ -43,10 +43,8 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     draw_stroke(scene, drills.units, panes.stroke, ui);
     let stroke = scene.and_then(|scene| scene.stroke.as_ref());
     draw_tip(stroke, drills.units.tip == TipUnit::Tips, table(), panes.tip, ui);
-    match scene.and_then(|scene| scene.shot.spin(time, table().radius)) {
-        Some(spin) => draw_spin(&spin, panes.sight, ui),
-        None => draw_sight(scene.map(|scene| scene.shot.meeting()), panes.sight, ui),
-    }
+    let spin = scene.and_then(|scene| scene.shot.spin(time, table().radius));
+    draw_spin_or_sight(spin, scene.map(|scene| scene.shot.meeting()), panes.sight, ui);
     draw_distances(scene, time, unit, panes.aim, ui);
     let events = scene.map(|scene| {
         let recording = &scene.shot.recording;
