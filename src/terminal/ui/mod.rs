@@ -22,7 +22,7 @@ pub mod tip;
 pub mod toasts;
 pub mod what_if;
 
-use ratatui::buffer::Buffer;
+use ratatui::{buffer::Buffer, text::Span};
 
 pub use self::{
     canvas::{Canvas, Ink},
@@ -62,6 +62,11 @@ pub struct Ui<'a> {
 }
 
 impl Ui<'_> {
+    /// What stands between two parts of a title.
+    pub fn dash(&self) -> Span<'static> {
+        Span::styled(separator(self.caps), self.theme.faint())
+    }
+
     /// The first key that does `action` by this table; empty where none does.
     pub fn key_of<A: PartialEq, W>(&self, table: &[Binding<A, W>], action: &A) -> String {
         keys_text(chord_of(table, action).and_then(|chord| self.keys.for_work_of(chord).next()), self.caps)

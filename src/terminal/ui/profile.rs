@@ -46,11 +46,11 @@ pub fn draw_profile(profile: &Profile, time: Option<f64>, unit: LengthUnit, area
     Clear.render(area, ui.buffer);
     ui.buffer.set_style(area, ui.theme.text());
     let name = ui.theme.names()[profile.jump.ball];
-    let dot = ui.caps.pick(" · ", " - ");
     let inner = draw_title(
         vec![
             Span::styled("Side view", ui.theme.text()),
-            Span::styled(format!("{dot}{name} jumps, {}", jump_words(&profile.jump, unit)), ui.theme.faint()),
+            ui.dash(),
+            Span::styled(format!("{name} jumps, {}", jump_words(&profile.jump, unit)), ui.theme.faint()),
         ],
         area,
         ui,

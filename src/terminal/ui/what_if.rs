@@ -36,7 +36,7 @@ pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) 
     };
     title.push(Span::styled(own, ui.theme.text()));
     if what_if.coach.is_some() {
-        title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
+        title.push(ui.dash());
         title.push(Span::styled(teacher, ui.theme.text().fg(ui.theme.way_sign)));
     }
     title.extend(made.map(|made| Span::styled(format!(" {} %", percent(made)), ui.theme.text())));

@@ -13,6 +13,7 @@ use crate::{
         ui::{
             Theme, Ui,
             chart::{Chart, Curve, SeriesId, label::compact},
+            separator,
         },
     },
 };
@@ -76,7 +77,7 @@ pub fn draw_title(chart: &Chart, area: Rect, ui: &mut Ui) {
 }
 
 fn left(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
-    let dot = caps.pick(" · ", " - ");
+    let dot = separator(caps);
     let style = match (chart.selected, theme.is_mono()) {
         (true, true) => theme.accent().add_modifier(Modifier::REVERSED),
         (true, false) => theme.accent(),

@@ -32,12 +32,7 @@ const PARTS: u32 = 16;
 /// Draws the panel of a shot that the coach proposes.
 pub fn draw_card(proposal: &Proposal, coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let is_wide = area.width >= WIDE;
-    let mut title = Vec::new();
-    if is_wide || !proposal.is_early {
-        title = vec![Span::styled("Shot", ui.theme.text()), Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint())];
-    }
-    title.push(chance_span(proposal, is_wide, ui));
-    let inner = draw_title(title, area, ui);
+    let inner = draw_title(chance_title(proposal, is_wide, ui), area, ui);
     let rows = if is_wide {
         wide_rows(proposal, coach, usize::from(area.width), usize::from(inner.height))
     } else {
@@ -54,6 +49,15 @@ pub fn draw_card(proposal: &Proposal, coach: &CoachPage, area: Rect, ui: &mut Ui
         line.push_span(Span::styled(spell(&value, ui.caps), ui.theme.text()));
         ui.buffer.set_line(inner.x, row, &line, inner.width);
     }
+}
+
+/// The title of the panel of a shot that the coach proposes.
+pub fn chance_title(proposal: &Proposal, is_wide: bool, ui: &Ui) -> Vec<Span<'static>> {
+    let chance = chance_span(proposal, is_wide, ui);
+    if proposal.is_early && !is_wide {
+        return vec![chance];
+    }
+    vec![Span::styled("Shot", ui.theme.text()), ui.dash(), chance]
 }
 
 /// How often the shot is made, or whether it makes the point at all.

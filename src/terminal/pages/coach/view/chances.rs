@@ -25,7 +25,7 @@ const WORDS: u16 = 10;
 pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, area: Rect, ui: &mut Ui) {
     let mut title = vec![Span::styled("Chances", ui.theme.text())];
     if let Some(advised) = advised {
-        title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
+        title.push(ui.dash());
         title.push(Span::styled(skill_word(advised.query.skill), ui.theme.text()));
         let proposal = &advised.choice().proposal;
         if let Some(made) = proposal.made {

@@ -113,7 +113,7 @@ pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
     let mut title = match &lesson.guide {
         Guide::System(applied) => vec![
             Span::styled("System", ui.theme.text()),
-            Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()),
+            ui.dash(),
             Span::styled(applied.system.name(), ui.theme.good()),
         ],
         Guide::Shift(_) => vec![Span::styled("Parallel shift", ui.theme.good())],

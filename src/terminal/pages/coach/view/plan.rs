@@ -32,7 +32,7 @@ const SPREAD_WORDS: &str = "half of the points leave the balls so near";
 pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: Rect, ui: &mut Ui) {
     let mut title = vec![Span::styled("Plan", ui.theme.text())];
     if let Some(next) = choice.and_then(|choice| choice.proposal.next) {
-        title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
+        title.push(ui.dash());
         title.push(Span::styled(format!("next point on average {} %", percent(next)), ui.theme.text()));
     }
     let inner = draw_title(title, area, ui);

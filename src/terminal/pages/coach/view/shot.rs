@@ -10,7 +10,7 @@ use crate::{
     table::{Layout, Table},
     terminal::{
         Capabilities, Proposal, Shot,
-        pages::coach::view::card::chance_span,
+        pages::coach::view::card::chance_title,
         ui::{Theme, Ui, columns, draw_lines, draw_nothing, draw_title},
         words::{across_word, fixed, height_word},
     },
@@ -39,11 +39,7 @@ pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], (table, unit): (&Table, Le
 /// The title of a shot's panel: whether it makes the point.
 pub fn shot_title(shot: &Shot, ui: &Ui) -> Vec<Span<'static>> {
     let (words, style) = if shot.solved { ("point", ui.theme.good()) } else { ("misses", ui.theme.warning()) };
-    vec![
-        Span::styled("Shot", ui.theme.text()),
-        Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()),
-        Span::styled(words, style),
-    ]
+    vec![Span::styled("Shot", ui.theme.text()), ui.dash(), Span::styled(words, style)]
 }
 
 /// Draws the panel of a shot that the coach proposes: how often it is made, and the aim in diamonds.
@@ -56,11 +52,7 @@ pub fn draw_proposal(
 ) {
     let shot = &proposal.shot;
     let wide = area.width >= WIDE;
-    let mut title = Vec::new();
-    if wide || !proposal.is_early {
-        title = vec![Span::styled("Shot", ui.theme.text()), Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint())];
-    }
-    title.push(chance_span(proposal, wide, ui));
+    let mut title = chance_title(proposal, wide, ui);
     let source = format!(" {}", shot.source);
     // The rule before the title, and a blank on either side of it.
     let taken = 3 + title.iter().map(Span::width).sum::<usize>() + source.len();

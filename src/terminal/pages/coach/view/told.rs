@@ -56,7 +56,6 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
 
 /// The titles, the longest first: the pattern's name, how often the shot is made, and the line of aim; the last without that.
 fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>>; 4] {
-    let dash = || Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint());
     let name = proposal
         .shot
         .pattern
@@ -65,7 +64,7 @@ fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>
     let title = |is_wide: bool, aim: Option<&Span<'static>>| {
         let chance = chance_span(proposal, is_wide, ui);
         let parts = [name.clone(), Some(chance), aim.cloned()].into_iter().flatten();
-        parts.flat_map(|part| [dash(), part]).skip(1).collect()
+        parts.flat_map(|part| [ui.dash(), part]).skip(1).collect()
     };
     [title(true, Some(&long)), title(true, Some(&short)), title(false, Some(&short)), title(true, None)]
 }

@@ -15,7 +15,6 @@ use crate::terminal::{
 /// Draws the table with its title.
 pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     let replay = &watch.replay;
-    let dot = ui.caps.pick(" · ", " - ");
     let (Some(table), Some(reel), Some(Scene { example, shot })) = (watch.table(), &replay.reel, replay.scene()) else {
         let inner = draw_title("Shots", area, ui);
         let words = if watch.lacks_config() {
@@ -35,7 +34,7 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     };
     let title = Line::from(vec![
         Span::styled(format!("Shot {} of {}", replay.index + 1, reel.scenes.len()), ui.theme.text()),
-        Span::styled(dot, ui.theme.faint()),
+        ui.dash(),
         Span::styled(outcome, style),
     ]);
     let free = area.x + title.width() as u16 + 5;
