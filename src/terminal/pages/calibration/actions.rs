@@ -20,7 +20,6 @@ impl CalibrationPage {
     /// Why a binding may not be used now; `None` where it may.
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         let sheet = self.sheet();
-        let found = || sheet.judged.as_ref().and_then(|judged| judged.found.as_ref());
         let (can, reason) = match when {
             Condition::Here => (true, ""),
             Condition::Known => (
@@ -37,11 +36,11 @@ impl CalibrationPage {
             Condition::Found if !sheet.odd(&self.table).is_empty() => {
                 (false, "an entry is odd, as the values say: amend it or take it out first")
             }
-            Condition::Found if found().is_some_and(Calibration::is_contradictory) => (
+            Condition::Found if sheet.found().is_some_and(Calibration::is_contradictory) => (
                 false,
                 "strokes contradict each other, as the values say: play them again, amend or take them out first",
             ),
-            Condition::Found => (found().is_some(), "nothing is entered yet that a table could follow from"),
+            Condition::Found => (sheet.found().is_some(), "nothing is entered yet that a table could follow from"),
             Condition::Saved => {
                 (self.saved.is_some(), "save the table first: s; one that was saved before is chosen by its name, F5")
             }
@@ -210,7 +209,7 @@ impl CalibrationPage {
 
     /// Saves the table that was found under a name.
     fn save(&mut self, name: &str, replaces: bool) -> Option<Effect> {
-        let found = self.sheet().judged.as_ref()?.found.as_ref()?;
+        let found = self.sheet().found()?;
         let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');
         let refused = if PRESETS.contains(&name) {
             Some("is the name of a bundled table; take another")

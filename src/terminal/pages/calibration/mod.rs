@@ -219,8 +219,7 @@ impl CalibrationPage {
             CalibrationReport::Saved(path, Ok(true)) => {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy();
                 let (played, _) = self.sheet().count();
-                let found = self.sheet().judged.as_ref().and_then(|judged| judged.found.as_ref());
-                let misread = found.map_or(0, |found| found.misread().len());
+                let misread = self.sheet().found().map_or(0, |found| found.misread().len());
                 let misread = if misread == 0 { String::new() } else { format!(", {misread} of them misread") };
                 let strokes = if played == 1 { "one stroke".to_owned() } else { format!("{played} strokes{misread}") };
                 let said = format!("saved as {name}, from {strokes}; p plays on it from now on");

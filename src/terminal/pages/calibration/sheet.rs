@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::{
-    calibration::{DAILY, Edit, Entries, Entry, Next, Oddity, PROTOCOL, Test, overnight, prior},
+    calibration::{Calibration, DAILY, Edit, Entries, Entry, Next, Oddity, PROTOCOL, Test, overnight, prior},
     table::{Table, TableDoubt},
     terminal::{Judged, Judging},
 };
@@ -137,6 +137,11 @@ impl Sheet {
             self.left_out.push(name);
         }
         is_out
+    }
+
+    /// What the marks say, where there are any.
+    pub fn found(&self) -> Option<&Calibration> {
+        self.judged.as_ref()?.found.as_ref()
     }
 
     /// What one more stroke of a test is expected to tell, bits.

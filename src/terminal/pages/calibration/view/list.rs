@@ -69,15 +69,10 @@ fn is_odd(page: &CalibrationPage, test: &Test) -> bool {
 
 /// The same of the stroke at `place` among all entries.
 fn is_doubtful(page: &CalibrationPage, place: usize, entry: &Entry) -> bool {
-    let Some(found) = found(page) else { return !entry.readings(&page.table).1.is_empty() };
+    let Some(found) = page.sheet().found() else { return !entry.readings(&page.table).1.is_empty() };
     !entry.readings(&page.table).1.is_empty()
         || found.misread().contains(&(place + 1))
         || found.strange.iter().any(|strange| strange.trial == place + 1)
-}
-
-/// What the marks say, where there are any.
-fn found(page: &CalibrationPage) -> Option<&Calibration> {
-    page.sheet().judged.as_ref()?.found.as_ref()
 }
 
 fn draw_strokes(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
@@ -115,7 +110,7 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     if area.height < 3 {
         return;
     }
-    let found = found(page);
+    let found = page.sheet().found();
     let is_unsure = found.is_some_and(Calibration::is_contradictory);
     let inner = draw_title(if is_unsure { "Unsure: marks disagree" } else { "Best known so far" }, area, ui);
     let Some(found) = found else {

@@ -77,8 +77,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     // Where there is room, what the marks say stands here as well.
     let end = (below + asked.len() as u16 + 1).min(inner.bottom());
     let rest = Rect { y: end, height: inner.bottom() - end, ..inner };
-    let found = page.sheet().judged.as_ref().and_then(|judged| judged.found.as_ref());
-    if let Some(found) = found.filter(|_| rest.height > SAID) {
+    if let Some(found) = page.sheet().found().filter(|_| rest.height > SAID) {
         let rest = draw_title("What the marks say", rest, ui);
         write_paragraphs(&sentences(page, found, ui), rest.inner(Margin::new(1, 0)), ui);
     }

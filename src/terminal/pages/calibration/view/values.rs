@@ -32,7 +32,7 @@ enum Row<'a> {
 
 /// Draws it, a page at a time where it is longer than its room.
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
-    let found = page.sheet().judged.as_ref().and_then(|judged| judged.found.as_ref());
+    let found = page.sheet().found();
     let width = usize::from(area.width.saturating_sub(2));
     let said = said(page, found, ui)
         .into_iter()
