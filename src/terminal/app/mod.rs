@@ -31,7 +31,7 @@ use crate::{
     coach::Skill,
     drills::Session,
     storage::Places,
-    table::{CueBall, Layout, LayoutError, Table},
+    table::{Layout, LayoutError, Table},
     terminal::{
         Action, CalibrationAction, Capabilities, CoachAction, CommandPalette, Complaint, DrillAction, Effect, Glyphs,
         Keys, LONGEST_FOR_GUESTS, PageId, Palette, SavedSession, Seat, Settings, SettingsAction, SettingsPage,
@@ -95,8 +95,6 @@ pub struct App {
     /// The finest characters to draw with: octants only where they were asked for.
     finest: Glyphs,
     theme: Theme,
-    /// The same where yellow is the cue ball.
-    yellow_theme: Theme,
     palette: Palette,
     /// Whether the last session has left a stroke that was typed in part.
     pub(super) had_draft: bool,
@@ -131,7 +129,6 @@ impl App {
             full_look: caps,
             finest: caps.finest(),
             theme: Theme::new(caps.depth),
-            yellow_theme: Theme::new(caps.depth).with_cue_ball(CueBall::Yellow),
             palette: Palette::default(),
             had_draft: false,
             is_guest: false,
@@ -422,10 +419,7 @@ impl App {
     }
 
     /// The colours.
-    pub fn theme(&self) -> &Theme {
-        match self.page().cue_ball() {
-            CueBall::White => &self.theme,
-            CueBall::Yellow => &self.yellow_theme,
-        }
+    pub fn theme(&self) -> Theme {
+        self.theme.with_cue_ball(self.page().cue_ball())
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::{
-    table::{CueBall, PRESETS, Table},
+    table::{PRESETS, Table},
     terminal::{
         App, Capabilities, CoachQuery, Depth, Effect, Glyphs, Palette, Settings, SettingsReport,
         ui::{Message, Theme},
@@ -110,6 +110,5 @@ impl App {
         let mono = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, ..self.full_look };
         self.caps = if palette == Palette::Mono { mono } else { self.full_look };
         self.theme = Theme::of(palette, self.caps.depth);
-        self.yellow_theme = self.theme.with_cue_ball(CueBall::Yellow);
     }
 }

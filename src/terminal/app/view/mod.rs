@@ -46,7 +46,7 @@ fn draw_page(page: &dyn Page, area: &PageArea, ui: &mut Ui) -> u16 {
 
 /// Draws the screen that `app` is at.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
-    let ui = &mut Ui { theme: app.theme(), caps: app.caps, keys: app.keys(), buffer };
+    let ui = &mut Ui { theme: &app.theme(), caps: app.caps, keys: app.keys(), buffer };
     ui.buffer.set_style(area, ui.theme.text());
     if is_too_small(area) {
         too_small::draw(area, ui);
