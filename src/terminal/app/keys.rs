@@ -58,7 +58,8 @@ impl App {
         if is_answer && !matches!(found, Some(Ok(Action::Quit | Action::Suspend | Action::Settings(_)))) {
             self.toasts.go_on();
             let effect = self.settings.pressed(key);
-            return self.set(effect);
+            self.take_changes();
+            return effect;
         }
         if found.is_none() && key.modifiers.contains(KeyModifiers::ALT) {
             return self.take_both(key);

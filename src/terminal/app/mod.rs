@@ -346,7 +346,8 @@ impl App {
                 if self.settings.is_left {
                     return self.open(self.before);
                 }
-                return self.set(effect);
+                self.take_changes();
+                return effect;
             }
         }
         None

@@ -11,12 +11,6 @@ use crate::{
 };
 
 impl App {
-    /// Does what has been set otherwise on the settings' screen, and passes on what brings it into the file.
-    pub(super) fn set(&mut self, effect: Option<Effect>) -> Option<Effect> {
-        self.take_changes();
-        effect
-    }
-
     /// Something has come of what the settings' screen wanted of the file.
     pub fn receive_settings(&mut self, report: SettingsReport) -> Option<Effect> {
         let troubles = self.settings.receive(report);
@@ -24,7 +18,7 @@ impl App {
         self.take_changes();
         let path = self.wanted_table.take()?;
         let effect = self.settings.choose("table", &path.to_string_lossy());
-        let effect = self.set(effect);
+        self.take_changes();
         if effect.is_some() {
             self.calibration.play_on(self.coach.table());
         }
@@ -39,7 +33,8 @@ impl App {
         self.settings.open()
     }
 
-    fn take_changes(&mut self) {
+    /// Does what has been set otherwise on the settings' screen.
+    pub(super) fn take_changes(&mut self) {
         if self.settings.settings == self.in_force {
             return;
         }
