@@ -105,8 +105,7 @@ impl Settings {
     /// # Errors
     /// A sentence that names the value and what would be accepted.
     pub fn with(&self, entry: &Entry, typed: &str) -> Result<Self, String> {
-        let quoted = toml::Value::String(typed.to_owned()).to_string();
-        for value in [typed, &quoted] {
+        for value in [typed, &quoted(typed)] {
             let mut settings = self.clone();
             if read::take_value(&mut settings, entry, value).is_some() {
                 if settings.table != self.table {

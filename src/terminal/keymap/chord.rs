@@ -50,7 +50,7 @@ impl Chord {
     }
 
     /// The modifiers as they are written before the key.
-    const fn prefix(self) -> &'static str {
+    pub(super) const fn prefix(self) -> &'static str {
         if self.modifiers.contains(KeyModifiers::CONTROL) {
             "Ctrl-"
         } else if self.modifiers.contains(KeyModifiers::SHIFT) {

@@ -114,21 +114,14 @@ pub fn chord(text: &str) -> Option<Chord> {
 
 /// How a key is written in the file.
 pub fn name(chord: Chord) -> String {
-    let event = chord.event();
-    let prefix = match () {
-        () if event.modifiers.contains(KeyModifiers::CONTROL) => "Ctrl-",
-        () if event.modifiers.contains(KeyModifiers::SHIFT) => "Shift-",
-        () => "",
-    };
-    let code = match event.code {
+    let code = match chord.event().code {
         KeyCode::BackTab => return "Shift-Tab".to_owned(),
-        KeyCode::F(number) => format!("F{number}"),
         code => match NAMES.iter().find(|(_, known)| *known == code) {
             Some((name, _)) => (*name).to_owned(),
             None => code.to_string(),
         },
     };
-    format!("{prefix}{code}")
+    format!("{}{code}", chord.prefix())
 }
 
 #[cfg(test)]

@@ -265,14 +265,9 @@ impl DrillsPage {
 
     fn decoded(&self, typed: &str) -> Result<Box<Exercise>, String> {
         let exercise = decode(typed).map_err(|error| error.to_string())?;
-        self.free(Exercise { category: Category::Own, ..exercise })
-    }
-
-    /// A position whose name the program itself has not taken.
-    fn free(&self, exercise: Exercise) -> Result<Box<Exercise>, String> {
         if self.catalogue.library.is_bundled(&exercise.name) {
             return Err(format!("{} is the name of a bundled exercise; take another", exercise.name));
         }
-        Ok(Box::new(exercise))
+        Ok(Box::new(Exercise { category: Category::Own, ..exercise }))
     }
 }
