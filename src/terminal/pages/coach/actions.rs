@@ -92,12 +92,8 @@ impl CoachPage {
             Action::Redo => self.redo(),
             Action::Recommend => return Some(self.ask()),
             Action::SavePosition => self.ask_title(),
-            Action::Answer(true) if self.typed.is_some() => self.take_positions(),
-            Action::Answer(true) => return self.save(),
-            Action::Answer(false) => {
-                self.typed = None;
-                self.saving.no();
-            }
+            Action::Answer(true) => return self.yes(),
+            Action::Answer(false) => self.question = None,
             Action::Cancel => self.cancel(),
             Action::PlaceBalls => self.place_balls(),
             Action::Continue if self.what_if().is_some() => return self.play_on(),

@@ -1,7 +1,7 @@
 //! The state of the coach's screen: the balls, the coach's advice on them, and the clock of a shot's playback.
 //!
 //! [`actions`] is what each key does to it, [`request`] how the coach is asked, [`dragging`] what the mouse does to balls,
-//! [`saving`] how they are saved as a position, [`positions`] how they are typed;
+//! [`saving`] how they are saved as a position, [`positions`] how they are typed, [`question`] what is asked for that;
 //! [`lesson`] teaches diamond systems, [`own_stroke`] is the player's own stroke, [`spectators`] are others who
 //! look on.
 
@@ -13,6 +13,7 @@ mod lesson;
 mod own_stroke;
 mod page;
 mod positions;
+mod question;
 mod request;
 mod saving;
 mod side_view;
@@ -36,11 +37,11 @@ use crate::{
         CoachQuery, Proposal, SavedSession, Settings, Shot, Terms,
         pages::coach::{
             dragging::Drag,
+            question::Question,
             request::{Pending, Studying},
-            saving::Saving,
         },
         shot::{History, Playback, placing::STEPS},
-        ui::{Message, TextField},
+        ui::Message,
         words::step_words,
     },
 };
@@ -153,10 +154,10 @@ pub struct CoachPage {
     has_gone_back: bool,
     /// Exams that were left before their end, until they are gone on with; the last one is the latest.
     pub left_exams: Vec<Session>,
-    /// What is asked before the balls are saved.
-    saving: Saving,
-    /// Where the balls are to lie, as far as it is typed.
-    typed: Option<TextField>,
+    /// What is asked over the table.
+    question: Option<Question>,
+    /// The name of the position that is being written.
+    writing: Option<String>,
     /// The system that is taught.
     lesson: Option<lesson::Lesson>,
     step: usize,
@@ -200,8 +201,8 @@ impl CoachPage {
             before: Vec::new(),
             has_gone_back: false,
             left_exams: Vec::new(),
-            saving: Saving::default(),
-            typed: None,
+            question: None,
+            writing: None,
             lesson: None,
             step: FIRST_STEP,
             quarters: false,
@@ -212,11 +213,6 @@ impl CoachPage {
             questions: 0,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         })
-    }
-
-    /// Whether something is asked over the table.
-    pub fn is_asking(&self) -> bool {
-        self.typed.is_some() || self.saving.is_asking()
     }
 
     /// Asks for what the last session asked for at its end, but for what has been set otherwise since; and offers to go on from

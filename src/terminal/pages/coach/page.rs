@@ -1,6 +1,6 @@
 //! What the app asks of this page.
 
-use super::{CoachPage, SPINNER_INTERVAL};
+use super::{CoachPage, SPINNER_INTERVAL, question::Question};
 use crate::{
     table::CueBall,
     terminal::{
@@ -15,7 +15,10 @@ impl Page for CoachPage {
     }
 
     fn field_mut(&mut self) -> Option<&mut TextField> {
-        self.typed.as_mut().or_else(|| self.saving.field_mut())
+        match self.question.as_mut()? {
+            Question::Positions(typed) | Question::Title(typed, _) => Some(typed),
+            Question::Replace(_) => None,
+        }
     }
 
     fn input(&mut self, typed: Typed) -> bool {
@@ -23,7 +26,7 @@ impl Page for CoachPage {
             return false;
         }
         let taken = self.field_mut().is_some_and(|field| field.take(typed));
-        if let (Typed::Paste(text), false) = (typed, self.is_asking()) {
+        if let (Typed::Paste(text), false) = (typed, self.question.is_some()) {
             // What is pasted over the table says where the balls lie.
             self.paste(text);
             return true;

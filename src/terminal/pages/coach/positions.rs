@@ -4,7 +4,7 @@ use crate::{
     drills::{decode, is_code},
     game::Point,
     terminal::{
-        pages::coach::CoachPage,
+        pages::coach::{CoachPage, question::Question},
         ui::{Message, TextField},
     },
 };
@@ -16,16 +16,7 @@ impl CoachPage {
     /// Asks where the balls are to lie.
     pub(super) fn ask_positions(&mut self) {
         self.playback.pause();
-        self.typed = Some(TextField::new(LONGEST));
-    }
-
-    /// Puts the balls where it was typed; what cannot be taken stays, to be mended.
-    pub(super) fn take_positions(&mut self) {
-        let Some(field) = self.typed.take() else { return };
-        if let Err(sentence) = self.take_typed(field.text()) {
-            self.typed = Some(field);
-            self.message = Some(Message::warning(sentence));
-        }
+        self.question = Some(Question::Positions(TextField::new(LONGEST)));
     }
 
     /// Puts the balls where the pasted text says.
@@ -36,7 +27,8 @@ impl CoachPage {
         }
     }
 
-    fn take_typed(&mut self, text: &str) -> Result<(), String> {
+    /// Puts the balls where the text says, or says why not.
+    pub(super) fn take_typed(&mut self, text: &str) -> Result<(), String> {
         // What is longer is neither, and no sentence is to repeat it all.
         let text = text.get(..LONGEST).unwrap_or(text).trim();
         if is_code(text) {
@@ -60,19 +52,5 @@ impl CoachPage {
         };
         self.message = Some(Message::good(format!("{said}; Enter asks the coach")));
         Ok(())
-    }
-
-    /// What is asked over the table, and the text that is typed there.
-    pub(super) fn asked_words(&self) -> Option<(String, Option<&TextField>)> {
-        if let Some(field) = &self.typed {
-            let names = self.cue_ball().names();
-            let one = names[self.selected];
-            let words = format!(
-                "where? 2d,0.5d for {one}; three such places for {}, {} and red; red 4d,3.5d for red; or a share code: ",
-                names[0], names[1]
-            );
-            return Some((words, Some(field)));
-        }
-        Some((self.saving.text()?, self.saving.field()))
     }
 }

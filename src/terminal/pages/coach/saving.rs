@@ -6,7 +6,7 @@ use crate::{
     storage::is_name,
     terminal::{
         DrillTask, Effect,
-        pages::{Page, coach::CoachPage},
+        pages::coach::{CoachPage, question::Question},
         ui::{Message, TextField},
         words::taken_words,
     },
@@ -17,61 +17,6 @@ const FOR_ALL: &str = "match";
 
 /// Longest name that is made of a title, letters.
 const LONGEST_NAME: usize = 40;
-
-/// What is asked, and what is on its way to the disk.
-#[derive(Debug, Default)]
-pub struct Saving {
-    question: Option<Question>,
-    /// The name of the position that is being written.
-    writing: Option<String>,
-}
-
-/// A question about the position that is to be saved.
-#[derive(Debug)]
-enum Question {
-    /// What it is to be called, and tags, as far as they are typed.
-    Title(TextField, Box<Exercise>),
-    /// Whether the one of the same name may be replaced.
-    Replace(Box<Exercise>),
-}
-
-impl Saving {
-    /// Whether something is asked.
-    pub const fn is_asking(&self) -> bool {
-        self.question.is_some()
-    }
-
-    /// The question, without what is typed.
-    pub fn text(&self) -> Option<String> {
-        Some(match self.question.as_ref()? {
-            Question::Title(..) => "save the balls as (a title, and #tags if you like): ".to_owned(),
-            Question::Replace(exercise) => {
-                format!("there is a position called {} already; replace it?", exercise.name)
-            }
-        })
-    }
-
-    /// The text that is typed, where some is.
-    pub const fn field(&self) -> Option<&TextField> {
-        match &self.question {
-            Some(Question::Title(typed, _)) => Some(typed),
-            _ => None,
-        }
-    }
-
-    /// The same, to be changed.
-    pub const fn field_mut(&mut self) -> Option<&mut TextField> {
-        match &mut self.question {
-            Some(Question::Title(typed, _)) => Some(typed),
-            _ => None,
-        }
-    }
-
-    /// Saves nothing.
-    pub fn no(&mut self) {
-        self.question = None;
-    }
-}
 
 impl CoachPage {
     /// Asks for a title of the position on the table, with the shot that makes the point there if it is known. Positions are for everybody:
@@ -84,7 +29,7 @@ impl CoachPage {
         let is_bundled = here.table().is_ok_and(|known| known == *self.table());
         let position = if is_bundled { here } else { on(FOR_ALL) };
         if position.table().is_ok() {
-            self.saving.question = Some(Question::Title(TextField::new(LONGEST_TITLE), Box::new(position)));
+            self.question = Some(Question::Title(TextField::new(LONGEST_TITLE), Box::new(position)));
         } else {
             let name = &self.table().name;
             let words = format!(
@@ -94,26 +39,15 @@ impl CoachPage {
         }
     }
 
-    /// Takes the title that was typed, or that a position may be replaced.
-    pub(super) fn save(&mut self) -> Option<Effect> {
-        let (exercise, replace) = match self.saving.question.take()? {
-            Question::Replace(exercise) => (exercise, true),
-            Question::Title(typed, position) => match named(typed.text(), &position) {
-                Ok(exercise) => (exercise, false),
-                Err(sentence) => {
-                    // What was typed stays, to be mended.
-                    self.saving.question = Some(Question::Title(typed, position));
-                    return self.refuse(sentence);
-                }
-            },
-        };
-        self.saving.writing = Some(exercise.name.clone());
-        Some(Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)]))
+    /// Saves a position; tells whether it may replace one of its name.
+    pub(super) fn save(&mut self, exercise: Box<Exercise>, replace: bool) -> Effect {
+        self.writing = Some(exercise.name.clone());
+        Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)])
     }
 
     /// Whether the position called `name` was saved from here; asked once.
     pub fn has_saved(&mut self, name: &str) -> bool {
-        self.saving.writing.take_if(|writing| writing == name).is_some()
+        self.writing.take_if(|writing| writing == name).is_some()
     }
 
     /// A position is on the disk, or one of its name was there before, or it could not be written.
@@ -126,8 +60,8 @@ impl CoachPage {
                 let table = if other { format!(" for the table {}", exercise.table) } else { String::new() };
                 self.message = Some(Message::good(format!("saved as {name}{table}; the drills list it under {list}")));
             }
-            Ok(false) if self.is_asking() => self.message = Some(Message::warning(taken_words(name))),
-            Ok(false) => self.saving.question = Some(Question::Replace(exercise)),
+            Ok(false) if self.question.is_some() => self.message = Some(Message::warning(taken_words(name))),
+            Ok(false) => self.question = Some(Question::Replace(exercise)),
             Err(sentence) => self.message = Some(Message::warning(format!("{name} is not saved: {sentence}"))),
         }
     }
@@ -137,7 +71,7 @@ impl CoachPage {
 ///
 /// # Errors
 /// A sentence where no name comes of it, or one that the program itself has taken.
-fn named(typed: &str, position: &Exercise) -> Result<Box<Exercise>, String> {
+pub(super) fn named(typed: &str, position: &Exercise) -> Result<Box<Exercise>, String> {
     let (title, name, tags) = title_name_tags(typed)?;
     if Library::bundled().is_ok_and(|library| library.is_bundled(&name)) {
         return Err(format!("{name} is the name of a bundled exercise; take another"));

@@ -107,8 +107,9 @@ impl PageView for CoachPage {
     }
 
     fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
-        let (words, typed) = self.asked_words()?;
-        Some(Asked::new(self.message.as_ref(), &words, typed))
+        let question = self.question.as_ref()?;
+        let words = question.text(self.cue_ball().names(), self.selected);
+        Some(Asked::new(self.message.as_ref(), &words, question.field()))
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
