@@ -7,7 +7,7 @@ use crate::{
     terminal::{
         Action, App, CalibrationContext, Condition, Effect, KeyContext, PageId,
         app::{bindings, view},
-        pages::settings::Input,
+        pages::settings::Question,
         ui::Typed,
     },
 };
@@ -90,7 +90,7 @@ impl App {
     }
 
     const fn is_asked_for_a_key(&self) -> bool {
-        matches!((self.screen, &self.settings.input), (PageId::Settings, Some(Input::Key)))
+        matches!((self.screen, &self.settings.question), (PageId::Settings, Some(Question::Key)))
             && self.help.is_none()
             && self.command_palette.is_none()
     }

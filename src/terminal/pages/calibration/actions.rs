@@ -7,7 +7,7 @@ use crate::{
         CalibrationAction as Action, CalibrationCondition as Condition, CalibrationTask, Effect,
         pages::{
             Page,
-            calibration::{CalibrationPage, Input, Side, form::Form, sheet::Back},
+            calibration::{CalibrationPage, Question, Side, form::Form, sheet::Back},
         },
         ui::{Message, TextField},
     },
@@ -111,7 +111,7 @@ impl CalibrationPage {
                 let today = if self.is_daily { " today" } else { "" };
                 let name = saved
                     .map_or_else(|| self.sheet().name(&self.table) + today, |name| name.to_string_lossy().into_owned());
-                self.input = Some(Input::Name(TextField::new(LONGEST).offering(&name)));
+                self.question = Some(Question::Name(TextField::new(LONGEST).offering(&name)));
             }
             Action::Use => {
                 let path = self.saved.clone()?;
@@ -119,7 +119,7 @@ impl CalibrationPage {
                 self.message = Some(Message::good(said));
                 self.for_use = Some(path);
             }
-            Action::Anew => self.input = Some(Input::Anew),
+            Action::Anew => self.question = Some(Question::Anew),
             Action::Field(_) | Action::Tape | Action::FarEnd => self.change_form(action),
             Action::Answer(false) => self.put_aside(),
             Action::Answer(true) => return self.yes(),
@@ -128,7 +128,7 @@ impl CalibrationPage {
     }
 
     fn change_form(&mut self, action: Action) {
-        let Some(Input::Marks(form)) = &mut self.input else { return };
+        let Some(Question::Marks(form)) = &mut self.question else { return };
         match action {
             Action::Field(by) => form.step(by),
             Action::FarEnd => form.far_end = !form.far_end,
@@ -161,16 +161,16 @@ impl CalibrationPage {
     }
 
     fn yes(&mut self) -> Option<Effect> {
-        match self.input.take()? {
-            Input::Marks(form) => self.keep(form),
-            Input::Name(typed) => self.save(typed.text().trim(), false),
-            Input::Replace(name) => self.save(&name, true),
-            Input::Anew if self.sheet().trouble.is_some() => {
+        match self.question.take()? {
+            Question::Marks(form) => self.keep(form),
+            Question::Name(typed) => self.save(typed.text().trim(), false),
+            Question::Replace(name) => self.save(&name, true),
+            Question::Anew if self.sheet().trouble.is_some() => {
                 let said = format!("the file that cannot be read is kept as {}", self.beside().display());
                 self.message = Some(Message::plain(said));
                 Some(Effect::Calibrate(vec![CalibrationTask::PutAside(self.sheet().path.clone())]))
             }
-            Input::Anew => {
+            Question::Anew => {
                 let count = self.sheet().entries.as_ref().map_or(0, |entries| entries.trials.len());
                 let strokes = if count == 1 { "1 stroke is".to_owned() } else { format!("{count} strokes are") };
                 let said = format!("{strokes} kept as {}; u takes this back", self.beside().display());
@@ -203,7 +203,7 @@ impl CalibrationPage {
                 }
             }
         }
-        self.input = Some(Input::Marks(form));
+        self.question = Some(Question::Marks(form));
         edit.map(|edit| self.edit(edit, false))
     }
 
@@ -219,7 +219,7 @@ impl CalibrationPage {
             None
         };
         if let Some(reason) = refused {
-            self.input = Some(Input::Name(TextField::new(LONGEST).with(name)));
+            self.question = Some(Question::Name(TextField::new(LONGEST).with(name)));
             return self.refuse(format!("\"{name}\" {reason}"));
         }
         let mut table = found.table.clone();

@@ -27,7 +27,7 @@ use crate::{
 
 /// What is typed or asked.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Input {
+pub enum Question {
     /// The marks of a stroke.
     Marks(Form),
     /// The table's name.
@@ -57,7 +57,7 @@ pub struct CalibrationPage {
     /// In which the tip's place and the speed of a stroke are told.
     pub units: Units,
     /// What is typed or asked.
-    pub input: Option<Input>,
+    pub question: Option<Question>,
     /// Strokes whose forms were left when they were typed in part; the last one is the latest.
     aside: Vec<StrokeDraft>,
     /// What is shown beside the list of tests.
@@ -85,7 +85,7 @@ impl CalibrationPage {
             places,
             table: Table::default(),
             units: Units::default(),
-            input: None,
+            question: None,
             aside: Vec::new(),
             side: Side::Test,
             values_page: 0,
@@ -120,13 +120,13 @@ impl CalibrationPage {
     /// Leaves what is typed or asked; a stroke that was typed in part waits.
     fn put_aside(&mut self) {
         self.aside.extend(self.typed_in_part());
-        self.input = None;
+        self.question = None;
     }
 
     /// The open form of a stroke, where that is typed in part.
     fn typed_in_part(&self) -> Option<StrokeDraft> {
-        match &self.input {
-            Some(Input::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.draft(self.is_daily)),
+        match &self.question {
+            Some(Question::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.draft(self.is_daily)),
             _ => None,
         }
     }
@@ -147,7 +147,7 @@ impl CalibrationPage {
 
     /// The key context.
     pub const fn place(&self) -> CalibrationContext {
-        if let Some(Input::Marks(_)) = self.input { CalibrationContext::Marks } else { CalibrationContext::Tests }
+        if let Some(Question::Marks(_)) = self.question { CalibrationContext::Marks } else { CalibrationContext::Tests }
     }
 
     /// The stroke whose marks are typed in part, which the next session is to go on with.
@@ -163,7 +163,7 @@ impl CalibrationPage {
         let left = self.aside.iter().position(is_same).map(|place| self.aside.remove(place));
         let left = left.and_then(Form::from_draft);
         self.side = Side::Test;
-        self.input = Some(Input::Marks(left.unwrap_or(form)));
+        self.question = Some(Question::Marks(left.unwrap_or(form)));
     }
 
     /// Goes on with a stroke that was typed in part when the last session ended; gives its test, where that is known.
@@ -173,7 +173,7 @@ impl CalibrationPage {
         let test = form.test.name;
         self.is_daily = is_daily;
         self.sheet_mut().mark_test(test);
-        self.input = Some(Input::Marks(form));
+        self.question = Some(Question::Marks(form));
         Some(test)
     }
 
@@ -189,8 +189,8 @@ impl CalibrationPage {
             CalibrationReport::Entries(path, outcome) if path == self.sheet().path => match outcome {
                 Ok(kept) => {
                     let KeptEntries { entries, back } = *kept;
-                    if back.is_some() && matches!(self.input, Some(Input::Marks(_))) {
-                        self.input = None;
+                    if back.is_some() && matches!(self.question, Some(Question::Marks(_))) {
+                        self.question = None;
                     }
                     self.sheet_mut().take(entries, back);
                     return self.judge();
@@ -203,7 +203,7 @@ impl CalibrationPage {
                 }
             },
             CalibrationReport::Unkept(path, sentence) => {
-                if let Some(Input::Marks(form)) = &mut self.input {
+                if let Some(Question::Marks(form)) = &mut self.question {
                     // What could not be kept stays in the form.
                     form.is_sent = false;
                 }
@@ -228,10 +228,10 @@ impl CalibrationPage {
             }
             CalibrationReport::Saved(path, Ok(false)) => {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                if self.input.is_some() {
+                if self.question.is_some() {
                     self.message = Some(Message::warning(taken_words(&name)));
                 } else {
-                    self.input = Some(Input::Replace(name));
+                    self.question = Some(Question::Replace(name));
                 }
             }
             CalibrationReport::Saved(_, Err(sentence)) => self.message = Some(Message::warning(sentence)),
@@ -251,11 +251,11 @@ impl Page for CalibrationPage {
     }
 
     fn field_mut(&mut self) -> Option<&mut TextField> {
-        match self.input.as_mut()? {
+        match self.question.as_mut()? {
             // What is on its way to the disk stays as it is.
-            Input::Marks(form) if form.is_sent => None,
-            Input::Marks(form) => Some(form.typed_mut()),
-            Input::Name(field) => Some(field),
+            Question::Marks(form) if form.is_sent => None,
+            Question::Marks(form) => Some(form.typed_mut()),
+            Question::Name(field) => Some(field),
             _ => None,
         }
     }

@@ -11,7 +11,7 @@ use crate::{
         keymap::Chord,
         pages::{
             Page as _, around,
-            settings::{Input, LONGEST, SettingsPage, TABLE},
+            settings::{LONGEST, Question, SettingsPage, TABLE},
         },
         ui::TextField,
     },
@@ -37,8 +37,8 @@ impl SettingsPage {
             Action::Line(lines) => self.mark = self.mark.saturating_add_signed(lines).min(ENTRIES.len() - 1),
             Action::KeyContext(pages) => self.keys.choose_place(pages),
             Action::Value(step) => return self.step(step),
-            Action::Type => self.input = Some(Input::Value(TextField::new(LONGEST))),
-            Action::Press => self.input = Some(Input::Key),
+            Action::Type => self.question = Some(Question::Value(TextField::new(LONGEST))),
+            Action::Press => self.question = Some(Question::Key),
             Action::Default if self.page == Page::Keys => {
                 let change = self.keys.to_default(&mut self.settings.keys);
                 return Some(self.task(Some(change)));
@@ -48,26 +48,26 @@ impl SettingsPage {
                 let default = (entry.get)(&Settings::default());
                 return self.take(entry, &default, Change::Default(entry.key, default.clone()));
             }
-            Action::Answer(false) => self.input = None,
+            Action::Answer(false) => self.question = None,
             Action::Answer(true) => return self.yes(),
         }
         None
     }
 
     fn yes(&mut self) -> Option<Effect> {
-        match self.input.take()? {
-            Input::Taken(pressed) => Some(self.give(pressed)),
-            Input::Key => None,
+        match self.question.take()? {
+            Question::Taken(pressed) => Some(self.give(pressed)),
+            Question::Key => None,
             // Nothing was typed: what is in force is meant, where the file does not have it already.
-            Input::Value(typed) if typed.text().trim().is_empty() => {
+            Question::Value(typed) if typed.text().trim().is_empty() => {
                 let entry = self.marked();
                 self.other_in_file(entry).and_then(|_| self.set(&(entry.get)(&self.settings)))
             }
-            Input::Value(typed) => {
+            Question::Value(typed) => {
                 let effect = self.set(typed.text().trim());
                 if effect.is_none() {
                     // What was typed stays, to be mended.
-                    self.input = Some(Input::Value(typed));
+                    self.question = Some(Question::Value(typed));
                 }
                 effect
             }
@@ -136,10 +136,10 @@ impl SettingsPage {
     pub fn pressed(&mut self, key: &KeyEvent) -> Option<Effect> {
         match self.keys.check(Chord::of(key), &self.settings.keys) {
             Ok(chord) if self.keys.other_works(chord, &self.settings.keys).is_empty() => {
-                self.input = None;
+                self.question = None;
                 return Some(self.give(chord));
             }
-            Ok(chord) => self.input = Some(Input::Taken(chord)),
+            Ok(chord) => self.question = Some(Question::Taken(chord)),
             Err(sentence) => return self.refuse(sentence),
         }
         None

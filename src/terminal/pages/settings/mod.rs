@@ -29,7 +29,7 @@ const LONGEST: usize = 1000;
 
 /// What is being put in.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Input {
+pub enum Question {
     /// A value, as far as it is typed.
     Value(TextField),
     /// A key that is to be pressed.
@@ -56,7 +56,7 @@ pub struct SettingsPage {
     /// The page that is open: the settings, or the keys.
     pub page: SettingsContext,
     /// What is being put in.
-    pub input: Option<Input>,
+    pub question: Option<Question>,
     /// The page of keys.
     pub keys: OwnKeys,
     /// What the status line says.
@@ -81,7 +81,7 @@ impl SettingsPage {
             file: None,
             is_writable: true,
             page: SettingsContext::Values,
-            input: None,
+            question: None,
             keys: OwnKeys::new(pages),
             message: None,
             mark: 0,
@@ -135,7 +135,7 @@ impl SettingsPage {
 
     /// The key context.
     pub const fn place(&self) -> SettingsContext {
-        if let Some(Input::Key) = self.input { SettingsContext::Pressing } else { self.page }
+        if let Some(Question::Key) = self.question { SettingsContext::Pressing } else { self.page }
     }
 
     fn task(&mut self, change: Option<Change>) -> Effect {
@@ -163,6 +163,6 @@ impl Page for SettingsPage {
     }
 
     fn field_mut(&mut self) -> Option<&mut TextField> {
-        if let Some(Input::Value(value)) = &mut self.input { Some(value) } else { None }
+        if let Some(Question::Value(value)) = &mut self.question { Some(value) } else { None }
     }
 }

@@ -14,7 +14,7 @@ use crate::terminal::{
     Capabilities,
     pages::{
         Asked, PageArea, PageView, Target,
-        calibration::{CalibrationPage, Input, Side},
+        calibration::{CalibrationPage, Question, Side},
     },
     ui::{self, Message, TextField, Ui, columns, split},
 };
@@ -29,7 +29,7 @@ impl PageView for CalibrationPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
         draw_header(self, area.header, ui);
         // At 80 columns what is asked of a mark takes two rows: no other mark may stand behind the first of them.
-        let is_asked = matches!(self.input, Some(Input::Marks(_))) && area.body.width < WIDE;
+        let is_asked = matches!(self.question, Some(Question::Marks(_))) && area.body.width < WIDE;
         let body = Rect { height: area.body.height.saturating_sub(u16::from(is_asked)), ..area.body };
         let [left, right] = halves(body);
         list::draw(self, left, ui);
@@ -43,7 +43,7 @@ impl PageView for CalibrationPage {
     fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
         let (question, typed) = question(self)?;
         // The form of a stroke has rows for its question alone.
-        let has_own_keys = matches!(self.input, Some(Input::Marks(_)));
+        let has_own_keys = matches!(self.question, Some(Question::Marks(_)));
         let asked = Asked::new(self.message.as_ref().filter(|_| !has_own_keys), &question, typed);
         Some(Asked { has_own_keys, ..asked })
     }
@@ -55,20 +55,20 @@ impl PageView for CalibrationPage {
         let list = Rect { height: left.height.min(rows + 1), ..left };
         // The first row is the title's.
         let line = at.y.checked_sub(left.y + 1).map(usize::from);
-        (self.input.is_none() && list.contains(at)).then(|| Target::list(line, sheet.mark))
+        (self.question.is_none() && list.contains(at)).then(|| Target::list(line, sheet.mark))
     }
 }
 
 /// What is asked, and what is typed behind it.
 fn question(page: &CalibrationPage) -> Option<(String, Option<&TextField>)> {
-    Some(match page.input.as_ref()? {
-        Input::Marks(form) => {
+    Some(match page.question.as_ref()? {
+        Question::Marks(form) => {
             let end = if form.far_end { "far end; " } else { "" };
             (end.to_owned() + &form.question(&page.table), Some(form.typed()))
         }
-        Input::Name(field) => ("the table's name = ".to_owned(), Some(field)),
-        Input::Replace(name) => (format!("there is a table called {name} already; replace it?"), None),
-        Input::Anew => ("begin anew? What is entered is kept beside the file.".to_owned(), None),
+        Question::Name(field) => ("the table's name = ".to_owned(), Some(field)),
+        Question::Replace(name) => (format!("there is a table called {name} already; replace it?"), None),
+        Question::Anew => ("begin anew? What is entered is kept beside the file.".to_owned(), None),
     })
 }
 

@@ -16,7 +16,7 @@ use crate::{
     table::{BALLS, Table},
     terminal::{
         Glyphs, Mapping,
-        pages::calibration::{CalibrationPage, Input, form::Form, view::values::sentences},
+        pages::calibration::{CalibrationPage, Question, form::Form, view::values::sentences},
         ui::{
             Spot, TableView, Ui, columns, cue_sign, draw_table, draw_tip, draw_title, shorten, wrap, write_paragraphs,
         },
@@ -180,7 +180,7 @@ const fn letter(n: usize) -> &'static str {
 
 /// The form that is open, if one is.
 const fn form(page: &CalibrationPage) -> Option<&Form> {
-    if let Some(Input::Marks(form)) = &page.input { Some(form) } else { None }
+    if let Some(Question::Marks(form)) = &page.question { Some(form) } else { None }
 }
 
 /// What is typed of the mark with this number and name, or was entered, with its unit.

@@ -10,7 +10,7 @@ use ratatui::{
 
 use crate::terminal::{
     Capabilities, SettingsContext, SettingsPage,
-    pages::{Asked, PageArea, PageView, Target, settings::Input},
+    pages::{Asked, PageArea, PageView, Target, settings::Question},
     ui::{Message, Ui, below_title, end_of, split, write_paragraphs},
 };
 
@@ -36,9 +36,9 @@ impl PageView for SettingsPage {
     }
 
     fn asked(&self, caps: Capabilities) -> Option<Asked<'_>> {
-        let typed = if let Some(Input::Value(typed)) = &self.input { Some(typed) } else { None };
+        let typed = if let Some(Question::Value(typed)) = &self.question { Some(typed) } else { None };
         let asked = Asked::new(self.message.as_ref(), &question(self, caps)?, typed);
-        Some(Asked { has_own_keys: matches!(self.input, Some(Input::Key)), ..asked })
+        Some(Asked { has_own_keys: matches!(self.question, Some(Question::Key)), ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
@@ -54,8 +54,8 @@ impl PageView for SettingsPage {
 
 /// What is being put in, as it stands on the status line, without what is typed.
 fn question(settings: &SettingsPage, caps: Capabilities) -> Option<String> {
-    match settings.input.as_ref()? {
-        Input::Value(typed) => {
+    match settings.question.as_ref()? {
+        Question::Value(typed) => {
             let (entry, is_other) = (settings.marked(), settings.other_in_file(settings.marked()).is_some());
             let keeps = if typed.text().is_empty() && is_other {
                 format!(" (Enter alone keeps {})", (entry.get)(&settings.settings))
@@ -64,8 +64,8 @@ fn question(settings: &SettingsPage, caps: Capabilities) -> Option<String> {
             };
             Some(format!("{}{keeps} = ", entry.key))
         }
-        Input::Key => Some(keys::press(settings)),
-        Input::Taken(chord) => Some(keys::taken(settings, *chord, caps)),
+        Question::Key => Some(keys::press(settings)),
+        Question::Taken(chord) => Some(keys::taken(settings, *chord, caps)),
     }
 }
 
