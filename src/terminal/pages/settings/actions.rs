@@ -46,7 +46,7 @@ impl SettingsPage {
             Action::Default => {
                 let entry = self.marked();
                 let default = (entry.get)(&Settings::default());
-                return self.take(entry, &default, Change::Default(entry.key, default.clone()));
+                return self.give_value(entry, &default, Change::Default);
             }
             Action::Answer(false) => self.question = None,
             Action::Answer(true) => return self.yes(),
@@ -105,31 +105,22 @@ impl SettingsPage {
         let own =
             self.tables.iter().find(|path| entry.key == TABLE && !PRESETS.contains(&typed) && is_called(path, typed));
         let path = own.map(|path| path.to_string_lossy().into_owned());
-        self.give_value(entry, path.as_deref().unwrap_or(typed))
+        self.give_value(entry, path.as_deref().unwrap_or(typed), Change::Value)
     }
 
     /// Gives the setting `key` a value that was chosen elsewhere.
     pub fn choose(&mut self, key: &str, typed: &str) -> Option<Effect> {
-        self.give_value(ENTRIES.iter().find(|entry| entry.key == key)?, typed)
+        self.give_value(ENTRIES.iter().find(|entry| entry.key == key)?, typed, Change::Value)
     }
 
-    fn give_value(&mut self, entry: &Entry, typed: &str) -> Option<Effect> {
+    /// Takes a value that is accepted, and makes a change of the file of it.
+    fn give_value(&mut self, entry: &Entry, typed: &str, change: fn(&'static str, String) -> Change) -> Option<Effect> {
         match self.settings.with(entry, typed) {
-            Ok(settings) => {
-                let value = (entry.get)(&settings);
-                self.take(entry, &value.clone(), Change::Value(entry.key, value))
-            }
-            Err(sentence) => self.refuse(sentence),
-        }
-    }
-
-    /// Takes a value that is accepted.
-    fn take(&mut self, entry: &Entry, value: &str, change: Change) -> Option<Effect> {
-        match self.settings.with(entry, value) {
             Ok(settings) => self.settings = settings,
             Err(sentence) => return self.refuse(sentence),
         }
-        Some(self.task(Some(change)))
+        let value = (entry.get)(&self.settings);
+        Some(self.task(Some(change(entry.key, value))))
     }
 
     /// A key was pressed that is to do what is marked.
