@@ -10,7 +10,7 @@ use crate::{
     simulation::{Event, Recording},
     terminal::{
         shot::playback::passed,
-        ui::{Ui, draw_title, write_right},
+        ui::{Ui, draw_title, list, write_right},
         words::{event_words, fixed},
     },
 };
@@ -83,8 +83,7 @@ pub fn draw_events(name: &str, listed: Option<ListedEvents>, time: Option<f64>, 
             _ if n < present => ui.theme.faint(),
             _ => ui.theme.text(),
         };
-        let pointer = if n == present { ui.caps.pick("▸", ">") } else { " " };
-        ui.buffer.set_string(inner.x, row, pointer, ui.theme.accent());
+        list::draw_mark(n == present, inner.x, row, ui);
         write_right(ui.buffer, inner.x, inner.x + end, row, &fixed(at, decimals), style);
         ui.buffer.set_stringn(inner.x + start, row, &words, usize::from(inner.width.saturating_sub(start)), style);
         if n == present + 1

@@ -31,7 +31,8 @@ pub use self::{
     input::{TextField, Typed, is_typed},
     message::{Message, Tone},
     panel::{
-        below_title, draw_header, draw_lines, draw_nothing, draw_title, frame, pair, separator, split, write_paragraphs,
+        below_title, draw_header, draw_lines, draw_nothing, draw_title, frame, pair, separator, split, stepper,
+        write_paragraphs,
     },
     profile::{draw_profile, side_view_below},
     sight::draw_spin_or_sight,

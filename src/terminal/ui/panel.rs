@@ -35,6 +35,12 @@ pub const fn separator(caps: Capabilities) -> &'static str {
     caps.pick(" · ", " - ")
 }
 
+/// A value that keys step through, between their signs while it `is_marked`.
+pub fn stepper<'a>(value: Span<'a>, is_marked: bool, ui: &Ui) -> [Span<'a>; 3] {
+    let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
+    [Span::styled(left, ui.theme.faint()), value, Span::styled(right, ui.theme.faint())]
+}
+
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
 pub fn draw_title<'a>(title: impl Into<Line<'a>>, area: Rect, ui: &mut Ui) -> Rect {
     if area.is_empty() {

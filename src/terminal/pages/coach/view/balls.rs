@@ -13,7 +13,7 @@ use crate::{
         Mode,
         pages::coach::CoachPage,
         shot::Spin,
-        ui::{Theme, Ui, draw_title, write_right},
+        ui::{Theme, Ui, draw_title, list, write_right},
         words::{fine, fixed, in_diamonds},
     },
 };
@@ -57,8 +57,7 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
     }
     let marker =
         if ui.theme.is_mono() || !ui.caps.unicode { ui.theme.letters()[ball] } else { ui.theme.ball_sign(ball) };
-    let pointer = if selected { ui.caps.pick("▸", ">") } else { " " };
-    ui.buffer.set_string(area.x, area.y, pointer, ui.theme.accent());
+    list::draw_mark(selected, area.x, area.y, ui);
     ui.buffer.set_string(area.x + 1, area.y, marker.to_string(), ui.theme.ball(ball).add_modifier(Modifier::BOLD));
     ui.buffer.set_string(area.x + 3, area.y, ui.theme.names()[ball], style);
     let (place, speed, motion) = match coach.watched() {

@@ -13,7 +13,7 @@ use crate::{
     },
     terminal::{
         Capabilities, Shot, ShotAnalysis,
-        ui::{Theme, Ui, columns, draw_nothing, draw_title, write_right},
+        ui::{Theme, Ui, columns, draw_nothing, draw_title, list, write_right},
         words::fixed,
     },
 };
@@ -185,8 +185,7 @@ impl Row<'_> {
     }
 
     fn draw_half(&self, x: u16, y: u16, ui: &mut Ui) {
-        let mark = if self.is_tightest { ui.caps.pick("▸", ">") } else { " " };
-        ui.buffer.set_string(x, y, mark, ui.theme.accent());
+        list::draw_mark(self.is_tightest, x, y, ui);
         ui.buffer.set_string(x + 1, y, self.letter(ui.caps), ui.theme.faint());
         let [less, more] = self.sizes(2);
         write_right(ui.buffer, x + 3, x + 8, y, &less, self.style(ui.theme));

@@ -6,7 +6,7 @@ use crate::terminal::{
     Capabilities, SettingsPage,
     keymap::{Chord, KeyEntry, keys_text},
     pages::settings::view::write_words,
-    ui::{Ui, draw_title, list::Grouped, shorten},
+    ui::{Ui, draw_title, list::Grouped, shorten, stepper},
 };
 
 /// Columns of the keys.
@@ -19,13 +19,8 @@ pub fn list(settings: &SettingsPage) -> Grouped<&KeyEntry> {
 
 /// Draws the list and the words; gives what the status line says while there is no news.
 pub fn draw(settings: &SettingsPage, area: Rect, words: Rect, ui: &mut Ui) -> &'static str {
-    let (left, right) = ui.caps.pick(("◂ ", " ▸"), ("< ", " >"));
-    let title = vec![
-        Span::styled("Keys ", ui.theme.text()),
-        Span::styled(left, ui.theme.faint()),
-        Span::styled(settings.keys.page().name, ui.theme.accent()),
-        Span::styled(right, ui.theme.faint()),
-    ];
+    let mut title = vec![Span::styled("Keys ", ui.theme.text())];
+    title.extend(stepper(Span::styled(settings.keys.page().name, ui.theme.accent()), true, ui));
     let inner = draw_title(title, area, ui);
     list(settings).draw(inner, ui, |entry, is_marked, area, ui| {
         draw_entry(settings, entry, is_marked, area, ui);

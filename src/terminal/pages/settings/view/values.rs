@@ -9,7 +9,7 @@ use crate::terminal::{
     Settings, SettingsPage,
     config::{ENTRIES, Entry},
     pages::settings::view::write_words,
-    ui::{Ui, columns, draw_title, list::Grouped, shorten},
+    ui::{Ui, columns, draw_title, list::Grouped, shorten, stepper},
 };
 
 /// Columns of the names.
@@ -45,12 +45,10 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     if is_changed {
         ui.buffer.set_string(area.x + NAME - 1, area.y, ui.caps.pick("•", "*"), ui.theme.good());
     }
-    let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
     let x = area.x + NAME;
     let room = usize::from(area.right().saturating_sub(x + 5));
     let text = shorten(&settings.shown(&(entry.get)(&settings.settings)), room, ui.caps);
-    let mut spans =
-        vec![Span::styled(left, ui.theme.faint()), Span::styled(text, value), Span::styled(right, ui.theme.faint())];
+    let mut spans = stepper(Span::styled(text, value), is_marked, ui).to_vec();
     if let Some(other) = settings.other_in_file(entry) {
         let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
         let whole = format!(" now; the file has {}", settings.shown(&other));

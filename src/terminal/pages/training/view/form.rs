@@ -10,7 +10,7 @@ use crate::{
     learning::{agents::AGENTS, run::Schedule},
     terminal::{
         pages::training::{Field, Form, TrainingPage},
-        ui::{Ui, columns, draw_lines, draw_title, list, wrap},
+        ui::{Ui, columns, draw_lines, draw_title, list, stepper, wrap},
         words::count,
     },
 };
@@ -29,10 +29,8 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
         let style = if is_marked { ui.theme.accent() } else { ui.theme.text() };
         list::draw_mark(is_marked, area.x + 1, y, ui);
         ui.buffer.set_string(area.x + 3, y, field.name(), ui.theme.faint());
-        let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
         let x = area.x + 3 + NAME;
-        let [left, right] = [left, right].map(|sign| Span::styled(sign, ui.theme.faint()));
-        let value = Line::from(vec![left, Span::styled(value, style), right]);
+        let value = Line::from_iter(stepper(Span::styled(value, style), is_marked, ui));
         let end = ui.buffer.set_line(x - 2, y, &value, area.right() - x).0;
         let x = (x + VALUE).max(end + 2);
         let room = usize::from(area.right().saturating_sub(x + 1));
