@@ -23,10 +23,6 @@ impl App {
 
     /// Something has come of what the training screen wanted.
     pub fn receive_report(&mut self, report: Report) {
-        let report = match report {
-            Report::Shown(seen) => return self.coach.see(seen),
-            other => other,
-        };
         if let Some((table, query)) = self.training.receive(report) {
             self.coach.take_query(&table, query);
             self.training.alone = false;

@@ -213,6 +213,7 @@ impl Runner {
     }
 
     fn take(&mut self, news: Event) -> io::Result<Next> {
+        self.tasks.taken(&news);
         let effect = match news {
             Event::Input(TerminalEvent::Key(key)) => self.app.handle(&key),
             Event::Input(TerminalEvent::Paste(text)) => {
@@ -234,8 +235,11 @@ impl Runner {
             }
             Event::Signal(Signal::End(signal)) => return Ok(Next::Die(signal)),
             Event::Report(report) => {
-                self.tasks.taken(&report);
                 self.app.receive_report(report);
+                None
+            }
+            Event::Shown(seen) => {
+                self.app.coach.see(seen);
                 None
             }
             Event::Settings(report) => self.app.receive_settings(report),

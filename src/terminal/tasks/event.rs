@@ -4,7 +4,7 @@ use crossterm::event::Event as TerminalEvent;
 
 use crate::{
     platform::Signal,
-    terminal::{Answer, CalibrationReport, DrillReport, Report, SettingsReport},
+    terminal::{Answer, CalibrationReport, DrillReport, Report, Seen, SettingsReport},
 };
 
 /// Something that the screen has to deal with.
@@ -20,6 +20,8 @@ pub enum Event {
     Answer(Answer),
     /// Something has come of what the training screen wanted.
     Report(Report),
+    /// Something else is seen of somebody else's table.
+    Shown(Seen),
     /// Something has come of a task of the drill screens.
     Drill(DrillReport),
     /// Something has come of a task of the settings.

@@ -126,7 +126,7 @@ impl Tasks {
             self.shown = None;
             if let Some(folder) = wanted.shown.clone() {
                 let mut onlooker = Onlooker::new(folder);
-                let look = move || onlooker.look().map(Report::Shown);
+                let look = move || onlooker.look().map(Event::Shown);
                 self.shown = Some(Poll::start("onlooker", FOLLOW_INTERVAL, self.to_screen.clone(), look)?);
             }
         }
@@ -143,13 +143,13 @@ impl Tasks {
         Ok(())
     }
 
-    /// The screen has taken a report: its sender may look again. Events never pile up before a slow screen.
-    pub fn taken(&self, report: &Report) {
-        let poll = match report {
-            Report::Runs(_) => &self.list,
-            Report::Shown(_) => &self.shown,
-            Report::Followed(Slot::Main, ..) => &self.followed[0],
-            Report::Followed(Slot::Compared, ..) => &self.followed[1],
+    /// The screen has taken news: their sender may look again. Events never pile up before a slow screen.
+    pub fn taken(&self, news: &Event) {
+        let poll = match news {
+            Event::Shown(_) => &self.shown,
+            Event::Report(Report::Runs(_)) => &self.list,
+            Event::Report(Report::Followed(Slot::Main, ..)) => &self.followed[0],
+            Event::Report(Report::Followed(Slot::Compared, ..)) => &self.followed[1],
             _ => &None,
         };
         if let Some(poll) = poll {
@@ -310,7 +310,7 @@ fn started<T>(worker: &mut Option<Worker<T>>, start: impl FnOnce() -> io::Result
 }
 
 /// Lists the runs, and reports where anything has changed.
-fn list(folder: PathBuf) -> impl FnMut() -> Option<Report> {
+fn list(folder: PathBuf) -> impl FnMut() -> Option<Event> {
     let (mut runs, mut before) = (RunsFolder::new(&folder), None);
     move || {
         let found = match runs.look() {
@@ -322,7 +322,7 @@ fn list(folder: PathBuf) -> impl FnMut() -> Option<Report> {
             return None;
         }
         before = Some(found.clone());
-        Some(Report::Runs(found))
+        Some(Event::Report(Report::Runs(found)))
     }
 }
 
@@ -334,7 +334,7 @@ fn follow(
     slot: Slot,
     folder: PathBuf,
     to_screen: Sender<Event>,
-) -> io::Result<impl FnMut() -> Option<Report> + Send + 'static> {
+) -> io::Result<impl FnMut() -> Option<Event> + Send + 'static> {
     let recorder = if slot == Slot::Main { Some(recorder(folder.clone(), to_screen.clone())?) } else { None };
     let mut follower = Follower::new(&folder);
     let (mut table, mut examples, mut had_policy) = (None, None, None);
@@ -357,7 +357,7 @@ fn follow(
         {
             recorder.give((examples, table));
         }
-        Some(Report::Followed(slot, folder.clone(), Box::new(update)))
+        Some(Event::Report(Report::Followed(slot, folder.clone(), Box::new(update))))
     })
 }
 

@@ -11,7 +11,7 @@ use std::{
     time::Duration,
 };
 
-use crate::terminal::{Report, tasks::event::Event};
+use crate::terminal::tasks::event::Event;
 
 /// Looks without news after which they come less often: a run that has ended seldom changes.
 const PATIENT_LOOKS: u32 = 30;
@@ -35,7 +35,7 @@ impl Poll {
         name: &str,
         interval: Duration,
         to_screen: Sender<Event>,
-        mut look: impl FnMut() -> Option<Report> + Send + 'static,
+        mut look: impl FnMut() -> Option<Event> + Send + 'static,
     ) -> io::Result<Self> {
         let poll = Self { stop: Arc::default(), waiting: Arc::default() };
         let (stop, waiting) = (Arc::clone(&poll.stop), Arc::clone(&poll.waiting));
@@ -44,10 +44,10 @@ impl Poll {
             while !stop.load(Ordering::Relaxed) {
                 if !waiting.load(Ordering::Acquire) {
                     without += 1;
-                    if let Some(report) = look() {
+                    if let Some(news) = look() {
                         without = 0;
                         waiting.store(true, Ordering::Release);
-                        if to_screen.send(Event::Report(report)).is_err() {
+                        if to_screen.send(news).is_err() {
                             break;
                         }
                     }
@@ -73,12 +73,13 @@ impl Drop for Poll {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::terminal::Report;
     use std::sync::mpsc::channel;
 
     #[test]
     fn news_wait_until_the_last_have_been_taken_and_end_with_the_poll() {
         let (sender, receiver) = channel();
-        let look = || Some(Report::Runs(Err(String::new())));
+        let look = || Some(Event::Report(Report::Runs(Err(String::new()))));
         let poll = Poll::start("test", Duration::from_millis(1), sender, look).unwrap();
         let patience = Duration::from_secs(20);
         assert!(receiver.recv_timeout(patience).is_ok());

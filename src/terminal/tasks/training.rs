@@ -11,7 +11,7 @@ use crate::{
         Policy,
         run::{follow::Update, list::Listing, request::Request},
     },
-    terminal::{Reel, tasks::onlooker::Seen},
+    terminal::Reel,
 };
 
 /// Why a run's networks are of no use to the coach.
@@ -108,8 +108,6 @@ pub enum Report {
     Sent(Request, Result<(), String>),
     /// A policy was to be kept.
     Kept(Keeping, Result<Kept, String>),
-    /// What is seen of somebody else's table.
-    Shown(Seen),
     /// The policy of the run in a folder.
     Policy(PathBuf, Result<Arc<Policy>, String>),
 }

@@ -3,7 +3,7 @@
 use carom::{
     storage::{Lock, Player as Name},
     table::{Layout, Table},
-    terminal::{App, Doing, Effect, KeyContext, Onlooker, Report, Seat, Seen, ShownTable},
+    terminal::{App, Doing, Effect, KeyContext, Onlooker, Seat, Seen, ShownTable},
 };
 use ratatui::{Terminal, backend::TestBackend};
 
@@ -72,7 +72,7 @@ fn whoever_looks_on_sees_the_same_table_and_shot_and_cannot_touch_them() {
         let before = picture(&mut app, (80, 24));
         assert!(before.contains("anna shows no table at the moment") && before.contains("q ends it"), "{before}");
         let shown = player.app.shown_table().unwrap();
-        app.receive_report(Report::Shown(seen(&shown)));
+        app.coach.see(seen(&shown));
         assert_eq!(
             (app.place(), app.coach.layout(), app.last()),
             (KeyContext::Follow, player.app.coach.layout(), None)
@@ -97,7 +97,7 @@ fn whoever_looks_on_sees_the_same_table_and_shot_and_cannot_touch_them() {
     insta::assert_snapshot!(picture(
         &mut {
             let mut app = following(TRUE_COLOUR);
-            app.receive_report(Report::Shown(seen(&player.app.shown_table().unwrap())));
+            app.coach.see(seen(&player.app.shown_table().unwrap()));
             app
         },
         (80, 24)
@@ -108,17 +108,17 @@ fn whoever_looks_on_sees_the_same_table_and_shot_and_cannot_touch_them() {
 fn the_shot_plays_on_where_it_is_seen_and_goes_when_it_is_shown_no_more() {
     let player = anna().press("F Enter").answer().press("Space");
     let mut app = following(TRUE_COLOUR);
-    app.receive_report(Report::Shown(seen(&player.app.shown_table().unwrap())));
+    app.coach.see(seen(&player.app.shown_table().unwrap()));
     assert!(app.coach.playback.playing && app.frame_interval().is_some());
     app.tick(0.5);
     assert!(app.coach.playback.time >= 0.5);
     let player = player.press("End");
-    app.receive_report(Report::Shown(seen(&player.app.shown_table().unwrap())));
+    app.coach.see(seen(&player.app.shown_table().unwrap()));
     let there = picture(&mut app, (80, 24));
     assert!(!app.coach.playback.playing && there.contains("oint"), "{there}");
-    app.receive_report(Report::Shown(Seen::Nothing));
+    app.coach.see(Seen::Nothing);
     assert!(picture(&mut app, (80, 24)).contains("anna shows no table at the moment"));
-    app.receive_report(Report::Shown(Seen::Damaged));
+    app.coach.see(Seen::Damaged);
     let there = picture(&mut app, (80, 24));
     assert!(there.contains("cannot be read") && app.frame_interval().is_none(), "{there}");
     assert!(app.handle(&key("q")).is_some_and(|effect| matches!(effect, Effect::Quit)));

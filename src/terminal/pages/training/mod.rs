@@ -153,8 +153,6 @@ impl TrainingPage {
     pub fn receive(&mut self, report: Report) -> Option<(Table, CoachQuery)> {
         match report {
             Report::Runs(found) => self.list.take(found),
-            // That is the coach's.
-            Report::Shown(_) => {}
             Report::Followed(Slot::Main, folder, update) => self.followed(&folder, *update),
             Report::Followed(Slot::Compared, folder, update) => {
                 let other = self.watch.as_mut().and_then(|watch| watch.other.as_mut());
