@@ -14,7 +14,7 @@ use carom::{
     },
     storage::Places,
     table::{Layout, Table},
-    terminal::{App, Capabilities, Reel, Report, Slot},
+    terminal::{App, Capabilities, Reel, Slot, TrainingReport},
 };
 use crossterm::event::KeyCode::{Char, Enter};
 
@@ -54,7 +54,7 @@ impl Camera {
         let places = Places { runs: self.runs.clone(), policies: self.runs.clone(), ..Places::of_this_user() };
         let mut app = App::new(table.clone(), Layout::opening(&table), self.caps, 1)?.with_places(places);
         app.handle(&Char('t').into());
-        app.receive_report(Report::Runs(runs_in(&self.runs).map_err(|error| error.to_string())));
+        app.receive_training(TrainingReport::Runs(runs_in(&self.runs).map_err(|error| error.to_string())));
         app.handle(&Enter.into());
         show(&mut app, &self.place, &table)?;
         app.tick(REPLAYED);
@@ -66,9 +66,9 @@ impl Camera {
 fn show(app: &mut App, place: &Path, table: &Table) -> Result<(), Box<dyn Error>> {
     let mut update = Follower::new(place).look().ok_or("nothing is to be seen of the run")?;
     let reel = update.examples.take().map(|examples| Reel::record(&examples, table));
-    app.receive_report(Report::HasPolicy(place.to_owned(), true));
-    app.receive_report(Report::Followed(Slot::Main, place.to_owned(), Box::new(update)));
-    app.receive_report(Report::Recorded(place.to_owned(), reel.ok_or("the run has no shots to show")?));
+    app.receive_training(TrainingReport::HasPolicy(place.to_owned(), true));
+    app.receive_training(TrainingReport::Followed(Slot::Main, place.to_owned(), Box::new(update)));
+    app.receive_training(TrainingReport::Recorded(place.to_owned(), reel.ok_or("the run has no shots to show")?));
     Ok(())
 }
 

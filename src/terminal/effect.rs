@@ -12,7 +12,7 @@ use crate::{
 pub enum Effect {
     /// Ask the coach for a shot, or for a closer look at the job's own; the answers go to [`App::receive`](super::App::receive).
     Ask(Box<Job>),
-    /// Start a process that trains; how it ends goes to [`App::receive_report`](super::App::receive_report), as do the answers to what follows.
+    /// Start a process that trains; how it ends goes to [`App::receive_training`](super::App::receive_training), as do the answers to what follows.
     Train(Box<Launch>),
     /// Ask a run for something.
     Send(Request, PathBuf),

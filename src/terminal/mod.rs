@@ -76,7 +76,7 @@ pub use tasks::{
     onlooker::{Onlooker, Seen, SeenTable},
     recommender::{Answer, CoachNews, CoachWorker, Job},
     reel::{Reel, Scene},
-    training::{Failure, Keeping, Kept, Launch, Report, Slot, Subscriptions},
+    training::{Failure, Keeping, Kept, Launch, Slot, Subscriptions, TrainingReport},
 };
 pub use terms::Terms;
 pub use ui::{

@@ -1,6 +1,6 @@
 //! Reports from the background, and their messages: sentences on the status line, refusals and failures as toasts.
 
-use crate::terminal::{Answer, App, CalibrationReport, DrillReport, DrillTask, Effect, PageId, Report};
+use crate::terminal::{Answer, App, CalibrationReport, DrillReport, DrillTask, Effect, PageId, TrainingReport};
 
 impl App {
     /// The coach has something to say. Late answers to cancelled questions are dropped.
@@ -22,7 +22,7 @@ impl App {
     }
 
     /// Something has come of what the training screen wanted.
-    pub fn receive_report(&mut self, report: Report) {
+    pub fn receive_training(&mut self, report: TrainingReport) {
         if let Some((table, query)) = self.training.receive(report) {
             self.coach.take_query(&table, query);
             self.training.alone = false;

@@ -15,7 +15,7 @@ use crate::{
     printing::{self, FULL_VERSION, OneLine},
     storage::Places,
     terminal::{
-        Answer, App, CoachNews, Effect, Report, SavedSession,
+        Answer, App, CoachNews, Effect, SavedSession, TrainingReport,
         host::{events, guard::TerminalGuard, log, pace::Pace, showing::Showing},
         tasks::{Tasks, event::Event},
     },
@@ -75,7 +75,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
 const fn can_come_later(news: &Event) -> bool {
     matches!(
         news,
-        Event::Report(Report::Followed(..) | Report::HasPolicy(..))
+        Event::Training(TrainingReport::Followed(..) | TrainingReport::HasPolicy(..))
             | Event::Answer(Answer { news: CoachNews::Better(_), .. })
     )
 }
@@ -234,8 +234,8 @@ impl Runner {
                 None
             }
             Event::Signal(Signal::End(signal)) => return Ok(Next::Die(signal)),
-            Event::Report(report) => {
-                self.app.receive_report(report);
+            Event::Training(report) => {
+                self.app.receive_training(report);
                 None
             }
             Event::Shown(seen) => {

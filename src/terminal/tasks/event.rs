@@ -4,7 +4,7 @@ use crossterm::event::Event as TerminalEvent;
 
 use crate::{
     platform::Signal,
-    terminal::{Answer, CalibrationReport, DrillReport, Report, Seen, SettingsReport},
+    terminal::{Answer, CalibrationReport, DrillReport, Seen, SettingsReport, TrainingReport},
 };
 
 /// Something that the screen has to deal with.
@@ -19,7 +19,7 @@ pub enum Event {
     /// The coach has answered.
     Answer(Answer),
     /// Something has come of what the training screen wanted.
-    Report(Report),
+    Training(TrainingReport),
     /// Something else is seen of somebody else's table.
     Shown(Seen),
     /// Something has come of a task of the drill screens.

@@ -36,8 +36,8 @@ use crate::{
     },
     table::Table,
     terminal::{
-        CalibrationTask, CoachWorker, DrillTask, Failure, Job, Keeping, Launch, Reel, Report, SettingsFile,
-        SettingsTask, Slot, Subscriptions,
+        CalibrationTask, CoachWorker, DrillTask, Failure, Job, Keeping, Launch, Reel, SettingsFile, SettingsTask, Slot,
+        Subscriptions, TrainingReport,
         tasks::{event::Event, onlooker::Onlooker, polling::Poll, trainer::Trainer, worker::Worker},
     },
 };
@@ -147,9 +147,9 @@ impl Tasks {
     pub fn taken(&self, news: &Event) {
         let poll = match news {
             Event::Shown(_) => &self.shown,
-            Event::Report(Report::Runs(_)) => &self.list,
-            Event::Report(Report::Followed(Slot::Main, ..)) => &self.followed[0],
-            Event::Report(Report::Followed(Slot::Compared, ..)) => &self.followed[1],
+            Event::Training(TrainingReport::Runs(_)) => &self.list,
+            Event::Training(TrainingReport::Followed(Slot::Main, ..)) => &self.followed[0],
+            Event::Training(TrainingReport::Followed(Slot::Compared, ..)) => &self.followed[1],
             _ => &None,
         };
         if let Some(poll) = poll {
@@ -238,7 +238,7 @@ impl Tasks {
         let Launch { arguments, folder } = launch;
         self.spawn("trainer", move || {
             let failure = started.recv().ok()?.and_then(trainer::wait).err()?;
-            Some(Report::TrainerFailed(folder, failure))
+            Some(TrainingReport::TrainerFailed(folder, failure))
         })?;
         // Not on the thread, which may not come to it before the screen closes. It waits for this.
         let _ = hand_over.send(trainer::start(&arguments));
@@ -251,7 +251,7 @@ impl Tasks {
     /// As [`Tasks::train`].
     pub fn send(&mut self, request: Request, folder: PathBuf) -> io::Result<()> {
         self.write("request", move || {
-            Some(Report::Sent(request, request.send(&folder).map_err(|error| error.to_string())))
+            Some(TrainingReport::Sent(request, request.send(&folder).map_err(|error| error.to_string())))
         })
     }
 
@@ -262,7 +262,7 @@ impl Tasks {
     pub fn keep(&mut self, keeping: Keeping) -> io::Result<()> {
         self.write("keep", move || {
             let outcome = policies::keep(&keeping);
-            Some(Report::Kept(keeping, outcome))
+            Some(TrainingReport::Kept(keeping, outcome))
         })
     }
 
@@ -273,25 +273,29 @@ impl Tasks {
     pub fn load_policy(&self, folder: PathBuf) -> io::Result<()> {
         self.spawn("policy", move || {
             let policy = policies::load(&folder);
-            Some(Report::Policy(folder, policy))
+            Some(TrainingReport::Policy(folder, policy))
         })?;
         Ok(())
     }
 
     /// Does what writes something: the program does not end before.
-    fn write(&mut self, name: &str, work: impl FnOnce() -> Option<Report> + Send + 'static) -> io::Result<()> {
+    fn write(&mut self, name: &str, work: impl FnOnce() -> Option<TrainingReport> + Send + 'static) -> io::Result<()> {
         self.writing.retain(|thread| !thread.is_finished());
         let thread = self.spawn(name, work)?;
         self.writing.push(thread);
         Ok(())
     }
 
-    fn spawn(&self, name: &str, work: impl FnOnce() -> Option<Report> + Send + 'static) -> io::Result<JoinHandle<()>> {
+    fn spawn(
+        &self,
+        name: &str,
+        work: impl FnOnce() -> Option<TrainingReport> + Send + 'static,
+    ) -> io::Result<JoinHandle<()>> {
         let to_screen = self.to_screen.clone();
         thread::Builder::new().name(name.into()).spawn(move || {
             if let Some(report) = work() {
                 // A screen that is gone needs no answer.
-                let _ = to_screen.send(Event::Report(report));
+                let _ = to_screen.send(Event::Training(report));
             }
         })
     }
@@ -322,7 +326,7 @@ fn list(folder: PathBuf) -> impl FnMut() -> Option<Event> {
             return None;
         }
         before = Some(found.clone());
-        Some(Event::Report(Report::Runs(found)))
+        Some(Event::Training(TrainingReport::Runs(found)))
     }
 }
 
@@ -345,7 +349,7 @@ fn follow(
             let has_policy = folder.join(POLICY).exists();
             if had_policy.replace(has_policy) != Some(has_policy) {
                 // A screen that is gone needs no news.
-                let _ = to_screen.send(Event::Report(Report::HasPolicy(folder.clone(), has_policy)));
+                let _ = to_screen.send(Event::Training(TrainingReport::HasPolicy(folder.clone(), has_policy)));
             }
         }
         let mut update = update?;
@@ -357,7 +361,7 @@ fn follow(
         {
             recorder.give((examples, table));
         }
-        Some(Event::Report(Report::Followed(slot, folder.clone(), Box::new(update))))
+        Some(Event::Training(TrainingReport::Followed(slot, folder.clone(), Box::new(update))))
     })
 }
 
@@ -365,7 +369,8 @@ fn follow(
 fn recorder(folder: PathBuf, to_screen: Sender<Event>) -> io::Result<Worker<(Examples, Table)>> {
     Worker::of_the_newest("recorder", move |(examples, table): (Examples, Table)| {
         // A screen that is gone needs no shots.
-        let _ = to_screen.send(Event::Report(Report::Recorded(folder.clone(), Reel::record(&examples, &table))));
+        let _ =
+            to_screen.send(Event::Training(TrainingReport::Recorded(folder.clone(), Reel::record(&examples, &table))));
     })
 }
 
@@ -381,7 +386,7 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         tasks.send(Request::Stop, home.path().to_owned()).unwrap();
         tasks.finish();
-        assert!(matches!(events.try_recv(), Ok(Event::Report(Report::Sent(Request::Stop, _)))));
+        assert!(matches!(events.try_recv(), Ok(Event::Training(TrainingReport::Sent(Request::Stop, _)))));
     }
 
     #[test]

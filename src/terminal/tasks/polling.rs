@@ -73,13 +73,13 @@ impl Drop for Poll {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::Report;
+    use crate::terminal::TrainingReport;
     use std::sync::mpsc::channel;
 
     #[test]
     fn news_wait_until_the_last_have_been_taken_and_end_with_the_poll() {
         let (sender, receiver) = channel();
-        let look = || Some(Event::Report(Report::Runs(Err(String::new()))));
+        let look = || Some(Event::Training(TrainingReport::Runs(Err(String::new()))));
         let poll = Poll::start("test", Duration::from_millis(1), sender, look).unwrap();
         let patience = Duration::from_secs(20);
         assert!(receiver.recv_timeout(patience).is_ok());

@@ -93,7 +93,7 @@ pub enum Kept {
 
 /// Something has come of what the training screen wanted. Where it failed, a sentence says why.
 #[derive(Debug)]
-pub enum Report {
+pub enum TrainingReport {
     /// The runs there are.
     Runs(Result<Listing, String>),
     /// News of the run in a folder that is followed.

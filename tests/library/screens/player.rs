@@ -18,7 +18,7 @@ use carom::{
     table::{Layout, Table},
     terminal::{
         Advice, Answer, App, Capabilities, CoachNews, CoachWorker, Depth, DrillReport, DrillTask, Effect, Glyphs, Job,
-        Position, PracticeWorker, Proposal, Reel, Report, Settings, SettingsFile, Shot, Slot, Taught,
+        Position, PracticeWorker, Proposal, Reel, Settings, SettingsFile, Shot, Slot, Taught, TrainingReport,
     },
 };
 use crossterm::event::KeyEvent;
@@ -161,7 +161,7 @@ impl Player {
 
     /// At the list of three runs.
     pub fn listing(caps: Capabilities) -> Self {
-        Self::at_runs(caps).report(Report::Runs(Ok(listing())))
+        Self::at_runs(caps).report(TrainingReport::Runs(Ok(listing())))
     }
 
     /// At a run that has played 1.2 of 5 million shots.
@@ -297,8 +297,8 @@ impl Player {
             .tell(job.id, CoachNews::Next(Some(Advice { proposals: vec![next], seed: 1, effort: None, found: None })))
     }
 
-    pub fn report(mut self, report: Report) -> Self {
-        self.app.receive_report(report);
+    pub fn report(mut self, report: TrainingReport) -> Self {
+        self.app.receive_training(report);
         self
     }
 
@@ -306,9 +306,9 @@ impl Player {
     pub fn update(self, slot: Slot, name: &str, mut update: Update) -> Self {
         let folder = Path::new(RUNS).join(name);
         let reel = update.examples.take().map(|examples| Reel::record(&examples, &Table::default()));
-        let player = self.report(Report::Followed(slot, folder.clone(), Box::new(update)));
+        let player = self.report(TrainingReport::Followed(slot, folder.clone(), Box::new(update)));
         match reel.filter(|_| slot == Slot::Main) {
-            Some(reel) => player.report(Report::Recorded(folder, reel)),
+            Some(reel) => player.report(TrainingReport::Recorded(folder, reel)),
             None => player,
         }
     }
@@ -321,7 +321,7 @@ impl Player {
     }
 
     pub fn has_policy(self, has_policy: bool) -> Self {
-        self.report(Report::HasPolicy(Path::new(RUNS).join(NAME), has_policy))
+        self.report(TrainingReport::HasPolicy(Path::new(RUNS).join(NAME), has_policy))
     }
 }
 

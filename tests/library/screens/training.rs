@@ -19,7 +19,7 @@ use carom::{
         },
     },
     table::Table,
-    terminal::{App, CoachWorker, Effect, Failure, Kept, KeyContext, Launch, Report, Slot, TrainingContext},
+    terminal::{App, CoachWorker, Effect, Failure, Kept, KeyContext, Launch, Slot, TrainingContext, TrainingReport},
 };
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use proptest::prelude::*;
@@ -44,7 +44,7 @@ fn the_list_of_runs() {
     ]);
     let mut more = listing();
     more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::Is(Phase::Paused)));
-    Player::listing(TRUE_COLOUR).report(Report::Runs(Ok(more))).shows(&["1 run is at work; 1 is paused"]);
+    Player::listing(TRUE_COLOUR).report(TrainingReport::Runs(Ok(more))).shows(&["1 run is at work; 1 is paused"]);
     let effects = down.press("r").effects;
     let folder = Path::new(RUNS).join("20261118-three-cushions/seed-1");
     assert!(matches!(&effects[..], [Effect::Train(launch)] if **launch == Launch::resume(&folder)), "{effects:?}");
@@ -55,15 +55,15 @@ fn the_newest_run_comes_first_and_the_mark_stays_at_its_run() {
     let player = Player::listing(TRUE_COLOUR).press("Down");
     let mut more = listing();
     more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::Is(Phase::Training)));
-    let player = player.report(Report::Runs(Ok(more))).press("Enter");
+    let player = player.report(TrainingReport::Runs(Ok(more))).press("Enter");
     assert_eq!(player.app.wanted().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
 }
 
 #[test]
 fn an_empty_list_says_what_to_press() {
-    let empty = Player::at_runs(TRUE_COLOUR).report(Report::Runs(Ok(Listing::default())));
+    let empty = Player::at_runs(TRUE_COLOUR).report(TrainingReport::Runs(Ok(Listing::default())));
     empty.shows(&["No agent has been trained here yet.", "Press n to start a run", "n new run"]);
-    let broken = Player::at_runs(TRUE_COLOUR).report(Report::Runs(Err("/runs: permission denied".into())));
+    let broken = Player::at_runs(TRUE_COLOUR).report(TrainingReport::Runs(Err("/runs: permission denied".into())));
     broken.says("/runs: permission denied");
     Player::at_runs(TRUE_COLOUR).press("Enter").says("there is no run yet; n starts one");
 }
@@ -85,8 +85,8 @@ fn a_new_run_is_filled_in_and_started() {
     assert_eq!(player.app.wanted().followed[0].as_deref(), Some(launch.folder.as_path()));
     let missing = Update { condition: Some(Condition::Missing), ..Update::default() };
     let failed = player
-        .report(Report::Followed(Slot::Main, launch.folder.clone(), Box::new(missing)))
-        .report(Report::TrainerFailed(launch.folder.clone(), failure(Some(7), "the disk is full")));
+        .report(TrainingReport::Followed(Slot::Main, launch.folder.clone(), Box::new(missing)))
+        .report(TrainingReport::TrainerFailed(launch.folder.clone(), failure(Some(7), "the disk is full")));
     failed.says("the disk is full");
 }
 
@@ -209,7 +209,7 @@ fn a_run_is_compared_with_another() {
 fn a_run_is_steered_by_requests() {
     let folder = Path::new(RUNS).join(NAME);
     let player = Player::watching(TRUE_COLOUR).press("p");
-    let paused = player.report(Report::Sent(Request::Pause, Ok(())));
+    let paused = player.report(TrainingReport::Sent(Request::Pause, Ok(())));
     paused.says("the run is asked to pause");
     let paused = paused.condition(Condition::Is(Phase::Paused), None);
     paused.says("paused and saved; p lets it go on");
@@ -224,7 +224,7 @@ fn a_run_is_steered_by_requests() {
         .collect();
     assert_eq!(sent, [Request::Pause, Request::GoOn, Request::Stop, Request::Abandon]);
     let refused =
-        Player::watching(TRUE_COLOUR).report(Report::Sent(Request::Stop, Err("read-only file system".into())));
+        Player::watching(TRUE_COLOUR).report(TrainingReport::Sent(Request::Stop, Err("read-only file system".into())));
     refused.says("the run cannot be asked: read-only file system");
     let died = Player::watching(TRUE_COLOUR).condition(Condition::Died, None).press("p");
     died.says("the run is not at work");
@@ -253,12 +253,12 @@ fn a_run_is_started_once_however_long_the_key_is_held() {
     assert_eq!(player.effects.len(), 1);
     player.says("the run is being started");
     let listed = Listing { runs: vec![summary(NAME, 9, None, Condition::Is(Phase::Stopped))], ..Listing::default() };
-    let player = player.press("Esc").report(Report::Runs(Ok(listed)));
+    let player = player.press("Esc").report(TrainingReport::Runs(Ok(listed)));
     assert_eq!(player.press("r r").effects.len(), 1, "nor from the list");
     let again = died().press("r").condition(Condition::Is(Phase::Training), None).condition(Condition::Died, None);
     assert_eq!(again.press("r").effects.len(), 2, "it has come and gone");
     let folder = Path::new(RUNS).join(NAME);
-    let failed = died().press("r").report(Report::TrainerFailed(folder, failure(Some(7), "the disk is full")));
+    let failed = died().press("r").report(TrainingReport::TrainerFailed(folder, failure(Some(7), "the disk is full")));
     failed.says("the disk is full");
     assert_eq!(failed.press("r").effects.len(), 2);
 }
@@ -266,7 +266,8 @@ fn a_run_is_started_once_however_long_the_key_is_held() {
 #[test]
 fn a_second_process_that_is_refused_is_no_news_of_the_run() {
     let folder = || Path::new(RUNS).join(NAME);
-    let refused = |process| Report::TrainerFailed(folder(), failure(Some(process), "another process is training"));
+    let refused =
+        |process| TrainingReport::TrainerFailed(folder(), failure(Some(process), "another process is training"));
     let silent = |player: &Player| player.app.toasts.shown.is_empty();
     let at_work = Player::watching(TRUE_COLOUR).report(refused(7));
     assert!(silent(&at_work));
@@ -315,7 +316,7 @@ fn the_coach_takes_the_bundled_weights_again() {
     let policy = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
     let config = Some(Box::new(config("three-cushion")));
     let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, Update { config, ..Update::default() });
-    let player = player.report(Report::Policy(folder, Ok(Arc::new(policy))));
+    let player = player.report(TrainingReport::Policy(folder, Ok(Arc::new(policy))));
     let asked = |player: &Player| (player.app.coach.query.name().to_owned(), player.app.coach.query.rule);
     assert_eq!(asked(&player), (NAME.to_owned(), Rule::ThreeCushion));
     player.says("b bundled");
@@ -360,12 +361,14 @@ fn a_policy_is_kept_under_a_name() {
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     assert_eq!((keeping.folder.as_path(), keeping.name.as_str()), (Path::new("/policies"), "aq"));
     assert_eq!(keeping.from, Path::new(RUNS).join(NAME).join("policy.safetensors"));
-    let player = player.report(Report::Kept(*keeping, Ok(Kept::Taken)));
+    let player = player.report(TrainingReport::Kept(*keeping, Ok(Kept::Taken)));
     player.says("there are networks called aq already; replace them?");
     let mut player = player.press("y");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     assert!(keeping.replace);
-    player.report(Report::Kept(*keeping, Ok(Kept::Done))).says("kept; use them by: carom recommend --policy aq");
+    player
+        .report(TrainingReport::Kept(*keeping, Ok(Kept::Done)))
+        .says("kept; use them by: carom recommend --policy aq");
 }
 
 #[test]
@@ -377,10 +380,10 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
     let update = Update { config: Some(Box::new(config)), ..Update::default() };
     let mut player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, update).press("w");
     assert!(matches!(player.effects.pop(), Some(Effect::LoadPolicy(from)) if from == folder));
-    let none = player.report(Report::Policy(folder.clone(), Err("the run has no policy".into())));
+    let none = player.report(TrainingReport::Policy(folder.clone(), Err("the run has no policy".into())));
     none.says("the run has no policy");
     let policy = Policy::bundled(&thesis, Rule::ThreeCushion).unwrap().unwrap();
-    let mut player = none.report(Report::Policy(folder, Ok(Arc::new(policy))));
+    let mut player = none.report(TrainingReport::Policy(folder, Ok(Arc::new(policy))));
     assert_eq!((player.app.place(), player.app.coach.table()), (KeyContext::Coach, &thesis));
     player.shows(&["no shot yet", "Enter ask", "b bundled", NAME]);
     player = player.press("Enter");
@@ -448,13 +451,13 @@ proptest! {
         for (index, news) in steps {
             player.event(&key(KEYS.split(' ').nth(index).unwrap()));
             player = match news {
-                0 => player.report(Report::Runs(Ok(listing()))),
-                1 => player.report(Report::Runs(Ok(Listing::default()))),
+                0 => player.report(TrainingReport::Runs(Ok(listing()))),
+                1 => player.report(TrainingReport::Runs(Ok(Listing::default()))),
                 2 => player.update(Slot::Main, NAME, known()),
                 3 => player.update(Slot::Compared, OTHER, known()),
                 4 => player.condition(Condition::Died, None),
                 5 => player.condition(Condition::Is(Phase::Finished), None),
-                6 => player.report(Report::TrainerFailed(Path::new(RUNS).join(NAME), failure(None, "it failed"))),
+                6 => player.report(TrainingReport::TrainerFailed(Path::new(RUNS).join(NAME), failure(None, "it failed"))),
                 7 => player.has_policy(true),
                 _ => player,
             };

@@ -32,7 +32,7 @@ use crate::{
     storage::Places,
     table::Table,
     terminal::{
-        CoachQuery, Failure, Keeping, Kept, Report, Slot, Subscriptions, TrainingContext,
+        CoachQuery, Failure, Keeping, Kept, Slot, Subscriptions, TrainingContext, TrainingReport,
         pages::Page,
         ui::{Message, TextField, Typed},
     },
@@ -150,29 +150,29 @@ impl TrainingPage {
     }
 
     /// Takes what has come of something; a policy that is to be used in the coach goes on to it, with its table.
-    pub fn receive(&mut self, report: Report) -> Option<(Table, CoachQuery)> {
+    pub fn receive(&mut self, report: TrainingReport) -> Option<(Table, CoachQuery)> {
         match report {
-            Report::Runs(found) => self.list.take(found),
-            Report::Followed(Slot::Main, folder, update) => self.followed(&folder, *update),
-            Report::Followed(Slot::Compared, folder, update) => {
+            TrainingReport::Runs(found) => self.list.take(found),
+            TrainingReport::Followed(Slot::Main, folder, update) => self.followed(&folder, *update),
+            TrainingReport::Followed(Slot::Compared, folder, update) => {
                 let other = self.watch.as_mut().and_then(|watch| watch.other.as_mut());
                 if let Some(other) = other.filter(|other| other.run.folder == folder) {
                     other.run.apply(*update);
                 }
             }
-            Report::Recorded(folder, reel) => {
+            TrainingReport::Recorded(folder, reel) => {
                 if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
                     watch.replay.offer(reel);
                 }
             }
-            Report::HasPolicy(folder, has_policy) => {
+            TrainingReport::HasPolicy(folder, has_policy) => {
                 if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
                     watch.has_policy = has_policy;
                 }
                 self.close_question();
             }
-            Report::TrainerFailed(folder, failure) => self.failed(&folder, &failure),
-            Report::Sent(request, Ok(())) => {
+            TrainingReport::TrainerFailed(folder, failure) => self.failed(&folder, &failure),
+            TrainingReport::Sent(request, Ok(())) => {
                 self.message = Some(Message::plain(match request {
                     Request::Pause => "the run is asked to pause",
                     Request::GoOn => "the run is asked to go on",
@@ -180,11 +180,11 @@ impl TrainingPage {
                     Request::Abandon => "the run is asked to end, and its folder goes",
                 }));
             }
-            Report::Sent(_, Err(sentence)) => {
+            TrainingReport::Sent(_, Err(sentence)) => {
                 self.message = Some(Message::warning(format!("the run cannot be asked: {sentence}")));
             }
-            Report::Kept(keeping, outcome) => self.kept(keeping, outcome),
-            Report::Policy(folder, policy) => return self.policy(&folder, policy),
+            TrainingReport::Kept(keeping, outcome) => self.kept(keeping, outcome),
+            TrainingReport::Policy(folder, policy) => return self.policy(&folder, policy),
         }
         None
     }

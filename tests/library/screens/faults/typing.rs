@@ -1,6 +1,6 @@
 //! Numbers that are typed into the form of a new run, and a name that is pasted.
 
-use carom::terminal::{Effect, KeyContext, Report, TrainingContext};
+use carom::terminal::{Effect, KeyContext, TrainingContext, TrainingReport};
 
 use crate::screens::{
     player::{Player, TRUE_COLOUR},
@@ -9,7 +9,7 @@ use crate::screens::{
 
 /// At the form's number of shots.
 fn at_the_shots() -> Player {
-    Player::at_runs(TRUE_COLOUR).report(Report::Runs(Ok(listing()))).press("n Down Down Down")
+    Player::at_runs(TRUE_COLOUR).report(TrainingReport::Runs(Ok(listing()))).press("n Down Down Down")
 }
 
 /// The option of the run that was started.
