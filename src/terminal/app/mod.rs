@@ -319,8 +319,8 @@ impl App {
                 if balls.is_some() || self.drills.is_left() {
                     self.open(PageId::Coach);
                 }
-                if let Some(Balls { table, layout, rule }) = balls {
-                    self.coach.take_position(&table, layout, rule);
+                if let Some(Balls { table, layout, rule, cue_ball }) = balls {
+                    self.coach.take_position(&table, layout, rule, cue_ball);
                 }
                 return effect;
             }

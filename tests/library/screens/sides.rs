@@ -1,6 +1,9 @@
 //! Both players' balls: whoever is at the table, every ball keeps its place and its colour, and is called by it.
 
-use super::player::{NO_COLOUR, Player};
+use super::{
+    player::{NO_COLOUR, Player},
+    practice::exercise,
+};
 use carom::{drills::Record, physics::CueInputs};
 
 /// The speed of a stroke that nobody has set yet, m/s.
@@ -61,6 +64,29 @@ fn in_a_match_of_two_the_turn_passes_with_a_miss_and_the_score_is_each_sides_own
     let next = missed.press("Enter");
     next.says("Stroke of yellow");
     assert_eq!(next.app.page().cue_ball().name(), "yellow");
+}
+
+#[test]
+fn filmed_shots_have_the_films_colours_whoever_is_to_strike_in_a_match() {
+    let yellow = Player::practising(NO_COLOUR).press("o o o").misses().press("Enter");
+    assert_eq!(yellow.app.page().cue_ball().name(), "yellow");
+    let list = yellow.press("F2 f");
+    assert_eq!(list.app.page().cue_ball().name(), "white");
+    let film = list.press("Enter");
+    assert_eq!(film.app.page().cue_ball().name(), "white");
+    assert_eq!(film.press("Esc Esc").app.page().cue_ball().name(), "yellow", "the match is still open");
+}
+
+#[test]
+fn balls_of_the_drills_keep_their_colours_on_the_coachs_table() {
+    let listed = Player::at_library(NO_COLOUR, &[exercise("opening", "x")], &[]).press("F2 x F3 Left c");
+    assert_eq!(listed.app.coach.cue_ball().name(), "white", "as in the list");
+    listed.says("the balls of the exercise");
+    assert_eq!(listed.press("u").app.coach.cue_ball().name(), "yellow");
+    let turn = Player::practising(NO_COLOUR).press("o o o").misses().press("Enter");
+    let layout = turn.app.drills.turn.as_ref().unwrap().layout;
+    let coach = turn.press("c");
+    assert_eq!((*coach.app.coach.layout(), coach.app.coach.cue_ball().name()), (layout, "yellow"));
 }
 
 /// At a match against the coach, which teaches `taught`, after a miss.

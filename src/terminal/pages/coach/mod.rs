@@ -280,8 +280,7 @@ impl CoachPage {
         let terms = if last.settings.is_some() { self.query.terms() } else { last.terms() };
         let query = CoachQuery { policy: self.policy_on(&last.table), ..self.query.with(terms) };
         let its_rule = if last.rule == query.rule { String::new() } else { format!(", under the rule {}", last.rule) };
-        self.take(&last.table, last.layout, query);
-        self.balls.present_mut().cue_ball = last.cue_ball;
+        self.take(&last.table, last.layout, last.cue_ball, query);
         let which = if std::mem::replace(&mut self.has_gone_back, true) { "that earlier" } else { "the last" };
         let more = if self.before.is_empty() { "" } else { "; c goes back to the one before" };
         let said = format!("this is where {which} session ended{its_rule}; Enter asks the coach{more}");
@@ -358,7 +357,7 @@ impl CoachPage {
         let layout = if stays { lies } else { Layout::opening(table) };
         let news = format!("the coach plays with {}; Enter asks it", query.name());
         let CoachQuery { skill, doubt, plan, jumps, first, .. } = self.query;
-        self.take(table, layout, CoachQuery { skill, doubt, plan, jumps, first, ..query });
+        self.take(table, layout, self.cue_ball(), CoachQuery { skill, doubt, plan, jumps, first, ..query });
         self.message = Some(Message::good(news));
     }
 
@@ -371,10 +370,10 @@ impl CoachPage {
 
     /// Takes balls from elsewhere, and what counts as a point there; the same policy is asked if the table
     /// is the same.
-    pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
+    pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule, cue_ball: CueBall) {
         let policy = self.policy_on(table);
         let its_rule = if rule == self.query.rule { String::new() } else { format!(" and its rule, {rule}") };
-        self.take(table, layout, CoachQuery { policy, rule, ..self.query.clone() });
+        self.take(table, layout, cue_ball, CoachQuery { policy, rule, ..self.query.clone() });
         self.message = Some(Message::plain(format!("the balls of the exercise{its_rule}; Enter asks the coach")));
     }
 
@@ -384,12 +383,11 @@ impl CoachPage {
     }
 
     /// Puts balls on a table, as a step that can be taken back, for `query` to be asked.
-    fn take(&mut self, table: &Table, layout: Layout, query: CoachQuery) {
+    fn take(&mut self, table: &Table, layout: Layout, cue_ball: CueBall, query: CoachQuery) {
         self.cancel();
         self.drop_ball();
         let known = &self.balls.present().table;
         let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
-        let cue_ball = self.cue_ball();
         let terms = Some([self.query.terms(), query.terms()]).filter(|[before, after]| before != after);
         self.balls.push(Position { policy: query.policy.clone(), cue_ball, terms, ..Position::new(table, layout) });
         self.query = query;

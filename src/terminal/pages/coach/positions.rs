@@ -3,6 +3,7 @@
 use crate::{
     drills::{decode, is_code},
     game::Point,
+    table::CueBall,
     terminal::{
         pages::coach::{CoachPage, question::Question},
         ui::{Message, TextField},
@@ -34,7 +35,7 @@ impl CoachPage {
         if is_code(text) {
             let exercise = decode(text).map_err(|error| error.to_string())?;
             let table = exercise.table().map_err(|error| error.to_string())?;
-            self.take_position(&table, exercise.layout, exercise.rule);
+            self.take_position(&table, exercise.layout, exercise.rule, CueBall::White);
             self.message = Some(Message::good(format!("the balls of \"{}\"; Enter asks the coach", exercise.title)));
             return Ok(());
         }

@@ -2,6 +2,7 @@
 
 use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
+    table::CueBall,
     terminal::{
         DrillAction as Action, DrillCondition, DrillContext, DrillTask, Effect,
         pages::{
@@ -214,10 +215,12 @@ impl DrillsPage {
             table: turn.table.clone(),
             layout: turn.layout,
             rule: turn.exercise.rule,
+            cue_ball: turn.cue_ball,
         });
         let marked = || {
             let exercise = self.catalogue.marked()?;
-            let found = exercise.table().map(|table| Balls { table, layout: exercise.layout, rule: exercise.rule });
+            let Exercise { layout, rule, .. } = *exercise;
+            let found = exercise.table().map(|table| Balls { table, layout, rule, cue_ball: CueBall::White });
             Some(found.map_err(|error| error.to_string()))
         };
         match turn.map(Ok).or_else(marked) {

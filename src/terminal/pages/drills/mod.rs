@@ -83,6 +83,8 @@ pub struct Balls {
     pub layout: Layout,
     /// What counts as a point.
     pub rule: Rule,
+    /// Which of them is the cue ball.
+    pub cue_ball: CueBall,
 }
 
 /// The state of the drill screens.
@@ -313,6 +315,10 @@ impl Page for DrillsPage {
     }
 
     fn cue_ball(&self) -> CueBall {
-        self.turn.as_ref().map_or(CueBall::White, |turn| turn.cue_ball)
+        match (self.page(), &self.turn) {
+            // In the film white is the cue ball, whatever waits behind it.
+            (DrillContext::Films | DrillContext::Film, _) | (_, None) => CueBall::White,
+            (_, Some(turn)) => turn.cue_ball,
+        }
     }
 }
