@@ -33,4 +33,10 @@ impl Reel {
         };
         Self { after: examples.after, scenes: examples.shots.iter().map(record).collect() }
     }
+
+    /// Whether `other` was recorded from the same shots.
+    pub fn is_of(&self, other: &Self) -> bool {
+        let [examples, others] = [self, other].map(|reel| reel.scenes.iter().map(|scene| &scene.example));
+        self.after == other.after && examples.eq(others)
+    }
 }

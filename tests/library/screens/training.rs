@@ -5,7 +5,7 @@ use std::{path::Path, sync::Arc, time::Duration};
 use super::{
     keys::key,
     player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check, check_at},
-    runs::{NAME, OTHER, RUNS, config, known, listing, record, status, summary},
+    runs::{NAME, OTHER, RUNS, config, examples, known, listing, record, status, summary},
 };
 use carom::{
     game::Rule,
@@ -292,6 +292,22 @@ fn weights_that_are_not_there_are_not_offered() {
 }
 
 #[test]
+fn shots_that_were_seen_do_not_play_again_when_one_comes_back_to_them() {
+    // What follows the run looks at all of it anew; a run that was stopped has measured itself after its last line.
+    for after in [1_200_000, 1_210_000] {
+        let news = || Update { begins: true, examples: Some(examples(after)), ..known() };
+        let seen = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, news()).quiet().press("F2 F4");
+        let again = seen.update(Slot::Main, NAME, news());
+        assert_eq!(again.app.frame_interval(), None, "{after}");
+        // One that has gone on from before comes to the same number with other shots.
+        let mut other = examples(1_100_000);
+        other.shots.pop();
+        let fresh = Update { begins: true, examples: Some(other), ..known() };
+        assert!(again.update(Slot::Main, NAME, fresh).app.frame_interval().is_some(), "{after}");
+    }
+}
+
+#[test]
 fn a_run_whose_configuration_cannot_be_read_is_shown_all_the_same() {
     let broken = || {
         let notices = Some(vec!["config.json cannot be read; the charts are shown without it".to_owned()]);
@@ -369,6 +385,15 @@ fn a_policy_is_kept_under_a_name() {
     player
         .report(TrainingReport::Kept(*keeping, Ok(Kept::Done)))
         .says("kept; use them by: carom recommend --policy aq");
+}
+
+#[test]
+fn a_name_that_is_taken_is_told_where_something_else_is_asked_meanwhile() {
+    let mut player = Player::watching(TRUE_COLOUR).press("k Enter S");
+    let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
+    let player = player.report(Report::Kept(*keeping, Ok(Kept::Taken)));
+    player.warns("is not saved: there is another of this name");
+    player.says("measure it, save it and end it?");
 }
 
 #[test]

@@ -35,6 +35,7 @@ use crate::{
         CoachQuery, Failure, Keeping, Kept, Slot, Subscriptions, TrainingContext, TrainingReport,
         pages::Page,
         ui::{Message, TextField, Typed},
+        words::taken_words,
     },
 };
 
@@ -240,11 +241,11 @@ impl TrainingPage {
                 let call = shell_word(&name);
                 self.message = Some(Message::good(format!("kept; use them by: carom recommend --policy {call}")));
             }
-            // A player who has left the run meanwhile is not asked any more.
+            // A player who has left the run meanwhile, or is asked something else, is not asked any more, but told.
             Ok(Kept::Taken) if self.page() == TrainingContext::Watch && self.question.is_none() => {
                 self.question = Some(Question::Replace(name));
             }
-            Ok(Kept::Taken) => {}
+            Ok(Kept::Taken) => self.message = Some(Message::warning(taken_words(&name))),
             Err(sentence) => self.message = Some(Message::warning(format!("{name} is not kept: {sentence}"))),
         }
     }

@@ -42,11 +42,11 @@ pub struct Replay {
 
 impl Replay {
     /// Takes a new set; it plays at once, or after the one that is playing. A set that is not newer than the one that is
-    /// shown is no news.
+    /// shown is no news, nor is that one itself, which is read again when somebody comes back to the run.
     pub fn offer(&mut self, reel: Reel) {
         let newest = self.waiting.as_ref().or(self.reel.as_ref());
-        let is_old = newest.is_some_and(|newest| newest.after >= reel.after) && !self.is_outdated;
-        if reel.scenes.is_empty() || is_old {
+        let is_old = |newest: &Reel| newest.after >= reel.after && !self.is_outdated || newest.is_of(&reel);
+        if reel.scenes.is_empty() || newest.is_some_and(is_old) {
             return;
         }
         self.is_outdated = false;
