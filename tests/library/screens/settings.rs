@@ -267,6 +267,18 @@ fn a_key_is_given_other_work_and_gets_its_own_back() {
 }
 
 #[test]
+fn a_question_is_answered_by_its_own_letters_whatever_else_they_do() {
+    let given = new().press("Tab Enter y y");
+    assert!(given.settings_text().contains("y = \"Left\""), "{}", given.settings_text());
+    let asked = given.press("Down Enter a");
+    asked.shows(&["y yes   n no"]);
+    assert!(asked.press("y").settings_text().contains("a = "));
+    // A key that does the work of y says yes as well.
+    let other = with(TRUE_COLOUR, "[keys]\nj = \"y\"\n").press("Tab Enter a j");
+    assert!(other.settings_text().contains("a = \"Left\""), "{}", other.settings_text());
+}
+
+#[test]
 fn keys_of_the_header_and_the_hints_are_the_users_own() {
     let player = with(TRUE_COLOUR, "[keys]\nx = \"R\"\nF7 = \"F2\"\n").press("F7");
     let first = |width| player.text(width, 40).lines().next().unwrap().to_owned();

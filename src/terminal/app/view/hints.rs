@@ -63,11 +63,11 @@ fn hint(app: &App, binding: &Bound) -> Option<Line<'static>> {
     ]))
 }
 
-/// A key that does the work of `chord` here: where letters are typed, none of the user's own; where a key is asked for,
-/// which has no other meaning there, `chord` itself.
+/// A key that does the work of `chord` here: where letters are typed, none of the user's own; where a key or an answer is asked
+/// for, which has no other meaning there, `chord` itself.
 fn working(app: &App, chord: Chord) -> Option<Chord> {
     let place = app.place();
-    if place == KeyContext::Settings(SettingsContext::Pressing) {
+    if matches!(place, KeyContext::Settings(SettingsContext::Pressing) | KeyContext::Question { is_typed: false }) {
         return Some(chord);
     }
     app.keys().for_work_of(chord).find(|pressed| !place.types(*pressed))
