@@ -297,7 +297,7 @@ impl App {
             Action::CommandPalette(action) => return self.find(action),
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;
-                self.screen = PageId::Drills;
+                self.turn_to(PageId::Drills);
                 let effect = self.drills.resume(practice, self.coach.query.skill);
                 // One that was open waits until all others were gone on with.
                 self.coach.left_exams.splice(0..0, self.drills.take_left_exam());

@@ -28,9 +28,7 @@ impl App {
             self.training.alone = false;
             // Who has gone elsewhere meanwhile stays there.
             if self.screen == PageId::Training {
-                self.screen = PageId::Coach;
-                self.help = None;
-                self.command_palette = None;
+                self.turn_to(PageId::Coach);
             }
         }
         self.gather(false);

@@ -12,19 +12,26 @@ impl App {
         }
     }
 
-    /// Opens a screen where it was left. What is thought about or trained meanwhile goes on, and is there when one comes back.
-    pub(super) fn open(&mut self, screen: PageId) -> Option<Effect> {
+    /// Turns to a screen, whatever lay over the one before; gives that one, if it is another.
+    pub(super) fn turn_to(&mut self, screen: PageId) -> Option<PageId> {
         (self.help, self.command_palette) = (None, None);
+        self.coach.drop_ball();
+        if self.screen == screen {
+            return None;
+        }
         // A shot that is not on the screen is paused.
         self.coach.playback.pause();
-        self.coach.drop_ball();
-        let before = std::mem::replace(&mut self.screen, screen);
+        Some(std::mem::replace(&mut self.screen, screen))
+    }
+
+    /// Opens a screen where it was left. What is thought about or trained meanwhile goes on, and is there when one comes back.
+    pub(super) fn open(&mut self, screen: PageId) -> Option<Effect> {
+        let before = self.turn_to(screen)?;
         if before == PageId::Drills {
             // The player who was chosen there also plays at the coach's table.
             self.coach.take_skill(self.drills.player.at_coach);
         }
         match screen {
-            _ if before == screen => None,
             PageId::Coach => None,
             PageId::Drills => Some(self.drills.open(self.coach.query.skill, self.coach.query.rule)),
             PageId::Training => {
@@ -45,7 +52,7 @@ impl App {
         if self.training.alone {
             return Some(Effect::Quit);
         }
-        self.screen = PageId::Coach;
+        self.turn_to(PageId::Coach);
         None
     }
 

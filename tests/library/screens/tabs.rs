@@ -59,6 +59,19 @@ fn a_coach_that_thinks_goes_on_and_its_shot_is_there_when_one_comes_back() {
 }
 
 #[test]
+fn a_shot_is_paused_on_every_way_to_another_screen_and_on_no_way_to_its_own() {
+    let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter Esc y F2");
+    let playing = left.press("Enter").answer().press("Space").wait(0.5);
+    let resumed = playing.press("c");
+    assert_eq!(resumed.app.place(), KeyContext::Drill(DrillContext::Exercise));
+    assert!(!resumed.app.coach.playback.playing, "nothing plays unseen");
+    let playing = Player::new().press("Enter").answer().press("Space").wait(0.5).press("F2");
+    assert!(playing.app.coach.playback.playing);
+    let closed = playing.press("? F2");
+    assert!(closed.app.coach.playback.playing && closed.app.help.is_none());
+}
+
+#[test]
 fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
     let player = Player::practising(TRUE_COLOUR).press("S-Left k Space").wait(0.3);
     let time = |player: &Player| player.app.drills.turn.as_ref().unwrap().watched().unwrap().playback.time;
