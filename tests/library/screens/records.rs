@@ -48,3 +48,37 @@ fn the_record_has_what_another_program_has_noted_meanwhile() {
     player.store().save(&session(7, "opening", Goal::Free, "xxx"), &[], 0).unwrap();
     player.press("r").shows(&["attempts  40"]);
 }
+
+#[test]
+fn grade_score_and_run_stay_apart_however_many_attempts_there_are() {
+    let row = |tried: usize| {
+        let mut graded = exercise("opening", "From the opening");
+        graded.grade = 3;
+        let attempts = "x".repeat(tried - 20) + &"-".repeat(20);
+        let sessions = [session(1, "opening", Goal::Free, &attempts)];
+        let text = Player::at_library(TRUE_COLOUR, &[graded], &sessions).press("Left").text(80, 24);
+        text.lines().find(|line| line.contains("▸ From the opening")).unwrap().to_owned()
+    };
+    for (tried, figures) in [(120, "3 100/120 100"), (1020, "3   1k/1k  1k")] {
+        let row = row(tried);
+        assert!(row.contains(figures), "{row}");
+    }
+}
+
+#[test]
+fn a_record_of_all_exercises_alone_says_so() {
+    let game = Player::practising(TRUE_COLOUR).press("o o r");
+    game.is_silent_on("all or one");
+    game.press("a").warns("this record is of all exercises");
+    let one = Player::practising(TRUE_COLOUR).press("r");
+    one.shows(&["all or one"]);
+    one.press("a").warns_nothing();
+}
+
+#[test]
+fn a_shot_does_not_play_on_behind_the_record() {
+    let watched = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space").wait(0.1);
+    let back = watched.press("r a a").wait(60.0).press("Esc");
+    back.says("the shot is on its way").is_silent_on("No point: ");
+    back.wait(60.0).says("No point: ");
+}

@@ -298,10 +298,11 @@ impl Page for DrillsPage {
     }
 
     fn tick(&mut self, seconds: f64) {
-        if self.page() == DrillContext::Film {
-            self.film.tick(seconds);
-        } else if let Some(turn) = &mut self.turn {
-            turn.tick(seconds);
+        // Time passes for a toast too: what is not on the screen stands still.
+        match (self.page(), &mut self.turn) {
+            (DrillContext::Film, _) => self.film.tick(seconds),
+            (DrillContext::Exercise, Some(turn)) => turn.tick(seconds),
+            _ => {}
         }
     }
 

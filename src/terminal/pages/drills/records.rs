@@ -59,6 +59,11 @@ impl Records {
         self.exercise.as_deref().filter(|_| !self.shows_all)
     }
 
+    /// Whether there is an exercise that it can show alone.
+    pub(super) const fn has_exercise(&self) -> bool {
+        self.exercise.is_some()
+    }
+
     /// Shows the record of all exercises, or of the one again.
     pub(super) const fn toggle_scope(&mut self) {
         self.shows_all = !self.shows_all;

@@ -28,8 +28,9 @@ use crate::{
 /// more than so many columns.
 const LIST: (u16, u16) = (58, 33);
 const LIST_ENOUGH: u16 = 54;
-/// Columns at which grade, points and best run end, from the list's right edge.
-const GRADE_END: u16 = 12;
+/// Columns at which grade, points and best run end, from the list's right edge: three for each number, a sign between the
+/// points, and a blank at either side of them.
+const GRADE_END: u16 = 13;
 const MADE_END: u16 = 5;
 const RUN_END: u16 = 1;
 /// Rows of the small table, at least.
@@ -91,7 +92,7 @@ fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     }
     for (end, label) in [(GRADE_END, " grade "), (MADE_END, " made "), (RUN_END, " run ")] {
         let end = (area.right() + 1).saturating_sub(end);
-        if area.x + 2 + columns(&title) as u16 + 12 < end {
+        if area.x + 2 + columns(&title) as u16 + 11 < end {
             write_right(ui.buffer, area.x, end, area.y, label, ui.theme.faint());
         }
     }
@@ -118,11 +119,16 @@ fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rec
     let grade = if exercise.grade == 0 { "-".to_owned() } else { exercise.grade.to_string() };
     write_right(ui.buffer, area.x, area.right() - GRADE_END, area.y, &grade, ui.theme.faint());
     if let Some(score) = drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
-        let made = format!("{}/{}", score.made, score.tried);
+        let made = format!("{}/{}", in_three(score.made), in_three(score.tried));
         write_right(ui.buffer, area.x, area.right() - MADE_END, area.y, &made, style);
-        let run = high_run(score).map_or_else(|| "-".to_owned(), |run| run.to_string());
+        let run = high_run(score).map_or_else(|| "-".to_owned(), |run| in_three(run as usize));
         write_right(ui.buffer, area.x, area.right() - RUN_END, area.y, &run, style);
     }
+}
+
+/// A number in three columns, from 1000 on in thousands; beside the list it stands whole.
+fn in_three(number: usize) -> String {
+    if number < 1000 { number.to_string() } else { format!("{}k", number / 1000) }
 }
 
 fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut Ui) {
