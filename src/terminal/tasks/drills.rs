@@ -147,8 +147,8 @@ pub enum DrillReport {
     Loaded(Box<Loaded>),
     /// Of [`DrillTask::Advise`]: with the question's number; `None` where no point was found.
     Taught(u64, Result<Option<Taught>, String>),
-    /// Of [`DrillTask::Play`], and whether it could be saved.
-    Played(Result<Box<Outcome>, String>, Result<(), String>),
+    /// Of [`DrillTask::Play`]: the session's identity, what came of it, and whether it could be saved.
+    Played(String, Result<Box<Outcome>, String>, Result<(), String>),
     /// How often the player makes what was meant: the session's identity, the number of the attempt, the share.
     Judged(String, usize, f64),
     /// Of [`DrillTask::Judge`], with the question's number.

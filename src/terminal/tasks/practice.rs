@@ -53,8 +53,9 @@ impl PracticeWorker {
                 }
             }
             DrillTask::Play(stroke) => {
+                let id = stroke.session.id.clone();
                 if catch_unwind(AssertUnwindSafe(|| self.play(*stroke, reply))).is_err() {
-                    reply(DrillReport::Played(Err(failed.to_owned()), Ok(())));
+                    reply(DrillReport::Played(id, Err(failed.to_owned()), Ok(())));
                 }
             }
             DrillTask::Judge(stroke) => {
@@ -177,7 +178,7 @@ impl PracticeWorker {
         let rule = session.exercise().map(|exercise| exercise.rule);
         let (played, (table, layout), rule) = match (session.play(meant, helped), place, rule) {
             (Ok(played), Some(place), Some(rule)) => (played, place, rule),
-            (Err(error), ..) => return reply(DrillReport::Played(Err(error.to_string()), Ok(()))),
+            (Err(error), ..) => return reply(DrillReport::Played(session.id, Err(error.to_string()), Ok(()))),
             _ => return,
         };
         let number = session.attempts.len() - 1;
@@ -195,7 +196,8 @@ impl PracticeWorker {
         let shot = (!played.miscue).then(|| Shot::new(&table, &layout, played.stroke, played.made, "player"));
         let shot = shot.and_then(Result::ok).map(Arc::new);
         let next = session.position().ok().flatten();
-        reply(DrillReport::Played(Ok(Box::new(Outcome { session: session.clone(), played, shot, next })), saved));
+        let outcome = Box::new(Outcome { session: session.clone(), played, shot, next });
+        reply(DrillReport::Played(session.id.clone(), Ok(outcome), saved));
         let share = chance(session.shooter(), rule, &table, &layout, &meant).rate;
         session.attempts[number].chance = Some(share);
         // An error of the disk has just been reported, and who has gone on with the session may do so without the share.

@@ -253,6 +253,15 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
         player = player.press("Space Enter Enter");
     }
     player.says("Grade: ").says("of 20 made").says("beginner");
+    let text = player.text(80, 24);
+    let ends = ["beginner  ", "club  ", "world-class  "].map(|name| {
+        let row = text
+            .lines()
+            .find(|line| line.contains(name) && line.contains(" of 20"))
+            .unwrap_or_else(|| panic!("{text}"));
+        row.chars().collect::<String>().find(" of 20")
+    });
+    assert!(ends.iter().all(|end| *end == ends[0]), "{ends:?}\n{text}");
     assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Result));
     assert_eq!(player.store().sessions().items[0].attempts.len(), 20);
     let left = player.press("Enter e Enter Space Enter Enter Esc");
@@ -443,6 +452,25 @@ fn a_note_that_was_corrected_before_it_was_on_the_disk_stays_corrected() {
     }
     let notes: Vec<bool> = noted(&mut player, "m").attempts.iter().map(|attempt| attempt.made).collect();
     assert_eq!(notes, [false, true]);
+}
+
+#[test]
+fn a_stroke_that_fails_when_another_exercise_is_open_changes_nothing_there() {
+    let mut player = Player::practising(TRUE_COLOUR);
+    let session = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.id.clone();
+    let first = session(&player);
+    drop(asked(&mut player, "Space"));
+    let mut player = player.press("Esc Enter");
+    let second = session(&player);
+    let tasks = asked(&mut player, "Space");
+    player.app.receive_drill(DrillReport::Played(first, Err("the first has failed".to_owned()), Ok(())));
+    player.run(tasks);
+    player.says("the shot is on its way");
+    let mut player = player.press("Enter Enter");
+    drop(asked(&mut player, "Space"));
+    player.app.receive_drill(DrillReport::Played(second, Err("the second has failed".to_owned()), Ok(())));
+    player.warns("the second has failed");
+    player.says("set the stroke");
 }
 
 #[test]

@@ -32,7 +32,7 @@ impl DrillsPage {
                     turn.advised(id, taught);
                 }
             }
-            DrillReport::Played(played, saved) => {
+            DrillReport::Played(id, played, saved) => {
                 match (played, &mut self.turn) {
                     (Ok(outcome), turn) => {
                         self.book.put(&outcome.session);
@@ -40,11 +40,12 @@ impl DrillsPage {
                             turn.played(*outcome);
                         }
                     }
-                    (Err(sentence), Some(turn)) => {
+                    (Err(sentence), Some(turn)) if turn.session.id == id => {
                         turn.stage = Stage::Aiming;
                         self.message = Some(Message::warning(sentence));
                     }
-                    (Err(_), None) => {}
+                    // Nobody waits for it any more.
+                    (Err(_), _) => {}
                 }
                 self.warn_unsaved(saved, "the attempt counts here, but it is not saved");
             }
