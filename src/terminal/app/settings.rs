@@ -21,6 +21,10 @@ impl App {
         self.take_changes();
         if effect.is_some() {
             self.calibration.play_on(self.coach.table());
+            let long =
+                if self.settings.is_writable { "from now on, and at every start" } else { "until the program ends" };
+            let said = format!("{} is played on {long}", path.display());
+            self.calibration.message = Some(Message::good(said));
         }
         self.gather(false);
         effect

@@ -248,7 +248,11 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     let file = player.path("tables/our club 2.toml");
     assert!(file.exists(), "{}", player.text(120, 40));
     let player = player.press("p");
+    player.says("our club 2.toml is played on from now on, and at every start");
     assert_eq!(player.app.coach.table().name, "our club 2");
+    let player = player.press("F2");
+    player.says("played on our club 2 now; Enter asks the coach");
+    let player = player.press("F7");
     assert!(player.app.coach.table().doubt.is_some());
     assert!(player.settings_text().contains("our club 2.toml"), "{}", player.settings_text());
     // Another one of the same name only where that is wanted.
@@ -272,6 +276,22 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     assert!(kept(&checked).trials.len() == 2 && checked.path("calibration-daily.toml").exists());
     checked.press("d").shows(&["slow-roll"]);
     Player::new().press("F7 d").warns("a check of the day needs a table that was calibrated before");
+}
+
+#[test]
+fn a_table_that_cannot_be_played_on_is_not_said_to_be() {
+    let player = measured().press("s C-u").type_in("gone").press("Enter");
+    fs::remove_file(player.path("tables/gone.toml")).unwrap();
+    let player = player.press("p");
+    player.warns("gone.toml");
+    player.is_silent_on("is played on from now on");
+    assert_ne!(player.app.coach.table().name, "gone");
+    // Where the settings cannot be changed it is another one at the next start.
+    let player = measured().press("s C-u").type_in("short").press("Enter");
+    fs::write(player.path("config.toml"), "speed = = 2\n").unwrap();
+    let player = player.press("p");
+    player.says("short.toml is played on until the program ends").is_silent_on("at every start");
+    assert_eq!(player.app.coach.table().name, "short");
 }
 
 #[test]

@@ -113,12 +113,7 @@ impl CalibrationPage {
                     .map_or_else(|| self.sheet().name(&self.table) + today, |name| name.to_string_lossy().into_owned());
                 self.question = Some(Question::Name(TextField::new(LONGEST).offering(&name)));
             }
-            Action::Use => {
-                let path = self.saved.clone()?;
-                let said = format!("{} is played on from now on, and at every start", path.display());
-                self.message = Some(Message::good(said));
-                self.for_use = Some(path);
-            }
+            Action::Use => self.for_use.clone_from(&self.saved),
             Action::Anew => self.question = Some(Question::Anew),
             Action::Field(_) | Action::Tape | Action::FarEnd => self.change_form(action),
             Action::Answer(false) => self.put_aside(),

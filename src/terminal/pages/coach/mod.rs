@@ -340,6 +340,8 @@ impl CoachPage {
             let table = settings.table()?;
             if table != *self.table() {
                 self.take_query(&table, CoachQuery { policy: None, ..self.query.clone() });
+                let said = format!("played on {} now; Enter asks the coach", table.name);
+                self.message = Some(Message::good(said));
             }
         }
         Ok(())
