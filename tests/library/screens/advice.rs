@@ -226,6 +226,16 @@ fn the_plan_and_where_it_goes_on() {
 }
 
 #[test]
+fn a_closer_look_that_fails_is_said_to_have_failed() {
+    let mut player = Player::new().press("Enter").answer().press("v v");
+    player.shows(&["being worked out"]);
+    let id = player.study.take().unwrap().id;
+    let failed = player.tell(id, CoachNews::Next(None));
+    failed.shows(&["could not be worked out"]).is_silent_on("being worked out");
+    failed.press("v").shows(&["stop could not be worked out", "next none"]);
+}
+
+#[test]
 fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() {
     let mut worker = CoachWorker::unhurried(30_000);
     let mut player = Player::new().press("Enter");

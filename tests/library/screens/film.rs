@@ -4,7 +4,7 @@ use super::{
     keys::key,
     player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check},
 };
-use carom::terminal::{Capabilities, Depth, DrillContext, DrillTask, Effect, Glyphs, KeyContext};
+use carom::terminal::{Capabilities, Depth, DrillContext, DrillReport, DrillTask, Effect, Glyphs, KeyContext};
 
 const HALF_BLOCKS: Capabilities = Capabilities { depth: Depth::Ansi, glyphs: Glyphs::Half, unicode: true };
 
@@ -97,6 +97,19 @@ fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
     player.says("the stroke is being fitted").says("filmed shot 2");
     player.run(second);
     player.says("white is ");
+}
+
+#[test]
+fn a_fit_that_fails_is_said_to_have_failed_until_another_is_asked_for() {
+    let mut player = list(TRUE_COLOUR);
+    let Some(Effect::Drill(tasks)) = player.app.handle(&key("Enter")) else { panic!("nothing is fitted") };
+    let [DrillTask::Film(filmed)] = &tasks[..] else { panic!("{tasks:?}") };
+    player.app.receive_drill(DrillReport::Filmed(filmed.number, Err("the balls overlap".to_owned())));
+    player.warns("the balls overlap");
+    let failed = player.wait(60.0);
+    failed.warns_nothing();
+    failed.says("the balls overlap").is_silent_on("is being fitted");
+    failed.press("] [").says("white is ").is_silent_on("the balls overlap");
 }
 
 #[test]

@@ -17,6 +17,8 @@ pub struct FilmsScreen {
     /// Place of the marked shot in the list.
     pub mark: usize,
     scene: Option<Box<FilmScene>>,
+    /// Why the marked shot could not be played, where it was tried.
+    failure: Option<String>,
     /// The clock of the shot that is watched.
     pub playback: Playback,
 }
@@ -35,7 +37,7 @@ impl FilmsScreen {
     /// Marks the shot so many after the marked one; gives what is to be played. It is watched when it is received.
     pub fn begin(&mut self, shots: isize) -> Option<FilmedShot> {
         self.move_mark(shots);
-        self.scene = None;
+        (self.scene, self.failure) = (None, None);
         self.playback.jump(0.0);
         self.marked().map(|listed| listed.filmed.clone())
     }
@@ -46,13 +48,19 @@ impl FilmsScreen {
     /// Why it could not be played.
     pub fn receive(&mut self, number: u32, played: Result<Box<FilmScene>, String>) -> Result<(), String> {
         if self.scene.is_none() && self.marked().is_some_and(|listed| listed.filmed.number == number) {
+            let played = played.inspect_err(|sentence| self.failure = Some(sentence.clone()));
             let scene = self.scene.insert(played?);
             self.playback.toggle(scene.replay.duration());
         }
         Ok(())
     }
 
-    /// What is watched; `None` while the stroke is being fitted.
+    /// Why nothing is watched, where that is known.
+    pub fn failure(&self) -> Option<&str> {
+        self.failure.as_deref()
+    }
+
+    /// What is watched; `None` while the stroke is being fitted, and where that has failed.
     pub fn scene(&self) -> Option<&FilmScene> {
         self.scene.as_deref()
     }

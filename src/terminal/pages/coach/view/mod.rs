@@ -237,11 +237,13 @@ pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
 /// Draws what one of the views tells; the chances say why the first shot leads, if nothing else does.
 fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut Ui) {
     let advised = coach.shown();
+    let is_followed = coach.followed().is_some();
     let choice = advised.map(AdviceState::choice);
     let empty = match (coach.spinner(), choice) {
         (Some(_), _) => "the coach is thinking",
-        (None, Some(_)) if coach.followed().is_some() => "the player alone sees this",
-        (None, None) if coach.followed().is_some() => "no shot yet",
+        (None, Some(_)) if is_followed => "the player alone sees this",
+        (None, None) if is_followed => "no shot yet",
+        (None, Some(choice)) if choice.is_studied => "could not be worked out",
         (None, Some(_)) => "being worked out",
         (None, None) => "no shot yet; Enter asks the coach",
     };
@@ -253,7 +255,7 @@ fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut
             let shot = choice.map(|choice| &*choice.proposal.shot);
             draw_margins(study.zip(shot), (coach.units.length, coach.is_in_numbers), empty, area, ui);
         }
-        View::Plan => draw_plan(choice, coach.units.length, empty, area, ui),
+        View::Plan => draw_plan(choice.filter(|_| !is_followed), coach.units.length, empty, area, ui),
     }
 }
 

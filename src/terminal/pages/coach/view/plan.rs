@@ -80,7 +80,10 @@ fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
 /// below, the row's name and these words say it, and the balls have their letters alone.
 fn stop_words(choice: &Choice, unit: LengthUnit, is_explained: bool, theme: &Theme) -> (&'static str, String) {
     let (in_a_metre, symbol) = unit.small();
-    let Some(study) = &choice.study else { return ("stop", "being tried".to_owned()) };
+    let Some(study) = &choice.study else {
+        let words = if choice.is_studied { "could not be worked out" } else { "being tried" };
+        return ("stop", words.to_owned());
+    };
     let meant = choice.proposal.shot.recording.final_layout();
     let spread = |ball: usize| Some(in_a_metre * study.scatter.spread(ball, meant.balls[ball])?);
     let name = |ball: usize| {

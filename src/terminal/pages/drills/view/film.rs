@@ -51,10 +51,11 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
         ListedEvents { recording, events: recording.events(), unit }
     });
     draw_events("Events", events, Some(time), panes.score, ui);
-    scene.map_or_else(
-        || Message::plain("the stroke is being fitted to the film's first 2 seconds"),
-        |scene| status_line(scene, listed, time, unit),
-    )
+    match (scene, film.failure()) {
+        (Some(scene), _) => status_line(scene, listed, time, unit),
+        (None, Some(sentence)) => Message::warning(sentence),
+        (None, None) => Message::plain("the stroke is being fitted to the film's first 2 seconds"),
+    }
 }
 
 /// What the film shows of a shot, in a few words.
