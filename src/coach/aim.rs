@@ -55,6 +55,17 @@ pub struct Hit {
     pub left: bool,
 }
 
+impl Hit {
+    /// From this fullness on it is told as 100 %.
+    const HEAD_ON: f64 = 0.995;
+
+    /// Which half of the object ball is hit, as the cue ball comes on; head-on has no side.
+    pub fn side(&self) -> Option<&'static str> {
+        let side = if self.left { "left" } else { "right" };
+        (self.fullness < Self::HEAD_ON).then_some(side)
+    }
+}
+
 /// Below this share of the ball covered it is hit thin, from the second on thick, and from the third on so full that a
 /// rolling ball goes on ahead. A half-ball hit lies between the first two.
 pub const THIN: f64 = 0.41;
@@ -152,5 +163,8 @@ mod tests {
         let hit = aim(&table, &layout, &CueInputs::parse("0,0,0,0,3").unwrap()).unwrap().hit.unwrap();
         assert_eq!(hit.ball, 1);
         assert!((hit.fullness - 0.5).abs() < 0.01 && hit.left, "{hit:?}");
+        assert_eq!(hit.side(), Some("left"));
+        let of = |fullness| Hit { fullness, left: false, ..hit }.side();
+        assert_eq!([0.0, 0.994, 0.995, 1.0].map(of), [Some("right"), Some("right"), None, None]);
     }
 }

@@ -83,9 +83,9 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBa
             units.place.exact(ahead.diamond, table.diamond(), 2)
         ));
         lines.extend(hit.map(|hit| {
-            let side = if hit.left { "left" } else { "right" };
+            let side = hit.side().map_or_else(String::new, |side| format!(" on its {side} side"));
             let percent = fixed(100.0 * hit.fullness, 0);
-            format!("The cue ball hits {} {percent} percent full on its {side} side.", cue_ball.names()[hit.ball])
+            format!("The cue ball hits {} {percent} percent full{side}.", cue_ball.names()[hit.ball])
         }));
     }
     lines.join("\n")

@@ -174,9 +174,9 @@ impl Shot {
     /// How the cue ball meets the first object ball, in words, for who plays with `cue_ball`.
     pub fn contact_words(&self, cue_ball: CueBall) -> Option<String> {
         let contact = self.words.first?;
-        let side = if contact.left { "left" } else { "right" };
+        let side = contact.side().map_or_else(String::new, |side| format!(", {side} side"));
         let percent = (100.0 * contact.fullness).round();
-        Some(format!("hits {} {percent} % full, {side} side", cue_ball.names()[contact.ball]))
+        Some(format!("hits {} {percent} % full{side}", cue_ball.names()[contact.ball]))
     }
 }
 
@@ -250,8 +250,11 @@ mod tests {
 
     #[test]
     fn a_ball_that_is_touched_from_the_start_is_met_along_the_stroke() {
-        let contact = shot("0,0 0.0615,0 0.9,0.5", "0,0,0,0,3").words.first.unwrap();
+        let shot = shot("0,0 0.0615,0 0.9,0.5", "0,0,0,0,3");
+        let contact = shot.words.first.unwrap();
         assert!((contact.fullness - 1.0).abs() < 1e-9, "{contact:?}");
+        let words = shot.contact_words(CueBall::White).unwrap();
+        assert_eq!(words, "hits yellow 100 % full", "head-on has no side");
     }
 
     #[test]

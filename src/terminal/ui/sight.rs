@@ -14,8 +14,6 @@ use crate::{
 /// Rows of the words, and rows of a panel up to which only the title tells how full the ball is hit.
 const WORDS: u16 = 3;
 const LOW: u16 = 5;
-/// Fullness from which on a hit is called 100 % full, and has no side.
-const FULL: f64 = 0.995;
 /// Sign of the part of the object ball behind the cue ball.
 const BEHIND: char = '#';
 
@@ -42,12 +40,8 @@ fn draw_sight(meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     let words = if is_low { 0 } else { WORDS };
     let picture = Rect { height: inner.height.saturating_sub(words), ..inner };
     let drawn = draw_hit(&hit, picture, ui);
-    let side = match hit {
-        _ if hit.fullness > FULL => "",
-        Hit { left: true, .. } => "left side",
-        Hit { left: false, .. } => "right side",
-    };
-    let lines = [ui.theme.names()[hit.ball].to_owned(), format!("{} % full", percent(&hit)), side.to_owned()];
+    let side = hit.side().map_or_else(String::new, |side| format!("{side} side"));
+    let lines = [ui.theme.names()[hit.ball].to_owned(), format!("{} % full", percent(&hit)), side];
     if !is_low {
         draw_words(&lines, Rect { y: drawn.bottom(), height: words, ..inner }, ui);
     }

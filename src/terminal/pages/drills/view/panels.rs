@@ -15,9 +15,6 @@ use crate::{
     },
 };
 
-/// Fullness from which on a hit is called 100 % full.
-const FULL: f64 = 0.995;
-
 /// Draws the numbers of the stroke that is set, or was meant.
 pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
     let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
@@ -112,9 +109,7 @@ fn sight_words(sight: &Sight, cue_ball: CueBall, diamond: f64, units: Units) -> 
     let way = format!("{} {symbol}", fixed(in_a_metre * sight.way, 0));
     match sight.meets {
         Meets::Ball(hit) => {
-            // Head-on has no side.
-            let sides = if hit.fullness > FULL { ["", ""] } else { [", right side", ", left side"] };
-            let side = sides[usize::from(hit.left)];
+            let side = hit.side().map_or_else(String::new, |side| format!(", {side} side"));
             format!("{} {:.0} % full{side}, {way}", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
         }
         Meets::Cushion(mark) => {
