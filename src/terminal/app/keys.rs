@@ -100,6 +100,9 @@ impl App {
 
     /// Text was pasted.
     pub fn paste(&mut self, text: &str) {
+        if self.is_blind() {
+            return;
+        }
         self.input(Typed::Paste(text));
         self.gather(true);
     }

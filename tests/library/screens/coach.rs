@@ -369,7 +369,9 @@ fn keys_do_nothing_that_nobody_can_see() {
     assert!(player.asked.is_none());
     player.event(&key("q"));
     assert!(matches!(player.effects.pop(), Some(Effect::Quit)), "but one can leave");
+    player.app.paste("2d,0.5d");
     player.app.resize(Size::new(80, 24));
+    assert_eq!(*player.app.coach.layout(), before, "nor a paste");
     assert_ne!(*player.press("Right").app.coach.layout(), before);
 }
 
