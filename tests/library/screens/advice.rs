@@ -56,7 +56,7 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
     assert!(player.app.coach.shot().is_none(), "the best shot so far is an expert's");
     let player = player.tell(job.id, CoachNews::Advice(advice(&job)));
     assert!(player.study.is_none() && player.app.coach.shot().is_none());
-    player.says("the coach has answered for expert; Enter asks it for");
+    player.says("this answer is for expert; Enter asks for");
     // It is kept for the player whose shot it is.
     let mut player = player.press("S");
     for _ in 1..Skill::NAMED.len() {
@@ -66,7 +66,7 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
     }
     assert!(player.study.is_some());
     assert_eq!(player.app.coach.query.skill, Skill::EXPERT);
-    player.says("the player: expert (average above 2.5); the shot for it is known");
+    player.says("the player: expert (average above 2.5); its shot is shown");
 }
 
 #[test]

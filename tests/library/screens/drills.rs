@@ -77,7 +77,7 @@ fn words_are_looked_for_while_they_are_typed() {
     assert_eq!(found.app.place(), KeyContext::Drill(DrillContext::Library));
     found.says("Position number 17").is_silent_on("Position number 18");
     let none = found.press("/").type_in("zzz");
-    none.says("No exercise is like that");
+    none.says("No exercise matches. 0 lists all.");
     let before = none.press("Esc");
     before.says("Position number 17").is_silent_on("Position number 18");
     before.press("0").says("Position number 18");
@@ -157,12 +157,12 @@ fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
     assert!(attempt.meant != attempt.played && attempt.chance.is_some() && attempt.advised.is_some());
     let half = player.wait(0.4);
     assert!(half.app.frame_interval().is_some());
-    half.says("the shot is on its way").says("no attempt yet").is_silent_on("Yours makes");
+    half.says("the shot is running").says("no attempt yet").is_silent_on("Yours makes");
     let ended = half.wait(60.0);
     check("played", &ended);
     ended.says("Yours makes").says("your hand: ");
     ended.says(if attempt.made { "1 of 1 made" } else { "0 of 1 made" });
-    ended.press("v").shows(&["model shot: no change worth telling", "your hand: ", "v hint"]);
+    ended.press("v").shows(&["model shot: almost the same", "your hand: ", "v hint"]);
     let plain = Player::practising(NO_COLOUR).press("Right Space").wait(60.0);
     plain.is_plain().shows(&["your hand: ", "1 made", "Enter next"]);
 }
@@ -170,7 +170,7 @@ fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
 #[test]
 fn a_miss_says_what_was_missing_and_the_first_press_goes_to_the_end() {
     let player = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space");
-    player.says("the shot is on its way");
+    player.says("the shot is running");
     let ended = player.press("Enter");
     ended.says("No point: ");
     assert_eq!(ended.app.frame_interval(), None);
@@ -184,7 +184,7 @@ fn the_result_of_a_free_stroke_is_seen_before_a_key_begins_another_session() {
     for key in ["x", "o", "p", "m", "n"] {
         let watched = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space").wait(0.1);
         let refused = watched.press(key);
-        refused.says("the shot is on its way; Enter goes to its end").says("no attempt yet");
+        refused.says("the shot is running; Enter skips to its end").says("no attempt yet");
         let ended = refused.press("Enter");
         ended.says("No point: ").says("0 of 1 made");
         assert_eq!((ended.kept(), ended.store().sessions().items.len()), (1, 1), "{key}");
@@ -465,7 +465,7 @@ fn a_stroke_that_fails_when_another_exercise_is_open_changes_nothing_there() {
     let tasks = asked(&mut player, "Space");
     player.app.receive_drill(DrillReport::Played(first, Err("the first has failed".to_owned()), Ok(())));
     player.run(tasks);
-    player.says("the shot is on its way");
+    player.says("the shot is running");
     let mut player = player.press("Enter Enter");
     drop(asked(&mut player, "Space"));
     player.app.receive_drill(DrillReport::Played(second, Err("the second has failed".to_owned()), Ok(())));

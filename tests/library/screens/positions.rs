@@ -55,7 +55,7 @@ fn a_layout_and_a_share_code_are_pasted_over_the_table() {
     player.app.paste(&encode(exercise).unwrap());
     assert_eq!((*player.app.coach.layout(), player.app.coach.query.rule), (exercise.layout, Rule::ThreeCushion));
     player.app.paste("a letter to a friend, by accident");
-    player.warns("nothing is taken of what was pasted");
+    player.warns("pasted text not used");
     assert_eq!(*player.app.coach.layout(), exercise.layout);
     // A code is taken where positions are typed, too.
     let mut player = Player::new().press("p");

@@ -79,6 +79,6 @@ fn a_record_of_all_exercises_alone_says_so() {
 fn a_shot_does_not_play_on_behind_the_record() {
     let watched = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space").wait(0.1);
     let back = watched.press("r a a").wait(60.0).press("Esc");
-    back.says("the shot is on its way").is_silent_on("No point: ");
+    back.says("the shot is running").is_silent_on("No point: ");
     back.wait(60.0).says("No point: ");
 }

@@ -130,7 +130,7 @@ fn another_player_on_the_coachs_page_leaves_a_stroke_that_is_watched_its_result(
     let back = watched.press("F2 S").press("F3");
     let chosen = back.app.coach.query.skill;
     assert_ne!(chosen, first);
-    back.says("the shot is on its way").says("no attempt yet");
+    back.says("the shot is running").says("no attempt yet");
     let ended = back.press("Enter");
     ended.says("No point: ").says("0 of 1 made");
     let next = ended.press("Enter");

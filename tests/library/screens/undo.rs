@@ -17,7 +17,7 @@ fn changes_of_the_stroke_are_taken_back_input_by_input() {
     assert!((back.app.drills.turn.as_ref().unwrap().stroke().speed - end.speed).abs() < 1e-12);
     let back = back.press("z z z");
     assert_eq!(stroke(&back), start, "aim, tip, speed, aim");
-    back.press("z").says("the stroke is as it was at first");
+    back.press("z").says("the stroke is unchanged");
     let again = Player::practising(TRUE_COLOUR).press("Left Left Left k k Up Left z z z z Z Z Z C-r");
     assert_eq!(stroke(&again), end);
     again.press("Z").says("no change of the stroke was taken back");
@@ -74,9 +74,9 @@ fn another_player_rule_or_plan_is_a_step_and_the_shot_comes_back_with_the_one_be
     let cue = |player: &Player| player.app.coach.shot().map(|shot| shot.cue);
     let known = CueInputs::parse(SHOT).unwrap();
     for (key, said) in [
-        ("S", "the player: expert (average above 2.5); the shot for it is known"),
-        ("R", "what counts: straight; the shot for it is known"),
-        ("P", "the next point counts too; the shot for it is known"),
+        ("S", "the player: expert (average above 2.5); its shot is shown"),
+        ("R", "what counts: straight; its shot is shown"),
+        ("P", "the next point counts too; its shot is shown"),
     ] {
         let changed = Player::new().press("Enter").answer().press(key);
         assert_eq!(cue(&changed), None, "{key}");

@@ -76,7 +76,7 @@ fn without_a_shot_of_the_coach_a_stroke_begins_full_at_a_ball_and_one_plays_on_f
     assert_ne!(*undone.app.coach.layout(), placed);
     let undone = undone.press("z u");
     assert_eq!((undone.app.place(), *undone.app.coach.layout()), (KeyContext::OwnStroke, placed), "no further back");
-    undone.warns("the stroke is as it was at first");
+    undone.warns("the stroke is unchanged");
     let asked = undone.press("Esc Enter").answer();
     assert!(asked.app.coach.what_if().is_none() && asked.app.coach.shot().is_some());
     // What is asked otherwise is about another stroke.

@@ -25,10 +25,9 @@ impl CoachPage {
         let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
         match when {
             CoachCondition::Anytime => None,
-            CoachCondition::Named => refuse(
-                self.player.is_none(),
-                "others follow a player by a name, and you have none: carom --player NAME",
-            ),
+            CoachCondition::Named => {
+                refuse(self.player.is_none(), "to be followed you need a name: start carom --player NAME")
+            }
             CoachCondition::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
             _ if thinking.is_some() => thinking,
             CoachCondition::Placing => {
@@ -48,11 +47,11 @@ impl CoachPage {
             CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
             CoachCondition::Interrupted => refuse(
                 self.before.is_empty() && self.left_exams.is_empty(),
-                "no exam was left and no earlier session waits; what is practised now is behind F3",
+                "no unfinished exam or earlier session; F3 shows what you practise",
             ),
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled networks are asked already"),
-            CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is as it was at first"),
-            CoachCondition::PlayedOn => refuse(self.played_on() == 0, "the stroke is as it was at first"),
+            CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is unchanged"),
+            CoachCondition::PlayedOn => refuse(self.played_on() == 0, "the stroke is unchanged"),
             CoachCondition::StrokeUndone => refuse(!self.can_travel().1, "no change of the stroke was taken back"),
             CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
         }

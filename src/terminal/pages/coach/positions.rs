@@ -24,7 +24,7 @@ impl CoachPage {
     pub(super) fn paste(&mut self, text: &str) {
         if let Err(sentence) = self.take_typed(text) {
             // Whoever pastes by accident is not asked to mend it.
-            self.message = Some(Message::warning(format!("nothing is taken of what was pasted: {sentence}")));
+            self.message = Some(Message::warning(format!("pasted text not used: {sentence}")));
         }
     }
 

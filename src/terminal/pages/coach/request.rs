@@ -103,7 +103,7 @@ impl CoachPage {
                     advice.proposals.first().map(|best| news(best, advice.effort, &query, names))
                 } else {
                     let [asked, now] = [query.skill, self.query.skill].map(skill_word);
-                    Some(Message::plain(format!("the coach has answered for {asked}; Enter asks it for {now}")))
+                    Some(Message::plain(format!("this answer is for {asked}; Enter asks for {now}")))
                 };
                 self.show(query, advice);
             }
@@ -265,7 +265,7 @@ impl CoachPage {
         }
         let hint = if self.shown().is_some() {
             self.watch_from_the_stroke();
-            "the shot for it is known"
+            "its shot is shown"
         } else if had_shot {
             "Enter asks the coach, u takes it back"
         } else {

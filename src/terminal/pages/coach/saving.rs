@@ -98,7 +98,7 @@ fn title_name_tags(typed: &str) -> Result<(String, String, Vec<String>), String>
     let name: String = name.chars().take(LONGEST_NAME).collect();
     let name = name.trim_end_matches('-').to_owned();
     if !is_name(&name) {
-        return Err(format!("\"{title}\" makes no name; accepted is a title with letters or digits in it"));
+        return Err(format!("\"{title}\" gives no name; use letters or digits"));
     }
     let tags = tags.iter().map(|tag| bare_tag(tag).to_owned()).filter(|tag| !tag.is_empty()).collect();
     Ok((title, name, tags))

@@ -64,7 +64,7 @@ impl DrillsPage {
                 self.book.put(&stored);
                 let tasks = self.go_on_with(*stored);
                 self.message = Some(Message::warning(
-                    "another program has changed this session: it goes on here as it stands there, and what you did last is not in it",
+                    "another program has changed this session: its version is loaded, and your last action is lost",
                 ));
                 return tasks;
             }
@@ -125,8 +125,7 @@ impl DrillsPage {
         let Some(turn) = &self.turn else { return Vec::new() };
         let stored = self.book.sessions.iter().find(|stored| stored.id == turn.session.id && turn.is_behind(stored));
         let Some(stored) = stored.cloned() else { return Vec::new() };
-        self.message =
-            Some(Message::plain("another program has gone on with this session: it goes on here from there"));
+        self.message = Some(Message::plain("another program has continued this session: loaded from there"));
         self.go_on_with(stored)
     }
 

@@ -16,7 +16,7 @@ use crate::{
 const FIRST_RUN: u32 = 5;
 const FIRST_GAME: u32 = 10;
 /// Why a key does nothing before the result of a stroke was seen.
-const ON_ITS_WAY: &str = "the shot is on its way; Enter goes to its end";
+const ON_ITS_WAY: &str = "the shot is running; Enter skips to its end";
 /// Longest run and game that can be asked for.
 const LONGEST: u32 = 100;
 
@@ -87,11 +87,9 @@ impl Turn {
                 .or_else(|| self.disabled_reason(Condition::Aiming))
                 .or_else(|| self.disabled_reason(Condition::Alone)),
             (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not beside your stroke"),
-            (Stage::Aiming, Condition::StrokeChanged) => {
-                refuse(!self.can_travel().0, "the stroke is as it was at first")
-            }
+            (Stage::Aiming, Condition::StrokeChanged) => refuse(!self.can_travel().0, "the stroke is unchanged"),
             (Stage::Aiming, Condition::Set) => {
-                refuse(!self.can_travel().0, "the stroke is as it was at first; Space plays it all the same")
+                refuse(!self.can_travel().0, "the stroke is unchanged; Space plays it all the same")
             }
             (Stage::Aiming, Condition::StrokeUndone) => {
                 refuse(!self.can_travel().1, "no change of the stroke was taken back")

@@ -16,7 +16,7 @@ fn an_exam_begins_with_a_page_that_tells_what_comes() {
     assert_eq!((begun.app.place(), begun.kept()), (EXERCISE, 0), "the first Enter plays nothing");
     begun.says("exercise 1 of 20").says("set the stroke and play it");
     let once_more = begun.press("Enter");
-    once_more.says("the stroke is as it was at first; Space plays it all the same");
+    once_more.says("the stroke is unchanged; Space plays it all the same");
     assert_eq!((once_more.kept(), once_more.press("Left Enter").kept()), (0, 1));
     let back = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Esc");
     assert_eq!(back.app.place(), LIBRARY, "nothing has begun: nothing is asked");
@@ -35,7 +35,7 @@ fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
     let over = (2..=20).fold(on, |player, _| player.press("Space Enter Enter"));
     over.says("Grade: ");
     assert_eq!((over.kept(), over.store().sessions().items.len()), (20, 1), "one exam");
-    over.press("Enter F2 c").says("no exam was left");
+    over.press("Enter F2 c").says("no unfinished exam or earlier session");
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
     // Who opens the drills again sees it before the next stroke.
     elsewhere(&on, 3);
     let seen = on.press("F2 F3");
-    seen.says("another program has gone on with this session").says("exercise 9 of 20");
+    seen.says("another program has continued this session").says("exercise 9 of 20");
     elsewhere(&seen, 12);
     seen.press("Space").says("Grade: ");
     // Notes from a real table, and those that are taken back.
@@ -140,7 +140,7 @@ fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
     assert_eq!(place(&back), at_second);
     let back = back.press("c");
     assert_eq!(place(&back), left);
-    back.press("c").says("no earlier session waits");
+    back.press("c").says("no unfinished exam or earlier session");
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn the_title_is_asked_over_the_table_and_one_stays_there() {
 #[test]
 fn a_title_that_makes_no_name_is_mended_and_escape_saves_nothing() {
     let refused = at_coach().press("s").type_in("??").press("Enter");
-    refused.says("makes no name").says("if you like): ??");
+    refused.says("gives no name").says("if you like): ??");
     let saved = refused.press("Backspace Backspace").type_in("mine").press("Enter");
     saved.says("saved as mine");
     let left = at_coach().press("s").type_in("q1").press("Esc");

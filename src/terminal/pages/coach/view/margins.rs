@@ -54,7 +54,7 @@ pub fn draw_margins(
         None => return draw_nothing(&[empty], inner, ui),
         Some((ShotAnalysis { margins: None, .. }, shot)) => {
             let why = if shot.solved {
-                "none: on the tables drawn, it makes no point as meant"
+                "none: played exactly, it misses on likely tables"
             } else {
                 "none: this shot makes no point"
             };

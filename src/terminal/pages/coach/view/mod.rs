@@ -241,7 +241,7 @@ fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut
     let choice = advised.map(AdviceState::choice);
     let empty = match (coach.spinner(), choice) {
         (Some(_), _) => "the coach is thinking",
-        (None, Some(_)) if is_followed => "the player alone sees this",
+        (None, Some(_)) if is_followed => "only the player sees this",
         (None, None) if is_followed => "no shot yet",
         (None, Some(choice)) if choice.is_studied => "could not be worked out",
         (None, Some(_)) => "being worked out",

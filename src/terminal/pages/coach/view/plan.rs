@@ -26,7 +26,7 @@ const NAMES: u16 = 6;
 const ROWS: usize = 3;
 
 /// What the distances of the stops are.
-const SPREAD_WORDS: &str = "half of the points leave the balls so near";
+const SPREAD_WORDS: &str = "half of the made shots stop this close";
 
 /// Draws the panel; without a shot it says `empty`.
 pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: Rect, ui: &mut Ui) {

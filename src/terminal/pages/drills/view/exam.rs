@@ -29,7 +29,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         format!(
             "Strokes are played with the errors of the player who is named above: {player}. p in the library chooses another."
         ),
-        "In the end you see what you made of every exercise, and what a beginner, a club player and a world-class player \
+        "At the end you see which exercises you made, and what a beginner, a club player and a world-class player \
          make on average in the same exam."
             .to_owned(),
         "Esc leaves the exam; c on the coach's page goes on with it, at the next start of the program too.".to_owned(),

@@ -136,7 +136,7 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
         return verdict;
     }
     Message::plain(match (turn.watched().is_some(), &turn.lesson) {
-        (true, _) => "the shot is on its way; Enter goes to its end",
+        (true, _) => "the shot is running; Enter skips to its end",
         (false, Lesson::Pending) if turn.is_coachs_turn() => "the coach is thinking about its stroke",
         (false, Lesson::Missing) if turn.is_coachs_turn() => {
             "the coach knows no stroke here; Space plays full at a ball"

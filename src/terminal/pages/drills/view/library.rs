@@ -203,7 +203,7 @@ fn draw_nothing(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
         "You have saved no position yet. On the coach's table, s saves the balls as they lie; here, a adds a position from \
          a code that somebody has sent you."
     } else {
-        "No exercise is like that. 0 lists all."
+        "No exercise matches. 0 lists all."
     };
     let text = Rect { x: area.x + 2, y: area.y + 2, width: area.width - 3, height: area.height.saturating_sub(2) };
     write_paragraphs(&[(words.to_owned(), ui.theme.faint())], text, ui);

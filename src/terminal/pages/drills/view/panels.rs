@@ -178,13 +178,13 @@ fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
 /// How the stroke that was meant differs from the advised one, and what the player's errors have added to it.
 fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities) -> Vec<String> {
     let Watched { meant, outcome, .. } = watched;
-    let added = told(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "nothing worth telling".to_owned());
+    let added = told(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "hardly any change".to_owned());
     if watched.is_by_coach() {
         return vec![spell(&format!("the coach's hand: {added}"), caps)];
     }
     let lesson = match &turn.lesson {
         Lesson::Known(taught) => told(turn, meant, &taught.advice.cue, units).map_or_else(
-            || format!("{}: no change worth telling", teacher(taught)),
+            || format!("{}: almost the same", teacher(taught)),
             |yours| format!("yours, beside the {}: {yours}", teacher(taught)),
         ),
         Lesson::Pending => "the coach is still thinking".to_owned(),
