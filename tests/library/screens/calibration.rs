@@ -226,7 +226,7 @@ fn the_command_and_the_page_share_the_file_and_what_cannot_be_read_is_not_writte
     fs::write(&path, "[[trial]]\ntest = \"lag\"\nrest = 240\n").unwrap();
     let odd = player.press("F2 F7 Tab");
     odd.says("trial 1 (lag): rest = 240: no ball rolls that long");
-    odd.press("s").warns("an entry is odd");
+    odd.press("s").warns("an entry looks wrong (see values)");
     let broken = Player::with(TRUE_COLOUR);
     fs::write(broken.path("calibration.toml"), "broken").unwrap();
     let broken = broken.press("F7");

@@ -89,7 +89,7 @@ const CALIBRATION_NOTES: [&str; 5] = [
      expected. Yours may be elsewhere: how hard you really struck is worked out from them.",
     "A number is a place by eye, right to 0.1 diamonds; 725 mm is one by tape, right to 5 mm; 5.3 ~ 0.2 says how sure you are. \
      Nothing, or -, stands for what you do not know.",
-    "Bits are what one more stroke of a test is expected to tell of the table: with each, what is in doubt is half as much. Each value of the table has one standard deviation.",
+    "Bits say how much one more stroke of a test should teach: each bit halves a doubt. The second number of a value is one standard deviation.",
     "Every entry is on the disk at once, in the file that carom calibrate goes on with as well. Both may be open at the same time.",
 ];
 

@@ -31,19 +31,16 @@ impl CalibrationPage {
                 let is_entered = sheet.entries.as_ref().is_some_and(|entries| !entries.trials.is_empty());
                 (is_entered || sheet.trouble.is_some(), "nothing is entered yet")
             }
-            Condition::Undo => (sheet.can_undo(), "nothing was changed here yet; Delete takes the marked stroke out"),
+            Condition::Undo => (sheet.can_undo(), "nothing was changed here yet; Delete deletes the marked stroke"),
             Condition::Found if sheet.is_asking() => (false, "the values are being worked out; one moment"),
             Condition::Found if !sheet.odd(&self.table).is_empty() => {
-                (false, "an entry is odd, as the values say: amend it or take it out first")
+                (false, "an entry looks wrong (see values): edit or delete it first")
             }
-            Condition::Found if sheet.found().is_some_and(Calibration::is_contradictory) => (
-                false,
-                "strokes contradict each other, as the values say: play them again, amend or take them out first",
-            ),
+            Condition::Found if sheet.found().is_some_and(Calibration::is_contradictory) => {
+                (false, "strokes contradict each other (see values): play them again, edit or delete them first")
+            }
             Condition::Found => (sheet.found().is_some(), "nothing is entered yet that a table could follow from"),
-            Condition::Saved => {
-                (self.saved.is_some(), "save the table first: s; one that was saved before is chosen by its name, F5")
-            }
+            Condition::Saved => (self.saved.is_some(), "save the table first (s), or choose a saved one by name in F5"),
             Condition::Daily => (
                 self.table.doubt.is_some(),
                 "a check of the day needs a table that was calibrated before: save one and play on it",
@@ -76,8 +73,7 @@ impl CalibrationPage {
             Action::TakeOut => {
                 let (place, entry) = self.sheet().marked_stroke()?;
                 let edit = Edit::TakeOut(place, entry.clone());
-                self.message =
-                    Some(Message::plain(format!("a stroke of {} is taken out; u takes it back", entry.test)));
+                self.message = Some(Message::plain(format!("a stroke of {} is deleted; u takes it back", entry.test)));
                 return Some(self.edit(edit, false));
             }
             Action::Undo => {
@@ -89,7 +85,7 @@ impl CalibrationPage {
                     }
                 };
                 let said = match &edit {
-                    Edit::TakeOut(_, entry) => format!("the stroke of {} is taken out again", entry.test),
+                    Edit::TakeOut(_, entry) => format!("the stroke of {} is deleted again", entry.test),
                     Edit::Add(entry) | Edit::Insert(_, entry) => format!("the stroke of {} is back", entry.test),
                     Edit::Amend(.., entry) => format!("the stroke of {} is as it was before", entry.test),
                     Edit::Anew(_) => "what was entered before is back".to_owned(),

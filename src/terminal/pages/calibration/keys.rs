@@ -110,11 +110,11 @@ pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Here, &[key(Tab, A::Turn)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
     bind(Calibration, W::Here, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test of which one more stroke tells most"),
     bind(Calibration, W::Undo, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
-    bind(Calibration, W::Stroke, &[letter('e', A::Amend)], Some(("amend", 1)), "change what was entered of the marked stroke"),
+    bind(Calibration, W::Stroke, &[letter('e', A::Amend)], Some(("edit", 1)), "change what was entered of the marked stroke"),
     bind(Calibration, W::Stroke, &[key(Left, A::Stroke(-1)), key(Right, A::Stroke(1)), letter('h', A::Stroke(-1)), letter('l', A::Stroke(1))],
         Some(("stroke", 2)), "mark another stroke of the test")
         .each(&["mark the stroke of the test before", "mark the next stroke of the test"]),
-    bind(Calibration, W::Stroke, &[key(Delete, A::TakeOut), key(Backspace, A::TakeOut)], Some(("take out", 1)), "take the marked stroke out"),
+    bind(Calibration, W::Stroke, &[key(Delete, A::TakeOut), key(Backspace, A::TakeOut)], Some(("delete", 1)), "delete the marked stroke"),
     bind(Calibration, W::Here, &[letter('x', A::LeaveOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
     bind(Calibration, W::Found, &[letter('s', A::Save)], Some(("save", 1)), "save the table under a name"),
     bind(Calibration, W::Saved, &[letter('p', A::Use)], Some(("play on it", 1)), "play on the saved table, here and at every start"),
