@@ -55,7 +55,7 @@ pub fn wait((mut process, said): Trainer) -> Result<(), Failure> {
             let killed = || format!("the process that trains has ended: {status}");
             Err(failure(last_sentence(said).unwrap_or_else(killed)))
         }
-        Err(error) => Err(failure(format!("the training is lost from sight: {error}"))),
+        Err(error) => Err(failure(format!("the training cannot be watched: {error}"))),
     }
 }
 

@@ -55,9 +55,9 @@ fn a_guest_starts_no_training_and_has_no_shell() {
     session.send("\x1a");
     session.wait_for("guests have no shell");
     session.send("t");
-    session.wait_for("no run is at work");
+    session.wait_for("no run is training");
     session.send("n");
-    session.wait_for("guests look at runs");
+    session.wait_for("guests can watch runs");
     session.settle(REST);
     session.send("q");
     assert!(session.assert_left_without_trace().success());

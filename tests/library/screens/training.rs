@@ -40,11 +40,11 @@ fn the_list_of_runs() {
         "Run 3 of 3",
         "seed 1: 40,000 of 5,000,000 shots",
         "r go on with it",
-        "1 run is at work",
+        "1 run is training",
     ]);
     let mut more = listing();
     more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::Is(Phase::Paused)));
-    Player::listing(TRUE_COLOUR).report(TrainingReport::Runs(Ok(more))).shows(&["1 run is at work; 1 is paused"]);
+    Player::listing(TRUE_COLOUR).report(TrainingReport::Runs(Ok(more))).shows(&["1 run is training; 1 is paused"]);
     let effects = down.press("r").effects;
     let folder = Path::new(RUNS).join("20261118-three-cushions/seed-1");
     assert!(matches!(&effects[..], [Effect::Train(launch)] if **launch == Launch::resume(&folder)), "{effects:?}");
@@ -133,7 +133,7 @@ fn every_condition_says_what_it_is_and_what_to_do() {
         (Condition::Is(Phase::Paused), ["paused ", "paused and saved; p lets it go on", "p go on"]),
         (
             Condition::Stalled(Duration::from_secs(40)),
-            ["stalled for 40 s", "the process is there: it may be suspended", "p pause"],
+            ["stalled for 40 s", "the process exists: it may be suspended", "p pause"],
         ),
         (Condition::Died, ["died ", "r go on", "w use"]),
         (
@@ -227,7 +227,7 @@ fn a_run_is_steered_by_requests() {
         Player::watching(TRUE_COLOUR).report(TrainingReport::Sent(Request::Stop, Err("read-only file system".into())));
     refused.says("the run cannot be asked: read-only file system");
     let died = Player::watching(TRUE_COLOUR).condition(Condition::Died, None).press("p");
-    died.says("the run is not at work");
+    died.says("the run is not training");
     let effects = died.press("r").effects;
     assert!(matches!(&effects[..], [Effect::Train(launch)] if **launch == Launch::resume(&folder)), "{effects:?}");
 }
@@ -241,7 +241,7 @@ fn a_question_ends_with_what_it_is_about() {
         assert!(player.effects.is_empty(), "{keys}: {:?}", player.effects);
     }
     let stopped = Player::watching(TRUE_COLOUR).press("A").condition(Condition::Is(Phase::Stopped), None);
-    stopped.says("the run is not at work");
+    stopped.says("the run is not training");
     let paused = Player::watching(TRUE_COLOUR).press("A").condition(Condition::Is(Phase::Paused), None);
     assert!(matches!(&paused.press("y").effects[..], [Effect::Send(Request::Abandon, _)]));
 }

@@ -37,7 +37,7 @@ impl TrainingPage {
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         if self.is_guest && steers(when) {
-            return Some("guests look at runs; to start and to steer them is up to whoever runs this machine");
+            return Some("guests can watch runs; only the owner of this machine starts or controls them");
         }
         let Some(watch) = &self.watch else {
             return match when {
@@ -55,7 +55,7 @@ impl TrainingPage {
             Condition::Zoomed => refuse(!watch.charts.is_part(), "all of the run is shown; + shows a part"),
             Condition::Paused => refuse(!watch.is_paused(), "the run is not paused"),
             Condition::AtWork | Condition::Working => {
-                refuse(!watch.is_at_work(), "the run is not at work; r goes on with one that has not finished")
+                refuse(!watch.is_at_work(), "the run is not training; r resumes one that is unfinished")
                     .or(refuse(when == Condition::Working && watch.is_paused(), "the run is paused"))
             }
             Condition::CanGoOn => {

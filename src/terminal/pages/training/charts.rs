@@ -18,10 +18,9 @@ const FOLLOW_SECONDS: f64 = 5.0;
 /// Steps that a part which follows the end is wide at least, so that neighbours overlap.
 const LEAST_STEPS: f64 = 2.0;
 /// Why a part that follows the end gets no narrower.
-const TOO_FAST: &str =
-    "a narrower part would move too often at this speed; the left arrow holds it still, then + shows less";
+const TOO_FAST: &str = "the run is too fast for a narrower view; Left holds it still, then + shows less";
 /// Why there is no part of a run that has just begun.
-const TOO_SHORT: &str = "the run has played too few shots yet for a part that moves on with it";
+const TOO_SHORT: &str = "too few shots so far to zoom in on";
 /// Share of the part by which it is moved by hand.
 const PAN_STEP: f64 = 0.25;
 
@@ -187,7 +186,7 @@ impl Charts {
             let width = (0.5 * (to - from)).max(LEAST_SHOTS).max(least);
             if width >= to - from {
                 return Err(match self.part {
-                    _ if least <= LEAST_SHOTS => "fewer shots are not shown",
+                    _ if least <= LEAST_SHOTS => "this is the closest zoom",
                     Some(_) => TOO_FAST,
                     None => TOO_SHORT,
                 });

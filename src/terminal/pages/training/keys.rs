@@ -180,7 +180,7 @@ const SHOW: &[&str] = &[
 /// A run that is watched.
 #[rustfmt::skip]
 pub const WATCH: &[Binding<A, W>] = &[
-    bind(Run, W::CanGoOn, &[letter('r', A::Resume)], Some(("go on", 1)), "go on with a run that is not at work"),
+    bind(Run, W::CanGoOn, &[letter('r', A::Resume)], Some(("go on", 1)), "go on with a run that is not training"),
     bind(Run, W::Paused, &[letter('p', A::Pause)], Some(("go on", 1)), "let a paused run go on"),
     bind(Run, W::Working, &[letter('p', A::Pause)], Some(("pause", 1)), "pause the run and save it"),
     bind(Run, W::AtWork, &[letter('S', A::Stop)], Some(("stop", 1)), "stop the run and save it; asks first"),
@@ -204,7 +204,7 @@ pub const WATCH: &[Binding<A, W>] = &[
     bind(Charts, W::Zoomed, &[letter('0', A::All)], None, "show all of the run"),
     bind(Charts, W::Zoomed, &[key(End, A::Follow)], None, "follow the end of the run"),
     bind(Run, W::HasPolicy, &[letter('k', A::Keep)], Some(("keep", 1)), "keep these networks under a name"),
-    bind(Run, W::AtWork, &[letter('A', A::Abandon)], None, "end a run at work and delete it; asks first"),
+    bind(Run, W::AtWork, &[letter('A', A::Abandon)], None, "end a run that is training and delete it; asks first"),
     bind(Replay, W::Shots, &[letter(' ', A::Play)], Some(("replay", 1)), "play and pause the latest shots on held-out layouts"),
     bind(Replay, W::Shots, &[letter(',', A::Shot(-1)), letter('.', A::Shot(1))], None, "the shot before, the next shot")
         .each(&["the shot before", "the next shot"]),

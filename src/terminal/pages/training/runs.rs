@@ -80,7 +80,7 @@ impl RunList {
     pub fn refusal_to_go_on(&self) -> Option<&'static str> {
         match self.marked().map(|run| run.state) {
             None => Some("there is no run yet; n starts one"),
-            Some(state) if state.is_at_work() => Some("this run is at work; Enter watches it"),
+            Some(state) if state.is_at_work() => Some("this run is training; Enter watches it"),
             Some(Condition::Is(Phase::Finished)) => {
                 Some("this run is finished; n starts a new one, with its networks if you like")
             }

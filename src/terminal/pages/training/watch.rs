@@ -135,7 +135,7 @@ impl Watch {
                 Some("the run is finished; n in the list starts a new one with its networks")
             }
             Condition::Is(Phase::Paused) => Some("the run is paused; p lets it go on"),
-            Condition::Is(_) | Condition::Stalled(_) => Some("the run is at work"),
+            Condition::Is(_) | Condition::Stalled(_) => Some("the run is training"),
             Condition::Unknown | Condition::Missing => Some("there is no run yet"),
             Condition::Removed => Some("the run has been removed"),
         }
@@ -157,10 +157,10 @@ impl Watch {
             Condition::Is(Phase::Failed) => {
                 (format!("{}; {resume}", reason.unwrap_or("the training has broken down")), true)
             }
-            Condition::Died => (format!("the process that trained is gone without a word; {resume}"), true),
+            Condition::Died => (format!("the training process ended without a message; {resume}"), true),
             Condition::Stalled(since) => {
                 let seconds = since.as_secs();
-                (format!("nothing has come for {seconds} s, and the process is there: it may be suspended"), true)
+                (format!("no news for {seconds} s; the process exists: it may be suspended"), true)
             }
             Condition::Removed => ("the folder of the run has been removed; Esc goes back".to_owned(), true),
             _ if !run.notices.is_empty() => (run.notices.join("; "), true),

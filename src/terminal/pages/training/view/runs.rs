@@ -179,9 +179,9 @@ pub fn status_line(training: &TrainingPage) -> Message {
     let paused = list.runs().iter().filter(|run| run.state == Condition::Is(Phase::Paused)).count();
     let working = list.runs().iter().filter(|run| run.state.is_at_work()).count() - paused;
     let working = match working {
-        0 => "no run is at work".to_owned(),
-        1 => "1 run is at work".to_owned(),
-        _ => format!("{working} runs are at work"),
+        0 => "no run is training".to_owned(),
+        1 => "1 run is training".to_owned(),
+        _ => format!("{working} runs are training"),
     };
     let paused = match paused {
         0 => String::new(),
