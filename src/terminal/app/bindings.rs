@@ -176,7 +176,7 @@ const TABS: &[Binding<Action, Condition>] = &[
 #[rustfmt::skip]
 const PROGRAM: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[letter('?', A::OpenHelp), key(F(1), A::OpenHelp)], Some(("help", 1)), "open this help"),
-    bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: what was refused or has failed so far"),
+    bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: refusals and failures so far"),
     palette_keys::OPEN,
     bind(Program, Condition::Always, &[letter('g', A::NextGlyphs)], None, "draw with sextants, half blocks or letters"),
     bind(Program, Condition::Always, &[letter('T', A::NextPalette)], None, "the next theme: dark, light, high contrast, colour-blind, mono"),
@@ -188,7 +188,7 @@ const PROGRAM: &[Binding<Action, Condition>] = &[
 #[rustfmt::skip]
 const LEAVE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[key(F(1), A::OpenHelp)], None, "open this help"),
-    bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: what was refused or has failed so far"),
+    bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: refusals and failures so far"),
     bind(Program, Condition::Shell, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
     bind(Program, Condition::Always, &[ctrl('c', A::Quit)], None, "quit"),
 ];

@@ -123,7 +123,7 @@ impl App {
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         match when {
             Condition::Help => self.help.is_none().then_some("the help is not open"),
-            Condition::Tabs => self.stands_alone().then_some("there are no other screens here; carom has them all"),
+            Condition::Tabs => self.stands_alone().then_some("no other screens here; start carom for all of them"),
             _ if self.help.is_some() => Some("close the help first: Esc"),
             Condition::Always => None,
             Condition::Shell => self.no_shell(),

@@ -30,7 +30,7 @@ pub const OPEN: Binding<Action, Condition> = bind(
     Condition::Always,
     &[letter(':', Action::CommandPalette(A::Open)), ctrl('p', Action::CommandPalette(A::Open))],
     Some(("commands", 1)),
-    "find what can be done here by its words, and do it",
+    "open the command palette: find and run a command",
 );
 
 /// The keys while it is open.

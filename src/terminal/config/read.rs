@@ -71,7 +71,9 @@ pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
                     complaints.push(Complaint { line: line(at), text });
                 }),
                 None => {
-                    complain("keys is no section; write [keys] and below it lines like \"x\" = \"Enter\"".to_owned());
+                    complain(
+                        "keys is not a section; write [keys] and below it lines like \"x\" = \"Enter\"".to_owned(),
+                    );
                 }
             }
         } else if let Some(entry) = ENTRIES.iter().find(|entry| entry.key == name) {
@@ -155,7 +157,7 @@ fn read_keys(settings: &mut Settings, keys: &DeTable, mut complain: impl FnMut(u
 
 fn refused(text: &str) -> String {
     format!(
-        "\"{text}\" is no key; accepted are a letter or sign, Enter, Esc, Space, Tab, Left, F1, ... also with Ctrl- or Shift-"
+        "\"{text}\" is not a key; use a letter or sign, Enter, Esc, Space, Tab, Left, F1, ... also with Ctrl- or Shift-"
     )
 }
 

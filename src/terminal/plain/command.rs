@@ -174,10 +174,10 @@ fn step(direction: &str, distance: &str) -> Result<DVec2, String> {
         "right" => DVec2::X,
         "up" => DVec2::Y,
         "down" => DVec2::NEG_Y,
-        _ => return Err(format!("\"{direction}\" is no direction; use left, right, up or down")),
+        _ => return Err(format!("\"{direction}\" is not a direction; use left, right, up or down")),
     };
     let millimetres: Option<f64> = distance.parse().ok().filter(|distance| (0.0..=10_000.0).contains(distance));
-    let millimetres = millimetres.ok_or_else(|| format!("\"{distance}\" is no distance; accepted is 0 to 10000 mm"))?;
+    let millimetres = millimetres.ok_or_else(|| format!("\"{distance}\" is not a distance; use 0 to 10000 mm"))?;
     Ok(unit * (1e-3 * millimetres))
 }
 

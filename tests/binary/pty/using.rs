@@ -126,7 +126,7 @@ fn a_setting_holds_at_once_and_a_toast_goes_by_itself() {
     let mut session = Session::start_at(home.path(), carom(), 80, 24);
     session.wait_for(OPENING);
     session.send("\x1b[15~");
-    session.wait_for("what is set holds at once");
+    session.wait_for("changes apply at once");
     // Behind the mouse there are three units.
     session.send("\x1b[F\x1b[A\x1b[A\x1b[A\x1b[C");
     session.wait_until("the mouse is left to the terminal", |screen| {

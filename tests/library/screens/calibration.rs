@@ -241,7 +241,7 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     let player = measured().press("s");
     player.says("the table's name = ");
     let player = player.press("C-u").type_in("our club/2").press("Enter");
-    player.warns("is no name of a table");
+    player.warns("is not a table name; use letters");
     let player = player.press("C-u").type_in("match").press("Enter");
     player.warns("\"match\" is the name of a bundled table; take another");
     let player = player.press("C-u").type_in("our club 2").press("Enter");

@@ -140,9 +140,9 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     fs::write(player.path("config.toml"), "theme = \n").unwrap();
     // Opened once more, the file is damaged.
     let player = player.press("F2 F5");
-    player.says("line 1").says("what is set holds until the program ends, while the file cannot be read or written");
+    player.says("line 1").says("changes last until the program ends: the file cannot be read or written");
     let player = player.press("Right");
-    player.says("this holds until the program ends").says("is left as it is");
+    player.says("changed until the program ends; ").says("is unchanged: ");
     assert_eq!(player.settings_text(), "theme = \n");
     assert_eq!(player.app.settings.settings.palette.name(), "light");
 }
@@ -247,10 +247,10 @@ fn a_key_is_given_other_work_and_gets_its_own_back() {
     assert_eq!(asked.app.place(), KeyContext::Settings(SettingsContext::Pressing));
     asked.says("press the key that is to do this: move the ball left by one step");
     let refused = asked.press("Enter");
-    refused.says("Enter keeps its work");
+    refused.says("Enter cannot be changed");
     let given = refused.press("a");
     // In the drills it adds a position from a code.
-    given.says("a does something else: add a position from a code that is typed or pasted (Drills: library)");
+    given.says("a already does: add a position from a code that is typed or pasted (Drills: library)");
     check("keys_taken", &given);
     let kept = given.press("n");
     assert!(!kept.settings_text().contains("[keys]"));

@@ -116,7 +116,7 @@ fn carom_watch_has_no_tabs() {
     let mut app = App::watching(caps, None, None).unwrap();
     let effect: Option<Effect> = app.handle(&super::keys::key("F2"));
     assert!(effect.is_none() && app.screen == PageId::Training);
-    assert!(app.toasts.shown[0].text.contains("there are no other screens here"));
+    assert!(app.toasts.shown[0].text.contains("no other screens here"));
     let mut terminal = ratatui::Terminal::new(ratatui::backend::TestBackend::new(80, 24)).unwrap();
     terminal.draw(|frame| app.draw(frame)).unwrap();
     let row = first_row(&terminal.backend().to_string());

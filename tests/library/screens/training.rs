@@ -96,7 +96,7 @@ fn numbers_that_start_nothing_are_refused_with_what_is_accepted() {
         .press("n Down Down Down Backspace Backspace Backspace Backspace Backspace Backspace");
     let player = empty.press("Backspace Enter");
     assert!(player.effects.is_empty());
-    player.says("\"\" is no number of shots; accepted is any number from 1 on");
+    player.says("\"\" is not a number of shots; use 1 or more");
 }
 
 #[test]

@@ -24,7 +24,7 @@ const KEYS: usize = 22;
 const COACH_NOTES: [&str; 6] = [
     "Places are measured from the middle of the table, x to the right, y up; diamonds from the lower left corner, 0 to 8 along \
      the long rails and 0 to 4 up the short ones, as the corners say. 1, 2, 3 on the rails are the cue ball's cushions. A kiss is \
-     where balls meet that should not, and in how many strokes that spoils the point. The dots are the predicted paths; rings are \
+     an unwanted collision; the number says how many strokes it spoils. The dots are the predicted paths; rings are \
      where the cue ball first meets each ball and where the balls stop. While a shot plays, a ball trails bright dots for 0.4 s; \
      those before them are pale. On a small screen the balls are drawn larger than they are; they roll \
      and touch at their true size.",
@@ -46,10 +46,10 @@ const COACH_NOTES: [&str; 6] = [
 ];
 
 const SETTINGS_NOTES: [&str; 3] = [
-    "Whatever is set holds at once and stands in the file that is named above, where comments, order and all that carom does \
-     not understand stay as they are. What somebody else has changed there meanwhile is read, and never written over.",
+    "Changes take effect at once and are saved in the file named above; its comments, order and unknown keys stay. What another \
+     program changes there is read and never overwritten.",
     "A setting without a mark is as it is by default. carom config prints all of them, with what each means and accepts.",
-    "A key of your own does the work of the one that it is given, on every page; what it did itself it does no more.",
+    "A key of your own does what the key you give it does, on every page, and nothing else.",
 ];
 
 const TRAINING_NOTES: [&str; 4] = [
@@ -62,15 +62,14 @@ const TRAINING_NOTES: [&str; 4] = [
 ];
 
 const DRILL_NOTES: [&str; 5] = [
-    "The line of aim is straight and ends where the cue ball meets the first ball or cushion, at the ring. It knows nothing \
-     of swerve, and nothing of what comes after. A ball is hit 100 % full head-on, 0 % where it is only grazed.",
+    "The line of aim is straight and ends where the cue ball meets the first ball or cushion, at the ring. It ignores \
+     swerve and everything after that. A ball is hit 100 % full head-on, 0 % where it is only grazed.",
     "Strokes are played with the errors of the player who is named above. How often a stroke makes the point is from 1000 \
      simulated strokes of that player.",
     "An attempt for which the hint was shown counts like any other; the score tells how many there were.",
     "Grades go from 1, the easiest, to 5. Typical is how often a beginner, a club player and a world-class player make the model shot. \
      An average is points an inning, and each miss ends an inning.",
-    "What you note at a real table tells your skill, as long as you play the model shot. Every attempt is on the \
-     disk before it is shown.",
+    "Notes from a real table measure your skill if you play the model shot. Every attempt is saved before it is shown.",
 ];
 
 const FILM_NOTES: [&str; 3] = [
@@ -150,7 +149,7 @@ fn messages(app: &App, width: usize) -> Vec<Line<'static>> {
     let (theme, caps) = (app.theme(), app.caps);
     let mut lines = vec![Line::styled("Messages, the newest first", theme.good()), Line::default()];
     if app.toasts.past().len() == 0 {
-        lines.push(Line::styled("Nothing was refused, and nothing has failed so far.", theme.text()));
+        lines.push(Line::styled("No messages so far.", theme.text()));
     }
     for text in app.toasts.past() {
         for (n, line) in wrap(text, width.saturating_sub(2)).into_iter().enumerate() {

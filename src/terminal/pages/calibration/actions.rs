@@ -205,7 +205,7 @@ impl CalibrationPage {
         let refused = if PRESETS.contains(&name) {
             Some("is the name of a bundled table; take another")
         } else if name.is_empty() || !name.chars().all(is_plain) {
-            Some("is no name of a table; accepted are letters, digits, blanks, - and _")
+            Some("is not a table name; use letters, digits, blanks, - and _")
         } else {
             None
         };

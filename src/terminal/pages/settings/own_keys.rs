@@ -91,7 +91,7 @@ impl OwnKeys {
             );
         }
         if is_needed || matches!(event.code, Char('c' | 'z')) && pressed == Chord::ctrl(event.code) {
-            return Err(format!("{written} keeps its work: without it there might be no way back; press another key"));
+            return Err(format!("{written} cannot be changed: it may be the only way back; press another key"));
         }
         let chords = self.chords();
         let Some(first) = chords.first() else { return Err("nothing is marked".to_owned()) };

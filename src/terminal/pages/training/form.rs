@@ -233,10 +233,10 @@ impl Form {
     /// A sentence that says which number is wrong.
     pub fn launch(&self, runs: &Path) -> Result<Launch, String> {
         if !self.shots.parse::<u64>().is_ok_and(|shots| shots > 0) {
-            return Err(format!("{:?} is no number of shots; accepted is any number from 1 on", self.shots));
+            return Err(format!("{:?} is not a number of shots; use 1 or more", self.shots));
         }
         if self.seed.parse::<u64>().is_err() {
-            return Err(format!("{:?} is no seed; accepted is any number from 0 on", self.seed));
+            return Err(format!("{:?} is not a seed; use 0 or more", self.seed));
         }
         let folder = runs.join(self.name());
         let options = self.options(true).into_iter().chain([("--run", folder.clone().into())]);

@@ -84,5 +84,5 @@ pub fn press(settings: &SettingsPage) -> String {
 /// What is asked about a key that does something else.
 pub fn taken(settings: &SettingsPage, chord: Chord, caps: Capabilities) -> String {
     let works = settings.keys.other_works(chord, &settings.settings.keys);
-    format!("{} does something else: {}. Shall it do this instead?", keys_text([chord], caps), tell(&works))
+    format!("{} already does: {}. Use it for this instead?", keys_text([chord], caps), tell(&works))
 }

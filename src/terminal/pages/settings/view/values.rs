@@ -31,9 +31,9 @@ pub fn draw(settings: &SettingsPage, area: Rect, words: Rect, ui: &mut Ui) -> &'
     });
     draw_words(settings, words, ui);
     if settings.is_writable {
-        "what is set holds at once and is kept"
+        "changes apply at once and are saved"
     } else {
-        "what is set holds until the program ends, while the file cannot be read or written"
+        "changes last until the program ends: the file cannot be read or written"
     }
 }
 
