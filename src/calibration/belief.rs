@@ -18,6 +18,9 @@ const STEEPEST: f64 = 0.995;
 /// Correlations up to this are left out of what is told.
 const TOLD: f64 = 0.05;
 
+/// How often correlations are made smaller by a hundredth at most: after that they are so small that they contradict nothing.
+const MOST_SHRINKINGS: usize = 500;
+
 /// A normal distribution of the constants that are in doubt.
 #[derive(Clone, Debug)]
 pub struct Belief {
@@ -107,13 +110,17 @@ impl Belief {
         for (row, line) in covariance.iter().enumerate() {
             for (column, entry) in line.iter().enumerate().take(row) {
                 let value = entry / (deviation(row) * deviation(column));
-                if value.abs() > TOLD {
+                // What is certain has no correlation.
+                if value.abs() > TOLD && value.is_finite() {
                     let rounded = (1e4 * value).round() / 1e4;
                     doubt.correlations.push((self.names[column].clone(), self.names[row].clone(), rounded));
                 }
             }
         }
-        while doubt.validate().is_err() && !doubt.correlations.is_empty() {
+        for _ in 0..MOST_SHRINKINGS {
+            if doubt.validate().is_ok() {
+                break;
+            }
             doubt.correlations.iter_mut().for_each(|(.., value)| *value *= 0.99);
         }
         doubt

@@ -56,7 +56,7 @@ pub struct Entry {
 
 /// A number as it is written: in the mark's unit, or with a unit of its own, like `"412 mm"`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number, or a text like \"412 mm\"")]
 pub enum Written {
     /// In the mark's unit.
     Number(f64),
@@ -189,6 +189,9 @@ impl Entry {
             };
             return Err(format!("{name} = {written}: {whose}; accepted is {least} to {most} {}", unit.sign()));
         }
+        // A ball that touches a rail is a radius from it, though it may be marked at the rail itself.
+        let radius = table.radius / table.diamond();
+        let value = if unit == Unit::Diamonds { value.clamp(radius, most - radius) } else { value };
         let sure = match self.sure.get(*name) {
             None if is_taped => TAPE,
             None => mark.sure,

@@ -36,7 +36,7 @@ pub enum KeptError {
     #[error("{0} cannot be written, so this change is not kept: {1}")]
     Unwritten(PathBuf, io::Error),
     /// What was to be changed is not there any more.
-    #[error("the file {0} was changed by another program, and the stroke is not there any more; it was read again")]
+    #[error("the file {0} was changed by another program, and the stroke is not there any more")]
     Gone(PathBuf),
 }
 

@@ -26,12 +26,10 @@ impl Unit {
             Self::Seconds => "s",
         }
     }
-
-    /// How sure a mark is that was made by eye and stopped by hand.
-    pub const fn sure(self) -> f64 {
-        0.1
-    }
 }
+
+/// By how much a way of one length may come out too long by rounding, in lengths: far more than that, and far less than anybody sees.
+const ROUNDING: f64 = 1e-9;
 
 /// A moment at which a stopwatch is pressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,10 +133,10 @@ impl Test {
         lengths + if (rails % 2 == 1) == self.is_back() { place } else { 8.0 - place }
     }
 
-    /// How many short rails a ball has met on its way, and where it stands.
+    /// How many short rails a ball has met on its way, and where it stands; of one that stands at a rail, that one is not among them.
     pub fn place(&self, table: &Table, way: f64) -> (usize, f64) {
         let radius = table.radius / table.diamond();
-        let rails = ((way - radius) / (8.0 - 2.0 * radius)).floor().max(0.0) as usize;
+        let rails = ((way - radius) / (8.0 - 2.0 * radius) - ROUNDING).floor().max(0.0) as usize;
         let beyond = way - rails as f64 * (8.0 - 2.0 * radius);
         (rails, if (rails % 2 == 1) == self.is_back() { beyond } else { 8.0 - beyond })
     }

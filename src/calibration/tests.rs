@@ -266,6 +266,43 @@ fn odd_marks_are_named_with_what_would_be_accepted() {
     assert!(hit.trials(&table).1[0].to_string().contains("(full-hit): rails = 1: no ball may meet a rail"));
     let wrong = Entries::parse("[[trial]]\ntest = 3").unwrap_err();
     assert!(wrong.contains("line") && wrong.contains("string"), "{wrong}");
+    for list in ["[[trial]]\ntest = \"lag\"\nstop = [3]", r#"{"trial": [{"test": "lag", "stop": [3]}]}"#] {
+        let wrong = Entries::parse(list).unwrap_err();
+        assert!(wrong.contains("expected a number, or a text like \"412 mm\""), "{wrong}");
+    }
+}
+
+#[test]
+fn a_ball_that_is_marked_at_a_rail_touches_it_and_has_met_none() {
+    let (table, doubt) = base();
+    let text = "[[trial]]\ntest = \"full-hit\"\nobject = 8\n[[trial]]\ntest = \"slow-back\"\nstop = 0\ndrift = 4\n";
+    let trials = Entries::parse(text).unwrap().trials(&table).0;
+    let radius = table.radius / table.diamond();
+    let places = trials.iter().map(|(_, trial)| trial.test.place(&table, trial.readings[0].value));
+    let [(rails, far), (turned, near)] = places.collect::<Vec<_>>()[..] else { panic!("{trials:?}") };
+    assert_eq!((rails, turned), (0, 0));
+    assert!((far - (8.0 - radius)).abs() < 1e-12 && (near - radius).abs() < 1e-12, "{far} {near}");
+    assert!((trials[1].1.readings[1].value - (4.0 - radius)).abs() < 1e-12);
+    let found = calibrate("club", &table, &doubt, &trials[..1]).unwrap();
+    assert_eq!(found.verdicts[0].rails.unwrap().0, 0, "{:?}", found.verdicts);
+}
+
+#[test]
+fn a_constant_that_has_become_certain_is_correlated_with_nothing() {
+    let (table, doubt) = base();
+    let belief = Belief::new(&table, &doubt).unwrap();
+    let mut covariance = vec![vec![0.0; belief.count()]; belief.count()];
+    covariance[1][1] = 1e-4;
+    (covariance[0][1], covariance[1][0]) = (1e-9, 1e-9);
+    let told = belief.doubt(&covariance);
+    assert_eq!(told.correlations, []);
+    told.validate().unwrap();
+    // What contradicts itself ends, too.
+    for (row, line) in covariance.iter_mut().enumerate() {
+        line.fill(-1e-4);
+        line[row] = 1e-4;
+    }
+    belief.doubt(&covariance).validate().unwrap();
 }
 
 #[test]

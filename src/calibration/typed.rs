@@ -15,11 +15,11 @@ pub const FAR_END: &str = "far-end";
 pub const TAPED: &str = "5 mm";
 
 impl Entry {
-    /// Takes the mark `name`, or the number of [`RAILS`], as it is typed: `5.3`, `725 mm`, `5.3 ~ 0.2`; nothing or `-` where it
-    /// is not known.
+    /// Takes the mark `name`, the number of [`RAILS`] or [`FAR_END`], as it is typed: `5.3`, `725 mm`, `5.3 ~ 0.2`, `yes`; nothing
+    /// or `-` where it is not known.
     ///
     /// # Errors
-    /// A sentence where the number of rails is none.
+    /// A sentence where the number of rails is none, or the far end is neither `yes` nor `no`.
     pub fn take(&mut self, name: &str, typed: &str) -> Result<(), String> {
         let typed = typed.trim();
         if typed.is_empty() || typed == "-" {

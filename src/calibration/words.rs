@@ -9,6 +9,24 @@ use crate::table::Rail;
 /// What is said of a constant of which the tests tell next to nothing.
 pub const NO_BETTER: &str = "no better";
 
+/// The constants by their names: what each is, and the same in twelve characters at most. A rail's own are no part of it.
+const CONSTANTS: [(&str, [&str; 2]); 14] = [
+    ("e_rail", ["what rails give back", "rail bounce"]),
+    ("mu_rail", ["grip of the rails", "rail grip"]),
+    ("rail.height", ["height of the rubber, m", "rail height"]),
+    ("rail.kappa", ["how the rubber yields", "rail give"]),
+    ("rail.fade.slope", ["loss of fast balls at rails", "fast bounce"]),
+    ("mu_s", ["friction of sliding balls", "sliding"]),
+    ("mu_r", ["friction of rolling balls", "rolling"]),
+    ("c1", ["growth of mu_r with speed", "fast rolling"]),
+    ("mu_sp", ["how soon side is lost", "loss of side"]),
+    ("tilt.x", ["lean along the table, m/s²", "lean along"]),
+    ("tilt.y", ["lean across it, m/s²", "lean across"]),
+    ("e_ball", ["what balls give back", "ball bounce"]),
+    ("mu_b", ["throw between balls", "throw"]),
+    ("m_end", ["squirt: mass of the cue's end", "squirt"]),
+];
+
 /// A value and its error, with as many decimals as the error has for two digits: others say nothing.
 fn to_the_error(value: f64, error: f64) -> [String; 2] {
     let first = error.abs().log10().floor();
@@ -37,7 +55,7 @@ impl Change {
     }
 
     /// What it means at the table, against what was held of one that is called `before`; `None` where the tests tell next to
-    /// nothing of it, or where a player sees nothing of it.
+    /// nothing of it, where a player sees nothing of it, or where it was held to be nought, of which no share can be told.
     fn meaning(&self, before: &str) -> Option<String> {
         let (what, [less, same, more], is_inverse) = match self.name.as_str() {
             // What resists less lets a ball roll farther, in the same proportion.
@@ -48,8 +66,14 @@ impl Change {
             _ => return None,
         };
         let known = Some(self.known()).filter(|known| *known != NO_BETTER)?;
-        let ratio = if is_inverse { self.before / self.after } else { self.after / self.before };
-        let (change, error) = (100.0 * (ratio - 1.0), 100.0 * (ratio * self.after_deviation / self.after).abs());
+        let (from, to) = if is_inverse { (self.after, self.before) } else { (self.before, self.after) };
+        // Of nought nothing is a share.
+        if from == 0.0 {
+            return None;
+        }
+        let ratio = to / from;
+        let spread = self.after_deviation / from * if is_inverse { ratio } else { 1.0 };
+        let (change, error) = (100.0 * (ratio - 1.0), 100.0 * spread.abs());
         let number = |share: f64| if share < 0.95 { format!("{share:.1}") } else { format!("{share:.0}") };
         let end = format!("on {before} (± {} %), known {known}", number(error));
         Some(match change {
@@ -61,25 +85,15 @@ impl Change {
 
     /// What the constant is, in twelve characters at most; nothing of one that no test measures.
     pub fn short_words(&self) -> String {
-        let words = match (self.of_a_rail(), self.name.as_str()) {
-            (Some((rail, own)), _) => return format!("{} {}", side(rail), if own == "e" { "bounce" } else { "grip" }),
-            (None, "e_rail") => "rail bounce",
-            (None, "mu_rail") => "rail grip",
-            (None, "rail.height") => "rail height",
-            (None, "rail.kappa") => "rail give",
-            (None, "rail.fade.slope") => "fast bounce",
-            (None, "mu_s") => "sliding",
-            (None, "mu_r") => "rolling",
-            (None, "c1") => "fast rolling",
-            (None, "mu_sp") => "loss of side",
-            (None, "tilt.x") => "lean along",
-            (None, "tilt.y") => "lean across",
-            (None, "e_ball") => "ball bounce",
-            (None, "mu_b") => "throw",
-            (None, "m_end") => "squirt",
-            (None, _) => "",
-        };
-        words.to_owned()
+        match self.of_a_rail() {
+            Some((rail, own)) => format!("{} {}", side(rail), if own == "e" { "bounce" } else { "grip" }),
+            None => self.of_the_table()[1].to_owned(),
+        }
+    }
+
+    /// What is said of it in [`CONSTANTS`]; nothing where it is not among them.
+    fn of_the_table(&self) -> [&'static str; 2] {
+        CONSTANTS.iter().find(|(name, _)| *name == self.name).map_or([""; 2], |(_, words)| *words)
     }
 
     /// The rail whose own constant it is, and which of the two: `e` or `mu`.
@@ -92,28 +106,10 @@ impl Change {
     /// What the constant is.
     pub fn words(&self) -> String {
         match self.of_a_rail() {
-            Some((rail, "e")) => return format!("what {} gives back", whose(rail)),
-            Some((rail, _)) => return format!("grip of {}", whose(rail)),
-            None => {}
+            Some((rail, "e")) => format!("what {} gives back", whose(rail)),
+            Some((rail, _)) => format!("grip of {}", whose(rail)),
+            None => self.of_the_table()[0].to_owned(),
         }
-        let words = match self.name.as_str() {
-            "e_rail" => "what rails give back",
-            "mu_rail" => "grip of the rails",
-            "rail.height" => "height of the rubber, m",
-            "rail.kappa" => "how the rubber yields",
-            "rail.fade.slope" => "loss of fast balls at rails",
-            "mu_s" => "friction of sliding balls",
-            "mu_r" => "friction of rolling balls",
-            "c1" => "growth of mu_r with speed",
-            "mu_sp" => "how soon side is lost",
-            "tilt.x" => "lean along the table, m/s²",
-            "tilt.y" => "lean across it, m/s²",
-            "e_ball" => "what balls give back",
-            "mu_b" => "throw between balls",
-            "m_end" => "squirt: mass of the cue's end",
-            _ => "",
-        };
-        words.to_owned()
     }
 }
 
@@ -144,7 +140,7 @@ impl Verdict {
         let unit = Test::named(test)
             .and_then(|test| test.marks.iter().find(|one| one.name == *mark))
             .map_or_else(String::new, |mark| format!(" {}", mark.unit().sign()));
-        let after = |rails: usize| format!(" after {rails} rails");
+        let after = |rails: usize| format!(" after {rails} {}", if rails == 1 { "rail" } else { "rails" });
         let [met, wanted] = match rails {
             Some((met, wanted)) if met != wanted => [after(*met), after(*wanted)],
             _ => [String::new(), String::new()],
@@ -267,6 +263,35 @@ mod tests {
             "the rails grip 20 % less than on match (± 8 %), known well"
         );
         assert_eq!((told("mu_r", 0.005, 0.00095), told("tilt.x", 0.1, 0.0001)), (None, None));
+    }
+
+    #[test]
+    fn what_begins_or_ends_at_nought_is_told_without_shares_of_nothing() {
+        let change = |name: &str, before: f64, after: f64| {
+            let name = name.to_owned();
+            Change { name, before, before_deviation: 0.1, after, after_deviation: 0.02 }.meaning("match")
+        };
+        assert_eq!((change("mu_rail", 0.0, 0.1), change("mu_r", 0.1, 0.0)), (None, None));
+        assert_eq!(
+            change("mu_rail", 0.2, 0.0).unwrap(),
+            "the rails grip 100 % less than on match (± 10 %), known well"
+        );
+    }
+
+    #[test]
+    fn one_rail_is_no_plural() {
+        let verdict = Verdict {
+            trial: 1,
+            test: "slow-roll",
+            mark: "stop",
+            marked: 5.0,
+            off: 9.0,
+            misread: true,
+            expected: Some((6.0, 0.1)),
+            rails: Some((1, 0)),
+        };
+        let said = verdict.doubtful("slow-roll");
+        assert!(said.contains("5.0 diamonds after 1 rail, expected 6.0 ± 0.1 after 0 rails"), "{said}");
     }
 
     #[test]
