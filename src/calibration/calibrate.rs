@@ -5,13 +5,16 @@ use serde::Serialize;
 use super::{
     belief::Belief,
     estimate::{Estimate, Trial, estimate, off},
-    forward::{Hand, STROKE},
+    forward::STROKE,
     information::information,
     protocol::{PROTOCOL, Quantity, Test},
     rails::told_apart,
     robust::misread,
 };
-use crate::table::{DoubtError, Table, TableDoubt, TableError};
+use crate::{
+    statistics::identity,
+    table::{DoubtError, Table, TableDoubt, TableError},
+};
 
 /// Most trials: the time that the fit takes grows with their cube.
 const MOST: usize = 60;
@@ -111,7 +114,7 @@ pub enum CalibrationError {
     /// More strokes than are fitted in a reasonable time.
     #[error("there are {0} trials; accepted are at most {MOST}, three times as many as are asked for")]
     TooMany(usize),
-    /// The table is certain, or its doubt cannot be.
+    /// The table is certain.
     #[error(
         "the table \"{0}\" has no constant in doubt that a calibration could find; use match or a table file of your own"
     )]
@@ -145,12 +148,11 @@ pub fn calibrate(
         return Err(CalibrationError::TooMany(trials.len()));
     }
     let (numbers, trials): (Vec<usize>, Vec<Trial>) = trials.iter().cloned().unzip();
-    let hand = Hand::ASSUMED;
-    let (belief, found) = fit(table, doubt, &hand, &trials)?;
+    let (belief, found) = fit(table, doubt, &trials)?;
     let fitted = belief.table(&found.likely);
     let (mut verdicts, mut kept, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
     for (index, trial) in trials.iter().enumerate() {
-        let all = off(&fitted, &hand, trial, &found.strokes[index]);
+        let all = off(&fitted, trial, &found.strokes[index]);
         // Where most marks of a stroke are wrong, it was another stroke, and the others say nothing.
         if 2 * all.iter().filter(|off| misread(**off) > 0.5).count() > all.len() {
             left_out.push(numbers[index] + 1);
@@ -160,7 +162,7 @@ pub fn calibrate(
         for (reading, off) in trial.readings.iter().zip(all) {
             let mark = &trial.test.marks[reading.mark];
             let is_misread = misread(off) > 0.5;
-            let expected = is_misread.then(|| found.expected(&belief, &hand, &trials, index, reading.mark)).flatten();
+            let expected = is_misread.then(|| found.expected(&belief, &trials, index, reading.mark)).flatten();
             let is_stop = matches!(mark.quantity, Quantity::StopAlong(_));
             let place = |way: f64| if is_stop { trial.test.place(table, way) } else { (0, way) };
             let (rails, marked) = place(reading.value);
@@ -181,7 +183,7 @@ pub fn calibrate(
         let far = stroke.iter().zip(STROKES).filter(|(off, _)| off.abs() > FAR);
         strange.extend(far.map(|(off, what)| Strange { trial: number + 1, test: trial.test.name, what, off: *off }));
     }
-    let (belief, found) = if left_out.is_empty() { (belief, found) } else { fit(table, doubt, &hand, &kept)? };
+    let (belief, found) = if left_out.is_empty() { (belief, found) } else { fit(table, doubt, &kept)? };
     let covariance = belief.covariance(&found.covariance);
     let doubt = Some(belief.doubt(&covariance));
     let after = Table { name: name.to_owned(), doubt, ..belief.table(&found.unknowns) };
@@ -199,17 +201,12 @@ pub fn calibrate(
 }
 
 /// The belief about the table and its estimate from the trials; a rail that differs from the others gets constants of its own.
-fn fit(
-    table: &Table,
-    doubt: &TableDoubt,
-    hand: &Hand,
-    trials: &[Trial],
-) -> Result<(Belief, Estimate), CalibrationError> {
-    if let Some(apart) = told_apart(table, doubt, hand, trials)? {
+fn fit(table: &Table, doubt: &TableDoubt, trials: &[Trial]) -> Result<(Belief, Estimate), CalibrationError> {
+    if let Some(apart) = told_apart(table, doubt, trials)? {
         return Ok(apart);
     }
     let belief = Belief::new(table, doubt)?;
-    let found = estimate(&belief, hand, trials);
+    let found = estimate(&belief, trials);
     Ok((belief, found))
 }
 
@@ -229,15 +226,11 @@ pub fn prospects(table: &Table, doubt: &TableDoubt) -> Result<Vec<Next>, Calibra
     if count == 0 {
         return Err(CalibrationError::Certain(table.name.clone()));
     }
-    let unit = |row: usize| (0..count).map(|column| f64::from(u8::from(row == column))).collect();
-    Ok(next(&belief, &vec![0.0; count], &(0..count).map(unit).collect::<Vec<_>>()))
+    Ok(next(&belief, &vec![0.0; count], &identity(count)))
 }
 
 fn next(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>]) -> Vec<Next> {
-    let bits = |test: &'static Test| Next {
-        test: test.name,
-        bits: information(belief, &Hand::ASSUMED, unknowns, covariance, test),
-    };
+    let bits = |test: &'static Test| Next { test: test.name, bits: information(belief, unknowns, covariance, test) };
     let mut next: Vec<Next> = PROTOCOL.iter().map(bits).collect();
     next.sort_by(|one, other| other.bits.total_cmp(&one.bits));
     next

@@ -1,7 +1,7 @@
 //! From day to day: what changes with the weather, and whether the table plays shorter or longer than yesterday.
 
 use super::{
-    forward::{Hand, STROKE, marks},
+    forward::{Hand, STROKE},
     protocol::Test,
 };
 use crate::table::{Rail, Table, TableDoubt};
@@ -70,9 +70,8 @@ impl Play {
     pub fn of(table: &Table) -> Self {
         let mark = |test: &str, mark: &str| {
             let test = Test::named(test)?;
-            let (cue, layout) = Hand::ASSUMED.stroke(table, test, &[0.0; STROKE]);
             let index = test.marks.iter().position(|one| one.name == mark)?;
-            marks(table, test, &cue, &layout)[index]
+            Hand::ASSUMED.seen(table, test, false, &[0.0; STROKE])[index]
         };
         let [lag, corner] = DAILY;
         // On a table on which the ball never comes there it has no way.

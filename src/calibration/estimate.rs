@@ -10,7 +10,7 @@ use super::{
     robust::{NEVER, soften},
 };
 use crate::{
-    statistics::{Minimum, Problem, cholesky, minimize, normal_matrix, solve},
+    statistics::{Minimum, Problem, half_log_determinant, identity, minimize, normal_matrix, solve},
     table::Table,
 };
 
@@ -77,16 +77,14 @@ pub struct Estimate {
 impl Estimate {
     /// The distribution around the likeliest of some minima, and around others as far as they are likely: each has the weight of its
     /// normal distribution (Laplace), and what all have together is told by its means and its covariance.
-    fn of(belief: &Belief, hand: &Hand, trials: &[Trial], minima: &[Minimum]) -> Option<Self> {
+    fn of(belief: &Belief, trials: &[Trial], minima: &[Minimum]) -> Option<Self> {
         let count = belief.count();
-        let mut problem = Joint { belief, hand, trials, unsure: 1.0 };
+        let mut problem = Joint { belief, trials, unsure: 1.0 };
         let valley = |found: &Minimum| {
             let mut residuals = Vec::new();
             problem.residuals(&found.parameters, &mut residuals);
             let normal = normal_matrix(&problem.derivatives(&found.parameters, &residuals));
-            let half_determinant: f64 =
-                cholesky(&normal, 0.0).ok()?.iter().filter_map(|line| line.last()).map(|entry| entry.ln()).sum();
-            Some((-0.5 * found.squares - half_determinant, normal))
+            Some((-0.5 * found.squares - half_log_determinant(&normal)?, normal))
         };
         let valleys: Vec<Option<(f64, Vec<Vec<f64>>)>> = minima.iter().map(valley).collect();
         let evidence = |valley: &Option<(f64, Vec<Vec<f64>>)>| valley.as_ref().map_or(f64::NEG_INFINITY, |one| one.0);
@@ -98,7 +96,7 @@ impl Estimate {
             let weight = (evidence(valley) - highest).exp();
             if let Some((_, normal)) = valley.as_ref().filter(|_| weight >= LEAST) {
                 let first = Posterior { mean: found.parameters.clone(), normal: normal.clone() };
-                let (mean, covariance) = first.settled(belief, hand, trials).of_the_first(count);
+                let (mean, covariance) = first.settled(belief, trials).of_the_first(count);
                 mixture.add(weight, &mean, &covariance);
             }
         }
@@ -110,17 +108,10 @@ impl Estimate {
     }
 
     /// What is expected of a mark, with its deviation: the mark itself has a say in it only as far as it is believed.
-    pub fn expected(
-        &self,
-        belief: &Belief,
-        hand: &Hand,
-        trials: &[Trial],
-        trial: usize,
-        mark: usize,
-    ) -> Option<(f64, f64)> {
+    pub fn expected(&self, belief: &Belief, trials: &[Trial], trial: usize, mark: usize) -> Option<(f64, f64)> {
         let Trial { test, is_turned, .. } = trials[trial];
         let seen = |unknowns: &[f64], stroke: &[f64; STROKE]| {
-            hand.seen(&belief.table(unknowns), test, is_turned, stroke)[mark]
+            Hand::ASSUMED.seen(&belief.table(unknowns), test, is_turned, stroke)[mark]
         };
         let stroke = self.strokes[trial];
         let at = seen(&self.likely, &stroke)?;
@@ -141,33 +132,29 @@ impl Estimate {
 }
 
 /// Fits constants and strokes to the trials.
-pub fn estimate(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Estimate {
-    let minima = descend(belief, hand, trials);
-    Estimate::of(belief, hand, trials, &minima).unwrap_or_else(|| {
+pub fn estimate(belief: &Belief, trials: &[Trial]) -> Estimate {
+    let minima = descend(belief, trials);
+    Estimate::of(belief, trials, &minima).unwrap_or_else(|| {
         // Where no minimum has a width, nothing is told: all is as it was held to be before.
         let (count, all) = (belief.count(), belief.count() + STROKE * trials.len());
-        let unit = |size: usize| -> Vec<Vec<f64>> {
-            (0..size).map(|row| (0..size).map(|column| f64::from(u8::from(row == column))).collect()).collect()
-        };
         let nought = vec![0.0; count];
         Estimate {
             unknowns: nought.clone(),
-            covariance: unit(count),
+            covariance: identity(count),
             likely: nought,
             strokes: vec![[0.0; STROKE]; trials.len()],
-            normal: unit(all),
+            normal: identity(all),
         }
     })
 }
 
 /// The different minima that are found from what was held of the table before, the lowest first.
-fn descend(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Vec<Minimum> {
+fn descend(belief: &Belief, trials: &[Trial]) -> Vec<Minimum> {
     let nought = vec![0.0; belief.count()];
     let (name, places) = VALLEYS;
     let others = places.into_iter().filter_map(|place| belief.unknowns_at(name, place));
     let starts = FIRST.map(|first| (nought.clone(), first)).into_iter().chain(others.map(|start| (start, FIRST[0])));
-    let mut found: Vec<Minimum> =
-        starts.map(|(start, first)| descend_from(belief, hand, trials, start, first)).collect();
+    let mut found: Vec<Minimum> = starts.map(|(start, first)| descend_from(belief, trials, start, first)).collect();
     found.sort_by(|one, other| one.squares.total_cmp(&other.squares));
     let mut minima: Vec<Minimum> = Vec::new();
     for minimum in found {
@@ -183,15 +170,16 @@ fn descend(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Vec<Minimum> {
 }
 
 /// The minimum that is found from these unknowns of the table with marks that are taken to be so many times as unsure at first.
-fn descend_from(belief: &Belief, hand: &Hand, trials: &[Trial], mut start: Vec<f64>, first: f64) -> Minimum {
-    let mut problem = Joint { belief, hand, trials, unsure: first };
+fn descend_from(belief: &Belief, trials: &[Trial], mut start: Vec<f64>, first: f64) -> Minimum {
+    let mut problem = Joint { belief, trials, unsure: first };
     let table = belief.table(&start);
     start.extend(trials.iter().flat_map(|trial| {
         let squares = |speed: f64| -> f64 {
             let stroke = [speed, 0.0, 0.0, 0.0, 0.0, 0.0];
             problem.misses(&table, trial, &stroke).map(|miss| miss * miss).sum::<f64>() + speed * speed
         };
-        let best = SPEEDS.into_iter().min_by(|a, b| squares(*a).total_cmp(&squares(*b))).unwrap_or_default();
+        let tried = SPEEDS.map(|speed| (squares(speed), speed));
+        let (_, best) = tried.into_iter().min_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or_default();
         [best, 0.0, 0.0, 0.0, 0.0, 0.0]
     }));
     let first = minimize(&start, ROUNDS, &mut problem);
@@ -202,7 +190,6 @@ fn descend_from(belief: &Belief, hand: &Hand, trials: &[Trial], mut start: Vec<f
 /// Constants and strokes at once: first the constants' unknowns, then those of each trial's stroke.
 struct Joint<'a> {
     belief: &'a Belief,
-    hand: &'a Hand,
     trials: &'a [Trial],
     unsure: f64,
 }
@@ -210,7 +197,7 @@ struct Joint<'a> {
 impl Joint<'_> {
     /// How far the marks of a trial are off with this stroke, softened.
     fn misses(&self, table: &Table, trial: &Trial, stroke: &[f64; STROKE]) -> impl Iterator<Item = f64> {
-        off(table, self.hand, trial, stroke).into_iter().map(|off| soften(off / self.unsure))
+        off(table, trial, stroke).into_iter().map(|off| soften(off / self.unsure))
     }
 
     fn stroke(&self, parameters: &[f64], trial: usize) -> [f64; STROKE] {
@@ -269,15 +256,15 @@ impl Problem for Joint<'_> {
 }
 
 /// How far the marks of a trial are off with this stroke, in their standard errors.
-pub fn off(table: &Table, hand: &Hand, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<f64> {
-    let expected = expected(table, hand, trial, stroke);
+pub fn off(table: &Table, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<f64> {
+    let expected = expected(table, trial, stroke);
     let off =
         |(reading, mark): (&Reading, Option<f64>)| mark.map_or(NEVER, |mark| (mark - reading.value) / reading.sure);
     trial.readings.iter().zip(expected).map(off).collect()
 }
 
 /// What the marks of a trial are with this stroke, reading by reading.
-pub fn expected(table: &Table, hand: &Hand, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<Option<f64>> {
-    let seen = hand.seen(table, trial.test, trial.is_turned, stroke);
+pub fn expected(table: &Table, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<Option<f64>> {
+    let seen = Hand::ASSUMED.seen(table, trial.test, trial.is_turned, stroke);
     trial.readings.iter().map(|reading| seen[reading.mark]).collect()
 }

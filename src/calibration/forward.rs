@@ -97,7 +97,7 @@ impl Observer for Seen {
 }
 
 /// What the marks of `test` are after this stroke, in their units; `None` where the ball never comes to what is marked.
-pub fn marks(table: &Table, test: &Test, cue: &CueInputs, layout: &Layout) -> Vec<Option<f64>> {
+fn marks(table: &Table, test: &Test, cue: &CueInputs, layout: &Layout) -> Vec<Option<f64>> {
     let mut seen = Seen { rails: Default::default(), short: [0; BALLS], places: layout.balls, stops: [0.0; BALLS] };
     watch(table, layout, &strike(table, cue), &mut seen);
     let diamonds = |place: DVec2| (place + 0.5 * DVec2::new(table.length, table.width)) / table.diamond();

@@ -1,21 +1,21 @@
 //! What another stroke of a test is expected to tell: by how much the constants' entropy falls, from the linearized model.
 
+use std::f64::consts::LN_2;
+
 use super::{
     belief::Belief,
-    forward::{Hand, STROKE, marks},
+    forward::{Hand, STROKE},
     protocol::Test,
 };
+use crate::statistics::half_log_determinant;
 
 /// Where derivatives are taken, in deviations.
 const STEP: f64 = 0.02;
 
 /// Bits that a stroke of `test` is expected to tell of the constants whose unknowns are `unknowns` with this covariance.
-pub fn information(belief: &Belief, hand: &Hand, unknowns: &[f64], covariance: &[Vec<f64>], test: &Test) -> f64 {
-    let seen = |unknowns: &[f64], stroke: &[f64; STROKE]| {
-        let table = belief.table(unknowns);
-        let (cue, layout) = hand.stroke(&table, test, stroke);
-        marks(&table, test, &cue, &layout)
-    };
+pub fn information(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>], test: &Test) -> f64 {
+    let seen =
+        |unknowns: &[f64], stroke: &[f64; STROKE]| Hand::ASSUMED.seen(&belief.table(unknowns), test, false, stroke);
     let still = [0.0; STROKE];
     let at = seen(unknowns, &still);
     let told: Vec<usize> = (0..at.len()).filter(|mark| at[*mark].is_some()).collect();
@@ -53,20 +53,6 @@ pub fn information(belief: &Belief, hand: &Hand, unknowns: &[f64], covariance: &
             all[row][other] = noise[row][other] + spread.sum::<f64>();
         }
     }
-    (0.5 * (log_determinant(all) - log_determinant(noise)) / std::f64::consts::LN_2).max(0.0)
-}
-
-/// Of a positive definite matrix, by elimination.
-fn log_determinant(mut matrix: Vec<Vec<f64>>) -> f64 {
-    let mut sum = 0.0;
-    for column in 0..matrix.len() {
-        let pivot = matrix[column][column];
-        sum += pivot.max(f64::MIN_POSITIVE).ln();
-        let (above, below) = matrix.split_at_mut(column + 1);
-        for line in below {
-            let factor = line[column] / pivot;
-            line.iter_mut().zip(&above[column]).for_each(|(entry, upper)| *entry -= factor * upper);
-        }
-    }
-    sum
+    let nats = half_log_determinant(&all).zip(half_log_determinant(&noise)).map_or(0.0, |(all, noise)| all - noise);
+    (nats / LN_2).max(0.0)
 }

@@ -9,10 +9,10 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     belief::Belief,
     estimate::{Trial, expected},
-    forward::{Hand, STROKE},
+    forward::STROKE,
     robust::weight,
 };
-use crate::statistics::{cholesky, dot, inverse, normal_pair, solve, undo};
+use crate::statistics::{cholesky, dot, identity, inverse, normal_pair, solve, undo};
 
 /// Width of the differences in standard deviations: that of a quadrature that is exact for polynomials of the fifth degree.
 const WIDTH: f64 = 1.732_050_807_568_877_2;
@@ -51,10 +51,10 @@ impl Posterior {
 
     /// Goes on from the most likely place until the distribution agrees with the marks as they are over its width; stays
     /// there where that leads nowhere.
-    pub fn settled(self, belief: &Belief, hand: &Hand, trials: &[Trial]) -> Self {
+    pub fn settled(self, belief: &Belief, trials: &[Trial]) -> Self {
         let mut now = self.clone();
         for _ in 0..ROUNDS {
-            let Some(next) = now.next(belief, hand, trials) else { return self };
+            let Some(next) = now.next(belief, trials) else { return self };
             let change = now.mean.iter().zip(&next.mean).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
             now = next;
             if change < SETTLED {
@@ -65,12 +65,11 @@ impl Posterior {
     }
 
     /// One round; `None` where its numbers come to nothing.
-    fn next(&self, belief: &Belief, hand: &Hand, trials: &[Trial]) -> Option<Self> {
+    fn next(&self, belief: &Belief, trials: &[Trial]) -> Option<Self> {
         let (constants, size) = (belief.count(), self.mean.len());
         let covariance = inverse(&self.normal)?;
         // What is held before the trials: independent numbers with deviation 1.
-        let mut normal: Vec<Vec<f64>> =
-            (0..size).map(|row| (0..size).map(|column| f64::from(u8::from(row == column))).collect()).collect();
+        let mut normal = identity(size);
         let mut right = vec![0.0; size];
         for (number, trial) in trials.iter().enumerate() {
             let first = constants + number * STROKE;
@@ -78,7 +77,7 @@ impl Posterior {
             let mean: Vec<f64> = own.iter().map(|index| self.mean[*index]).collect();
             let part = |row: &usize| own.iter().map(|column| covariance[*row][*column]).collect();
             let factor = cholesky(&own.iter().map(part).collect::<Vec<_>>(), 0.0).ok()?;
-            let line = Line::of(belief, hand, trial, &mean, &factor);
+            let line = Line::of(belief, trial, &mean, &factor);
             let count = line.told.len();
             let noise: Vec<Vec<f64>> = (0..count)
                 .map(|row| {
@@ -123,12 +122,12 @@ struct Line {
 }
 
 impl Line {
-    fn of(belief: &Belief, hand: &Hand, trial: &Trial, mean: &[f64], factor: &[Vec<f64>]) -> Self {
+    fn of(belief: &Belief, trial: &Trial, mean: &[f64], factor: &[Vec<f64>]) -> Self {
         let size = mean.len();
         let seen = |place: &[f64]| {
             let (unknowns, stroke) = place.split_at(belief.count());
             let stroke: [f64; STROKE] = std::array::from_fn(|index| stroke[index]);
-            expected(&belief.table(unknowns), hand, trial, &stroke)
+            expected(&belief.table(unknowns), trial, &stroke)
         };
         let place = |numbers: &[f64]| -> Vec<f64> {
             mean.iter().zip(factor).map(|(mean, line)| mean + dot(line, numbers)).collect()

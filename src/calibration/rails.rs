@@ -3,7 +3,6 @@
 use super::{
     belief::Belief,
     estimate::{Estimate, Trial, estimate},
-    forward::Hand,
 };
 use crate::table::{DoubtError, OneRail, Rail, Table, TableDoubt};
 
@@ -69,7 +68,6 @@ fn deviations(difference: f64, variance: f64, differ: f64) -> f64 {
 pub fn told_apart(
     table: &Table,
     doubt: &TableDoubt,
-    hand: &Hand,
     trials: &[Trial],
 ) -> Result<Option<(Belief, Estimate)>, DoubtError> {
     let is_both = trials.iter().any(|trial| trial.is_turned) && trials.iter().any(|trial| !trial.is_turned);
@@ -78,7 +76,7 @@ pub fn told_apart(
         return Ok(None);
     }
     let belief = with_own(table, doubt, &Rail::ALL, 1.0)?;
-    let found = estimate(&belief, hand, trials);
+    let found = estimate(&belief, trials);
     let (values, covariance) = (belief.values(&found.unknowns), belief.covariance(&found.covariance));
     let place = |name: &str| belief.told().position(|(told, ..)| told == name);
     let differs = |rail: &Rail| {
@@ -93,6 +91,6 @@ pub fn told_apart(
         return Ok(None);
     }
     let belief = with_own(table, doubt, &rails, WIDE)?;
-    let found = estimate(&belief, hand, trials);
+    let found = estimate(&belief, trials);
     Ok(Some((belief, found)))
 }

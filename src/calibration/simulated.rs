@@ -8,7 +8,7 @@ use super::{
     belief::Belief,
     calibrate::{CalibrationError, calibrate},
     estimate::{Estimate, Reading, Trial, estimate},
-    forward::{Hand, STROKE, marks},
+    forward::{Hand, STROKE},
     protocol::{PROTOCOL, Quantity, Test},
 };
 use crate::{
@@ -58,7 +58,7 @@ pub fn coverage(table: &Table, doubt: &TableDoubt, count: usize, seed: u64) -> R
     for _ in 0..count {
         let truth = sampler.as_ref().map_or_else(|| table.clone(), |sampler| drawn(sampler, &mut rng));
         let trials = played(&truth, &mut rng);
-        let Estimate { unknowns, covariance, .. } = estimate(&belief, &Hand::ASSUMED, &trials);
+        let Estimate { unknowns, covariance, .. } = estimate(&belief, &trials);
         let (values, covariance) = (belief.values(&unknowns), belief.covariance(&covariance));
         for (index, coverage) in found.iter_mut().enumerate() {
             let error = values[index] - TableDoubt::value(&truth, &coverage.name).unwrap_or_default();
@@ -104,8 +104,7 @@ pub fn played(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Vec<Trial> {
 /// One stroke. Where a mark cannot be made, since the ball has stopped before, it is left out.
 fn trial(table: &Table, test: &'static Test, rng: &mut Xoshiro256PlusPlus) -> Trial {
     let stroke: [f64; STROKE] = std::array::from_fn(|_| normal_pair(rng)[0]);
-    let (cue, layout) = CLUB.stroke(table, test, &stroke);
-    let seen = marks(table, test, &cue, &layout);
+    let seen = CLUB.seen(table, test, false, &stroke);
     let readings = seen.into_iter().zip(test.marks).enumerate().filter_map(|(index, (seen, mark))| {
         let off = mark.sure * normal_pair(rng)[0];
         // To a tenth of a diamond, as it is written down.

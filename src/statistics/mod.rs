@@ -8,4 +8,4 @@ mod symmetric;
 pub use least_squares::{Fit, Minimum, Problem, fit, minimize};
 pub use normal::{normal_pair, quantile};
 pub use success_rate::SuccessRate;
-pub use symmetric::{cholesky, dot, inverse, normal_matrix, solve, undo};
+pub use symmetric::{cholesky, dot, half_log_determinant, identity, inverse, normal_matrix, solve, undo};

@@ -24,6 +24,16 @@ pub fn cholesky(matrix: &[Vec<f64>], least: f64) -> Result<Vec<Vec<f64>>, usize>
     Ok(factor)
 }
 
+/// Half the logarithm of the determinant, by the factor; `None` where the matrix is no covariance.
+pub fn half_log_determinant(matrix: &[Vec<f64>]) -> Option<f64> {
+    Some(cholesky(matrix, 0.0).ok()?.iter().filter_map(|line| line.last()).map(|entry| entry.ln()).sum())
+}
+
+/// The covariance of so many independent numbers with deviation 1.
+pub fn identity(size: usize) -> Vec<Vec<f64>> {
+    (0..size).map(|row| (0..size).map(|column| f64::from(u8::from(row == column))).collect()).collect()
+}
+
 /// The inverse of a covariance; `None` where it is none.
 pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let size = matrix.len();
@@ -114,6 +124,10 @@ mod tests {
         }
         assert_eq!(cholesky(&[vec![1.0, 2.0], vec![2.0, 1.0]], 0.0), Err(1));
         assert_eq!(super::inverse(&[vec![f64::NAN]]), None);
+        let determinant: f64 = 4.0 * (2.0 - 0.09) - 1.2 * (1.2 + 0.18) - 0.6 * (0.36 + 1.2);
+        assert!((2.0 * half_log_determinant(&matrix).unwrap() - determinant.ln()).abs() < 1e-12);
+        assert_eq!(half_log_determinant(&identity(4)), Some(0.0));
+        assert_eq!(half_log_determinant(&[vec![1.0, 2.0], vec![2.0, 1.0]]), None);
     }
 
     #[test]
