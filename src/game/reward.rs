@@ -24,7 +24,7 @@ pub enum Reward {
     /// r1 plus the distance reward of the balls at rest (equation 51).
     #[serde(rename = "r2")]
     R2,
-    /// 1 if the cue ball meets both object balls (equation 52): a straight-rail point.
+    /// 1 if the cue ball meets both object balls (equation 52) and none leaves the table: a straight-rail point.
     #[default]
     #[serde(rename = "r3")]
     R3,
@@ -134,7 +134,7 @@ impl Reward {
         match self {
             Self::R1 | Self::R2 => one(tally.met_any()),
             Self::R1Difficulty => one(tally.met_any()) * 0.5_f64.powf(f64::from(tally.cushions_before_first)),
-            Self::R3 | Self::R4 => one(tally.met_both()),
+            Self::R3 | Self::R4 => one(tally.is_point(Rule::StraightRail)),
             Self::OneCushion => one(tally.is_point(Rule::OneCushion)),
             Self::ThreeCushion => one(tally.is_point(Rule::ThreeCushion)),
         }
@@ -210,6 +210,18 @@ mod tests {
             [Reward::OneCushion, Reward::ThreeCushion].map(|reward| reward.value(&Table::default(), &tally, &layout))
         };
         assert_eq!([0, 1, 2, 3].map(earned), [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
+    }
+
+    #[test]
+    fn a_reward_that_says_whether_a_shot_makes_a_point_knows_fouls() {
+        let layout = Layout::opening(&Table::default());
+        let made = Tally { met: [true; 2], cushions: 3, cushions_before_second: 3, ..Tally::default() };
+        for reward in Reward::ALL.into_iter().filter(|reward| reward.rule().is_some()) {
+            let earned = |tally| reward.value(&Table::default(), &tally, &layout);
+            assert_eq!([earned(made), earned(Tally { left_table: true, ..made })], [1.0, 0.0], "{reward}");
+        }
+        let fouled = Tally { left_table: true, ..made };
+        assert!(Reward::R4.value(&Table::default(), &fouled, &layout) < 1.0, "the distance reward alone");
     }
 
     #[test]
