@@ -53,6 +53,8 @@ pub fn inning(
     rng: &mut Xoshiro256PlusPlus,
     tell: &mut dyn FnMut(&Inning, &Layout),
 ) -> Result<Inning, LayoutError> {
+    // A perfect player has no doubts.
+    let request = &Request { doubt: request.shooter().doubts(), ..request.clone() };
     let mut inning = Inning::default();
     let mut layout = *layout;
     let real =
@@ -91,4 +93,30 @@ fn turn(
     unhurried(table, layout, request.rule, shooter, ENDLESS, &AtomicBool::new(false), |task| {
         end_of(task, cue, Draw { errors, world: Some(world) })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+
+    use super::*;
+    use crate::coach::Skill;
+
+    #[test]
+    fn a_perfect_player_has_no_doubts() {
+        let coach = Coach::without_policy(Table::default());
+        let layout = Layout::opening(coach.table());
+        let [certain, doubtful] = [Doubt::NONE, Doubt::FULL].map(|doubt| {
+            let request =
+                Request { skill: Skill::PERFECT, doubt, budget: Duration::from_secs(60), ..Request::default() };
+            let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+            let until = Instant::now() + Duration::from_secs(600);
+            let mut ends = Vec::new();
+            let mut tell = |_: &Inning, end: &Layout| ends.push(*end);
+            let inning = inning(&coach, &layout, &request, 4, until, &mut rng, &mut tell).unwrap();
+            assert_eq!((inning.points, inning.missed), (4, false));
+            ends
+        });
+        assert_eq!(certain, doubtful);
+    }
 }
