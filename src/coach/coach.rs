@@ -261,8 +261,8 @@ fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Ri
         let skill = if errs { task.skill } else { Skill::PERFECT };
         let draws = Draws::independent(ATTEMPTS_AT_RISK, &worlds, seed);
         let task = Task { worlds: &worlds, skill, ..*task };
-        let attempts = task.all_attempts(cue, draws.iter(), ATTEMPTS_AT_RISK)?;
-        Some(1.0 - attempts.made as f64 / ATTEMPTS_AT_RISK as f64)
+        let Attempts { tried, made } = task.attempts(cue, draws.iter());
+        (tried == ATTEMPTS_AT_RISK).then(|| 1.0 - made as f64 / ATTEMPTS_AT_RISK as f64)
     });
     let [hand, table, placing] = missed[..] else { return None };
     Some(Risk { hand: hand?, table: table?, placing: placing? })
@@ -293,7 +293,7 @@ fn keep_one_of_each(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
 /// The answer for a player without errors, or where no shot was found.
 fn first_point(found: &Found) -> Recommendation {
     let mut seen = Vec::new();
-    let others = found.solutions.iter().map(|(shot, course)| (shot, Kind::of(course, &shot.cue)));
+    let others = found.solutions.iter().map(|(shot, tally)| (shot, Kind::of(tally, &shot.cue)));
     let others = others.filter(|(_, kind)| {
         let is_new = !seen.contains(kind);
         seen.push(*kind);
@@ -307,7 +307,7 @@ fn first_point(found: &Found) -> Recommendation {
         cue: shot.cue,
         solved: first.is_some(),
         source: shot.source,
-        kind: first.map(|(shot, course)| Kind::of(course, &shot.cue)),
+        kind: first.map(|(shot, tally)| Kind::of(tally, &shot.cue)),
         make_probability: first.map(|_| certain),
         risk: None,
         next_probability: None,

@@ -7,7 +7,7 @@ use super::{
     Source, Suggestion,
     candidates::{TIP_SHARE, anything, variation},
     elevated::raised,
-    trial::{CONTACT_STEPS, Course, ENDLESS, Task},
+    trial::{CONTACT_STEPS, ENDLESS, Task},
 };
 use crate::{
     game::{Rule, Tally},
@@ -39,8 +39,8 @@ type Merit = (u32, u32);
 
 /// What was found: shots that make the point, the policy's favourites first, and the best attempt where there are none.
 pub struct Found {
-    /// Shots that make the point with their courses.
-    pub solutions: Vec<(Suggestion, Course)>,
+    /// Shots that make the point, with what the cue ball does in them.
+    pub solutions: Vec<(Suggestion, Tally)>,
     /// The best of those that do not.
     pub attempt: Suggestion,
 }
@@ -49,7 +49,7 @@ pub struct Found {
 pub struct Attempt<'a> {
     task: Task<'a>,
     best: Option<(Merit, Suggestion)>,
-    solutions: Vec<(Suggestion, Course)>,
+    solutions: Vec<(Suggestion, Tally)>,
 }
 
 impl<'a> Attempt<'a> {
@@ -118,12 +118,12 @@ impl<'a> Attempt<'a> {
             _ => HASTE,
         };
         // A shot that took too long has at least been thought of.
-        let course = Task { patience, ..self.task }.play(&cue).unwrap_or_default();
+        let tally = Task { patience, ..self.task }.play(&cue).unwrap_or_default();
         let suggestion = Suggestion { cue, source };
-        if self.task.suits(&cue, &course) {
-            self.solutions.push((suggestion, course));
-        } else if !self.task.point().is_made(&course.tally) && self.task.first.allows(&course) {
-            let merit = merit(&course.tally, self.task.rule);
+        if self.task.suits(&cue, &tally) {
+            self.solutions.push((suggestion, tally));
+        } else if !self.task.point().is_made(&tally) && self.task.first.allows(&tally) {
+            let merit = merit(&tally, self.task.rule);
             if self.best.is_none_or(|(best, _)| merit > best) && self.task.allows(&cue) {
                 self.best = Some((merit, suggestion));
             }

@@ -2,8 +2,10 @@
 
 use std::str::FromStr;
 
-use super::trial::Course;
-use crate::table::{BALL_NAMES, BALLS};
+use crate::{
+    game::Tally,
+    table::{BALL_NAMES, BALLS},
+};
 
 /// What the cue ball is to meet first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,9 +57,9 @@ impl FirstMet {
         said.ok_or_else(|| UnknownFirstMet { word: word.to_owned(), names })
     }
 
-    /// Whether a shot that takes this course begins so.
-    pub fn allows(self, course: &Course) -> bool {
-        let met = if course.tally.cushions_before_first > 0 { Self::Cushion } else { Self::of_ball(course.first) };
+    /// Whether a shot in which the cue ball did this begins so.
+    pub fn allows(self, tally: &Tally) -> bool {
+        let met = if tally.cushions_before_first > 0 { Self::Cushion } else { Self::of_ball(tally.first_ball()) };
         self == Self::Any || self == met
     }
 
@@ -82,17 +84,17 @@ impl FromStr for FirstMet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::game::Tally;
 
     #[test]
-    fn a_course_begins_with_a_cushion_or_a_ball() {
-        let course =
-            |cushions, first| Course { tally: Tally { cushions_before_first: cushions, ..Tally::default() }, first };
-        let allowed = |course: Course| FirstMet::ALL.map(|first| first.allows(&course));
-        assert_eq!(allowed(course(0, Some(1))), [true, true, false, false]);
-        assert_eq!(allowed(course(0, Some(2))), [true, false, true, false]);
-        assert_eq!(allowed(course(2, Some(2))), [true, false, false, true]);
-        assert_eq!(allowed(course(0, None)), [true, false, false, false]);
+    fn a_shot_begins_with_a_cushion_or_a_ball() {
+        let allowed = |cushions_before_first, met: [bool; 2]| {
+            let tally = Tally { met, red_first: met[1], cushions_before_first, ..Tally::default() };
+            FirstMet::ALL.map(|first| first.allows(&tally))
+        };
+        assert_eq!(allowed(0, [true, false]), [true, true, false, false]);
+        assert_eq!(allowed(0, [false, true]), [true, false, true, false]);
+        assert_eq!(allowed(2, [false, true]), [true, false, false, true]);
+        assert_eq!(allowed(0, [false, false]), [true, false, false, false]);
     }
 
     #[test]

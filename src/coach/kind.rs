@@ -6,15 +6,15 @@ use serde::Serialize;
 
 use super::{
     candidates::MAX_ELEVATION,
-    trial::Course,
     words::{LengthUnit, short},
 };
 use crate::{
+    game::Tally,
     physics::CueInputs,
     table::{BALL_NAMES, BALLS},
 };
 
-/// Strokes from this speed on are of the harder kind, m/s. A ball struck so in its middle runs 7.3 to 8.4 m along a
+/// Strokes from this speed on are of the harder kind, m/s. A ball struck so in its centre runs 7.3 to 8.4 m along a
 /// `match` table, between two and a half and three lengths.
 const HARD: f64 = 2.5;
 
@@ -60,16 +60,16 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// The kind of a shot that took this course.
-    pub fn of(course: &Course, cue: &CueInputs) -> Self {
-        let way = match course.tally.cushions_before_second {
+    /// The kind of a shot in which the cue ball did this.
+    pub fn of(tally: &Tally, cue: &CueInputs) -> Self {
+        let way = match tally.cushions_before_second {
             0 => Way::Direct,
             cushions if cushions < AROUND => Way::OffCushion,
             _ => Way::AroundTheTable,
         };
         Self {
-            first_ball: course.first.unwrap_or(0),
-            cushion_first: course.tally.cushions_before_first > 0,
+            first_ball: tally.first_ball().unwrap_or(0),
+            cushion_first: tally.cushions_before_first > 0,
             way,
             pace: if cue.speed < HARD { Pace::Soft } else { Pace::Hard },
             raised: cue.theta > MAX_ELEVATION,

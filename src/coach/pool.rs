@@ -10,7 +10,7 @@ use super::{
     next::{NextValue, next_value},
     trial::{Course, Task},
 };
-use crate::{physics::CueInputs, player::errors::Errors};
+use crate::{game::Tally, physics::CueInputs, player::errors::Errors};
 
 /// What a point under the larger errors is worth against one under the player's own.
 const WORTH_OF_LARGER: f64 = 0.3;
@@ -128,23 +128,23 @@ impl Candidate {
     /// level one is better, by `weight`.
     pub fn new(task: &Task, cue: CueInputs, source: Source, weight: f64) -> Option<Self> {
         let cue = task.playable(&cue)?;
-        let course = task.play(&cue)?;
+        let tally = task.play(&cue)?;
         task.clock.count(1);
-        task.suits(&cue, &course).then(|| Self::of(Suggestion { cue, source }, &course, weight))
+        task.suits(&cue, &tally).then(|| Self::of(Suggestion { cue, source }, &tally, weight))
     }
 
-    /// A shot that makes the point in this course.
-    pub fn of(shot: Suggestion, course: &Course, weight: f64) -> Self {
+    /// A shot that makes the point, in which the cue ball did this.
+    pub fn of(shot: Suggestion, tally: &Tally, weight: f64) -> Self {
         let cue = &shot.cue;
         Self {
             shot,
-            kind: Kind::of(course, cue),
+            kind: Kind::of(tally, cue),
             tried: 0,
             points: 0,
             own: Rate::default(),
             larger: Rate::default(),
             next: NextValue::Supposed(1.0),
-            effort_penalty: weight * effort(cue) + if course.tally.met_again { AGAIN } else { 0.0 },
+            effort_penalty: weight * effort(cue) + if tally.met_again { AGAIN } else { 0.0 },
         }
     }
 
@@ -171,11 +171,6 @@ pub fn suppose_the_worst<'c>(candidates: impl Iterator<Item = &'c mut Candidate>
     }
 }
 
-/// The best first; equals stay in their order.
-fn sort(candidates: &mut [Candidate]) {
-    candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
-}
-
 /// Share of the best one's score that a jump or a massé needs to be kept for its kind's sake: usual shots of all kinds are followed,
 /// for they may still get better; these cost as much, and hardly ever lead.
 const NEAR: f64 = 0.8;
@@ -183,7 +178,7 @@ const NEAR: f64 = 0.8;
 /// Sorts the best first, and keeps the first `best`, the first `of_each` of every kind, and what was advised before, which a few
 /// unlucky attempts must not drop. Equals stay in their order.
 pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
-    sort(candidates);
+    candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
     let mut seen: Vec<(Kind, usize)> = Vec::new();
     let mut place = 0;
     let bar = candidates.first().map_or(0.0, |best| NEAR * best.score());

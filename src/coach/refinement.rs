@@ -256,15 +256,10 @@ mod tests {
     use super::*;
     use crate::{
         coach::{
-            Doubt, FirstMet, Skill,
-            clock::Clock,
-            draws::Worlds,
-            evidence::Rate,
-            first::Attempt,
-            make_probability,
-            trial::{CONTACT_STEPS, Course},
+            Doubt, FirstMet, Skill, clock::Clock, draws::Worlds, evidence::Rate, first::FirstShotSearch,
+            make_probability, trial::CONTACT_STEPS,
         },
-        game::Rule,
+        game::{Rule, Tally},
         table::{Layout, Table},
     };
 
@@ -272,7 +267,7 @@ mod tests {
     fn what_was_advised_stays_unless_another_is_clearly_better() {
         let climber = |(share, source)| {
             let cue = CueInputs { a: 0.0, b: 0.2, theta: 0.0, phi: 0.0, speed: 2.0 };
-            let best = Candidate::of(Suggestion { cue, source }, &Course::default(), 0.0);
+            let best = Candidate::of(Suggestion { cue, source }, &Tally::default(), 0.0);
             let best = Candidate { own: Rate { share, attempts: 100.0 }, ..best };
             let distribution = Distribution::new(&Skill::CLUB, Table::default().radius, &cue);
             Climber { best, distribution, evidence: Evidence::default(), blocks: 0 }

@@ -12,9 +12,9 @@ use super::{
     first::FAVOURITES,
     pool::{BLOCK, Candidate, Race, keep},
     refinement::Refinement,
-    trial::{Course, Task},
+    trial::Task,
 };
-use crate::{physics::CueInputs, platform::parallel};
+use crate::{game::Tally, physics::CueInputs, platform::parallel};
 
 /// Blocks of errors at which sampled shots are tried: all of them, and those that are still among the better ones.
 const FIRST_LOOK: usize = 2;
@@ -94,17 +94,17 @@ impl<'a> Search<'a> {
     pub fn run(
         mut self,
         proposals: &[CueInputs],
-        found: &[(Suggestion, Course)],
+        found: &[(Suggestion, Tally)],
         tell: &mut dyn FnMut(&Candidate),
     ) -> Vec<Candidate> {
         self.task.until = self.task.clock.moment(self.sampling_ends);
         let weight = self.weight();
         // The first shot of a former answer was the advice, which is held on to; the others are shots like any.
         let mut former = false;
-        let candidate = |(shot, course): &(Suggestion, Course)| {
+        let candidate = |(shot, tally): &(Suggestion, Tally)| {
             let is_other = shot.source == Source::Former && replace(&mut former, true);
             let source = if is_other { Source::Search } else { shot.source };
-            Candidate::of(Suggestion { source, ..*shot }, course, weight)
+            Candidate::of(Suggestion { source, ..*shot }, tally, weight)
         };
         let found: Vec<_> = found.iter().map(candidate).collect();
         self.race.extend_to(self.task.worlds, SECOND_LOOK);

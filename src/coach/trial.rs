@@ -17,18 +17,9 @@ use crate::{
     game::{Point, Referee, Rule, Tally, Touching, pushes_touching_ball},
     physics::{CueInputs, Impulse, strike},
     player::aimed,
-    simulation::{All, Event, EventKind, Observer, watch_with},
+    simulation::{All, Event, Observer, watch_with},
     table::{BALLS, Layout, Table},
 };
-
-/// What the cue ball has done up to the decision.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Course {
-    /// What the rules look at.
-    pub tally: Tally,
-    /// The object ball that it met first.
-    pub first: Option<usize>,
-}
 
 /// The task that shots are tried at.
 #[derive(Clone, Copy, Debug)]
@@ -105,9 +96,9 @@ impl Task<'_> {
         }
     }
 
-    /// Whether a stroke that takes this course is one of those looked for: it makes the point, begins as it should and may be advised.
-    pub fn suits(&self, cue: &CueInputs, course: &Course) -> bool {
-        self.point().is_made(&course.tally) && self.first.allows(course) && self.allows(cue)
+    /// Whether a stroke that did this is one of those looked for: it makes the point, begins as it should and may be advised.
+    pub fn suits(&self, cue: &CueInputs, tally: &Tally) -> bool {
+        self.point().is_made(tally) && self.first.allows(tally) && self.allows(cue)
     }
 
     /// What makes a shot from here a point.
@@ -115,18 +106,17 @@ impl Task<'_> {
         Point::of(self.rule, self.table, self.layout)
     }
 
-    /// Plays one stroke; `None` where time ran out before it was decided.
-    pub fn play(&self, cue: &CueInputs) -> Option<Course> {
+    /// What the cue ball does in one stroke up to the decision; `None` where time ran out before.
+    pub fn play(&self, cue: &CueInputs) -> Option<Tally> {
         self.play_on(self.table, self.layout, cue)
     }
 
-    fn play_on(&self, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Course> {
+    fn play_on(&self, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Tally> {
         let impulse = strike(table, cue);
         let referee = Referee::new(Some(2), self.patience).beginning(self.tally(layout, &impulse));
-        let mut hurried = Hurried { referee, first: None, late: false, task: self };
+        let mut hurried = Hurried { referee, late: false, task: self };
         watch_with::<All, _>(table, layout, &impulse, &mut hurried);
-        let Hurried { referee, first, late, .. } = hurried;
-        (!late).then_some(Course { tally: referee.tally, first })
+        (!hurried.late).then_some(hurried.referee.tally)
     }
 
     /// What a stroke begins with where the balls really lie as in `layout`: those that touch by the task's own layout do so for whoever
@@ -155,7 +145,7 @@ impl Task<'_> {
         if stroke.is_miscue(table) {
             return Some(false);
         }
-        self.play_on(table, layout, &stroke).map(|course| self.point().is_made(&course.tally))
+        self.play_on(table, layout, &stroke).map(|tally| self.point().is_made(&tally))
     }
 
     /// Attempts at `cue`, one after the other until time runs out.
@@ -172,16 +162,6 @@ impl Task<'_> {
         self.clock.count(attempts.tried as u64);
         attempts
     }
-
-    /// The same; `None` where time ran out before the last of `count`.
-    pub fn all_attempts<'d>(
-        &self,
-        cue: &CueInputs,
-        draws: impl Iterator<Item = Draw<'d>>,
-        count: usize,
-    ) -> Option<Attempts> {
-        Some(self.attempts(cue, draws)).filter(|attempts| attempts.tried == count)
-    }
 }
 
 /// What came of attempts at a stroke.
@@ -196,7 +176,6 @@ pub struct Attempts {
 /// A referee who gives a shot up when time is up.
 struct Hurried<'a> {
     referee: Referee,
-    first: Option<usize>,
     late: bool,
     task: &'a Task<'a>,
 }
@@ -212,11 +191,6 @@ impl Observer for Hurried<'_> {
 
     #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {
-        if self.first.is_none()
-            && let EventKind::BallBall(0, ball) = event.kind
-        {
-            self.first = Some(ball);
-        }
         self.referee.event(event)
     }
 

@@ -142,6 +142,11 @@ impl Tally {
         self.met[0] & self.met[1]
     }
 
+    /// The object ball that it has met first, if any: 1 or 2.
+    pub fn first_ball(&self) -> Option<usize> {
+        self.met_any().then_some(if self.red_first { 2 } else { 1 })
+    }
+
     /// Which object balls it has not met yet.
     pub fn unmet(&self) -> [bool; 2] {
         self.met.map(|met| !met)
@@ -244,6 +249,7 @@ mod tests {
     fn three_cushions_count_only_before_the_second_ball() {
         let before = tally(&[RAIL, EventKind::BallBall(0, 2), RAIL, RAIL, EventKind::BallBall(0, 1)]);
         assert!(before.is_point(Rule::ThreeCushion) && before.is_point(Rule::OneCushion));
+        assert_eq!((before.first_ball(), tally(&[RAIL]).first_ball()), (Some(2), None));
         let after = tally(&[RAIL, EventKind::BallBall(0, 2), RAIL, EventKind::BallBall(0, 1), RAIL]);
         assert!(!after.is_point(Rule::ThreeCushion) && after.is_point(Rule::OneCushion));
     }
@@ -277,7 +283,7 @@ mod tests {
     #[test]
     fn the_same_ball_twice_is_no_point() {
         let tally = tally(&[EventKind::BallBall(0, 1), RAIL, EventKind::BallBall(0, 1)]);
-        assert!(tally.met_any() && !tally.is_point(Rule::StraightRail));
+        assert!(tally.first_ball() == Some(1) && !tally.is_point(Rule::StraightRail));
     }
 
     #[test]
