@@ -11,14 +11,14 @@ use crate::{
 
 /// Where a line meets a cushion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Mark {
+pub struct RailPoint {
     /// The cushion.
     pub rail: Rail,
     /// How far along it, in diamonds: 0 to 8 from the left on a long one, 0 to 4 from below on a short one.
     pub diamond: f64,
 }
 
-impl Mark {
+impl RailPoint {
     /// The point of a cushion's nose that is next to `place`, m.
     pub fn on(table: &Table, rail: Rail, place: DVec2) -> Self {
         let along = match rail {
@@ -66,19 +66,22 @@ impl Hit {
     }
 }
 
-/// Below this share of the ball covered it is hit thin, from the second on thick, and from the third on so full that a
-/// rolling ball goes on ahead. A half-ball hit lies between the first two.
+/// Below this share of the ball covered it is hit thin. A half-ball hit lies between this and [`THICK`].
 pub const THIN: f64 = 0.41;
+
+/// From this share on it is hit thick.
 pub const THICK: f64 = 0.6;
+
+/// From this share on it is hit so full that a rolling ball goes on ahead.
 pub const FULL: f64 = 0.85;
 
 /// The aim of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Aim {
     /// Where the cue points.
-    pub ahead: Mark,
+    pub ahead: RailPoint,
     /// Where the cue comes from: the line of aim in the other direction.
-    pub behind: Mark,
+    pub behind: RailPoint,
     /// The first object ball; `None` where none is met.
     pub hit: Option<Hit>,
 }
@@ -95,13 +98,13 @@ pub fn aim(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Aim, ShotE
 
 /// Where a cue points in the direction `phi`, rad, and where it comes from: the line of aim meets the cushions there, ahead
 /// and behind.
-pub fn line_of_aim(table: &Table, layout: &Layout, phi: f64) -> [Mark; 2] {
+pub fn line_of_aim(table: &Table, layout: &Layout, phi: f64) -> [RailPoint; 2] {
     let [from, direction] = [layout.balls[0], DVec2::from_angle(phi)];
     [mark(table, from, direction), mark(table, from, -direction)]
 }
 
 /// Where the line from a place on the table in a direction meets the noses of the cushions.
-fn mark(table: &Table, from: DVec2, direction: DVec2) -> Mark {
+fn mark(table: &Table, from: DVec2, direction: DVec2) -> RailPoint {
     let half = 0.5 * DVec2::new(table.length, table.width);
     let distance = |rail: Rail| {
         let inward = rail.normal();
@@ -110,7 +113,7 @@ fn mark(table: &Table, from: DVec2, direction: DVec2) -> Mark {
         if approach > 1e-12 { (from.dot(inward) + half.dot(inward.abs())) / approach } else { f64::INFINITY }
     };
     let rail = Rail::ALL.into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(Rail::Left);
-    Mark::on(table, rail, from + distance(rail) * direction)
+    RailPoint::on(table, rail, from + distance(rail) * direction)
 }
 
 /// How the cue ball meets the first object ball of a recorded shot; `None` where it meets none.

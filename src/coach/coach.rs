@@ -10,7 +10,7 @@ use super::{
     Alternative, Cause, Ease, Improvement, Kind, Recommendation, Request, Risk, Shooter, Skill, Source,
     clock::Clock,
     draws::{Draws, Worlds},
-    first::{Attempt, Found},
+    first::{FirstShotSearch, Found},
     next::NextValue,
     pool::Candidate,
     refinement::WORTH_A_CHANGE,
@@ -146,7 +146,7 @@ impl Coach {
         let policy = self.policy(request.rule, &request.skill);
         let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout, &request.skill));
         let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
-        let found = Attempt::new(task).run(&strokes, &request.former, request.seed);
+        let found = FirstShotSearch::new(task).run(&strokes, &request.former, request.seed);
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {
             first_point(&found)
         } else {

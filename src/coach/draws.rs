@@ -21,14 +21,14 @@ const MOST_WORLDS: usize = 509;
 
 /// How large the errors of an attempt are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Size {
+pub enum ErrorSize {
     /// The player's own.
     Own,
     /// Larger ones. Of shots that hardly ever miss, these tell apart the one that forgives more.
     Larger,
 }
 
-impl Size {
+impl ErrorSize {
     /// How many times the player's own.
     pub const fn factor(self) -> f64 {
         match self {
@@ -96,7 +96,7 @@ impl Draws {
 /// attempts. They are drawn when they are first needed: a search with little time ends before most of them.
 #[derive(Debug)]
 pub struct QuasiRandomDraws {
-    size: Size,
+    size: ErrorSize,
     errors: Halton,
     streams: Streams,
     drawn: Draws,
@@ -104,7 +104,7 @@ pub struct QuasiRandomDraws {
 
 impl QuasiRandomDraws {
     /// At errors of a hand that are so large.
-    pub fn new(size: Size, seed: u64) -> Self {
+    pub fn new(size: ErrorSize, seed: u64) -> Self {
         Self { size, errors: Halton::new(seed), streams: Streams::new(seed ^ WORLDS), drawn: Draws::default() }
     }
 

@@ -5,7 +5,7 @@
 //! of Veach and Guibas 1995, normalised by the sum of the weights). So a few hundred attempts tell of every stroke among them, and which
 //! is made most often.
 
-use super::{Skill, candidates::towards, draws::Size};
+use super::{Skill, candidates::towards, draws::ErrorSize};
 use crate::{
     physics::{CueInputs, turn},
     player::errors::Errors,
@@ -41,8 +41,8 @@ impl Distribution {
         let deviations = [a / radius, b / radius, theta, phi, speed];
         let inverse_deviations = deviations.map(|deviation| if deviation > 0.0 { deviation.recip() } else { 0.0 });
         let height = inverse_deviations.into_iter().filter(|inverse| *inverse > 0.0);
-        let height =
-            height.fold([1.0, 1.0], |[own, larger], inverse| [own * inverse, larger * inverse / Size::Larger.factor()]);
+        let height = height
+            .fold([1.0, 1.0], |[own, larger], inverse| [own * inverse, larger * inverse / ErrorSize::Larger.factor()]);
         Self { cue: *cue, at: [cue.a, cue.b, cue.theta, cue.phi, cue.speed], deviations, inverse_deviations, height }
     }
 
@@ -106,7 +106,7 @@ impl Rate {
 }
 
 /// One attempt: its errors and their size, and whether it made the point.
-pub type Trial = (Errors, Size, bool);
+pub type Trial = (Errors, ErrorSize, bool);
 
 /// One attempt by what came of it.
 #[derive(Clone, Copy, Debug)]
@@ -206,8 +206,8 @@ mod tests {
 
     /// Attempts at `stroke` that make the point where the direction is within a standard error to the left of `middle`, and their number.
     fn attempts(stroke: &Distribution, middle: f64, count: usize, seed: u64) -> Vec<Trial> {
-        let own = (0..count).map(|n| (Halton::new(seed).errors(n), Size::Own));
-        let larger = (0..count / 3).map(|n| (Halton::new(!seed).errors(n), Size::Larger));
+        let own = (0..count).map(|n| (Halton::new(seed).errors(n), ErrorSize::Own));
+        let larger = (0..count / 3).map(|n| (Halton::new(!seed).errors(n), ErrorSize::Larger));
         own.chain(larger)
             .map(|(errors, size)| {
                 let errors = errors.map(|error| size.factor() * error);
@@ -255,7 +255,7 @@ mod tests {
         let skill = Skill { theta: 0.0, ..Skill::EXPERT };
         let stroke = Distribution::new(&skill, RADIUS, &MEANT);
         let own: Vec<_> =
-            attempts(&stroke, MEANT.phi, 300, 3).into_iter().filter(|(_, size, _)| *size == Size::Own).collect();
+            attempts(&stroke, MEANT.phi, 300, 3).into_iter().filter(|(_, size, _)| *size == ErrorSize::Own).collect();
         let mut evidence = Evidence::default();
         evidence.add(&stroke, &own);
         let made = own.iter().filter(|(_, _, made)| *made).count();

@@ -46,13 +46,13 @@ pub struct Found {
 }
 
 /// One search for a shot.
-pub struct Attempt<'a> {
+pub struct FirstShotSearch<'a> {
     task: Task<'a>,
     best: Option<(Merit, Suggestion)>,
     solutions: Vec<(Suggestion, Tally)>,
 }
 
-impl<'a> Attempt<'a> {
+impl<'a> FirstShotSearch<'a> {
     /// A search on a task.
     pub const fn new(task: Task<'a>) -> Self {
         Self { task, best: None, solutions: Vec::new() }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{
     Doubt, Input,
     candidates::playable,
-    draws::{QuasiRandomDraws, Size, World, Worlds},
+    draws::{ErrorSize, QuasiRandomDraws, World, Worlds},
     words::LengthUnit,
 };
 use crate::{
@@ -102,7 +102,7 @@ impl<'a> Sensitivity<'a> {
     /// That of strokes on this table, from where the balls lie. Where there is a doubt, they are tried in worlds that are drawn
     /// from it; tables that lean are not among them, as in the search.
     pub fn new(rule: Rule, table: &'a Table, layout: &'a Layout, doubt: Doubt) -> Self {
-        let mut draws = QuasiRandomDraws::new(Size::Own, SEED);
+        let mut draws = QuasiRandomDraws::new(ErrorSize::Own, SEED);
         draws.extend_to(&Worlds::level(table, layout, doubt), WORLDS);
         let worlds = draws.drawn().iter().filter_map(|draw| draw.world.cloned()).collect();
         Self { point: Point::of(rule, table, layout), table, layout, worlds }

@@ -33,7 +33,7 @@ mod why;
 pub mod words;
 
 pub use advice::{Alternative, Improvement, Recommendation, Source, Suggestion};
-pub use aim::{Aim, Hit, Mark, aim, first_hit, line_of_aim};
+pub use aim::{Aim, Hit, RailPoint, aim, first_hit, line_of_aim};
 pub use coach::{Coach, judge, make_probability};
 pub use doubt::{Doubt, UnknownDoubt};
 pub use ease::{Ease, Sample};

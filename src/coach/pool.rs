@@ -5,10 +5,10 @@ use std::ops::Range;
 use super::{
     Kind, Source, Suggestion,
     candidates::{MAX_ELEVATION, MAX_SPEED},
-    draws::{Draw, QuasiRandomDraws, Size, Worlds},
+    draws::{Draw, ErrorSize, QuasiRandomDraws, Worlds},
     evidence::{Rate, Trial},
     next::{NextValue, next_value},
-    trial::{Course, Task},
+    trial::Task,
 };
 use crate::{game::Tally, physics::CueInputs, player::errors::Errors};
 
@@ -42,7 +42,10 @@ pub struct Race {
 impl Race {
     /// With the errors that `seed` draws.
     pub fn new(seed: u64) -> Self {
-        Self { own: QuasiRandomDraws::new(Size::Own, seed), larger: QuasiRandomDraws::new(Size::Larger, !seed) }
+        Self {
+            own: QuasiRandomDraws::new(ErrorSize::Own, seed),
+            larger: QuasiRandomDraws::new(ErrorSize::Larger, !seed),
+        }
     }
 
     /// Makes sure that shots can be tried at so many blocks of errors, each in one of the worlds.
@@ -52,18 +55,18 @@ impl Race {
     }
 
     /// The errors of one attempt, and in which world.
-    fn draw(&self, attempt: usize) -> Option<(Draw<'_>, Size)> {
+    fn draw(&self, attempt: usize) -> Option<(Draw<'_>, ErrorSize)> {
         let (block, n) = (attempt / BLOCK, attempt % BLOCK);
         let (draws, index, size) = if n < BLOCK - 1 {
-            (&self.own, (BLOCK - 1) * block + n, Size::Own)
+            (&self.own, (BLOCK - 1) * block + n, ErrorSize::Own)
         } else {
-            (&self.larger, block, Size::Larger)
+            (&self.larger, block, ErrorSize::Larger)
         };
         Some((draws.drawn().range(index, index + 1).next()?, size))
     }
 
     /// What its errors make of each attempt in these blocks, as far as they are drawn.
-    pub fn errors(&self, blocks: Range<usize>) -> impl Iterator<Item = (Errors, Size)> + Clone {
+    pub fn errors(&self, blocks: Range<usize>) -> impl Iterator<Item = (Errors, ErrorSize)> + Clone {
         let attempts = BLOCK * blocks.start..BLOCK * blocks.end;
         attempts.filter_map(|attempt| self.draw(attempt).map(|(draw, size)| (*draw.errors, size)))
     }
@@ -94,7 +97,7 @@ impl Race {
         for (_, size, made) in self.attempts(task, &after.shot.cue, after.tried / BLOCK..blocks)? {
             after.points |= u32::from(made) << after.tried;
             after.tried += 1;
-            let rate = if size == Size::Own { &mut after.own } else { &mut after.larger };
+            let rate = if size == ErrorSize::Own { &mut after.own } else { &mut after.larger };
             rate.attempts += 1.0;
             rate.share += (f64::from(u8::from(made)) - rate.share) / rate.attempts;
         }

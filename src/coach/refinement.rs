@@ -306,7 +306,7 @@ mod tests {
         let mut race = Race::new(1);
         race.extend_to(&worlds, 8);
         // Of the directions about a shot that makes the point those that do it, too; the first is at the edge.
-        let found = Attempt::new(Task { clock: &unlimited, ..task }).run(&[], &[], 1).solutions[0].0.cue;
+        let found = FirstShotSearch::new(Task { clock: &unlimited, ..task }).run(&[], &[], 1).solutions[0].0.cue;
         let turned = |n: i32| CueInputs { phi: found.phi + 0.1 * f64::from(n) * skill.at(&found).phi, ..found };
         let made = (-40..=0).filter_map(|n| Candidate::new(&task, turned(n), Source::Search, 0.0));
         let pool: Vec<_> = made.take(2).map(|candidate| race.go_on(&task, &candidate, 8).unwrap()).collect();

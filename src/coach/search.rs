@@ -214,7 +214,7 @@ impl<'a> Search<'a> {
 mod tests {
     use super::*;
     use crate::{
-        coach::{Doubt, FirstMet, Skill, clock::Clock, draws::Worlds, first::Attempt, trial::CONTACT_STEPS},
+        coach::{Doubt, FirstMet, Skill, clock::Clock, draws::Worlds, first::FirstShotSearch, trial::CONTACT_STEPS},
         game::Rule,
         table::{Layout, Table},
     };
@@ -257,7 +257,7 @@ mod tests {
         let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         let clock = Clock::start(budget, u64::MAX, &cancel);
         let task = expert(&table, &layout, Rule::StraightRail, &worlds, &clock);
-        let found = Attempt::new(task).run(&[], &[], 1);
+        let found = FirstShotSearch::new(task).run(&[], &[], 1);
         // As if the first shot had been hard to find.
         thread::sleep(budget.mul_f64(0.5).saturating_sub(clock.elapsed()));
         let mut told = 0;

@@ -71,7 +71,7 @@ pub fn draw(library: &[Exercise], level: u8, seed: u64) -> Result<Vec<Exercise>,
 
 /// What the score of an exam is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mark {
+pub struct ExamScore {
     /// Exercises tried so far.
     pub tried: usize,
     /// Points.
@@ -85,7 +85,7 @@ pub struct Mark {
 }
 
 /// The mark of the attempts that there are; `None` before the first.
-pub fn mark(session: &Session) -> Option<Mark> {
+pub fn mark(session: &Session) -> Option<ExamScore> {
     let attempts = &session.attempts;
     let pars: Vec<Par> = attempts.iter().filter_map(|attempt| session.exercise_of(attempt)?.par).collect();
     let sum = |of: fn(&Par) -> f64, term: fn(f64) -> f64| pars.iter().map(|par| term(of(par))).sum::<f64>();
@@ -101,7 +101,7 @@ pub fn mark(session: &Session) -> Option<Mark> {
     let distance = |average: f64| (made as f64 - average).abs();
     let players = [("beginner", expected.beginner), ("club", expected.club), ("world-class", expected.world_class)];
     let (nearest, _) = players.into_iter().min_by(|x, y| distance(x.1).total_cmp(&distance(y.1)))?;
-    (!attempts.is_empty()).then_some(Mark { tried: attempts.len(), made, expected, spread, nearest })
+    (!attempts.is_empty()).then_some(ExamScore { tried: attempts.len(), made, expected, spread, nearest })
 }
 
 #[cfg(test)]

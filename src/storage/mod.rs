@@ -24,4 +24,4 @@ pub use places::{Places, is_called};
 pub use plain_words::{in_plain_words, json_flaw, toml_flaw, without_numbers};
 pub use player::{Player, PlayerNameError};
 pub use reading::{LARGE, PRACTICE, SMALL, open, put_aside, read, read_if_there, read_text};
-pub use room::{Room, room_in};
+pub use room::{FolderState, room_in};

@@ -9,7 +9,7 @@ use crate::platform;
 
 /// What is known of a place where files are to be kept.
 #[derive(Debug)]
-pub struct Room {
+pub struct FolderState {
     /// Whether there is such a folder already. It is made when something is kept.
     pub exists: bool,
     /// Why nothing can be written there; nothing where it can.
@@ -19,15 +19,15 @@ pub struct Room {
 }
 
 /// Looks at the folder, or at the one above it in which it would be made.
-pub fn room_in(folder: &Path) -> Room {
+pub fn room_in(folder: &Path) -> FolderState {
     let above = match existing(folder) {
         Ok(above) => above,
-        Err(error) => return Room { exists: false, refusal: Some(error), free: None },
+        Err(error) => return FolderState { exists: false, refusal: Some(error), free: None },
     };
     let free = platform::free_space(&above).ok().flatten();
     // The file has no name where the system knows such files, and is gone with this line everywhere.
     let refusal = tempfile::tempfile_in(&above).err();
-    Room { exists: above == folder, refusal, free }
+    FolderState { exists: above == folder, refusal, free }
 }
 
 /// The folder, or the nearest above it that is there.

@@ -168,7 +168,7 @@ impl Technique {
                         let turning = before.velocity.dot(rail.normal().perp()).signum();
                         self.english = table.radius * before.spin.z * turning / before.velocity.length();
                     }
-                    let Mark { diamond, .. } = Mark::on(table, rail, before.position);
+                    let RailPoint { diamond, .. } = RailPoint::on(table, rail, before.position);
                     let cushion = Cushion { rail, diamond, along };
                     if first.is_none() { &mut self.before } else { &mut self.between }.push(cushion);
                 }

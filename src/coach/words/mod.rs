@@ -20,7 +20,7 @@ pub use pace::{lengths_words, pace_word, table_lengths};
 pub(crate) use sentence::capital;
 pub use units::{LengthUnit, PlaceUnit, TipUnit, Units, short};
 
-use super::{Cushion, Hit, Mark, Technique, line_of_aim};
+use super::{Cushion, Hit, RailPoint, Technique, line_of_aim};
 use crate::{
     physics::{CueInputs, least_elevation},
     simulation::{Recording, ShotError},
@@ -85,9 +85,9 @@ pub struct ShotWords {
     #[serde(skip)]
     again: Option<usize>,
     /// Where the cue points.
-    pub ahead: Mark,
+    pub ahead: RailPoint,
     /// Where it comes from.
-    pub behind: Mark,
+    pub behind: RailPoint,
     /// The way that the cue points, of length 1.
     #[serde(skip)]
     direction: DVec2,

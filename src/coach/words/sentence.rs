@@ -2,7 +2,7 @@
 
 use super::{English, ShotWords, TIP, TipUnit, Units, fullness_word, numbers, pace_word, short};
 use crate::{
-    coach::{Cushion, Hit, Mark},
+    coach::{Cushion, Hit, RailPoint},
     simulation::Rail,
     table::CueBall,
 };
@@ -65,7 +65,7 @@ impl ShotWords {
 
     /// The line along which the cue points, from cushion to cushion, on the noses.
     pub fn aim(&self, units: Units) -> String {
-        let mark = |mark: Mark| format!("{} on the {}", self.place(mark.diamond, units, 2), rail_words(mark.rail));
+        let mark = |mark: RailPoint| format!("{} on the {}", self.place(mark.diamond, units, 2), rail_words(mark.rail));
         format!("Cue from {} to {}.", mark(self.behind), mark(self.ahead))
     }
 

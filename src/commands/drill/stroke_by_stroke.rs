@@ -21,7 +21,7 @@ use crate::{
     },
     drills::{
         Advice, Exercise, Goal, Par, Session, Store, advise, chance, changes, check, difference,
-        exam::{Mark, mark},
+        exam::{ExamScore, mark},
     },
     physics::{CueInputs, least_elevation},
     statistics::SuccessRate,
@@ -344,7 +344,7 @@ impl<'a> StrokeByStroke<'a> {
     }
 }
 
-fn mark_words(Mark { tried, made, expected, spread, nearest }: &Mark, of: usize) -> String {
+fn mark_words(ExamScore { tried, made, expected, spread, nearest }: &ExamScore, of: usize) -> String {
     let unfinished = if *tried < of { format!(" ({tried} of {of} played)") } else { String::new() };
     format!(
         "score {made} of {tried}{unfinished}; a beginner makes {:.1} ± {:.1}, a club player {:.1} ± {:.1}, a world-class player {:.1} ± {:.1} \

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use crate::{
-    coach::{Aim, Doubt, Input, Map, Margin, Mark, Sensitivity, aim, words::Units},
+    coach::{Aim, Doubt, Input, Map, Margin, RailPoint, Sensitivity, aim, words::Units},
     game::Rule,
     physics::CueInputs,
     simulation::ShotError,
@@ -53,7 +53,7 @@ impl Margins {
     pub fn describe(&self, out: &mut impl Write, table: &Table, units: Units) -> io::Result<()> {
         let Aim { ahead, behind, hit } = &self.aim;
         let place =
-            |mark: &Mark| format!("{} {}", mark.rail.name(), units.place.exact(mark.diamond, table.diamond(), 2));
+            |mark: &RailPoint| format!("{} {}", mark.rail.name(), units.place.exact(mark.diamond, table.diamond(), 2));
         write!(out, "aim from {} to {}", place(behind), place(ahead))?;
         match hit {
             Some(hit) => {

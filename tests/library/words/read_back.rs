@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use carom::{
     coach::{
-        Cushion, Mark, Technique,
+        Cushion, RailPoint, Technique,
         words::{TIP, table_lengths},
     },
     physics::{CueInputs, squirt, with_room},
@@ -52,14 +52,14 @@ pub enum Reading {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stop {
     Ball(usize),
-    Cushion(Mark),
+    Cushion(RailPoint),
 }
 
 /// What a text says.
 #[derive(Clone, Debug, PartialEq)]
 struct Said {
     /// The rail that comes before the first ball, and where.
-    rail: Option<Mark>,
+    rail: Option<RailPoint>,
     ball: usize,
     /// How far the line of the cue ball passes the ball's middle on its left, in ball diameters.
     left: f64,
@@ -162,9 +162,9 @@ fn speed_of(table: &Table, lengths: f64) -> Option<f64> {
     Some(0.5 * (low + high))
 }
 
-fn rail_mark((rail, diamond): (&str, &str)) -> Option<Mark> {
+fn rail_mark((rail, diamond): (&str, &str)) -> Option<RailPoint> {
     let rail = Rail::ALL.into_iter().find(|one| rail.starts_with(one.name()))?;
-    Some(Mark { rail, diamond: diamond.trim_end_matches('.').parse().ok()? })
+    Some(RailPoint { rail, diamond: diamond.trim_end_matches('.').parse().ok()? })
 }
 
 /// Reads "Red – top 5.1 – left 1.2 – red again – bottom 2.3 – yellow, thin on the left."; how the second ball is met is not gone by, nor where
@@ -252,7 +252,8 @@ fn unlike(cue: &CueInputs, said: &Said, stops: &[Stop], table: &Table, layout: &
         }
     }
     if !stops.is_empty() {
-        let cushion = |Cushion { rail, diamond, .. }: &Cushion| Stop::Cushion(Mark { rail: *rail, diamond: *diamond });
+        let cushion =
+            |Cushion { rail, diamond, .. }: &Cushion| Stop::Cushion(RailPoint { rail: *rail, diamond: *diamond });
         let mut course: Vec<Stop> = technique.before.iter().map(cushion).collect();
         course.extend(technique.first.map(|hit| Stop::Ball(hit.ball)));
         course.extend(technique.between.iter().map(cushion));

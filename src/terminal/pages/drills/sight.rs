@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::{
-    coach::{Hit, Mark, line_of_aim},
+    coach::{Hit, RailPoint, line_of_aim},
     simulation::Rail,
     table::{BALLS, Layout, Table},
 };
@@ -14,7 +14,7 @@ pub enum Meets {
     /// An object ball, and how.
     Ball(Hit),
     /// A cushion, where the line goes on to its nose: the mark by which players aim.
-    Cushion(Mark),
+    Cushion(RailPoint),
 }
 
 /// The line of aim.

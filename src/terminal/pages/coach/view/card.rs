@@ -7,7 +7,7 @@ use ratatui::{
 
 use crate::{
     coach::{
-        Mark,
+        RailPoint,
         words::{English, TIP, TipUnit, lengths_words, pace_word, short},
     },
     terminal::{
@@ -107,7 +107,7 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         degrees if words.is_level => format!("low cue {degrees}\u{b0}"),
         degrees => format!("raised {degrees}\u{b0}"),
     });
-    let mark = |mark: Mark| format!("{} {}", mark.rail.name(), bare(mark.diamond, to_hundredths));
+    let mark = |mark: RailPoint| format!("{} {}", mark.rail.name(), bare(mark.diamond, to_hundredths));
     rows.extend([format!("{} to", mark(words.behind)), mark(words.ahead)]);
     rows.into_iter().map(|row| ("", row)).collect()
 }
@@ -140,7 +140,8 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
         degrees if words.is_level => format!("{degrees}\u{b0}, as level as can be"),
         degrees => format!("raised {degrees}\u{b0}"),
     };
-    let mark = |mark: Mark| format!("{} rail {}", mark.rail.name(), place_along(coach, mark.diamond, to_hundredths));
+    let mark =
+        |mark: RailPoint| format!("{} rail {}", mark.rail.name(), place_along(coach, mark.diamond, to_hundredths));
     let lengths = lengths_words(words.table_lengths);
     let speed = format!("{lengths}, {}", speed_words(proposal.shot.cue.speed, coach.units.length, 2));
     let whole_speed = format!("{}, {speed}", pace_word(words.table_lengths));

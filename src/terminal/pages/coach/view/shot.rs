@@ -6,7 +6,7 @@ use ratatui::{
 };
 
 use crate::{
-    coach::{Mark, line_of_aim, words::LengthUnit},
+    coach::{RailPoint, line_of_aim, words::LengthUnit},
     table::{Layout, Table},
     terminal::{
         Capabilities, Proposal, Shot,
@@ -60,7 +60,7 @@ pub fn draw_proposal(
         title.push(Span::styled(source, ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
-    let mark = |mark: Mark| format!("{} {}", mark.rail.name(), fixed(mark.diamond, 1));
+    let mark = |mark: RailPoint| format!("{} {}", mark.rail.name(), fixed(mark.diamond, 1));
     let [ahead, behind] = line_of_aim(table, layout, shot.cue.phi).map(mark);
     let aim = format!("{behind}{}{ahead}", ui.caps.pick("→", ">"));
     draw_rows(shot, aim, (table, unit), inner, ui);

@@ -198,7 +198,7 @@ mod tests {
     use super::*;
     use crate::{
         coach::{
-            Mark,
+            RailPoint,
             words::{LengthUnit, PlaceUnit, TipUnit},
         },
         simulation::Rail,
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn places_the_tip_and_the_speed_are_told_in_the_units_of_the_settings() {
         let table = Table::default();
-        let mark = Mark { rail: Rail::Left, diamond: 2.04 };
+        let mark = RailPoint { rail: Rail::Left, diamond: 2.04 };
         let sight = Sight { end: glam::DVec2::ZERO, way: 0.5, meets: Meets::Cushion(mark) };
         let other = Units { tip: TipUnit::Mm, place: PlaceUnit::Mm, length: LengthUnit::Feet };
         let said = |units| sight_words(&sight, CueBall::White, table.diamond(), units);
