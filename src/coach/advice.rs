@@ -87,6 +87,9 @@ pub struct Recommendation {
     /// How often the player makes it, from independent attempts that took no part in the choice; `None` where there is no
     /// such shot or time ran out before a single attempt. A perfect player always makes what makes the point.
     pub make_probability: Option<SuccessRate>,
+    /// The first of the attempts that this comes from, as [`judge`](super::judge) counts them: not the very first ones where those have
+    /// chosen the shot.
+    pub judged_from: usize,
     /// What would miss it by itself, where anything is in doubt and time did not run out.
     pub risk: Option<Risk>,
     /// Probability of the point after this one, an estimate, where that was asked for and the table is the one that the

@@ -193,6 +193,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     let mut made = judged(&first.chain(pieces_of(&others, 0..ATTEMPTS_AT_ALTERNATIVE)).collect::<Vec<_>>());
     let mut rates: Vec<_> = (0..pool.len()).map(|candidate| rate(&made, candidate)).collect();
     let better = if request.plan { Vec::new() } else { made_more_often(&pool, &rates) };
+    let mut judged_from = 0;
     if !better.is_empty() {
         made.extend(judged(&pieces_of(&better, ATTEMPTS_AT_ALTERNATIVE..ATTEMPTS)));
         for candidate in better {
@@ -201,7 +202,9 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         let best = made_more_often(&pool, &rates).first().copied().unwrap_or_default();
         // Told without the attempts that have chosen it, which flatter it, if there is time for as many others.
         let told = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
-        rates[best] = told.filter(|rate| rate.trials == ATTEMPTS).or(rates[best]);
+        if let Some(told) = told.filter(|rate| rate.trials == ATTEMPTS) {
+            (rates[best], judged_from) = (Some(told), ATTEMPTS);
+        }
         rates.swap(0, best);
         pool.swap(0, best);
     }
@@ -230,6 +233,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         source: best.shot.source,
         kind: Some(best.kind),
         make_probability: rates[0],
+        judged_from,
         risk: risk(&best.shot.cue, task, request, judging_seed(request.seed)),
         next_probability: told_next(best.next),
         is_planned: request.plan,
@@ -309,6 +313,7 @@ fn first_point(found: &Found) -> Recommendation {
         source: shot.source,
         kind: first.map(|(shot, tally)| Kind::of(tally, &shot.cue)),
         make_probability: first.map(|_| certain),
+        judged_from: 0,
         risk: None,
         next_probability: None,
         is_planned: false,
@@ -354,20 +359,21 @@ pub fn make_probability(
     })
 }
 
-/// How often a stroke is made under the first `attempts` errors by which the answer to a request with `seed` is judged: of the
-/// recommended stroke, the number that stands in the answer, if there was time for all attempts at it.
+/// How often a stroke is made in these `attempts`, whose errors are those by which the answer to a request with `seed` is judged, rounded up
+/// to whole pieces of 25: of the recommended stroke from [`Recommendation::judged_from`] on, and of the others from 0 on, the number that
+/// stands in the answer, if there was time for all attempts at it.
 pub fn judge(
     shooter: Shooter,
     rule: Rule,
     table: &Table,
     layout: &Layout,
     cue: &CueInputs,
-    attempts: usize,
+    attempts: Range<usize>,
     seed: u64,
 ) -> SuccessRate {
     unhurried(table, layout, rule, shooter, ENDLESS, &AtomicBool::new(false), |task| {
-        let pieces =
-            (0..attempts.div_ceil(PIECE)).map(|piece| task.attempts(cue, judging(task.worlds, seed, piece).iter()));
+        let pieces = attempts.start / PIECE..attempts.end.div_ceil(PIECE);
+        let pieces = pieces.map(|piece| task.attempts(cue, judging(task.worlds, seed, piece).iter()));
         let (made, tried) = pieces.fold((0, 0), |sum, part| (sum.0 + part.made, sum.1 + part.tried));
         SuccessRate::new(made, tried)
     })

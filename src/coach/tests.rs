@@ -63,11 +63,27 @@ fn a_stroke_is_judged_as_the_coachs_own_were() {
     let shooter = Shooter { skill: Skill::CLUB, doubt: Doubt::FULL };
     let asked = Request { skill: Skill::CLUB, doubt: Doubt::FULL, seed: 7, ..request(Rule::ThreeCushion, 3_000) };
     let advice = coach.recommend(&layout, &asked).unwrap();
-    let others = advice.alternatives.iter().map(|other| (other.cue, other.make_probability));
-    for (cue, said) in others.chain([(advice.cue, advice.make_probability)]) {
+    let others = advice.alternatives.iter().map(|other| (other.cue, other.make_probability, 0));
+    for (cue, said, from) in others.chain([(advice.cue, advice.make_probability, advice.judged_from)]) {
         let said = said.unwrap();
-        assert_eq!(judge(shooter, asked.rule, coach.table(), &layout, &cue, said.trials, asked.seed), said);
+        let attempts = from..from + said.trials;
+        assert_eq!(judge(shooter, asked.rule, coach.table(), &layout, &cue, attempts, asked.seed), said);
     }
+}
+
+/// The number of a shot that takes the lead at the end comes from other attempts than those that have chosen it: a stroke beside it was
+/// judged by the latter.
+#[test]
+fn a_shot_that_takes_the_lead_at_the_end_says_by_which_attempts_it_was_judged() {
+    let coach = coach();
+    let layout = held_out_layouts(coach.table(), 1, 5)[0];
+    let asked = |seed| Request { skill: Skill::CLUB, seed, ..request(Rule::ThreeCushion, 1_000) };
+    let advice = |seed| (seed, coach.recommend(&layout, &asked(seed)).unwrap());
+    let (seed, advice) = (0..60).map(advice).find(|(_, advice)| advice.judged_from > 0).expect("short searches err");
+    let said = advice.make_probability.unwrap();
+    let attempts = advice.judged_from..advice.judged_from + said.trials;
+    let shooter = asked(seed).shooter();
+    assert_eq!(judge(shooter, Rule::ThreeCushion, coach.table(), &layout, &advice.cue, attempts, seed), said);
 }
 
 /// The estimate is made on errors that took no part in the choice: it must agree with a plain Monte-Carlo estimate of a

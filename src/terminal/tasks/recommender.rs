@@ -1,6 +1,7 @@
 //! Asking the coach on a thread of its own, so that the screen never waits.
 
 use std::{
+    ops::Range,
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{
         Arc,
@@ -59,8 +60,8 @@ pub struct Job {
     pub shot: Option<CueInputs>,
     /// What was found, where it is to be said why that shot leads.
     pub found: Option<Arc<Recommendation>>,
-    /// A stroke of the player's own and attempts at it: how often it is made is all that is asked then.
-    pub stroke: Option<(CueInputs, usize)>,
+    /// A stroke of the player's own and the attempts at it, as [`judge`] counts them: how often it is made is all that is asked then.
+    pub stroke: Option<(CueInputs, Range<usize>)>,
     /// Time that the coach may think.
     pub budget: Duration,
     /// Seed of the coach's random numbers.
@@ -114,9 +115,9 @@ impl CoachWorker {
     /// Answers a question on this thread; `tell` hears everything as soon as it is known. A panic becomes a sentence.
     pub fn answer(&mut self, job: &Job, mut tell: impl FnMut(Answer)) {
         let mut tell = |news| tell(Answer { id: job.id, news });
-        if let Some((cue, attempts)) = job.stroke {
+        if let Some((cue, attempts)) = &job.stroke {
             let Job { table, layout, query, seed, .. } = job;
-            let judged = || judge(query.shooter(), query.rule, table, layout, &cue, attempts, *seed);
+            let judged = || judge(query.shooter(), query.rule, table, layout, cue, attempts.clone(), *seed);
             // Where it fails, it is not known.
             if let Ok(made) = catch_unwind(AssertUnwindSafe(judged)) {
                 tell(CoachNews::Judged(made));

@@ -51,6 +51,11 @@ impl AdviceState {
         self.found.as_ref().filter(|_| self.chosen == 0 && self.why.is_none())
     }
 
+    /// The first of the attempts by which the shot that is shown was judged.
+    pub fn judged_from(&self) -> usize {
+        self.found.as_ref().filter(|_| self.chosen == 0).map_or(0, |found| found.judged_from)
+    }
+
     /// Its strokes, the recommended one first.
     pub fn strokes(&self) -> Vec<CueInputs> {
         self.choices.iter().map(|choice| choice.proposal.shot.cue).collect()

@@ -158,11 +158,11 @@ impl CoachPage {
         let cue = self.own_stroke.as_ref()?.what_if.shot.cue;
         let judged = self.proposal().filter(|coach| !coach.is_early).and_then(|coach| coach.made);
         let attempts = judged.map_or(JUDGED, |made| made.trials.max(LEAST));
-        let advised = self.advised().map(|advised| advised.seed);
+        let advised = self.advised().map(|advised| (advised.seed, advised.judged_from()));
         let job = self.job(None);
-        let seed = advised.unwrap_or(job.seed);
+        let (seed, from) = advised.unwrap_or((job.seed, 0));
         let cancel = self.own_stroke.as_mut()?.what_if.ask(job.id);
-        Some(Effect::Ask(Box::new(Job { stroke: Some((cue, attempts)), seed, cancel, ..job })))
+        Some(Effect::Ask(Box::new(Job { stroke: Some((cue, from..from + attempts)), seed, cancel, ..job })))
     }
 
     fn scene(&self) -> Scene<'_> {
@@ -210,10 +210,11 @@ mod tests {
     fn each_change_asks_once_how_often_the_stroke_is_made_and_late_answers_are_dropped() {
         let mut page = advised();
         let first = asked(&mut page, Action::WhatIf);
-        assert_eq!(first.stroke.map(|(cue, _)| cue), page.shot().map(|shot| shot.cue));
+        let (cue, attempts) = first.stroke.clone().unwrap();
+        assert_eq!((Some(cue), attempts), (page.shot().map(|shot| shot.cue), 0..1000));
         let second = asked(&mut page, HARDER);
         assert!(first.cancel.load(Ordering::Relaxed) && !second.cancel.load(Ordering::Relaxed));
-        assert!((second.stroke.unwrap().0.speed - 2.6).abs() < 1e-9);
+        assert!((second.stroke.as_ref().unwrap().0.speed - 2.6).abs() < 1e-9);
         let tell = |page: &mut CoachPage, id: u64, made| {
             assert!(page.receive(Answer { id, news: CoachNews::Judged(SuccessRate::new(made, 100)) }).is_none());
             page.what_if().unwrap().made.map(|rate| rate.rate)
