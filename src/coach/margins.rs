@@ -31,22 +31,17 @@ pub struct Margin {
     pub more: Option<f64>,
 }
 
-impl Margin {
+impl Input {
     /// What it is told in where distances are told in `unit`: how many of that are one of its own unit, and the symbol.
-    pub const fn told_in(&self, unit: LengthUnit) -> (f64, &'static str) {
-        told_in(self.input, unit)
-    }
-}
-
-/// What an input is told in where distances are told in `unit`: how many of that are one of its own unit, and the symbol.
-pub const fn told_in(input: Input, unit: LengthUnit) -> (f64, &'static str) {
-    match input {
-        Input::Side | Input::Height => {
-            let (in_a_metre, symbol, _) = unit.fine();
-            (1e-3 * in_a_metre, symbol)
+    pub const fn told_in(self, unit: LengthUnit) -> (f64, &'static str) {
+        match self {
+            Self::Side | Self::Height => {
+                let (in_a_metre, symbol, _) = unit.fine();
+                (1e-3 * in_a_metre, symbol)
+            }
+            Self::Speed => unit.speed(),
+            Self::Elevation | Self::Direction => (1.0, self.unit()),
         }
-        Input::Speed => unit.speed(),
-        Input::Elevation | Input::Direction => (1.0, input.unit()),
     }
 }
 

@@ -39,7 +39,7 @@ pub use doubt::{Doubt, UnknownDoubt};
 pub use ease::{Ease, Sample};
 pub use first_met::{FirstMet, UnknownFirstMet};
 pub use kind::{Kind, Pace, Way};
-pub use margins::{Map, Margin, Outcome, Sensitivity, told_in};
+pub use margins::{Map, Margin, Outcome, Sensitivity};
 pub use request::{Request, Shooter};
 pub use risk::{Cause, Risk};
 pub use scatter::{Scatter, scatter};

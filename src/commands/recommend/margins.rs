@@ -66,7 +66,7 @@ impl Margins {
             writeln!(out, "no margins: as meant it makes no point on the tables drawn")?;
         }
         for margin in self.inputs.iter().flatten() {
-            let (factor, symbol) = margin.told_in(units.length);
+            let (factor, symbol) = margin.input.told_in(units.length);
             let end = |end: Option<f64>| end.map_or_else(|| "any".to_owned(), |end| format!("{:.3}", factor * end));
             let (name, less, more) = (margin.input.name(), end(margin.less), end(margin.more));
             writeln!(out, "{name:<6} {less:>8} less to {more:>8} more, {symbol}")?;

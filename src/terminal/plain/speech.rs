@@ -176,7 +176,7 @@ pub fn margins(margins: &[Margin], unit: LengthUnit) -> String {
             Input::Direction => ("Direction", "degrees", "to the right", "to the left"),
             Input::Speed => ("Speed", of_speed(unit), "softer", "harder"),
         };
-        let (factor, _) = margin.told_in(unit);
+        let (factor, _) = margin.input.told_in(unit);
         let end = |end: Option<f64>, way: &str| match end {
             Some(end) => format!("up to {} {word} {way}", fixed(factor * end, 2)),
             // There is an end to that for every cue.

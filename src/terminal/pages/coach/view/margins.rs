@@ -8,7 +8,7 @@ use ratatui::{
 
 use crate::{
     coach::{
-        Input, Margin, Skill, told_in,
+        Input, Margin, Skill,
         words::{LengthUnit, lengths_words, short},
     },
     terminal::{
@@ -44,7 +44,7 @@ pub fn draw_margins(
     let tall = area.height > TALL;
     let mut title = vec![Span::styled("Margins", ui.theme.text())];
     if studied.is_some() && !tall {
-        let [small, speed] = [Input::Side, Input::Speed].map(|input| told_in(input, unit).1);
+        let [small, speed] = [Input::Side, Input::Speed].map(|input| input.told_in(unit).1);
         let (yours, degree) = (ui.caps.pick("± yours", "yours"), ui.caps.pick("°", "deg"));
         let units = format!(" less, more, {yours} {small} {degree} {speed}");
         title.push(Span::styled(units, ui.theme.faint()));
@@ -68,7 +68,7 @@ pub fn draw_margins(
         .enumerate()
         .map(|(n, margin)| {
             let is_tightest = Some(n) == tightest;
-            let (factor, unit) = margin.told_in(unit);
+            let (factor, unit) = margin.input.told_in(unit);
             let yours = yours(factor * skill.error(margin.input));
             Row { margin, factor, unit, yours, is_tightest }
         })
