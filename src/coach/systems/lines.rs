@@ -57,7 +57,7 @@ impl Mirror {
     }
 }
 
-/// A line on which the middle of a ball runs, in diamonds.
+/// A line on which the centre of a ball runs, in diamonds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
     /// A place on it.
@@ -84,6 +84,16 @@ impl Line {
         x.is_finite().then_some(x)
     }
 
+    /// Where it meets the diamonds of a cushion, along that.
+    pub fn at_rail(&self, rail: Rail) -> Option<f64> {
+        match rail {
+            Rail::Top => self.at_y(4.0 + BEHIND),
+            Rail::Bottom => self.at_y(-BEHIND),
+            Rail::Left => self.at_x(-BEHIND),
+            Rail::Right => self.at_x(8.0 + BEHIND),
+        }
+    }
+
     /// Where a line that leads up and to the left comes from, along the diamonds of the lower cushion to the right and on up
     /// those of the right one: their corner is at 8.225.
     pub fn behind(&self) -> Option<f64> {
@@ -95,6 +105,16 @@ impl Line {
             x if x <= corner => Some(x),
             _ => Some(corner + self.at_x(corner)? + BEHIND),
         }
+    }
+}
+
+/// The place so far along a cushion at which its diamonds stand.
+pub const fn edge(rail: Rail, along: f64) -> DVec2 {
+    match rail {
+        Rail::Top => DVec2::new(along, 4.0 + BEHIND),
+        Rail::Bottom => DVec2::new(along, -BEHIND),
+        Rail::Left => DVec2::new(-BEHIND, along),
+        Rail::Right => DVec2::new(8.0 + BEHIND, along),
     }
 }
 
@@ -115,6 +135,14 @@ mod tests {
             assert!((line.behind().unwrap() - along).abs() < 1e-12, "{along}");
         }
         assert_eq!(Line::between(DVec2::ZERO, DVec2::ONE).behind(), None);
+    }
+
+    #[test]
+    fn a_line_to_a_diamond_meets_the_cushion_there() {
+        for rail in Rail::ALL {
+            let line = Line::between(DVec2::new(3.1, 1.7), edge(rail, 2.5));
+            assert!((line.at_rail(rail).unwrap() - 2.5).abs() < 1e-12, "{rail:?}");
+        }
     }
 
     #[test]

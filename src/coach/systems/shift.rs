@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::{
     leg::Leg,
-    lines::{BEHIND, Line, SIZE, diamonds, metres},
+    lines::{SIZE, diamonds, edge, metres},
     natural::hits,
 };
 use crate::{simulation::Rail, table::Table};
@@ -36,7 +36,7 @@ pub struct Shift {
     pub third: f64,
     /// Where it arrives on this table.
     pub table_third: f64,
-    /// The way of a ball on the parallel line that moves as the shot's ball: where it begins, and its middle at the three cushions,
+    /// The way of a ball on the parallel line that moves as the shot's ball: where it begins, and its centre at the three cushions,
     /// in diamonds.
     #[serde(skip)]
     pub path: [DVec2; 4],
@@ -70,7 +70,7 @@ impl Shift {
         if is_long(first) != is_long(third) {
             return None;
         }
-        let aimed = aimed_at(&leg.line(), first)?;
+        let aimed = leg.line().at_rail(first)?;
         if (aimed - aimed.round()).abs() < LEAST {
             return None;
         }
@@ -125,26 +125,6 @@ fn entry(from: DVec2, to: DVec2) -> DVec2 {
     let share = (from.clamp(DVec2::ZERO, SIZE) - to) / (from - to);
     // Along an axis one share is not a number, which `min` passes over.
     to + (from - to) * 1_f64.min(share.x).min(share.y)
-}
-
-/// Where a line of aim meets the diamonds of a cushion.
-fn aimed_at(line: &Line, rail: Rail) -> Option<f64> {
-    match rail {
-        Rail::Top => line.at_y(4.0 + BEHIND),
-        Rail::Bottom => line.at_y(-BEHIND),
-        Rail::Left => line.at_x(-BEHIND),
-        Rail::Right => line.at_x(8.0 + BEHIND),
-    }
-}
-
-/// The place so far along a cushion at which its diamonds stand.
-const fn edge(rail: Rail, along: f64) -> DVec2 {
-    match rail {
-        Rail::Top => DVec2::new(along, 4.0 + BEHIND),
-        Rail::Bottom => DVec2::new(along, -BEHIND),
-        Rail::Left => DVec2::new(-BEHIND, along),
-        Rail::Right => DVec2::new(8.0 + BEHIND, along),
-    }
 }
 
 const fn is_long(rail: Rail) -> bool {

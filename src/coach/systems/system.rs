@@ -8,7 +8,7 @@ use glam::DVec2;
 use serde::{Serialize, Serializer};
 
 use super::{
-    lines::{BEHIND, Line, Mirror, behind_at},
+    lines::{BEHIND, Line, Mirror, behind_at, edge},
     natural::Natural,
     plus,
     scale::Scale,
@@ -187,18 +187,12 @@ impl System {
 
     /// Where a line leads along the diamonds of the first cushion.
     pub fn first_along(self, line: &Line) -> Option<f64> {
-        match self {
-            Self::Corner5 => line.at_y(4.0 + BEHIND),
-            Self::Plus | Self::Seven => line.at_x(-BEHIND),
-        }
+        line.at_rail(self.rails()[0])
     }
 
     /// The place of a point of the first cushion's diamonds.
     pub const fn first_at(self, along: f64) -> DVec2 {
-        match self {
-            Self::Corner5 => DVec2::new(along, 4.0 + BEHIND),
-            Self::Plus | Self::Seven => DVec2::new(-BEHIND, along),
-        }
+        edge(self.rails()[0], along)
     }
 
     /// Where lines may lead along the diamonds of the first cushion: from and to.
@@ -210,8 +204,8 @@ impl System {
         }
     }
 
-    /// Where a ball arrives on the third cushion, in diamonds along it, whose way there leads from the middle `before` to the
-    /// middle `place`: at the nose, or at the diamonds through which it would run on, as the system counts. `None` where it
+    /// Where a ball arrives on the third cushion, in diamonds along it, whose centre comes from `before` to `place`: at the
+    /// nose, or at the diamonds through which it would run on, as the system counts. `None` where it
     /// does not go there.
     pub fn arrival(self, table: &Table, before: DVec2, place: DVec2) -> Option<f64> {
         let leg = Line::between(before, place);
