@@ -6,6 +6,7 @@ mod candidates;
 mod clock;
 #[expect(clippy::module_inception, reason = "`coach::Coach` is what a reader expects")]
 mod coach;
+mod coming;
 mod doubt;
 mod draws;
 mod ease;

@@ -18,7 +18,7 @@ pub struct Shooter {
 }
 
 impl Shooter {
-    /// What is in doubt where it matters: a perfect player has no doubts.
+    /// The doubt that counts: none for a perfect player.
     pub fn doubts(&self) -> Doubt {
         if self.skill.is_perfect() { Doubt::NONE } else { self.doubt }
     }

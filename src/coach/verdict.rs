@@ -219,7 +219,7 @@ fn nearest(table: &Table, recording: &Recording, start: f64, ball: usize) -> Opt
     };
     let looks = ((recording.duration() - start) / LOOK).ceil() as usize;
     let times = (0..=looks).map(|look| (start + LOOK * look as f64).min(recording.duration()));
-    let near = times.min_by(|one, other| gap(*one).total_cmp(&gap(*other)))?;
+    let (_, near) = times.map(|time| (gap(time), time)).min_by(|one, other| one.0.total_cmp(&other.0))?;
     // Between two looks the gap has one least value.
     let (mut from, mut to) = ((near - LOOK).max(start), (near + LOOK).min(recording.duration()));
     for _ in 0..30 {
@@ -316,10 +316,7 @@ mod tests {
     }
 
     fn flown(layout: &str, cue: &str, cue_ball: CueBall) -> String {
-        let table = Table::default();
-        let layout = Layout::parse(layout, &table).unwrap();
-        let recording = Recording::new(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap();
-        Verdict::of(Rule::StraightRail, &table, &layout, &recording).words(cue_ball, LengthUnit::Metres)
+        verdict(layout, cue, Rule::StraightRail).words(cue_ball, LengthUnit::Metres)
     }
 
     #[test]

@@ -59,7 +59,7 @@ pub struct Estimate {
     pub made: usize,
     /// Shots that were attempted.
     pub shots: usize,
-    /// Attempts at a real table that say nothing, for nobody knows which shot was meant.
+    /// Attempts at a real table that say nothing, for nobody knows which shot was meant, on what table, or how the balls lay.
     pub left_out: usize,
 }
 

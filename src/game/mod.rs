@@ -1,4 +1,4 @@
-//! What counts: the rules of carom, the difficulty of a shot, and the thesis' rewards.
+//! What counts: the rules of carom, balls that touch, and the thesis' rewards.
 
 mod point;
 mod reward;

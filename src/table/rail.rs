@@ -41,8 +41,8 @@ impl Rail {
         }
     }
 
-    /// The image of a place in this cushion, as in a mirror: towards it aims who would meet what lies there by the cushion. `reach` is how
-    /// far a ball's centre gets from the table's, m.
+    /// The image of a place in this cushion, as in a mirror: aim at it to hit that place off the cushion, if the rebound were a mirror's.
+    /// `reach` is how far a ball's centre gets from the table's, m.
     pub fn image(self, reach: DVec2, place: DVec2) -> DVec2 {
         let n = self.normal();
         place - 2.0 * n.dot(place) * n - 2.0 * n.abs().dot(reach) * n

@@ -82,7 +82,7 @@ pub fn guide(table: &Table, recording: &Recording) -> Option<Guide> {
 }
 
 impl Guide {
-    /// The way of a ball that is played so, on this table, to the third cushion: the middles of the ball at the cushions, m.
+    /// The way of a ball that is played so, on this table, to the third cushion: the centres of the ball at the cushions, m.
     pub fn path(&self, table: &Table) -> Vec<DVec2> {
         match self {
             Self::System(applied) => applied.path(table),
@@ -140,7 +140,7 @@ impl Applied {
     }
 
     /// The way of a ball that runs as the system supposes on the system's line, as this table plays it, from the diamond behind
-    /// it to the third cushion: the middles of the ball at the cushions, m.
+    /// it to the third cushion: the centres of the ball at the cushions, m.
     pub fn path(&self, table: &Table) -> Vec<DVec2> {
         let Self { system, mirror, line, .. } = self;
         let turned = |place: DVec2| metres(table, mirror.place(place));

@@ -4,24 +4,22 @@ use glam::DVec2;
 
 use super::lines::{Line, diamonds};
 use crate::{
+    coach::coming::{JUST_BEFORE, english},
     physics::Impulse,
     simulation::{EventKind, Rail, Recording},
     table::Table,
 };
 
-/// Just before a contact, s: at its own time an event has already changed the course.
-const BEFORE: f64 = 1e-9;
-
 /// Three cushions in a row with no ball between.
 #[derive(Clone, Debug)]
 pub struct Leg {
-    /// Where the cue ball came from: the stroke, or the first object ball. The middle, in diamonds.
+    /// Where the cue ball came from: the stroke, or the first object ball. The centre of the ball, in diamonds.
     pub from: DVec2,
-    /// The cushions, and the cue ball's middle there, in diamonds.
+    /// The cushions, and the cue ball's centre there, in diamonds.
     pub hits: [(Rail, DVec2); 3],
     /// Side spin at the first cushion, `R w / v`: positive where it is running.
     pub english: f64,
-    /// The cue ball's motion just before the first cushion, and its middle, m.
+    /// The cue ball's motion just before the first cushion, and its centre, m.
     pub motion: (DVec2, Impulse),
 }
 
@@ -42,12 +40,11 @@ impl Leg {
             }
             if let [first, second, third] = hits[..] {
                 let hit = |(rail, time): (Rail, f64)| (rail, diamonds(table, recording.state(0, time).position));
-                let before = recording.state(0, first.1 - BEFORE);
-                let along = before.velocity.dot(first.0.normal().perp());
+                let before = recording.state(0, first.1 - JUST_BEFORE);
                 return Some(Self {
                     from: diamonds(table, from),
                     hits: [first, second, third].map(hit),
-                    english: table.radius * before.spin.z * along.signum() / before.velocity.length(),
+                    english: english(table, &before, first.0),
                     motion: (before.position, Impulse::on_cloth(before.velocity, before.spin)),
                 });
             }
@@ -55,7 +52,7 @@ impl Leg {
         None
     }
 
-    /// The line from where the cue ball came from to the first cushion, as the middle of the ball goes.
+    /// The line from where the cue ball came from to the first cushion, as the centre of the ball goes.
     pub fn line(&self) -> Line {
         Line::between(self.from, self.hits[0].1)
     }

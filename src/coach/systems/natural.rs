@@ -24,7 +24,7 @@ pub struct Natural {
 }
 
 impl Natural {
-    /// The cushions that a ball alone on `table` meets if it runs so on `line` towards the cushion `first`, and where its middle
+    /// The cushions that a ball alone on `table` meets if it runs so on `line` towards the cushion `first`, and where its centre
     /// is then, in diamonds: the first five at most.
     pub fn run(&self, table: &Table, line: &Line, first: Rail) -> Vec<(Rail, DVec2)> {
         let [from, to] = [line.from, line.from + line.way].map(|place| metres(table, place));
@@ -38,7 +38,7 @@ impl Natural {
     }
 }
 
-/// The first five cushions that a ball alone meets, with its middle in diamonds.
+/// The first five cushions that a ball alone meets, with its centre in diamonds.
 pub fn hits(table: &Table, from: DVec2, impulse: &Impulse) -> Vec<(Rail, DVec2)> {
     let mut follower = Follower { end: from, hits: Vec::with_capacity(MOST) };
     watch(table, &Layout::new([from, DVec2::splat(1e3), DVec2::new(-1e3, 1e3)]), impulse, &mut follower);

@@ -9,16 +9,18 @@ pub use patterns::{PATTERNS, Pattern};
 use glam::DVec2;
 use serde::Serialize;
 
-use super::{Hit, Mark, aim::hit, first_hit};
+use super::{
+    Hit, RailPoint,
+    aim::hit,
+    coming::{JUST_BEFORE, english},
+    first_hit,
+};
 use crate::{
     game::Tally,
     physics::CueInputs,
     simulation::{EventKind, Rail, Recording, ShotError},
     table::{Layout, Table},
 };
-
-/// How long before an event its course is read, s: at its own time it has already changed.
-const JUST_BEFORE: f64 = 1e-9;
 
 /// Space beside a cushion within which a ball lies close to it, ball radii: two balls.
 const CLOSE: f64 = 4.0;
@@ -127,7 +129,6 @@ impl Technique {
         let (mut first, mut incoming, mut has_touched) = (None, None, false);
         for event in recording.events() {
             self.tally.note(event);
-            // At its own time an event has already changed the course.
             let before = recording.state(0, event.time - JUST_BEFORE);
             if let (Some(way), true) = (incoming, event.kind.balls().0 == 0) {
                 self.turn = before.velocity.angle_to(way).abs();
@@ -164,9 +165,7 @@ impl Technique {
                 EventKind::BallRail(0, rail) => {
                     let along = before.velocity.dot(rail.normal().perp().abs());
                     if self.before.is_empty() && self.between.is_empty() {
-                        // A ball that rolls along the cushion as on a track has an english of 1.
-                        let turning = before.velocity.dot(rail.normal().perp()).signum();
-                        self.english = table.radius * before.spin.z * turning / before.velocity.length();
+                        self.english = english(table, &before, rail);
                     }
                     let RailPoint { diamond, .. } = RailPoint::on(table, rail, before.position);
                     let cushion = Cushion { rail, diamond, along };
@@ -197,27 +196,6 @@ fn spread(layout: &Layout) -> f64 {
 mod tests {
     use super::*;
 
-    fn flown(layout: &str, cue: &str) -> Technique {
-        technique_on(&Table::default(), layout, cue)
-    }
-
-    #[test]
-    fn a_jump_is_a_shot_that_flies_over_a_ball_or_its_edge_before_it_meets_another() {
-        let name = |technique: &Technique| Pattern::of(technique).map(|pattern| pattern.name);
-        let over = flown("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6");
-        assert_eq!((over.over, over.first.map(|hit| hit.ball), name(&over)), (Some(1), Some(2), Some("jump")));
-        let edge = flown("-0.5,0 -0.2,0.05 0.5,0.02", "0,0,45,0,6");
-        assert_eq!((edge.over, name(&edge)), (Some(1), Some("jump")));
-        let beside = flown("-0.5,0 -0.2,0.07 0.5,0.02", "0,0,45,0,6");
-        assert!(beside.over.is_none() && name(&beside) != Some("jump"), "{beside:?}");
-        // The first ball is met from the air, and nothing is flown over.
-        let onto = flown("-0.5,0 -0.2,0 0.5,0.02", "0,0,20,0,6");
-        assert!(onto.first.is_some_and(|hit| hit.ball == 1) && onto.over.is_none(), "{onto:?}");
-        let (layout, cue) = ("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6");
-        let frozen = technique_on(&Table { flight: None, ..Table::default() }, layout, cue);
-        assert_eq!(frozen.over, None, "on a table that keeps its balls");
-    }
-
     fn technique(layout: &str, cue: &str) -> Technique {
         technique_on(&Table::default(), layout, cue)
     }
@@ -225,6 +203,23 @@ mod tests {
     fn technique_on(table: &Table, layout: &str, cue: &str) -> Technique {
         let layout = Layout::parse(layout, table).unwrap();
         Technique::of(table, &layout, &CueInputs::parse(cue).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_jump_is_a_shot_that_flies_over_a_ball_or_its_edge_before_it_meets_another() {
+        let name = |technique: &Technique| Pattern::of(technique).map(|pattern| pattern.name);
+        let over = technique("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6");
+        assert_eq!((over.over, over.first.map(|hit| hit.ball), name(&over)), (Some(1), Some(2), Some("jump")));
+        let edge = technique("-0.5,0 -0.2,0.05 0.5,0.02", "0,0,45,0,6");
+        assert_eq!((edge.over, name(&edge)), (Some(1), Some("jump")));
+        let beside = technique("-0.5,0 -0.2,0.07 0.5,0.02", "0,0,45,0,6");
+        assert!(beside.over.is_none() && name(&beside) != Some("jump"), "{beside:?}");
+        // The first ball is met from the air, and nothing is flown over.
+        let onto = technique("-0.5,0 -0.2,0 0.5,0.02", "0,0,20,0,6");
+        assert!(onto.first.is_some_and(|hit| hit.ball == 1) && onto.over.is_none(), "{onto:?}");
+        let (layout, cue) = ("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6");
+        let frozen = technique_on(&Table { flight: None, ..Table::default() }, layout, cue);
+        assert_eq!(frozen.over, None, "on a table that keeps its balls");
     }
 
     #[test]

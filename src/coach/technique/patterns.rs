@@ -153,7 +153,7 @@ pub const PATTERNS: [Pattern; 31] = [
         is_it: |t| start(t) == "lsS",
     },
     Pattern {
-        tag: "double-kiss",
+        tag: "same-rail-twice",
         name: "same rail twice",
         course: "a ball, and three cushions, of which the cue ball meets one twice in a row",
         is_it: |t| t.between.len() >= 3,

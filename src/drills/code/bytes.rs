@@ -1,6 +1,6 @@
 //! Numbers and texts one after the other in bytes.
 
-/// The bytes end too early, or a text is none.
+/// The bytes end too early, or a text is not UTF-8.
 #[derive(Debug)]
 pub struct Cut;
 
