@@ -20,6 +20,8 @@ pub struct Record {
     pub average: Option<f64>,
     /// Most points in a row. No run goes from one session into the next.
     pub high_run: u32,
+    /// Whether attempts were counted whose order nobody knows: they have no part in innings, average and runs.
+    pub has_unordered: bool,
     /// When the last attempt was, Unix time in seconds.
     pub last: Option<u64>,
 }
@@ -31,7 +33,10 @@ impl Record {
         sessions: impl IntoIterator<Item = &'a Session>,
         counts: impl Fn(&Session, &Attempt) -> bool,
     ) -> Self {
-        Self::of_all(sessions, |session, attempt| !attempt.by_coach && counts(session, attempt))
+        Self::of_all(sessions, |session, number| {
+            let attempt = &session.attempts[number];
+            !attempt.by_coach && counts(session, attempt)
+        })
     }
 
     /// Of all that was played in a session, by whomever.
@@ -39,16 +44,18 @@ impl Record {
         Self::of_all([session], |_, _| true)
     }
 
-    fn of_all<'a>(
-        sessions: impl IntoIterator<Item = &'a Session>,
-        counts: impl Fn(&Session, &Attempt) -> bool,
-    ) -> Self {
-        let (mut tried, mut made, mut helped, mut last) = (0, 0, 0, None);
+    /// Of the attempts in a session whose numbers, from 0 on, `counts` accepts.
+    pub(super) fn of_part(session: &Session, counts: impl Fn(usize) -> bool) -> Self {
+        Self::of_all([session], |_, number| counts(number))
+    }
+
+    fn of_all<'a>(sessions: impl IntoIterator<Item = &'a Session>, counts: impl Fn(&Session, usize) -> bool) -> Self {
+        let (mut tried, mut made, mut helped, mut last, mut has_unordered) = (0, 0, 0, None, false);
         let (mut innings, mut points, mut high_run) = (0, 0_usize, 0);
         for session in sessions {
             let mut run = 0;
-            for attempt in &session.attempts {
-                if !counts(session, attempt) {
+            for (number, attempt) in session.attempts.iter().enumerate() {
+                if !counts(session, number) {
                     // Another player's attempt, or another exercise's, ends a run.
                     innings += usize::from(run > 0);
                     run = 0;
@@ -59,6 +66,7 @@ impl Record {
                 helped += usize::from(attempt.helped);
                 last = last.max(Some(attempt.at));
                 if session.unordered {
+                    has_unordered = true;
                     continue;
                 }
                 if attempt.made {
@@ -80,13 +88,9 @@ impl Record {
             innings,
             average: (innings > 0).then(|| points as f64 / innings as f64),
             high_run,
+            has_unordered,
             last,
         }
-    }
-
-    /// Whether points were counted whose order nobody knows: they have no part in the average and the high run.
-    pub fn has_unordered(&self) -> bool {
-        self.average.is_some_and(|average| ((average * self.innings as f64).round() as usize) < self.made)
     }
 
     /// Of all repetitions of the exercise called `name`; games are none.
@@ -120,6 +124,18 @@ mod tests {
         let record = Record::of(&sessions, |_, _| true);
         assert_eq!((record.tried, record.made), (10, 6));
         assert_eq!((record.innings, record.average, record.high_run), (1, Some(1.0), 1));
+        assert!(record.has_unordered);
+    }
+
+    /// Misses were overlooked: all points were those that were noted one by one, and the average that of all attempts, it seemed.
+    #[test]
+    fn misses_without_order_are_told_from_those_noted_one_by_one() {
+        let mut sessions = [session(Goal::Free, "----------"), session(Goal::Free, "x-")];
+        assert!(!Record::of(&sessions, |_, _| true).has_unordered);
+        sessions[0].unordered = true;
+        let record = Record::of(&sessions, |_, _| true);
+        assert_eq!((record.made, record.tried, record.average, record.has_unordered), (1, 12, Some(1.0), true));
+        assert!(!Record::of(&sessions[1..], |_, _| true).has_unordered);
     }
 
     #[test]

@@ -257,9 +257,15 @@ impl Session {
 
     /// The score of one side of a match.
     pub fn side(&self, cue_ball: CueBall) -> Record {
-        let numbers = (0..self.attempts.len()).filter(|number| self.cue_ball_of(*number) == cue_ball);
-        let attempts = numbers.map(|number| self.attempts[number].clone()).collect();
-        Record::of_session(&Self { attempts, ..self.clone() })
+        let changed = |now: &mut CueBall, attempt: &Attempt| {
+            let own = *now;
+            if self.is_match() && !attempt.made {
+                *now = own.other();
+            }
+            Some(own)
+        };
+        let balls: Vec<CueBall> = self.attempts.iter().scan(self.cue_ball, changed).collect();
+        Record::of_part(self, |number| balls[number] == cue_ball)
     }
 
     /// The exercise of an attempt, as it was in this session.

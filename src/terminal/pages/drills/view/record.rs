@@ -79,7 +79,7 @@ fn number_rows(sessions: &[&Session], scope: Option<&str>) -> Vec<(&'static str,
     let mut rows = vec![("attempts", record.tried.to_string())];
     if record.tried > 0 {
         rows.push(("made", format!("{}, {}", record.made, chance_words(&record.rate))));
-        let of = if record.has_unordered() { ", one by one" } else { "" };
+        let of = if record.has_unordered { ", one by one" } else { "" };
         let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2} an inning{of}"));
         rows.push(("average", average));
         rows.push(("high run", high_run(&record).map_or("-".to_owned(), |run| run.to_string())));
