@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::ser::Formatter;
 
 use super::Exercise;
-use crate::storage::json_flaw;
+use crate::{printing::VERSION, storage::json_flaw};
 
 /// Exercises in a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,7 +64,7 @@ impl LibraryFile {
 
     /// A file of this version.
     pub fn new(exercises: Vec<Exercise>) -> Self {
-        let carom = Some(env!("CARGO_PKG_VERSION").to_owned());
+        let carom = Some(VERSION.to_owned());
         Self { format: Self::FORMAT.to_owned(), version: Self::VERSION, carom, exercises }
     }
 

@@ -8,7 +8,7 @@ use super::{Exercise, Record};
 use crate::{
     coach::{Doubt, Shooter, Skill},
     physics::CueInputs,
-    printing::moment,
+    printing::timestamp_of,
     table::{CueBall, Layout},
 };
 
@@ -154,8 +154,7 @@ impl Session {
     pub fn new(goal: Goal, venue: Venue, exercises: Vec<Exercise>, skill: Skill, seed: u64) -> Self {
         let since = since_epoch();
         let started = since.as_secs();
-        let day = moment(UNIX_EPOCH + Duration::from_secs(started));
-        let day = day.replace(['-', ':', 'Z'], "").replace('T', "-");
+        let day = timestamp_of(UNIX_EPOCH + Duration::from_secs(started));
         // Sessions of one second are in order too, and two programs that begin in the same millisecond do not meet.
         let id = format!("{day}-{:03}{:08x}", since.subsec_millis(), rand::random::<u32>());
         Self {
@@ -250,9 +249,12 @@ impl Session {
 
     /// The points of both sides of a match, like `you 3 : 1 coach`; nothing of what is no match.
     pub fn score_words(&self) -> Option<String> {
+        if !self.is_match() {
+            return None;
+        }
         let [one, other] =
             [self.cue_ball, self.cue_ball.other()].map(|ball| (self.side_name(ball), self.side(ball).made));
-        self.is_match().then(|| format!("{} {} : {} {}", one.0, one.1, other.1, other.0))
+        Some(format!("{} {} : {} {}", one.0, one.1, other.1, other.0))
     }
 
     /// The score of one side of a match.

@@ -17,7 +17,12 @@ pub fn moment(time: SystemTime) -> String {
 
 /// Now in UTC as `20261120-143005`, which sorts by time and is a file name everywhere.
 pub fn timestamp() -> String {
-    now().replace(['-', ':', 'Z'], "").replace('T', "-")
+    timestamp_of(SystemTime::now())
+}
+
+/// A moment in the form of [`timestamp`]; 1970 where it lies before.
+pub fn timestamp_of(time: SystemTime) -> String {
+    moment(time).replace(['-', ':', 'Z'], "").replace('T', "-")
 }
 
 /// Year, month and day of the Gregorian calendar, `days` after 1970-01-01 (Hinnant, "chrono-compatible low-level date

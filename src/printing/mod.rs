@@ -16,7 +16,7 @@ mod version;
 mod visible;
 
 pub use self::{
-    calendar::{moment, now, timestamp},
+    calendar::{moment, now, timestamp, timestamp_of},
     json::{json_line, json_text},
     number::{fixed, number},
     progress::ProgressLine,

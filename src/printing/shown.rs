@@ -7,7 +7,7 @@ use std::{
 
 use super::{
     spelling::{is_wanted, spelt},
-    visible::{is_hidden, write_escaped},
+    visible::{is_hidden, parts, write_escaped},
 };
 
 /// Takes an output's text in, and gives it on with everything shown that a terminal would obey. New lines and tabs
@@ -72,19 +72,13 @@ impl<W: Write> Shown<W> {
     fn show(&mut self, text: &str) -> io::Result<()> {
         let is_obeyed = |character: char| is_hidden(character) && !matches!(character, '\n' | '\t');
         let spelling = if self.spells { spelt(text) } else { text.into() };
-        let mut shown = String::new();
-        let mut rest = &*spelling;
-        while let Some(at) = rest.find(is_obeyed) {
-            let mut characters = rest[at..].chars();
-            shown.push_str(&rest[..at]);
+        let mut shown = String::with_capacity(spelling.len());
+        for (plain, hidden) in parts(&spelling, is_obeyed) {
+            shown.push_str(plain);
             // Writing into a string does not fail.
-            let _ = characters.next().map(|hidden| write_escaped(&mut shown, hidden));
-            rest = characters.as_str();
+            let _ = hidden.map(|hidden| write_escaped(&mut shown, hidden));
         }
-        if !shown.is_empty() {
-            self.inner.write_all(shown.as_bytes())?;
-        }
-        self.inner.write_all(rest.as_bytes())
+        self.inner.write_all(shown.as_bytes())
     }
 }
 

@@ -20,6 +20,14 @@ pub fn is_hidden(character: char) -> bool {
         )
 }
 
+/// `text` in parts, each of which goes out as it is, with the character after it that `is_obeyed`; the last part may have none.
+pub(super) fn parts(text: &str, is_obeyed: impl Fn(char) -> bool + Copy) -> impl Iterator<Item = (&str, Option<char>)> {
+    text.split_inclusive(is_obeyed).map(move |part| match part.chars().next_back().filter(|last| is_obeyed(*last)) {
+        Some(last) => (&part[..part.len() - last.len_utf8()], Some(last)),
+        None => (part, None),
+    })
+}
+
 /// Writes `character` as Rust does in a string: `\r`, `\u{1b}`.
 pub(super) fn write_escaped(out: &mut impl Write, character: char) -> fmt::Result {
     write!(out, "{}", character.escape_default())
@@ -39,16 +47,11 @@ struct Escaping<'a, 'b>(&'a mut fmt::Formatter<'b>);
 
 impl Write for Escaping<'_, '_> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        let mut rest = text;
-        while let Some(at) = rest.find(is_hidden) {
-            self.0.write_str(&rest[..at])?;
-            let mut characters = rest[at..].chars();
-            if let Some(hidden) = characters.next() {
-                write_escaped(self.0, hidden)?;
-            }
-            rest = characters.as_str();
+        for (plain, hidden) in parts(text, is_hidden) {
+            self.0.write_str(plain)?;
+            hidden.map_or(Ok(()), |hidden| write_escaped(self.0, hidden))?;
         }
-        self.0.write_str(rest)
+        Ok(())
     }
 }
 

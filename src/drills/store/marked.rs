@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use crate::storage::json_flaw;
+use crate::{printing::VERSION, storage::json_flaw};
 
 /// Newest version that is understood of all files that are marked here, and the one that is written.
 pub const NEWEST: u32 = 1;
@@ -47,7 +47,7 @@ struct Header {
 /// # Errors
 /// Where a value has no JSON form.
 pub fn write<T: Serialize>(format: &'static str, content: &T) -> Result<Vec<u8>, serde_json::Error> {
-    let mut bytes = serde_json::to_vec(&Marked { format, version: NEWEST, carom: env!("CARGO_PKG_VERSION"), content })?;
+    let mut bytes = serde_json::to_vec(&Marked { format, version: NEWEST, carom: VERSION, content })?;
     bytes.push(b'\n');
     Ok(bytes)
 }
