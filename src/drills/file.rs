@@ -27,7 +27,7 @@ pub struct LibraryFile {
 #[derive(Debug, thiserror::Error)]
 pub enum LibraryFileError {
     /// It is no JSON, or not of this form.
-    #[error("this is no file of exercises: {}", told(_0))]
+    #[error("this is no file of exercises: {}; {ACCEPTED}", json_flaw(_0))]
     Syntax(#[from] serde_json::Error),
     /// It is JSON, and does not say what it holds.
     #[error("this is no file of exercises: it does not begin with a \"format\" and a \"version\"; {ACCEPTED}")]
@@ -45,15 +45,6 @@ pub enum LibraryFileError {
 
 /// What would be accepted.
 const ACCEPTED: &str = "accepted is a JSON file as carom drill export writes it";
-
-/// What is wrong with a file's text, and where.
-fn told(error: &serde_json::Error) -> String {
-    let (line, column) = (error.line(), error.column());
-    if error.is_data() {
-        return format!("{}; {ACCEPTED}", json_flaw(error));
-    }
-    format!("it is no JSON from line {line}, column {column} on; {ACCEPTED}")
-}
 
 impl LibraryFile {
     /// What stands in `format`.
@@ -215,10 +206,9 @@ mod tests {
         let newer = said(r#"{"format": "carom-library", "version": 7, "exercises": {"other": "form"}}"#);
         assert!(newer.contains("version 7") && newer.contains("1 to 1"), "{newer}");
         assert!(said(r#"{"format": "pool", "version": 1}"#).contains("\"pool\""));
-        assert!(
-            said("half a fi")
-                .contains("it is no JSON from line 1, column 1 on; accepted is a JSON file as carom drill export")
-        );
+        assert!(said("half a fi").contains(
+            "this is no file of exercises: line 1, column 1 is no JSON; accepted is a JSON file as carom drill"
+        ));
         for text in ["[1,2]", "3", r#"{"version": 1}"#, r#"{"format": 3, "version": 1}"#] {
             assert!(said(text).contains("does not begin with a \"format\""), "{}", said(text));
             assert!(said(text).contains("carom drill export"), "{}", said(text));

@@ -82,7 +82,7 @@ fn only_what_an_older_version_has_saved_brings_its_notice() {
 fn what_is_no_export_is_refused_in_plain_words() {
     let folder = folder();
     for (text, says) in [
-        ("name = \"mine\"", "it is no JSON from line 1, column 2 on"),
+        ("name = \"mine\"", "line 1, column 2 is no JSON"),
         ("[1,2]", "does not begin with a \"format\" and a \"version\""),
         (r#"{"format":"carom-library","version":1,"exercises":[{"name":3}]}"#, "at line 1, column "),
         (r#"{"format":"carom-library","version":1,"sessions":3}"#, "invalid type"),
