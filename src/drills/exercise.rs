@@ -8,7 +8,7 @@ use crate::{
     game::Rule,
     physics::{CueError, CueInputs, ImpulseError, has_room},
     simulation::ShotError,
-    storage::{LONGEST_NAME, is_name},
+    storage::{NAME_RULE, is_name},
     table::{Layout, LayoutError, PRESETS, Table},
 };
 
@@ -107,7 +107,7 @@ pub struct Par {
 /// A position to practise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Exercise {
-    /// What it is called on the command line and in files: letters, digits, `-`, `_` and `.`, unique in the library.
+    /// What it is called on the command line and in files, by [`NAME_RULE`]; unique in the library.
     pub name: String,
     /// Its heading, some words.
     pub title: String,
@@ -157,7 +157,7 @@ pub(super) fn match_table() -> String {
 #[derive(Debug, thiserror::Error)]
 pub enum ExerciseError {
     /// It can neither be called so on the command line nor in a file.
-    #[error("{0:?} is no name for an exercise; accepted are 1 to {LONGEST_NAME} letters, digits, '-', '_' and '.'")]
+    #[error("{0:?} is no name for an exercise; accepted are {NAME_RULE}")]
     Name(String),
     /// Its words would move the cursor or turn the text round.
     #[error("the {field} {text:?} has a character that cannot be shown; accepted is one line of text")]

@@ -18,7 +18,7 @@ pub use atomic::{
 pub use confinement::{confine, may_read};
 pub use lines::{LONGEST_LINE, NextLine, next_line};
 pub use lock::Lock;
-pub use name::{LONGEST_NAME, is_letter, is_name};
+pub use name::{LONGEST_NAME, NAME_RULE, is_letter, is_name};
 pub use notices::notice;
 pub use places::{Places, is_called};
 pub use plain_words::{in_plain_words, json_flaw, toml_flaw, without_numbers};

@@ -3,6 +3,10 @@
 /// Longest name, bytes; file systems take some more.
 pub const LONGEST_NAME: usize = 100;
 
+/// What [`is_name`] accepts, in words.
+pub const NAME_RULE: &str =
+    "1 to 100 letters, digits, '-', '_' and '.', with no '.' at the beginning; a letter like é counts as two or more";
+
 /// Whether something may be called so.
 pub fn is_name(name: &str) -> bool {
     (1..=LONGEST_NAME).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_letter)
@@ -11,4 +15,21 @@ pub fn is_name(name: &str) -> bool {
 /// Whether the letter may stand in a name.
 pub fn is_letter(letter: char) -> bool {
     letter.is_alphanumeric() || "-_.".contains(letter)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rule_in_words_is_the_rule() {
+        assert!(NAME_RULE.starts_with(&format!("1 to {LONGEST_NAME} letters")));
+        let longest = "x".repeat(LONGEST_NAME);
+        for name in ["a", "0.-_", "größe", &*longest, &"ö".repeat(LONGEST_NAME / 2)] {
+            assert!(is_name(name), "{name}");
+        }
+        for name in ["", ".hidden", "a b", "a/b", &*(longest.clone() + "x"), &"ö".repeat(LONGEST_NAME / 2 + 1)] {
+            assert!(!is_name(name), "{name}");
+        }
+    }
 }

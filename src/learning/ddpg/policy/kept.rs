@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{Policy, file::PolicyError};
-use crate::storage::{LONGEST_NAME, is_name, write_atomic};
+use crate::storage::{NAME_RULE, is_name, write_atomic};
 
 /// What the files are called after their names.
 const EXTENSION: &str = "safetensors";
@@ -18,7 +18,7 @@ pub const BUNDLED: &str = "bundled";
 #[derive(Debug, thiserror::Error)]
 pub enum KeepError {
     /// No file could be called so.
-    #[error("\"{0}\" is no name for a policy; accepted are 1 to {LONGEST_NAME} letters, digits, '-', '_' and '.'")]
+    #[error("\"{0}\" is no name for a policy; accepted are {NAME_RULE}")]
     Name(String),
     /// The program calls its own ones so.
     #[error("\"{BUNDLED}\" is what the bundled policies are called; take another name")]
