@@ -21,7 +21,8 @@ const ABANDONED: Duration = Duration::from_secs(3600);
 /// are made.
 ///
 /// # Errors
-/// Where something else than a regular file is there, or whatever the file system reports; it is then untouched.
+/// Where something else than a regular file is there, or whatever the file system reports; as with [`Staged::publish`], what is there is
+/// then untouched.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Staged::new(path, bytes)?.publish()
 }
@@ -29,8 +30,8 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// Like [`write_atomic`] for a name that nobody has yet: of several programs that create the same file at once, one does.
 ///
 /// # Errors
-/// [`io::ErrorKind::AlreadyExists`] where there is such a file, else whatever the file system reports; what stands there
-/// is untouched.
+/// [`io::ErrorKind::AlreadyExists`] where there is such a file, else whatever the file system reports, as with [`Staged::publish`];
+/// what stands there is untouched.
 pub fn create_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Staged::new(path, bytes)?.publish_new()
 }
@@ -39,7 +40,8 @@ pub fn create_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// waits for the disk.
 ///
 /// # Errors
-/// Whatever the file system reports; the old file is then untouched.
+/// Where something else than a regular file is there, there is no folder for it, or whatever the file system reports; the old file is
+/// then untouched.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     replaceable(path)?;
     let mut file = readable_by_all(folder_of(path))?;
@@ -75,7 +77,8 @@ impl Staged {
     /// Puts the file in its place, over what stands there.
     ///
     /// # Errors
-    /// Whatever the file system reports; what stands there is then untouched.
+    /// Whatever the file system reports; what stands there is then untouched, unless the disk failed at the very last: the file is in
+    /// its place then, and may not outlive a power cut.
     pub fn publish(self) -> io::Result<()> {
         self.file.persist(&self.path)?;
         platform::sync_folder(folder_of(&self.path))
@@ -84,10 +87,9 @@ impl Staged {
     /// Puts the file in its place if nothing stands there.
     ///
     /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`], or whatever the file system reports; what stands there is then untouched.
+    /// [`io::ErrorKind::AlreadyExists`], or as [`Staged::publish`].
     pub fn publish_new(self) -> io::Result<()> {
-        // Not with the temporary file's own name in the message.
-        self.file.persist_noclobber(&self.path).map_err(|error| error.error)?;
+        self.file.persist_noclobber(&self.path)?;
         platform::sync_folder(folder_of(&self.path))
     }
 }

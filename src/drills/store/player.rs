@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{Store, StoreError, marked};
 use crate::{
-    storage,
-    {coach::Skill, drills::session::now, storage::write_atomic},
+    coach::Skill,
+    drills::session::now,
+    storage::{self, write_atomic},
 };
 
 /// What the file says that it is.
@@ -28,14 +29,10 @@ impl Store {
     /// # Errors
     /// Where the file cannot be read.
     pub fn own_skill(&self) -> Result<Option<OwnSkill>, StoreError> {
-        match storage::read(&self.player, storage::SMALL) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(StoreError::file(&self.player, error)),
-            Ok(text) => {
-                let refuse = |error| StoreError::Mark { path: self.player.clone(), error };
-                marked::read(PLAYER, &text).map(Some).map_err(refuse)
-            }
-        }
+        let text = storage::read_if_there(&self.player, storage::SMALL);
+        let Some(text) = text.map_err(|error| StoreError::file(&self.player, error))? else { return Ok(None) };
+        let refuse = |error| StoreError::Mark { path: self.player.clone(), error };
+        marked::read(PLAYER, &text).map(Some).map_err(refuse)
     }
 
     /// Keeps a skill as the player's own.

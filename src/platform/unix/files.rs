@@ -8,6 +8,7 @@ use std::{
     sync::{Arc, atomic::AtomicBool},
 };
 
+use rustix::io::Errno;
 use signal_hook::{consts::SIGXFSZ, flag};
 
 /// Gives new files the rights that the user's umask gives any other; a temporary file's own are the owner's alone.
@@ -20,12 +21,22 @@ pub fn file_identity(data: &Metadata) -> u64 {
     data.ino()
 }
 
-/// Has the names in a folder outlive a power cut.
+/// Has the names in a folder outlive a power cut, where the file system can be asked for that: some, over a network or of other
+/// systems, keep names in their own way and refuse.
 ///
 /// # Errors
-/// Whatever the file system reports.
+/// Whatever else the file system reports.
 pub fn sync_folder(folder: &Path) -> io::Result<()> {
-    File::open(folder)?.sync_all()
+    can_refuse(File::open(folder)?.sync_all())
+}
+
+/// What came of a request that a file system need not know.
+fn can_refuse(answer: io::Result<()>) -> io::Result<()> {
+    let is_unknown = |errno| [Errno::INVAL, Errno::NOTSUP, Errno::OPNOTSUPP, Errno::NOSYS].contains(&errno);
+    match answer {
+        Err(error) if Errno::from_io_error(&error).is_some_and(is_unknown) => Ok(()),
+        answer => answer,
+    }
 }
 
 /// Bytes that this user may still write where `path` is; none where the system does not tell.
@@ -44,4 +55,18 @@ pub fn free_space(path: &Path) -> io::Result<Option<u64>> {
 /// Where the system refuses a handler.
 pub fn refuse_large_files() -> io::Result<()> {
     flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))).map(|_| ())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_system_that_syncs_no_folders_has_not_failed() {
+        for errno in [Errno::INVAL, Errno::NOTSUP, Errno::NOSYS] {
+            can_refuse(Err(errno.into())).unwrap();
+        }
+        assert!(can_refuse(Err(Errno::IO.into())).is_err() && can_refuse(Err(Errno::NOSPC.into())).is_err());
+        sync_folder(tempfile::tempdir().unwrap().path()).unwrap();
+    }
 }
