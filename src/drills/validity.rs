@@ -1,7 +1,7 @@
 //! What a session must hold to be counted: all that other code relies on is checked, whoever wrote its file.
 
 use super::{Attempt, Exercise, ExerciseError, Session, exercise::check_share};
-use crate::physics::CueInputs;
+use crate::{coach::Skill, physics::CueInputs};
 
 /// The first second of the year 10000, Unix time: no session is as late, and dates have four digits for the year.
 const YEAR_10000: u64 = 253_402_300_800;
@@ -66,7 +66,8 @@ impl Attempt {
         }
         if let Some(CueInputs { theta, phi, speed, .. }) = self.played {
             // Errors carry the tip off the ball, and the rest a little beyond what can be meant.
-            CueInputs { a: 0.0, b: 0.0, theta, phi: 0.5 * phi, speed: 0.5 * speed }.validate()?;
+            let speed = speed * (CueInputs::MAX_SPEED / Skill::FASTEST);
+            CueInputs { a: 0.0, b: 0.0, theta, phi: 0.5 * phi, speed }.validate()?;
         }
         Ok(())
     }
@@ -76,6 +77,7 @@ impl Attempt {
 mod tests {
     use super::*;
     use crate::{
+        coach::Growth,
         drills::{Goal, session::tests::session},
         table::Layout,
     };
@@ -91,6 +93,10 @@ mod tests {
         };
         changed(&|session| session.attempts[1].meant = Some(good)).unwrap();
         changed(&|session| session.attempts[1].played = Some(CueInputs { b: 1.2, speed: 100.5, ..good })).unwrap();
+        // The wildest player who hits three standard errors too hard.
+        let wild = Skill { speed: Skill::REFERENCE_SPEED, growth: Growth::USUAL, ..Skill::CLUB };
+        let played = wild.stroke(0.03, &good, &[0.0, 0.0, 0.0, 0.0, 3.0]);
+        changed(&|session| session.attempts[1].played = Some(played)).unwrap();
         let bad = CueInputs { theta: 1e9, ..good };
         let refused: [&dyn Fn(&mut Session); 7] = [
             &|session| session.attempts[1].chance = Some(5e300),

@@ -8,11 +8,8 @@ use serde::{Deserialize, Serialize};
 use super::{Cloth, SpatialState};
 use crate::table::{Table, is_zero};
 
-/// Fastest cue that is accepted, m/s. The fastest human break shots stay below 20 m/s.
-const MAX_SPEED: f64 = 100.0;
-
 /// Fastest ball that is accepted, m/s: a light ball leaves the fastest cue at twice that cue's speed.
-const MAX_BALL_SPEED: f64 = 2.0 * MAX_SPEED;
+const MAX_BALL_SPEED: f64 = 2.0 * CueInputs::MAX_SPEED;
 
 /// Fastest spin that is accepted, rad/s: about what a tip at the edge of a 30 mm ball gives it at that speed.
 const MAX_SPIN: f64 = 20_000.0;
@@ -122,6 +119,9 @@ pub fn turn(from: f64, to: f64) -> f64 {
 }
 
 impl CueInputs {
+    /// Fastest cue that is accepted, m/s. The fastest human break shots stay below 20 m/s.
+    pub const MAX_SPEED: f64 = 100.0;
+
     /// Checks that the tip meets the ball (thesis equation 46) and that every input is in its range.
     ///
     /// # Errors
@@ -135,7 +135,7 @@ impl CueInputs {
         range("theta", theta, (0.0..90.0).contains(&theta), "0 to below 90 degrees")?;
         let phi = self.phi.to_degrees();
         range("phi", phi, phi.abs() <= 36_000.0, "-36000 to 36000 degrees")?;
-        let speed_ok = self.speed > 0.0 && self.speed <= MAX_SPEED;
+        let speed_ok = self.speed > 0.0 && self.speed <= Self::MAX_SPEED;
         range("V", self.speed, speed_ok, "above 0 and at most 100 m/s")
     }
 
@@ -344,7 +344,7 @@ mod tests {
         assert!(refused(Impulse { velocity: DVec2::new(0.0, 200.1), ..still }).contains("at most 200 m/s"));
         assert!(refused(Impulse { spin: DVec3::new(0.0, f64::INFINITY, 0.0), ..still }).contains("spin = [0, inf, 0]"));
         // What the fastest stroke gives is accepted: side at the edge of the ball.
-        let hardest = CueInputs { a: 1.0, b: 0.0, theta: 0.0, phi: 0.0, speed: MAX_SPEED };
+        let hardest = CueInputs { a: 1.0, b: 0.0, theta: 0.0, phi: 0.0, speed: CueInputs::MAX_SPEED };
         assert_eq!(strike(&Table::default(), &hardest).validate(), Ok(()));
     }
 

@@ -66,6 +66,9 @@ impl Skill {
     /// is a stroke of 2.5 m/s.
     pub const REFERENCE_SPEED: f64 = 2.5;
 
+    /// The fastest stroke that errors lead to, m/s: twice the fastest that can be meant.
+    pub const FASTEST: f64 = 2.0 * CueInputs::MAX_SPEED;
+
     /// No errors.
     pub const PERFECT: Self = Self { growth: Growth::NONE, ..Self::EXPERT.scaled(0.0) };
 
@@ -140,14 +143,14 @@ impl Skill {
             // A cue is held neither below the cloth nor over the back.
             theta: (cue.theta + own.theta * errors[2]).clamp(0.0, STEEPEST.max(cue.theta)),
             phi: cue.phi + own.phi * errors[3],
-            // Nor does a stroke go backwards.
-            speed: (cue.speed + own.speed * errors[4]).max(1e-3),
+            // Nor does a stroke go backwards, or so fast that nobody would believe the record of it.
+            speed: (cue.speed + own.speed * errors[4]).clamp(1e-3, Self::FASTEST),
         }
     }
 
     /// The standard error in one of the inputs at the reference stroke, in its unit; [`Skill::at`] gives those of a stroke.
     pub fn error(&self, input: Input) -> f64 {
-        let index = Input::ALL.iter().position(|one| *one == input).unwrap_or_default();
+        let index = input as usize;
         self.values()[index] / FORMS[index].2
     }
 

@@ -8,7 +8,7 @@ use crate::printing::number;
 /// Why a skill is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum SkillError {
-    /// Neither a name nor five numbers.
+    /// Neither a name nor five numbers, each once.
     #[error(
         "there is no skill \"{0}\"; use perfect, expert, world-class, national, club or beginner, an average at \
          three-cushion like 0.6, or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\""
@@ -54,9 +54,6 @@ const SPEED: &str = "V";
 /// The largest share of the speed that is accepted, %.
 const MOST_SHARE: f64 = 100.0;
 
-/// The largest growth with the elevation that is accepted.
-const MOST_RAISED: f64 = 10.0;
-
 impl fmt::Display for Skill {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some((name, _)) = Self::NAMED.iter().find(|(_, skill)| skill == self) {
@@ -76,17 +73,15 @@ impl fmt::Display for Skill {
             }
         };
         let mut parts: Vec<_> = FORMS.iter().zip(self.values()).map(part).collect();
-        for (name, value, _) in growths(speed, elevation).into_iter().filter(|(_, value, _)| *value != 0.0) {
+        for ((name, _), value) in GROWTHS.iter().zip([speed, elevation]).filter(|(_, value)| *value != 0.0) {
             parts.push(format!("{name}={}", rounded(value)));
         }
         formatter.pad(&parts.join(","))
     }
 }
 
-/// Name, value and largest value of the two numbers of a growth.
-const fn growths(speed: f64, elevation: f64) -> [(&'static str, f64, f64); 2] {
-    [("growth", speed, 1.0), ("raised", elevation, MOST_RAISED)]
-}
+/// Name and largest value of the two numbers of a growth: with the speed and with the elevation.
+const GROWTHS: [(&str, f64); 2] = [("growth", 1.0), ("raised", 10.0)];
 
 impl FromStr for Skill {
     type Err = SkillError;
@@ -104,19 +99,21 @@ impl FromStr for Skill {
         let checked = |name, value: f64, most, unit| {
             if (0.0..=most).contains(&value) { Ok(value) } else { Err(SkillError::Range { name, value, most, unit }) }
         };
-        let (mut values, mut growth) = ([None; 5], Growth::NONE);
+        let (mut values, mut growths, mut is_share) = ([None; 5], [None; 2], false);
         for part in text.split(',') {
             let (name, value) = part.split_once('=').ok_or_else(unknown)?;
-            if let Some(which) = growths(0.0, 0.0).iter().position(|growth| growth.0 == name.trim()) {
-                let (name, _, most) = growths(0.0, 0.0)[which];
-                *[&mut growth.speed, &mut growth.elevation][which] = checked(name, number(value)?, most, "(a share)")?;
+            if let Some(which) = GROWTHS.iter().position(|growth| growth.0 == name.trim()) {
+                let (name, most) = GROWTHS[which];
+                if growths[which].replace(checked(name, number(value)?, most, "(a share)")?).is_some() {
+                    return Err(unknown());
+                }
                 continue;
             }
             let index = FORMS.iter().position(|form| form.0 == name.trim()).ok_or_else(unknown)?;
             let (name, unit, si, most) = FORMS[index];
             let value = match value.trim().strip_suffix('%').filter(|_| name == SPEED) {
                 Some(share) => {
-                    growth.is_share = true;
+                    is_share = true;
                     checked(name, number(share)?, MOST_SHARE, "%")? / 100.0 * Self::REFERENCE_SPEED
                 }
                 None => checked(name, number(value)?, most, unit)? * si,
@@ -126,7 +123,8 @@ impl FromStr for Skill {
             }
         }
         let [Some(a), Some(b), Some(theta), Some(phi), Some(speed)] = values else { return Err(unknown()) };
-        Ok(Self { a, b, theta, phi, speed, growth })
+        let [by_speed, by_elevation] = growths.map(Option::unwrap_or_default);
+        Ok(Self { a, b, theta, phi, speed, growth: Growth { speed: by_speed, elevation: by_elevation, is_share } })
     }
 }
 
@@ -198,6 +196,8 @@ mod tests {
         assert!(said("master").contains("master") && said("master").contains("expert"));
         assert!(said("a=0.7,b=0.7,theta=0.2,phi=0.2").contains("V="), "one is missing");
         assert!(said("a=1,a=1,theta=0.2,phi=0.2,V=0.1").contains("a=1,a=1"));
+        let twice = said("a=1,b=1,theta=0.2,phi=0.2,V=0.1,growth=0.5,growth=0.1");
+        assert!(twice.contains("growth=0.5,growth=0.1"), "{twice}");
         for bad in ["-0.1", "46", "NaN", "inf"] {
             let said = said(&format!("a=0.7,b=0.7,theta=0.2,phi={bad},V=0.1"));
             assert!(said.contains(&format!("phi = {bad}")) && said.contains("0 to 45 degrees"), "{said}");
