@@ -23,6 +23,14 @@ pub fn steepest_tilt(table: &Table) -> f64 {
     STEEPEST * table.rolling_friction.min(table.sliding_friction) * table.gravity
 }
 
+/// The keys of what a rail may have of its own.
+const OWN: [(Rail, [&str; 3]); 4] = [
+    (Rail::Left, ["rail.left.e", "rail.left.mu", "rail.left.height"]),
+    (Rail::Right, ["rail.right.e", "rail.right.mu", "rail.right.height"]),
+    (Rail::Bottom, ["rail.bottom.e", "rail.bottom.mu", "rail.bottom.height"]),
+    (Rail::Top, ["rail.top.e", "rail.top.mu", "rail.top.height"]),
+];
+
 /// The first value that cannot be, with its key and what would be accepted.
 pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> {
     let Table { rail, radius, .. } = table;
@@ -49,10 +57,11 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
     if let Some(value) = rail.height {
         checks.push(("rail.height", value, height(value), "from R to 1.6 R, in metres"));
     }
-    for own in Rail::ALL.map(|which| rail.own(which)) {
-        checks.extend(own.e.map(|e| ("rail.e", e, restitution(e), "0 to 1")));
-        checks.extend(own.mu.map(|mu| ("rail.mu", mu, rubs(mu), RUBS)));
-        checks.extend(own.height.map(|value| ("rail.height", value, height(value), "from R to 1.6 R, in metres")));
+    for (which, [e, mu, high]) in OWN {
+        let own = rail.own(which);
+        checks.extend(own.e.map(|value| (e, value, restitution(value), "0 to 1")));
+        checks.extend(own.mu.map(|value| (mu, value, rubs(value), RUBS)));
+        checks.extend(own.height.map(|value| (high, value, height(value), "from R to 1.6 R, in metres")));
     }
     let fades = [("rail.fade", rail.fade), ("e_ball_fade", table.ball_fade)];
     for (key, value) in fades.into_iter().filter_map(|(key, value)| value.map(|value| (key, value))) {
@@ -91,6 +100,9 @@ mod tests {
             ("m_end = 0.005", "m_end = 0", "m_end"),
             ("slope = 0.02", "slope = inf", "rail.fade"),
             ("rise = 0.108", "rise = -1", "mu_b_slip"),
+            ("[rail.fade]", "[rail.left]\ne = 1.5\n\n[rail.fade]", "rail.left.e"),
+            ("[rail.fade]", "[rail.top]\nmu = 1\n\n[rail.fade]", "rail.top.mu"),
+            ("[rail.fade]", "[rail.bottom]\nheight = 0.01\n\n[rail.fade]", "rail.bottom.height"),
             ("name = \"match\"", "name = \"leaning\"\ntilt = [0.5, 0.0]", "tilt"),
             ("name = \"match\"", "name = \"leaning\"\ntilt = [0.0, -0.0102]", "tilt"),
             ("name = \"match\"", "name = \"leaning\"\ntilt = [nan, 0.0]", "tilt"),

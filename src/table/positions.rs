@@ -16,6 +16,14 @@ pub enum PositionsError {
     /// A ball is named and nothing follows.
     #[error("where is {0}? write {0} and x,y after it, like \"{0} 2d,0.5d\"")]
     Missing(&'static str),
+    /// Nothing was typed.
+    #[error(
+        "where is the ball? write one place like 2d,0.5d, for the selected ball, or three: cue ball, the other, red"
+    )]
+    Empty,
+    /// A ball is named twice.
+    #[error("{0} is put in two places; name each ball once")]
+    Twice(&'static str),
     /// Two positions for no ball in particular.
     #[error(
         "{0} places without a colour; write one like 2d,0.5d, for the selected ball, or three: cue ball, the other, red"
@@ -67,6 +75,9 @@ impl Layout {
         while let Some(word) = words.next() {
             let position = |word: &str| place(word, table).ok_or_else(|| PositionsError::Word(word.to_owned()));
             match names.iter().position(|name| is_called(name, word)) {
+                Some(ball) if named.iter().any(|(other, _)| *other == ball) => {
+                    return Err(PositionsError::Twice(names[ball]));
+                }
                 Some(ball) => named.push((ball, position(words.next().ok_or(PositionsError::Missing(names[ball]))?)?)),
                 None => bare.push(position(word)?),
             }
@@ -75,6 +86,7 @@ impl Layout {
             (0, 1) => vec![(selected, bare[0])],
             (0, 3) => bare.into_iter().enumerate().collect(),
             (_, 0) if !named.is_empty() => named,
+            (0, 0) => return Err(PositionsError::Empty),
             (0, count) => return Err(PositionsError::Count(count)),
             _ => return Err(PositionsError::Mixed),
         };
@@ -128,7 +140,8 @@ mod tests {
     #[test]
     fn what_cannot_be_taken_is_named_with_what_would_be() {
         for (text, part) in [
-            ("", "0 places"),
+            ("", "where is the ball? write one place"),
+            ("red 2d,1d RED: 3d,1d", "red is put in two places"),
             ("2d,1d 3d,1d", "2 places"),
             ("blue 2d,1d", "\"blue\""),
             ("2d;1d", "\"2d\""),
