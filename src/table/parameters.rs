@@ -1,6 +1,6 @@
 //! The table as data: geometry, balls, cloth, cushions and cue, read from TOML.
 
-use std::path::Path;
+use std::{path::Path, sync::LazyLock};
 
 use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
@@ -20,6 +20,7 @@ const LONGEST: f64 = 10.0;
 /// The bundled tables whose equations are those of the thesis alone: numerics are judged on them.
 pub const JUDGED: [&str; 2] = ["textbook", "thesis"];
 
+/// Their files, in the order of [`PRESETS`].
 const MATCH: &str = include_str!("match.toml");
 const TEXTBOOK: &str = include_str!("textbook.toml");
 const THESIS: &str = include_str!("thesis.toml");
@@ -157,12 +158,13 @@ impl Table {
     /// # Errors
     /// [`TableError::Unknown`] for any other name.
     pub fn preset(name: &str) -> Result<Self, TableError> {
-        match name {
-            "match" => Self::from_toml(MATCH),
-            "textbook" => Self::from_toml(TEXTBOOK),
-            "thesis" => Self::from_toml(THESIS),
-            other => Err(TableError::Unknown(other.to_owned())),
-        }
+        // Read once: an exercise's table is asked for at every attempt.
+        static BUNDLED: LazyLock<[Table; PRESETS.len()]> = LazyLock::new(|| {
+            [MATCH, TEXTBOOK, THESIS]
+                .map(|text| Table::from_toml(text).expect("a bundled table is valid: a test reads them all"))
+        });
+        let place = PRESETS.iter().position(|preset| *preset == name);
+        place.map(|place| BUNDLED[place].clone()).ok_or_else(|| TableError::Unknown(name.to_owned()))
     }
 
     /// The table that the file at `path` describes. One that bears a bundled table's name and is another is called after its file: the
@@ -191,7 +193,7 @@ impl Table {
     /// Reads a table from TOML text and checks every value.
     ///
     /// # Errors
-    /// [`TableError::Syntax`] or [`TableError::Value`].
+    /// [`TableError::Syntax`], [`TableError::Value`] or [`TableError::Doubt`].
     pub fn from_toml(text: &str) -> Result<Self, TableError> {
         let table = toml::Deserializer::parse(text).and_then(Self::deserialize);
         let table = table.map_err(|error| TableError::Syntax(toml_flaw(text, &error)))?;
@@ -303,7 +305,7 @@ impl<'de> Deserialize<'de> for Table {
 impl Default for Table {
     /// The `match` table: the one a player stands at.
     fn default() -> Self {
-        Self::preset("match").expect("the bundled match table is valid: a test reads it")
+        Self::preset(PRESETS[0]).expect("the first of the bundled tables is one of them")
     }
 }
 
