@@ -1,6 +1,8 @@
 //! The exercises there are: the bundled ones and the user's own.
 
-use super::{Category, Exercise, LibraryFile, LibraryFileError, exercise::bare_tag};
+use std::sync::LazyLock;
+
+use super::{Category, Exercise, LibraryFile, exercise::bare_tag};
 
 /// The bundled files, one a category.
 const BUNDLED: [&str; 9] = [
@@ -54,27 +56,22 @@ pub struct Library {
 }
 
 impl Library {
-    /// The bundled exercises.
-    ///
-    /// # Errors
-    /// Where a bundled file is damaged.
-    pub fn bundled() -> Result<Self, LibraryFileError> {
-        let mut exercises = Vec::new();
-        for text in BUNDLED {
-            exercises.extend(LibraryFile::parse(text)?.exercises);
-        }
-        let bundled = exercises.len();
-        Ok(Self { exercises, bundled })
+    /// The bundled exercises, whose files are read once.
+    pub fn bundled() -> &'static Self {
+        static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
+            let read =
+                |text| LibraryFile::parse(text).expect("a bundled file is one of exercises: a test reads them all");
+            let exercises: Vec<Exercise> = BUNDLED.into_iter().flat_map(|text| read(text).exercises).collect();
+            Library { bundled: exercises.len(), exercises }
+        });
+        &LIBRARY
     }
 
     /// The bundled exercises and these, and what is wrong with those that could not be taken in.
-    ///
-    /// # Errors
-    /// Where a bundled file is damaged.
-    pub fn with_own(own: Vec<Exercise>) -> Result<(Self, Vec<LibraryError>), LibraryFileError> {
-        let mut library = Self::bundled()?;
+    pub fn with_own(own: Vec<Exercise>) -> (Self, Vec<LibraryError>) {
+        let mut library = Self::bundled().clone();
         let refused = own.into_iter().filter_map(|exercise| library.add(exercise).err()).collect();
-        Ok((library, refused))
+        (library, refused)
     }
 
     /// Takes in one more exercise.
@@ -104,14 +101,7 @@ impl Library {
     /// # Errors
     /// [`LibraryError::Unknown`] or [`LibraryError::Ambiguous`].
     pub fn called(&self, text: &str) -> Result<&Exercise, LibraryError> {
-        self.titled(text).or_else(|error| {
-            let wanted = text.to_lowercase();
-            match self.that(|words| !wanted.is_empty() && words.starts_with(&wanted))[..] {
-                [] => Err(error),
-                [exercise] => Ok(exercise),
-                ref several => Err(ambiguous(text, several)),
-            }
-        })
+        self.titled(text).or_else(|_| self.only(text, |words, wanted| !wanted.is_empty() && words.starts_with(wanted)))
     }
 
     /// The exercise of this name, or of this name or title in capitals or not.
@@ -119,21 +109,19 @@ impl Library {
     /// # Errors
     /// [`LibraryError::Unknown`] or [`LibraryError::Ambiguous`].
     pub fn titled(&self, text: &str) -> Result<&Exercise, LibraryError> {
-        self.get(text).or_else(|error| {
-            let wanted = text.to_lowercase();
-            match self.that(|words| words == wanted)[..] {
-                [] => Err(error),
-                [exercise] => Ok(exercise),
-                ref several => Err(ambiguous(text, several)),
-            }
-        })
+        self.get(text).or_else(|_| self.only(text, |words, wanted| words == wanted))
     }
 
-    /// Those whose name or title in small letters is so.
-    fn that(&self, is_so: impl Fn(&str) -> bool) -> Vec<&Exercise> {
-        let either =
-            |exercise: &&Exercise| [&exercise.name, &exercise.title].iter().any(|words| is_so(&words.to_lowercase()));
-        self.exercises.iter().filter(either).collect()
+    /// The only one whose name or title `is_so` for `text`, both in small letters.
+    fn only(&self, text: &str, is_so: impl Fn(&str, &str) -> bool) -> Result<&Exercise, LibraryError> {
+        let wanted = text.to_lowercase();
+        let is_wanted = |words: &&String| is_so(&words.to_lowercase(), &wanted);
+        let either = |exercise: &&Exercise| [&exercise.name, &exercise.title].iter().any(is_wanted);
+        match self.exercises.iter().filter(either).collect::<Vec<_>>()[..] {
+            [] => Err(LibraryError::Unknown(text.to_owned())),
+            [exercise] => Ok(exercise),
+            ref several => Err(ambiguous(text, several)),
+        }
     }
 
     /// All of them.
@@ -194,10 +182,10 @@ mod tests {
 
     #[test]
     fn an_own_exercise_may_not_take_a_name_that_is_there() {
-        let bundled = Library::bundled().unwrap();
+        let bundled = Library::bundled();
         let taken = bundled.exercises()[3].clone();
         let own = Exercise { name: "mine".to_owned(), category: Category::Own, ..taken.clone() };
-        let (library, refused) = Library::with_own(vec![own.clone(), taken.clone(), own.clone()]).unwrap();
+        let (library, refused) = Library::with_own(vec![own.clone(), taken.clone(), own.clone()]);
         assert_eq!(refused, [taken.name.clone(), own.name.clone()].map(LibraryError::Taken));
         assert_eq!(library.exercises().len(), bundled.exercises().len() + 1);
         assert_eq!(library.get("mine"), Ok(&own));
@@ -236,7 +224,7 @@ mod tests {
 
     #[test]
     fn a_filter_lets_through_what_meets_all_of_it() {
-        let library = Library::bundled().unwrap();
+        let library = Library::bundled();
         let all = library.find(&Filter::default()).count();
         assert_eq!(all, library.exercises().len());
         let draw = Filter { category: Some(Category::Draw), ..Filter::default() };

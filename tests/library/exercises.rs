@@ -17,7 +17,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 fn bundled() -> Vec<Exercise> {
-    Library::bundled().unwrap().exercises().to_vec()
+    Library::bundled().exercises().to_vec()
 }
 
 #[test]
@@ -123,7 +123,7 @@ fn balls_are_gathered_for_players_too() {
 
 #[test]
 fn a_shot_that_does_not_show_it_is_found_out() {
-    let library = Library::bundled().unwrap();
+    let library = Library::bundled();
     let changed = |category, change: fn(&mut CueInputs)| {
         let exercise = library.exercises().iter().find(|e| e.category == category).unwrap();
         let mut exercise = exercise.clone();

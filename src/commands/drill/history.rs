@@ -79,7 +79,7 @@ struct SessionRow<'a> {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let workspace = Workspace::open()?;
+    let workspace = Workspace::open();
     let sessions = workspace.sessions();
     match (&args.name, args.games) {
         (Some(name), _)

@@ -66,7 +66,7 @@ fn category_called(name: &str) -> Result<Category, String> {
 }
 
 pub fn list(args: &ListArgs) -> Result<(), Failure> {
-    let workspace = Workspace::open()?;
+    let workspace = Workspace::open();
     let sessions = workspace.sessions();
     let ListArgs { category, grade, tag, .. } = args;
     let filter = Filter { category: *category, grade: *grade, tag: tag.clone(), text: None };
@@ -99,7 +99,7 @@ pub fn list(args: &ListArgs) -> Result<(), Failure> {
 }
 
 pub fn show(args: &ShowArgs) -> Result<(), Failure> {
-    let workspace = Workspace::open()?;
+    let workspace = Workspace::open();
     let exercise = workspace.exercise(&args.name)?;
     let table = exercise.table().map_err(Failure::failed)?;
     let code = encode(exercise).map_err(Failure::failed)?;

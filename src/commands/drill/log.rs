@@ -66,7 +66,7 @@ impl Word {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let workspace = Workspace::open()?;
+    let workspace = Workspace::open();
     let exercise = workspace.exercise(&args.name)?.clone();
     let name = exercise.name.clone();
     let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);

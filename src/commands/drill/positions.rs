@@ -112,7 +112,7 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
 }
 
 pub fn share(args: &ShareArgs) -> Result<(), Failure> {
-    let workspace = Workspace::open()?;
+    let workspace = Workspace::open();
     line(encode(workspace.exercise(&args.name)?).map_err(Failure::failed)?)
 }
 
@@ -128,7 +128,7 @@ pub fn add(args: &AddArgs) -> Result<(), Failure> {
 }
 
 pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
-    let workspace = Workspace::open()?;
+    let workspace = Workspace::open();
     // One that cannot be read is not in the library; its file is removed by its name.
     let name = workspace.library.titled(&args.name).map_or(&args.name, |exercise| &exercise.name);
     if workspace.library.is_bundled(name) {
@@ -139,7 +139,7 @@ pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
 }
 
 fn keep(position: &Exercise, replaces: bool) -> Result<(), Failure> {
-    let workspace = Workspace::open()?;
+    let workspace = Workspace::open();
     workspace.store.save_position(position, replaces).map_err(|error| match error {
         StoreError::Exercise(error) => Failure::wrong_input(error),
         StoreError::Taken(name) => Failure::failed(format_args!(

@@ -30,7 +30,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let workspace = Workspace::open()?;
+    let workspace = Workspace::open();
     let estimate = estimate(&workspace.sessions()).map_err(Failure::failed)?;
     let Estimate { skill, scale, low, high, attempts, made, shots, left_out } = estimate;
     if args.keep {

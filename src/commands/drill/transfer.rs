@@ -85,7 +85,7 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
     };
     read.map_err(|error| Failure::failed(format_args!("{file} cannot be read: {error}")))?;
     let practice = Practice::parse(&text).map_err(|error| Failure::wrong_input(format_args!("{file}: {error}")))?;
-    let workspace = Workspace::open()?;
+    let workspace = Workspace::open();
     let imported = workspace.store.import(&practice);
     let Imported { positions, sessions, longer, known, refused } = &imported;
     if args.json {

@@ -16,13 +16,13 @@ pub struct Workspace {
 
 impl Workspace {
     /// Reads the library; files that cannot be read are named on the standard error.
-    pub fn open() -> Result<Self, Failure> {
+    pub fn open() -> Self {
         let places = Places::of_this_user();
         note(storage::notice(&places).map(str::to_owned).as_slice());
         let store = Store::new(&places);
-        let (library, notes) = store.library().map_err(Failure::failed)?;
+        let (library, notes) = store.library();
         note(&notes);
-        Ok(Self { store, library })
+        Self { store, library }
     }
 
     /// The exercise that is meant by `text`: a name, a title, or the beginning of one.

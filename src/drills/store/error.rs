@@ -81,9 +81,6 @@ pub enum StoreError {
     /// A share code cannot be read.
     #[error(transparent)]
     Code(#[from] CodeError),
-    /// The bundled library is damaged.
-    #[error("the bundled library is damaged: {0}")]
-    Bundle(#[from] LibraryFileError),
     /// A bundled exercise has this name.
     #[error("there is a bundled exercise \"{0}\"; give this one another name")]
     Bundled(String),

@@ -93,7 +93,8 @@ impl Store {
         safe: usize,
     ) -> Result<(), StoreError> {
         let path = file(&self.sessions, &session.id)?;
-        if path.exists() {
+        let is_new = !path.exists();
+        if !is_new {
             let kept: Kept = read_marked(&path)?;
             is_called(&path, &kept.id)?;
             // It may have fewer than `before`: what the disk has refused is only known here.
@@ -101,21 +102,24 @@ impl Store {
                 return Err(StoreError::Changed(Box::new(read_session(&path)?)));
             }
         }
-        self.write(lock, session)
+        let written = self.write(lock, session);
+        if is_new {
+            self.remove_leavings();
+        }
+        written
+    }
+
+    /// Removes what programs have left behind that were killed while they wrote a session.
+    fn remove_leavings(&self) {
+        // Somebody else's leavings are no reason to fail.
+        let _ = remove_abandoned_files(&self.sessions);
     }
 
     /// Writes a session's file, whatever attempts are in it.
     fn write(&self, _lock: &Lock, session: &Session) -> Result<(), StoreError> {
         let path = file(&self.sessions, &session.id)?;
         let bytes = marked::write(SESSION, session).map_err(|error| StoreError::file(&path, io::Error::from(error)))?;
-        let written = if path.exists() {
-            write_atomic(&path, &bytes)
-        } else {
-            let created = create_atomic(&path, &bytes);
-            // Somebody else's leavings are no reason to fail.
-            let _ = remove_abandoned_files(&self.sessions);
-            created
-        };
+        let written = if path.exists() { write_atomic(&path, &bytes) } else { create_atomic(&path, &bytes) };
         written.map_err(|error| StoreError::file(&path, error))
     }
 
@@ -135,14 +139,11 @@ impl Store {
     }
 
     /// The bundled exercises and the player's own, and a sentence for each of these that cannot be used.
-    ///
-    /// # Errors
-    /// Where a bundled file is damaged.
-    pub fn library(&self) -> Result<(Library, Vec<String>), StoreError> {
+    pub fn library(&self) -> (Library, Vec<String>) {
         let own = self.positions();
-        let (library, refused) = Library::with_own(own.items)?;
+        let (library, refused) = Library::with_own(own.items);
         let refused = refused.into_iter().map(|error| format!("{}: {error}", self.positions.display()));
-        Ok((library, own.notes.into_iter().chain(refused).collect()))
+        (library, own.notes.into_iter().chain(refused).collect())
     }
 
     /// Keeps a position of the player's own, over another of its name only if `replaces` says so. Its category becomes
@@ -152,7 +153,7 @@ impl Store {
     /// Where it cannot be played, its name is taken, or the file cannot be written; what was kept is then what it was.
     pub fn save_position(&self, position: &Exercise, replaces: bool) -> Result<(), StoreError> {
         position.validate()?;
-        if Library::bundled()?.get(&position.name).is_ok() {
+        if Library::bundled().get(&position.name).is_ok() {
             return Err(StoreError::Bundled(position.name.clone()));
         }
         let path = file(&self.positions, &position.name)?;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{OwnSkill, Store, StoreError, file, position_text, read_position, validate};
-use crate::drills::{Attempt, Exercise, LibraryFile, LibraryFileError, Session};
+use crate::drills::{Attempt, Exercise, Library, LibraryFile, LibraryFileError, Session};
 
 /// All of a player's practice. Its file is one of exercises that holds more, so that one takes the other's place.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -81,6 +81,10 @@ impl Store {
                 *(if longer { &mut imported.longer } else { &mut imported.sessions }) += 1;
             });
         }
+        if imported.sessions > 0 {
+            // Once: a look at the folder for each session would take ever longer.
+            self.remove_leavings();
+        }
         if let Some(own) = &practice.player {
             let kept = self.own_skill().and_then(|here| if here.is_none() { self.write_own(own) } else { Ok(()) });
             imported.refused.extend(kept.err().map(|error| error.to_string()));
@@ -104,7 +108,7 @@ impl Store {
     }
 
     fn is_bundled_as(name: &str, position: &Exercise) -> bool {
-        crate::drills::Library::bundled().is_ok_and(|library| library.get(name) == Ok(position))
+        Library::bundled().get(name) == Ok(position)
     }
 
     fn import_session(&self, session: &Session) -> Result<Taken, StoreError> {

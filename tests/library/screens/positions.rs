@@ -50,7 +50,7 @@ fn a_layout_and_a_share_code_are_pasted_over_the_table() {
     let mut player = Player::new();
     player.app.paste("2d,0.5d 6d,2d 4d,3.5d\n");
     assert_eq!(*player.app.coach.layout(), layout("2d,0.5d 6d,2d 4d,3.5d"));
-    let library = Library::bundled().unwrap();
+    let library = Library::bundled();
     let exercise = library.get("natural").unwrap();
     player.app.paste(&encode(exercise).unwrap());
     assert_eq!((*player.app.coach.layout(), player.app.coach.query.rule), (exercise.layout, Rule::ThreeCushion));

@@ -21,7 +21,7 @@ fn advised(player: Player, balls: &str, words: &str) -> Player {
 
 /// The same with the shot of a bundled exercise on its own balls.
 fn taught(player: Player, name: &str) -> Player {
-    let library = Library::bundled().unwrap();
+    let library = Library::bundled();
     let exercise = library.get(name).unwrap();
     let [white, yellow, red] = exercise.layout.balls;
     let balls = format!("{},{} {},{} {},{}", white.x, white.y, yellow.x, yellow.y, red.x, red.y);

@@ -73,7 +73,7 @@ impl CoachPage {
 /// A sentence where no name comes of it, or one that the program itself has taken.
 pub(super) fn named(typed: &str, position: &Exercise) -> Result<Box<Exercise>, String> {
     let (title, name, tags) = title_name_tags(typed)?;
-    if Library::bundled().is_ok_and(|library| library.is_bundled(&name)) {
+    if Library::bundled().is_bundled(&name) {
         return Err(format!("{name} is the name of a bundled exercise; take another"));
     }
     Ok(Box::new(Exercise { name, title, tags, ..position.clone() }))

@@ -87,7 +87,7 @@ mod tests {
     };
 
     fn session(id: &str, goal: Goal, results: &str) -> Session {
-        let exercise = Library::bundled().unwrap().exercises()[0].clone();
+        let exercise = Library::bundled().exercises()[0].clone();
         let mut session = Session::new(goal, Venue::Table, vec![exercise], Skill::CLUB, 1);
         session.id = id.to_owned();
         results.chars().for_each(|result| session.log(result == 'x').unwrap());

@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn categories_go_round_with_everything_between_the_last_and_the_first() {
-        let mut catalogue = Catalogue::new(Library::bundled().unwrap());
+        let mut catalogue = Catalogue::new(Library::bundled().clone());
         let all = catalogue.found().len();
         catalogue.choose_category(-1);
         assert_eq!(catalogue.filter.category, Some(Category::Own));
@@ -136,14 +136,14 @@ mod tests {
 
     #[test]
     fn what_is_sought_is_marked_where_a_title_has_it() {
-        let mut catalogue = Catalogue::new(Library::bundled().unwrap());
+        let mut catalogue = Catalogue::new(Library::bundled().clone());
         catalogue.find_text("natural");
         assert!(catalogue.marked().unwrap().title.to_lowercase().contains("natural"), "{:?}", catalogue.marked());
     }
 
     #[test]
     fn the_mark_stays_at_its_exercise_while_the_list_changes() {
-        let mut catalogue = Catalogue::new(Library::bundled().unwrap());
+        let mut catalogue = Catalogue::new(Library::bundled().clone());
         catalogue.move_mark(isize::MAX);
         let last = catalogue.marked().unwrap().clone();
         assert_eq!(catalogue.mark + 1, catalogue.found().len());

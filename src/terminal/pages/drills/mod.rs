@@ -130,11 +130,9 @@ pub struct DrillsPage {
 impl DrillsPage {
     /// The screens before they are opened; `seed` decides about errors, shifts and exams.
     pub fn new(places: Places, seed: u64) -> Self {
-        // A test reads the bundled files; without them there are the user's own.
-        let library = Library::with_own(Vec::new()).map_or_else(|_| Library::default(), |(library, _)| library);
         Self {
             places,
-            catalogue: Catalogue::new(library),
+            catalogue: Catalogue::new(Library::bundled().clone()),
             book: Book::default(),
             turn: None,
             records: Records::default(),

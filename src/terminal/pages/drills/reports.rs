@@ -176,13 +176,9 @@ impl DrillsPage {
     }
 
     fn take_own(&mut self, own: Vec<Exercise>) {
-        match Library::with_own(own) {
-            Ok((library, refused)) => {
-                self.catalogue.take(library);
-                self.book.troubles.extend(refused.iter().map(ToString::to_string));
-            }
-            Err(error) => self.message = Some(Message::warning(error.to_string())),
-        }
+        let (library, refused) = Library::with_own(own);
+        self.catalogue.take(library);
+        self.book.troubles.extend(refused.iter().map(ToString::to_string));
     }
 
     fn position_saved(&mut self, exercise: &Exercise) {
