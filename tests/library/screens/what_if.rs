@@ -23,7 +23,10 @@ fn the_coachs_shot_is_taken_over_changed_played_and_left() {
     let player = taken_over(TRUE_COLOUR);
     assert_eq!(player.app.place(), KeyContext::OwnStroke);
     player.shows(&["You … % · coach 94 %", "You: as the coach", "Esc leave"]);
-    assert_eq!(player.judged.as_ref().unwrap().stroke.map(|(cue, _)| cue), Some(CueInputs::parse(SHOT).unwrap()));
+    assert_eq!(
+        player.judged.as_ref().unwrap().stroke.as_ref().map(|(cue, _)| *cue),
+        Some(CueInputs::parse(SHOT).unwrap())
+    );
     let player = judged(player, 880);
     player.shows(&["You 88 % · coach 94 %", "Point, if played exactly: "]);
     let player = player.press("S-Up l l S-Right");
