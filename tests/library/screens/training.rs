@@ -391,7 +391,7 @@ fn a_policy_is_kept_under_a_name() {
 fn a_name_that_is_taken_is_told_where_something_else_is_asked_meanwhile() {
     let mut player = Player::watching(TRUE_COLOUR).press("k Enter S");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
-    let player = player.report(Report::Kept(*keeping, Ok(Kept::Taken)));
+    let player = player.report(TrainingReport::Kept(*keeping, Ok(Kept::Taken)));
     player.warns("is not saved: there is another of this name");
     player.says("measure it, save it and end it?");
 }
