@@ -18,7 +18,7 @@ const STEEPEST: f64 = 0.995;
 /// Correlations up to this are left out of what is told.
 const TOLD: f64 = 0.05;
 
-/// How often correlations are made smaller by a hundredth at most: after that they are so small that they contradict nothing.
+/// Most times that correlations are made smaller by a hundredth; after that they are so small that they contradict nothing.
 const MOST_SHRINKINGS: usize = 500;
 
 /// A normal distribution of the constants that are in doubt.

@@ -203,7 +203,7 @@ impl Calibration {
                 self.verdicts.iter().filter(|one| one.misread).map(|one| called(one.trial, one.test)).collect();
             strokes.dedup();
             return format!(
-                "so many strokes contradict the others that no value can be relied on: {}; play them again, or take out those that are wrong",
+                "so many strokes contradict the others that no value can be relied on: {}; play them again, or delete those that are wrong",
                 strokes.join(", ")
             );
         }

@@ -19,7 +19,7 @@ use crate::{
     table::Table,
 };
 
-/// The word for the run that was last at work.
+/// The word for the run that was last training.
 const LATEST: &str = "latest";
 
 /// The file or folder `name`, or the folder called so among the user's runs.

@@ -159,11 +159,11 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
     let written = args.out.as_ref().map_or("", |_| ", and no table is written");
     if !odd.is_empty() {
         let many = if odd.len() == 1 { "one entry is odd" } else { "some entries are odd" };
-        return Err(Failure::wrong_input(format_args!("{many}{written}: mend what is named above, or take it out")));
+        return Err(Failure::wrong_input(format_args!("{many}{written}: correct or delete what is named above")));
     }
     if found.is_contradictory() {
         return Err(Failure::wrong_input(format_args!(
-            "the strokes contradict each other{written}: mend what is named above"
+            "the strokes contradict each other{written}: correct or delete what is named above"
         )));
     }
     let Some(path) = out else { return Ok(()) };

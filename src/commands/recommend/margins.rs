@@ -57,13 +57,13 @@ impl Margins {
         write!(out, "aim from {} to {}", place(behind), place(ahead))?;
         match hit {
             Some(hit) => {
-                let side = if hit.left { "left" } else { "right" };
-                writeln!(out, ": hits {} {:.0} % full, {side} side", BALL_NAMES[hit.ball], 100.0 * hit.fullness)?;
+                let side = hit.side().map_or_else(String::new, |side| format!(", {side} side"));
+                writeln!(out, ": hits {} {:.0} % full{side}", BALL_NAMES[hit.ball], 100.0 * hit.fullness)?;
             }
             None => writeln!(out)?,
         }
         if self.inputs.is_none() {
-            writeln!(out, "no margins: as meant it makes no point on the tables drawn")?;
+            writeln!(out, "no margins: played exactly, it misses on likely tables")?;
         }
         for margin in self.inputs.iter().flatten() {
             let (factor, symbol) = margin.input.told_in(units.length);

@@ -54,7 +54,7 @@ impl App {
         // Where a key is asked for, each is an answer that means nothing else.
         let is_answer = self.is_asked_for_a_key();
         let find = |key: &KeyEvent| bindings::find(key, self.place(), |when| self.disabled_reason(when));
-        // The letters that a question asks for are its answers, whatever work they were given.
+        // The letters that a question asks for are its answers, even where the user gave them other work.
         let is_named = matches!(find(key), Some(Ok(Action::Answer(_))));
         let meant = if is_answer || is_named { *key } else { self.keys().translate(key) };
         let found = find(&meant);

@@ -19,11 +19,14 @@ impl App {
         let path = self.wanted_table.take()?;
         let effect = self.settings.choose("table", &path.to_string_lossy());
         self.take_changes();
-        if effect.is_some() {
-            self.calibration.play_on(self.coach.table());
-            let long =
-                if self.settings.is_writable { "from now on, and at every start" } else { "until the program ends" };
-            let said = format!("{} is played on {long}", path.display());
+        if effect.is_some()
+            && let Ok(table) = self.in_force.table()
+        {
+            // It may be another one of the same name, so that no setting has changed.
+            self.coach.take_table(&table);
+            self.calibration.play_on(&table);
+            let long = if self.settings.is_writable { ", at every start too" } else { " until the program ends" };
+            let said = format!("you now play on {}{long}", table.name);
             self.calibration.message = Some(Message::good(said));
         }
         self.gather(false);

@@ -63,7 +63,8 @@ impl SettingsFile {
             tables: places.own_tables(),
         };
         let unwritten = |settings, sentence: String| {
-            let sentence = format!("changed until the program ends; {} is unchanged: {sentence}", path.display());
+            let sentence =
+                format!("this change lasts until the program ends; {} was not written: {sentence}", path.display());
             report(settings, false, vec![sentence])
         };
         let found = match content(path) {
@@ -177,7 +178,7 @@ mod tests {
         assert_eq!((settings.speed, settings.palette), (2.0, Palette::Light));
         fs::write(&path, "speed = \n").unwrap();
         let report = file.run(&task(&path, theme("mono")));
-        assert!(report.troubles[0].contains("changed until the program ends"), "{report:?}");
+        assert!(report.troubles[0].contains("this change lasts until the program ends"), "{report:?}");
         assert_eq!(fs::read_to_string(&path).unwrap(), "speed = \n");
         fs::remove_file(&path).unwrap();
         let settings = file.run(&task(&path, theme("light"))).settings.unwrap();
@@ -198,7 +199,7 @@ mod tests {
         }
         let report = SettingsFile::default().run(&task(folder.path(), theme("light")));
         assert!(
-            report.settings.is_none() && report.troubles[0].contains("changed until the program ends"),
+            report.settings.is_none() && report.troubles[0].contains("this change lasts until the program ends"),
             "{report:?}"
         );
     }

@@ -122,7 +122,7 @@ impl WhatIf {
         let parts = self.shot.words.differences(&coach.words, misses && !is_as_good, cue_ball, units);
         let room = match (self.has_room, is_as_good) {
             (false, _) => "; no room for the cue",
-            (true, true) => "; you make it as often",
+            (true, true) => "; you make it at least as often",
             (true, false) => "",
         };
         if parts.is_empty() {
@@ -177,7 +177,7 @@ mod tests {
             // With the player's errors it may be as good, even where it misses if it is played exactly.
             what_if.made = Some(SuccessRate::new(90, 100));
             let as_good = what_if.difference("coach", Some(0.5), CueBall::White, units);
-            assert!(as_good.ends_with("; you make it as often"), "{as_good}");
+            assert!(as_good.ends_with("; you make it at least as often"), "{as_good}");
             assert_eq!(what_if.difference("coach", Some(0.95), CueBall::White, units), told);
         });
     }

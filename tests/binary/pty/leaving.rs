@@ -83,7 +83,7 @@ fn it_is_told_to_end_wherever_it_is() {
         (&["?"], "Placing the balls"),
         (&["d", "/", "half"], "The half ball"),
         (&["d", "a"], "the code of a position"),
-        (&["d", "\r", " "], "on its way"),
+        (&["d", "\r", " "], "the shot is running"),
         (&["t", "n"], "Enter"),
         (&[press_the_white_ball], "white at x -5"),
         (&["\r"], "Esc"),

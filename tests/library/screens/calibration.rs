@@ -1,4 +1,4 @@
-//! The calibration's page through the real app: strokes are entered, kept, amended and judged, and the table is played on.
+//! The calibration's page through the real app: strokes are entered, kept, edited and judged, and the table is played on.
 
 use std::fs;
 
@@ -168,16 +168,16 @@ fn a_stroke_may_be_said_to_have_been_played_from_the_far_end() {
     let form = form.type_in("9.6").press("Enter").type_in("5.4").press("Enter Enter Enter");
     assert!(kept(&form).trials[0].far_end);
     form.shows(&["far end: 9.6, 5.4"]);
-    let amended = form.press("Home e C-e Enter Enter Enter Enter");
-    assert_eq!(kept(&amended).trials.iter().map(|entry| entry.far_end).collect::<Vec<_>>(), [false]);
+    let edited = form.press("Home e C-e Enter Enter Enter Enter");
+    assert_eq!(kept(&edited).trials.iter().map(|entry| entry.far_end).collect::<Vec<_>>(), [false]);
 }
 
 #[test]
-fn strokes_are_amended_taken_out_and_come_back() {
+fn strokes_are_edited_deleted_and_come_back() {
     let player = measured().press("Home");
-    let amended = player.press("e Down Backspace").type_in("5").press("Enter Enter Enter");
-    assert_eq!(kept(&amended).trials[0].typed("stop"), "5.5");
-    let out = amended.press("Home Delete");
+    let edited = player.press("e Down Backspace").type_in("5").press("Enter Enter Enter");
+    assert_eq!(kept(&edited).trials[0].typed("stop"), "5.5");
+    let out = edited.press("Home Delete");
     assert_eq!(kept(&out).trials.len(), 1);
     let back = out.press("u");
     assert_eq!(kept(&back).trials[0].typed("stop"), "5.5");
@@ -248,10 +248,10 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     let file = player.path("tables/our club 2.toml");
     assert!(file.exists(), "{}", player.text(120, 40));
     let player = player.press("p");
-    player.says("our club 2.toml is played on from now on, and at every start");
+    player.says("you now play on our club 2, at every start too");
     assert_eq!(player.app.coach.table().name, "our club 2");
     let player = player.press("F2");
-    player.says("played on our club 2 now; Enter asks the coach");
+    player.says("the table is now our club 2; Enter asks the coach");
     let player = player.press("F7");
     assert!(player.app.coach.table().doubt.is_some());
     assert!(player.settings_text().contains("our club 2.toml"), "{}", player.settings_text());
@@ -260,6 +260,14 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     player.says("there is a table called our club 2 already; replace it?");
     let player = player.press("y");
     player.says("saved as");
+    // It is another table although no setting changes.
+    let played = player.app.coach.table().clone();
+    let other = fs::read_to_string(&file).unwrap().replace("mu_r =", "# another hand's\nmu_r =");
+    assert!(other.contains("another hand's"), "{other}");
+    fs::write(&file, other.replace(&format!("mu_r = {}", played.rolling_friction), "mu_r = 0.0123")).unwrap();
+    let player = player.press("p");
+    player.says("you now play on our club 2, at every start too");
+    assert_eq!(player.app.coach.table().rolling_friction, 0.0123, "{}", fs::read_to_string(&file).unwrap());
     let player = player.press("d");
     player.shows(&["lag", "corner-five", "0/1"]).is_silent_on("slow-roll");
     // A table without a doubt has no such check: what is typed of it waits, and nothing of it is taken for another test's.

@@ -47,7 +47,7 @@ fn nobody_is_shown_who_does_not_say_so_and_who_does_is_told_all_the_time() {
     let player = anna().press("Right Enter").answer();
     assert!(player.app.shown_table().is_none());
     let player = player.press("F");
-    player.says("shown to others: they watch it with carom follow anna");
+    player.says("shown to others: carom follow anna shows this table");
     let player = player.press("Esc Right");
     player.says("shown to others: white at x");
     assert_eq!(player.app.shown_table().unwrap().doing, Doing::Placing);

@@ -142,7 +142,7 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     let player = player.press("F2 F5");
     player.says("line 1").says("changes last until the program ends: the file cannot be read or written");
     let player = player.press("Right");
-    player.says("changed until the program ends; ").says("is unchanged: ");
+    player.says("this change lasts until the program ends; ").says("was not written: ");
     assert_eq!(player.settings_text(), "theme = \n");
     assert_eq!(player.app.settings.settings.palette.name(), "light");
 }

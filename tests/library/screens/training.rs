@@ -133,7 +133,7 @@ fn every_condition_says_what_it_is_and_what_to_do() {
         (Condition::Is(Phase::Paused), ["paused ", "paused and saved; p lets it go on", "p go on"]),
         (
             Condition::Stalled(Duration::from_secs(40)),
-            ["stalled for 40 s", "the process exists: it may be suspended", "p pause"],
+            ["stalled for 40 s", "the process is still there and may be suspended", "p pause"],
         ),
         (Condition::Died, ["died ", "r go on", "w use"]),
         (

@@ -49,7 +49,7 @@ const SETTINGS_NOTES: [&str; 3] = [
     "Changes take effect at once and are saved in the file named above; its comments, order and unknown keys stay. What another \
      program changes there is read and never overwritten.",
     "A setting without a mark is as it is by default. carom config prints all of them, with what each means and accepts.",
-    "A key of your own does what the key you give it does, on every page, and nothing else.",
+    "A key of your own does what the key you give it does, on every page. Only the answers to a question, y and n, stay what they are.",
 ];
 
 const TRAINING_NOTES: [&str; 4] = [

@@ -26,7 +26,7 @@ impl CoachPage {
         match when {
             CoachCondition::Anytime => None,
             CoachCondition::Named => {
-                refuse(self.player.is_none(), "to be followed you need a name: start carom --player NAME")
+                refuse(self.player.is_none(), "others need a name to follow you by: start carom --player NAME")
             }
             CoachCondition::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
             _ if thinking.is_some() => thinking,

@@ -337,14 +337,17 @@ impl CoachPage {
             self.rest();
         }
         if before.table != settings.table {
-            let table = settings.table()?;
-            if table != *self.table() {
-                self.take_query(&table, CoachQuery { policy: None, ..self.query.clone() });
-                let said = format!("played on {} now; Enter asks the coach", table.name);
-                self.message = Some(Message::good(said));
-            }
+            self.take_table(&settings.table()?);
         }
         Ok(())
+    }
+
+    /// Plays on another table from now on.
+    pub fn take_table(&mut self, table: &Table) {
+        if table != self.table() {
+            self.take_query(table, CoachQuery { policy: None, ..self.query.clone() });
+            self.message = Some(Message::good(format!("the table is now {}; Enter asks the coach", table.name)));
+        }
     }
 
     fn set_step(&mut self, step_mm: f64) {

@@ -39,7 +39,7 @@ impl CoachPage {
         }
     }
 
-    /// Saves a position; tells whether it may replace one of its name.
+    /// Saves a position, over one of its name if `replace` says so.
     pub(super) fn save(&mut self, exercise: Box<Exercise>, replace: bool) -> Effect {
         self.writing = Some(exercise.name.clone());
         Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)])

@@ -88,7 +88,7 @@ impl CoachPage {
     pub(super) fn turn_shown(&mut self) {
         self.company = if self.is_shown() { Company::Alone } else { Company::Others };
         self.message = Some(match (&self.player, self.is_shown()) {
-            (Some(player), true) => Message::plain(format!("they watch it with carom follow {player}")),
+            (Some(player), true) => Message::plain(format!("carom follow {player} shows this table")),
             _ => Message::plain("others can no longer see this table"),
         });
     }

@@ -296,7 +296,7 @@ impl Page for DrillsPage {
     }
 
     fn tick(&mut self, seconds: f64) {
-        // Time passes for a toast too: what is not on the screen stands still.
+        // Ticks come for toasts too; only what is on the screen may move.
         match (self.page(), &mut self.turn) {
             (DrillContext::Film, _) => self.film.tick(seconds),
             (DrillContext::Exercise, Some(turn)) => turn.tick(seconds),

@@ -40,7 +40,7 @@ impl DrillsPage {
                             turn.played(*outcome);
                         }
                     }
-                    (Err(sentence), Some(turn)) if turn.session.id == id => {
+                    (Err(sentence), Some(turn)) if turn.session.id == id && matches!(turn.stage, Stage::Waiting) => {
                         turn.stage = Stage::Aiming;
                         self.message = Some(Message::warning(sentence));
                     }
@@ -64,7 +64,7 @@ impl DrillsPage {
                 self.book.put(&stored);
                 let tasks = self.go_on_with(*stored);
                 self.message = Some(Message::warning(
-                    "another program has changed this session: its version is loaded, and your last action is lost",
+                    "another program has changed this session; its version is loaded, without your last action",
                 ));
                 return tasks;
             }
@@ -125,7 +125,7 @@ impl DrillsPage {
         let Some(turn) = &self.turn else { return Vec::new() };
         let stored = self.book.sessions.iter().find(|stored| stored.id == turn.session.id && turn.is_behind(stored));
         let Some(stored) = stored.cloned() else { return Vec::new() };
-        self.message = Some(Message::plain("another program has continued this session: loaded from there"));
+        self.message = Some(Message::plain("another program has continued this session; its version is loaded"));
         self.go_on_with(stored)
     }
 

@@ -31,7 +31,7 @@ pub struct Progress {
     pub shots: u64,
     /// Shots planned, where that is known.
     pub planned: Option<u64>,
-    /// Shots that it plays a second; 0 where it is not at work.
+    /// Shots that it plays a second; 0 where it is not training.
     pub speed: f64,
 }
 

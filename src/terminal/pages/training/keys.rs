@@ -22,7 +22,7 @@ pub enum TrainingAction {
     Choose,
     /// Opens the form for a new run.
     New,
-    /// Goes on with a run that is not at work.
+    /// Goes on with a run that is not training.
     Resume,
     /// Moves the mark in the form by fields, down where positive.
     Field(isize),
@@ -110,11 +110,11 @@ pub enum TrainingCondition {
     Charts,
     /// Where not all of the run is shown.
     Zoomed,
-    /// While the run is at work.
+    /// While the run is training.
     AtWork,
-    /// While the run is at work, but paused.
+    /// While the run is training, but paused.
     Paused,
-    /// While the run is at work and not paused.
+    /// While the run is training and not paused.
     Working,
     /// Where the run can go on.
     CanGoOn,

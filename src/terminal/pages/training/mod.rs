@@ -68,7 +68,7 @@ pub struct TrainingPage {
     pub alone: bool,
     /// Whether runs may only be looked at.
     pub is_guest: bool,
-    /// The folder of the run that was started last, and when, until it is seen to be at work or to have failed.
+    /// The folder of the run that was started last, and when, until it is seen to be training or to have failed.
     launched: Option<(PathBuf, Instant)>,
     /// The pages one has come through; the last one is open.
     pages: Vec<TrainingContext>,

@@ -160,7 +160,7 @@ impl Watch {
             Condition::Died => (format!("the training process ended without a message; {resume}"), true),
             Condition::Stalled(since) => {
                 let seconds = since.as_secs();
-                (format!("no news for {seconds} s; the process exists: it may be suspended"), true)
+                (format!("no news for {seconds} s; the process is still there and may be suspended"), true)
             }
             Condition::Removed => ("the folder of the run has been removed; Esc goes back".to_owned(), true),
             _ if !run.notices.is_empty() => (run.notices.join("; "), true),

@@ -103,6 +103,7 @@ fn next_words(choice: &Choice, room: usize, ui: &Ui) -> String {
     match (&choice.next, choice.is_studied) {
         (Some(next), _) => next.proposals.first().map_or_else(String::new, |proposal| shot_words(proposal, room, ui)),
         (None, false) => "being looked for".to_owned(),
+        (None, true) if choice.study.is_none() => "could not be worked out".to_owned(),
         (None, true) => "none".to_owned(),
     }
 }

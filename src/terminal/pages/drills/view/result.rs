@@ -43,7 +43,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let paragraphs = [
         (format!("{} of {} made", mark.made, mark.tried), ui.theme.accent()),
         (String::new(), ui.theme.text()),
-        ("Playing the model shots makes, on average:".to_owned(), ui.theme.text()),
+        ("With the model shots, on average, players make:".to_owned(), ui.theme.text()),
     ];
     let top = write_paragraphs(&paragraphs, text, ui) + 1;
     let players = [
