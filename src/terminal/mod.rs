@@ -66,7 +66,7 @@ pub use pages::{
 };
 pub use plain::follow::follow_in_lines;
 pub use seat::{LONGEST_FOR_GUESTS, Seat};
-pub use shot::{Shot, StrokeChange, film::FilmScene};
+pub use shot::{Shot, StrokeChange, film::FilmReplay};
 pub use shown::{Author, Doing, ShownShot, ShownTable, Sight, all_shown};
 pub use tasks::{
     PracticeWorker,
@@ -75,7 +75,7 @@ pub use tasks::{
     drills::{DrillReport, DrillTask, JudgedStroke, Loaded, Outcome, Position, Stroke, Taught},
     onlooker::{Onlooker, Seen, SeenTable},
     recommender::{Answer, CoachNews, CoachWorker, Job},
-    reel::{Reel, Scene},
+    reel::{Reel, ReplayShot},
     training::{Failure, Keeping, Kept, Launch, Slot, Subscriptions, TrainingReport},
 };
 pub use terms::Terms;

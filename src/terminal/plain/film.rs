@@ -5,7 +5,7 @@ use crate::{
     study::filmed::FITTED,
     table::{BALL_NAMES, BALLS, CueBall},
     terminal::{
-        FilmScene,
+        FilmReplay,
         plain::speech,
         shot::film::{listed, table},
         words::fixed,
@@ -36,7 +36,7 @@ pub fn list() -> String {
 pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
     let shot = listed().iter().find(|listed| listed.filmed.number == number);
     let shot = shot.ok_or_else(|| format!("There is no filmed shot {number}; film says which there are."))?;
-    let scene = FilmScene::new(&shot.filmed)?;
+    let played = FilmReplay::new(&shot.filmed)?;
     let outcome = |is_point| if is_point { "a point" } else { "no point" };
     let mut lines = vec![
         format!(
@@ -49,14 +49,14 @@ pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
         speech::places(table(), &shot.layout, CueBall::White, unit),
         format!("The stroke was fitted on the first {FITTED} seconds; all that comes later is predicted."),
     ];
-    let end = scene.replay.duration();
+    let end = played.replay.duration();
     let small = match unit {
         LengthUnit::Metres => "centimetres",
         LengthUnit::Feet => "inches",
     };
     let (in_a_metre, _) = unit.small();
     let distances = |time: f64| {
-        let apart = scene.replay.apart(time);
+        let apart = played.replay.apart(time);
         let each = (0..BALLS).map(|ball| format!("{} {}", BALL_NAMES[ball], fixed(in_a_metre * apart[ball], 1)));
         each.collect::<Vec<_>>().join(", ")
     };
@@ -65,6 +65,6 @@ pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
         lines.push(format!("{time} {seconds}: from the film, in {small}: {}.", distances(time)));
     }
     lines.push(format!("{} seconds: all balls lie still: {}.", fixed(end, 2), distances(end)));
-    lines.push(format!("The simulated shot is {}.", outcome(scene.shot.solved)));
+    lines.push(format!("The simulated shot is {}.", outcome(played.shot.solved)));
     Ok(lines.join("\n"))
 }

@@ -42,7 +42,7 @@ pub fn listed() -> &'static [Listed] {
 
 /// A filmed shot that can be watched.
 #[derive(Clone, Debug)]
-pub struct FilmScene {
+pub struct FilmReplay {
     /// Film and simulation.
     pub replay: Replay,
     /// What the simulation makes of it, to be shown.
@@ -51,7 +51,7 @@ pub struct FilmScene {
     pub stroke: Option<CueInputs>,
 }
 
-impl FilmScene {
+impl FilmReplay {
     /// Fits the stroke and plays the shot. That may take a second: not for the screen's thread.
     ///
     /// # Errors

@@ -18,7 +18,7 @@ use crate::{
 
 /// Where both strokes are played, and what counts.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a> {
+pub struct Situation<'a> {
     /// The table.
     pub table: &'a Table,
     /// Where the balls lie.
@@ -45,8 +45,8 @@ pub struct WhatIf {
 
 impl WhatIf {
     /// The coach's shot, taken over as it is.
-    pub fn new(coach: Arc<Shot>, scene: Scene) -> Self {
-        let verdict = Verdict::of(scene.rule, scene.table, scene.layout, &coach.recording);
+    pub fn new(coach: Arc<Shot>, situation: Situation) -> Self {
+        let verdict = Verdict::of(situation.rule, situation.table, situation.layout, &coach.recording);
         let shot = Arc::clone(&coach);
         let (made, question, cancel) = (None, None, Arc::default());
         Self { coach: Some(coach), shot, verdict, has_room: true, made, question, cancel }
@@ -56,8 +56,8 @@ impl WhatIf {
     ///
     /// # Errors
     /// What the simulator refuses.
-    pub fn alone(cue: &CueInputs, scene: Scene) -> Result<Self, ShotError> {
-        let (shot, verdict, has_room) = struck(cue, scene)?;
+    pub fn alone(cue: &CueInputs, situation: Situation) -> Result<Self, ShotError> {
+        let (shot, verdict, has_room) = struck(cue, situation)?;
         Ok(Self { coach: None, shot, verdict, has_room, made: None, question: None, cancel: Arc::default() })
     }
 
@@ -66,8 +66,8 @@ impl WhatIf {
     ///
     /// # Errors
     /// What the simulator refuses; all stays as it is.
-    pub fn strike(&mut self, cue: &CueInputs, scene: Scene) -> Result<(), ShotError> {
-        (self.shot, self.verdict, self.has_room) = struck(cue, scene)?;
+    pub fn strike(&mut self, cue: &CueInputs, situation: Situation) -> Result<(), ShotError> {
+        (self.shot, self.verdict, self.has_room) = struck(cue, situation)?;
         self.made = None;
         self.stop_asking();
         Ok(())
@@ -134,10 +134,10 @@ impl WhatIf {
 }
 
 /// What comes of a stroke of the player's own, and whether there is room for the cue.
-fn struck(cue: &CueInputs, scene: Scene) -> Result<(Arc<Shot>, Verdict, bool), ShotError> {
-    let raised = with_room(scene.table, scene.layout, cue);
-    let shot = Shot::new(scene.table, scene.layout, raised.unwrap_or(*cue), false, "yours")?;
-    let verdict = Verdict::of(scene.rule, scene.table, scene.layout, &shot.recording);
+fn struck(cue: &CueInputs, situation: Situation) -> Result<(Arc<Shot>, Verdict, bool), ShotError> {
+    let raised = with_room(situation.table, situation.layout, cue);
+    let shot = Shot::new(situation.table, situation.layout, raised.unwrap_or(*cue), false, "yours")?;
+    let verdict = Verdict::of(situation.rule, situation.table, situation.layout, &shot.recording);
     Ok((Arc::new(Shot { solved: verdict.is_made(), ..shot }), verdict, raised.is_ok()))
 }
 
@@ -151,24 +151,24 @@ impl Drop for WhatIf {
 mod tests {
     use super::*;
 
-    fn with(check: impl FnOnce(WhatIf, Scene)) {
+    fn with(check: impl FnOnce(WhatIf, Situation)) {
         let table = Table::default();
         let layout = Layout::opening(&table);
-        let scene = Scene { table: &table, layout: &layout, rule: Rule::StraightRail };
+        let situation = Situation { table: &table, layout: &layout, rule: Rule::StraightRail };
         let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
         let coach = Shot::new(&table, &layout, cue, true, "search").unwrap();
-        check(WhatIf::new(Arc::new(coach), scene), scene);
+        check(WhatIf::new(Arc::new(coach), situation), situation);
     }
 
     #[test]
     fn what_is_taken_over_is_the_coachs_and_a_change_leaves_that_as_it_was() {
-        with(|mut what_if, scene| {
+        with(|mut what_if, situation| {
             let units = Units::default();
             assert!(what_if.is_made() && Arc::ptr_eq(what_if.coach.as_ref().unwrap(), &what_if.shot));
             assert_eq!(what_if.difference("coach", None, CueBall::White, units), "You: as the coach");
             let coach = Arc::clone(what_if.coach.as_ref().unwrap());
             let softer = CueInputs { speed: 0.5, ..coach.cue };
-            what_if.strike(&softer, scene).unwrap();
+            what_if.strike(&softer, situation).unwrap();
             assert!(!what_if.is_made() && what_if.coach.as_ref().unwrap().cue == coach.cue);
             assert_eq!(what_if.shot.cue.speed, 0.5);
             assert!(what_if.outcome(CueBall::White, units).starts_with("No point, if played exactly: "));
@@ -184,12 +184,12 @@ mod tests {
 
     #[test]
     fn a_late_answer_is_dropped_and_each_change_makes_the_chance_unknown() {
-        with(|mut what_if, scene| {
+        with(|mut what_if, situation| {
             let rate = |made| SuccessRate::new(made, 100);
             let first = what_if.ask(7);
             what_if.judged(6, rate(1));
             assert!(what_if.made.is_none() && what_if.is_asked());
-            what_if.strike(&CueInputs { speed: 2.6, ..what_if.shot.cue }, scene).unwrap();
+            what_if.strike(&CueInputs { speed: 2.6, ..what_if.shot.cue }, situation).unwrap();
             assert!(first.load(Ordering::Relaxed) && !what_if.is_asked());
             let second = what_if.ask(8);
             what_if.judged(7, rate(1));

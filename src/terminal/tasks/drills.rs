@@ -11,7 +11,7 @@ use crate::{
     storage::Places,
     study::filmed::FilmedShot,
     table::{Layout, Table},
-    terminal::{FilmScene, Shot},
+    terminal::{FilmReplay, Shot},
 };
 
 /// Something that is to be done.
@@ -168,5 +168,5 @@ pub enum DrillReport {
     /// Of [`DrillTask::KeepSkill`].
     SkillKept(Skill, Result<(), String>),
     /// Of [`DrillTask::Film`]: with the shot's number in the match.
-    Filmed(u32, Result<Box<FilmScene>, String>),
+    Filmed(u32, Result<Box<FilmReplay>, String>),
 }

@@ -16,7 +16,7 @@ use crate::{
     },
     table::Table,
     terminal::{
-        DrillReport, DrillTask, FilmScene, JudgedStroke, Loaded, Outcome, Position, Shot, Stroke, Taught,
+        DrillReport, DrillTask, FilmReplay, JudgedStroke, Loaded, Outcome, Position, Shot, Stroke, Taught,
         tasks::event::Event,
     },
 };
@@ -89,7 +89,7 @@ impl PracticeWorker {
                 reply(DrillReport::SkillKept(skill, kept));
             }
             DrillTask::Film(filmed) => {
-                let played = catch_unwind(AssertUnwindSafe(|| FilmScene::new(&filmed)));
+                let played = catch_unwind(AssertUnwindSafe(|| FilmReplay::new(&filmed)));
                 let failed =
                     || Err(format!("the program failed on shot {} of the film; choose another", filmed.number));
                 let played = played.unwrap_or_else(|_| failed()).map(Box::new);

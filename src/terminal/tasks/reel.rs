@@ -12,12 +12,12 @@ pub struct Reel {
     /// Shots practised before the measurement that they are of.
     pub after: u64,
     /// The shots.
-    pub scenes: Vec<Scene>,
+    pub shots: Vec<ReplayShot>,
 }
 
 /// A shot of a set.
 #[derive(Debug)]
-pub struct Scene {
+pub struct ReplayShot {
     /// What was measured.
     pub example: Example,
     /// What happens in it; none where it cannot be played.
@@ -29,14 +29,14 @@ impl Reel {
     pub fn record(examples: &Examples, table: &Table) -> Self {
         let record = |example: &Example| {
             let Example { layout, cue, reward } = *example;
-            Scene { example: *example, shot: Shot::new(table, &layout, cue, reward >= 1.0, "").ok() }
+            ReplayShot { example: *example, shot: Shot::new(table, &layout, cue, reward >= 1.0, "").ok() }
         };
-        Self { after: examples.after, scenes: examples.shots.iter().map(record).collect() }
+        Self { after: examples.after, shots: examples.shots.iter().map(record).collect() }
     }
 
     /// Whether `other` was recorded from the same shots.
     pub fn is_of(&self, other: &Self) -> bool {
-        let [examples, others] = [self, other].map(|reel| reel.scenes.iter().map(|scene| &scene.example));
+        let [examples, others] = [self, other].map(|reel| reel.shots.iter().map(|shot| &shot.example));
         self.after == other.after && examples.eq(others)
     }
 }

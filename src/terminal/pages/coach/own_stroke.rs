@@ -11,7 +11,7 @@ use crate::{
         pages::{Page, coach::CoachPage},
         shot::{
             OwnStroke, StrokeChange, WhatIf, aiming,
-            what_if::{self, Scene},
+            what_if::{self, Situation},
         },
     },
 };
@@ -51,12 +51,13 @@ impl CoachPage {
 
     /// Takes the coach's shot over into the player's own stroke; without one that is aimed full at a ball.
     pub(super) fn take_over(&mut self) -> Option<Effect> {
-        let scene = self.scene();
+        let situation = self.situation();
         let (cue, what_if) = if let Some(coach) = self.proposal().map(|proposal| Arc::clone(&proposal.shot)) {
-            (coach.cue, Ok(WhatIf::new(coach, scene)))
+            (coach.cue, Ok(WhatIf::new(coach, situation)))
         } else {
-            let first = aiming::first_stroke(Point::of(scene.rule, scene.table, scene.layout), scene.layout);
-            (first, WhatIf::alone(&first, scene))
+            let first =
+                aiming::first_stroke(Point::of(situation.rule, situation.table, situation.layout), situation.layout);
+            (first, WhatIf::alone(&first, situation))
         };
         match what_if {
             Ok(what_if) => {
@@ -137,7 +138,7 @@ impl CoachPage {
 
     fn strike(&mut self, stroke: OwnStroke) -> Option<Effect> {
         let mut own = self.own_stroke.take()?;
-        let struck = own.what_if.strike(stroke.cue(), self.scene());
+        let struck = own.what_if.strike(stroke.cue(), self.situation());
         if struck.is_ok() {
             own.stroke = stroke;
         }
@@ -165,8 +166,8 @@ impl CoachPage {
         Some(Effect::Ask(Box::new(Job { stroke: Some((cue, from..from + attempts)), seed, cancel, ..job })))
     }
 
-    fn scene(&self) -> Scene<'_> {
-        what_if::Scene { table: self.table(), layout: self.layout(), rule: self.query.rule }
+    fn situation(&self) -> Situation<'_> {
+        what_if::Situation { table: self.table(), layout: self.layout(), rule: self.query.rule }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::{
     study::filmed::FilmedShot,
     terminal::{
-        DrillAction, FilmScene,
+        DrillAction, FilmReplay,
         shot::{
             Playback,
             film::{Listed, listed},
@@ -16,7 +16,7 @@ use crate::{
 pub struct FilmsScreen {
     /// Place of the marked shot in the list.
     pub mark: usize,
-    scene: Option<Box<FilmScene>>,
+    played: Option<Box<FilmReplay>>,
     /// Why the marked shot could not be played, where it was tried.
     failure: Option<String>,
     /// The clock of the shot that is watched.
@@ -37,7 +37,7 @@ impl FilmsScreen {
     /// Marks the shot so many after the marked one; gives what is to be played. It is watched when it is received.
     pub fn begin(&mut self, shots: isize) -> Option<FilmedShot> {
         self.move_mark(shots);
-        (self.scene, self.failure) = (None, None);
+        (self.played, self.failure) = (None, None);
         self.playback.jump(0.0);
         self.marked().map(|listed| listed.filmed.clone())
     }
@@ -46,11 +46,11 @@ impl FilmsScreen {
     ///
     /// # Errors
     /// Why it could not be played.
-    pub fn receive(&mut self, number: u32, played: Result<Box<FilmScene>, String>) -> Result<(), String> {
-        if self.scene.is_none() && self.marked().is_some_and(|listed| listed.filmed.number == number) {
+    pub fn receive(&mut self, number: u32, played: Result<Box<FilmReplay>, String>) -> Result<(), String> {
+        if self.played.is_none() && self.marked().is_some_and(|listed| listed.filmed.number == number) {
             let played = played.inspect_err(|sentence| self.failure = Some(sentence.clone()));
-            let scene = self.scene.insert(played?);
-            self.playback.toggle(scene.replay.duration());
+            let played = self.played.insert(played?);
+            self.playback.toggle(played.replay.duration());
         }
         Ok(())
     }
@@ -61,14 +61,14 @@ impl FilmsScreen {
     }
 
     /// What is watched; `None` while the stroke is being fitted, and where that has failed.
-    pub fn scene(&self) -> Option<&FilmScene> {
-        self.scene.as_deref()
+    pub fn played(&self) -> Option<&FilmReplay> {
+        self.played.as_deref()
     }
 
     /// Does what a key asks of the shot that is watched.
     pub fn watch(&mut self, action: DrillAction) {
-        let Some(scene) = &self.scene else { return };
-        let (events, duration) = (scene.shot.recording.events(), scene.replay.duration());
+        let Some(played) = &self.played else { return };
+        let (events, duration) = (played.shot.recording.events(), played.replay.duration());
         match action {
             DrillAction::Event(steps) => self.playback.step(steps, events, duration),
             DrillAction::Pace(steps) => self.playback.change_speed(steps),
@@ -78,8 +78,8 @@ impl FilmsScreen {
 
     /// Lets `seconds` pass for the shot.
     pub fn tick(&mut self, seconds: f64) {
-        if let Some(scene) = &self.scene {
-            self.playback.tick(seconds, scene.replay.duration());
+        if let Some(played) = &self.played {
+            self.playback.tick(seconds, played.replay.duration());
         }
     }
 }

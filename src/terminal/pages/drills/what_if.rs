@@ -22,7 +22,7 @@ impl Turn {
         let Lesson::Known(taught) = &self.lesson else { return Vec::new() };
         let (cue, shot) = (taught.advice.cue, Arc::clone(&taught.shot));
         self.stroke.set(cue);
-        self.what_if = Some(WhatIf::new(shot, self.scene()));
+        self.what_if = Some(WhatIf::new(shot, self.situation()));
         (self.is_helped, self.shows_hint, self.text_page) = (true, false, 0);
         self.judge()
     }
@@ -36,7 +36,7 @@ impl Turn {
     pub(super) fn compare(&mut self) -> Vec<DrillTask> {
         let Some(mut what_if) = self.what_if.take() else { return Vec::new() };
         // What cannot be simulated cannot be compared; playing it will say why.
-        if what_if.strike(self.stroke(), self.scene()).is_err() {
+        if what_if.strike(self.stroke(), self.situation()).is_err() {
             return Vec::new();
         }
         self.what_if = Some(what_if);
@@ -53,8 +53,8 @@ impl Turn {
         vec![DrillTask::Judge(Box::new(JudgedStroke { id, table, layout, rule, shooter, cue, cancel }))]
     }
 
-    const fn scene(&self) -> what_if::Scene<'_> {
-        what_if::Scene { table: &self.table, layout: &self.layout, rule: self.exercise.rule }
+    const fn situation(&self) -> what_if::Situation<'_> {
+        what_if::Situation { table: &self.table, layout: &self.layout, rule: self.exercise.rule }
     }
 
     /// How often the player makes the stroke of question `id`.

@@ -3,7 +3,7 @@
 //! A new set of shots plays through once and rests at its last shot; then nothing moves until another set comes or
 //! somebody wants to see it again.
 
-use crate::terminal::{Reel, Scene, shot::Playback};
+use crate::terminal::{Reel, ReplayShot, shot::Playback};
 
 /// Seconds between two pictures.
 pub const INTERVAL: f64 = 0.1;
@@ -46,7 +46,7 @@ impl Replay {
     pub fn offer(&mut self, reel: Reel) {
         let newest = self.waiting.as_ref().or(self.reel.as_ref());
         let is_old = |newest: &Reel| newest.after >= reel.after && !self.is_outdated || newest.is_of(&reel);
-        if reel.scenes.is_empty() || newest.is_some_and(is_old) {
+        if reel.shots.is_empty() || newest.is_some_and(is_old) {
             return;
         }
         self.is_outdated = false;
@@ -70,8 +70,8 @@ impl Replay {
     }
 
     /// The present shot.
-    pub fn scene(&self) -> Option<&Scene> {
-        self.reel.as_ref()?.scenes.get(self.index)
+    pub fn shot(&self) -> Option<&ReplayShot> {
+        self.reel.as_ref()?.shots.get(self.index)
     }
 
     /// Whether anything moves.
@@ -99,7 +99,7 @@ impl Replay {
     }
 
     fn duration(&self) -> f64 {
-        self.scene().and_then(|scene| scene.shot.as_ref()).map_or(0.0, |shot| shot.recording.duration())
+        self.shot().and_then(|one| one.shot.as_ref()).map_or(0.0, |shot| shot.recording.duration())
     }
 
     fn is_at_the_end(&self) -> bool {
@@ -107,13 +107,13 @@ impl Replay {
     }
 
     fn is_through(&self) -> bool {
-        let last = self.reel.as_ref().map_or(0, |reel| reel.scenes.len().saturating_sub(1));
+        let last = self.reel.as_ref().map_or(0, |reel| reel.shots.len().saturating_sub(1));
         self.index >= last && self.is_at_the_end()
     }
 
     /// Shows another shot before its stroke, the next where positive, and stops there.
     pub fn step(&mut self, shots: isize) {
-        let count = self.reel.as_ref().map_or(0, |reel| reel.scenes.len());
+        let count = self.reel.as_ref().map_or(0, |reel| reel.shots.len());
         if count > 0 {
             let index = self.index.saturating_add_signed(shots).min(count - 1);
             self.show(index);

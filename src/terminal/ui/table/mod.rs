@@ -2,8 +2,8 @@
 
 mod cushions;
 mod paint;
+mod picture;
 mod rails;
-mod scene;
 mod ways;
 
 use glam::DVec2;
@@ -19,14 +19,14 @@ use crate::{
             sprites::Sprite,
             table::{
                 cushions::{draw_counts, draw_cushions},
+                picture::TablePicture,
                 rails::draw_rails,
-                scene::Scene,
             },
         },
     },
 };
 
-pub use self::scene::cue_sign;
+pub use self::picture::cue_sign;
 
 /// Dots and rings nearer to a ball than this, in radii, are left out: three colours do not fit a cell.
 const CLEAR_RADII: f64 = 2.2;
@@ -118,13 +118,13 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     let off_table = std::array::from_fn(|ball| shot.is_some_and(|shot| is_gone(shot, ball, view.time, &mapping)));
     let balls = apart_on_cloth(balls, heights, 2.0 * reach);
     let time = if view.is_moving { view.time } else { 0.0 };
-    let scene = Scene { view, caps: ui.caps, mapping, time, balls, heights, off_table, sprite, clear };
-    paint::paint(&scene, ui);
+    let picture = TablePicture { view, caps: ui.caps, mapping, time, balls, heights, off_table, sprite, clear };
+    paint::paint(&picture, ui);
     if view.is_numbered {
         draw_counts(view.table, &mapping, ui);
         view.shot.inspect(|shot| draw_cushions(&shot.words, view.table, &mapping, ui));
     }
-    ways::draw_words(&scene, ui);
+    ways::draw_words(&picture, ui);
 }
 
 /// Whether a ball that leaves the table is beyond the rails already, though it may not have come down there.

@@ -9,7 +9,7 @@ use crate::{
         Glyphs,
         ui::{
             Canvas, Ink, Theme, Ui,
-            table::scene::{Age, Scene},
+            table::picture::{Age, TablePicture},
         },
     },
 };
@@ -34,10 +34,10 @@ const RING_WEIGHT: u8 = 4;
 const BALL_WEIGHT: u8 = 32;
 
 /// Draws the cloth with all that is on it.
-pub fn paint(scene: &Scene, ui: &mut Ui) {
+pub fn paint(picture: &TablePicture, ui: &mut Ui) {
     match ui.caps.glyphs {
-        Glyphs::Letters => in_letters(scene, ui),
-        _ => in_blocks(scene, ui),
+        Glyphs::Letters => in_letters(picture, ui),
+        _ => in_blocks(picture, ui),
     }
 }
 
@@ -50,8 +50,8 @@ fn path_color(theme: &Theme, ball: usize, age: Age) -> Color {
     }
 }
 
-fn in_blocks(scene: &Scene, ui: &mut Ui) {
-    let (theme, glyphs, mapping) = (ui.theme, ui.caps.glyphs, &scene.mapping);
+fn in_blocks(picture: &TablePicture, ui: &mut Ui) {
+    let (theme, glyphs, mapping) = (ui.theme, ui.caps.glyphs, &picture.mapping);
     let mut canvas = Canvas::new(mapping.bed, glyphs, theme.cloth);
     let (width, height) = canvas.size();
     let grid = DVec2::new(f64::from(width), f64::from(height))
@@ -61,53 +61,53 @@ fn in_blocks(scene: &Scene, ui: &mut Ui) {
         canvas.set(at.x as i32, at.y as i32, Ink { color, weight: DOT_WEIGHT });
     };
     let ring = |canvas: &mut Canvas, place: DVec2, color: Color| {
-        scene.sprite.stamp_ring(canvas, mapping, place, Ink { color, weight: RING_WEIGHT });
+        picture.sprite.stamp_ring(canvas, mapping, place, Ink { color, weight: RING_WEIGHT });
     };
-    for spot in scene.spots() {
+    for spot in picture.spots() {
         if spot.is_ball { ring(&mut canvas, spot.place, spot.color) } else { dot(&mut canvas, spot.place, spot.color) }
     }
-    scene.each_other_dot(|place| dot(&mut canvas, place, theme.way));
-    scene.each_dot(|ball, at, age| dot(&mut canvas, at.place, path_color(theme, ball, age)));
-    scene.each_cue_dot(|place, _| dot(&mut canvas, place, theme.cue));
-    for ghost in scene.ghosts() {
+    picture.each_other_dot(|place| dot(&mut canvas, place, theme.way));
+    picture.each_dot(|ball, at, age| dot(&mut canvas, at.place, path_color(theme, ball, age)));
+    picture.each_cue_dot(|place, _| dot(&mut canvas, place, theme.cue));
+    for ghost in picture.ghosts() {
         ring(&mut canvas, ghost.place, path_color(theme, ghost.ball, ghost.age));
     }
-    for (ball, place) in scene.view.film.into_iter().flatten().enumerate() {
+    for (ball, place) in picture.view.film.into_iter().flatten().enumerate() {
         // A picture that is too small for a hole is paler instead.
-        if scene.sprite.has_hole() {
+        if picture.sprite.has_hole() {
             ring(&mut canvas, place, theme.balls[ball]);
         } else {
             let ink = Ink { color: theme.paths[ball], weight: RING_WEIGHT };
-            scene.sprite.stamp(&mut canvas, mapping, place, ink);
+            picture.sprite.stamp(&mut canvas, mapping, place, ink);
         }
     }
-    for ball in scene.order().filter(|ball| scene.heights[*ball] > 0.0) {
+    for ball in picture.order().filter(|ball| picture.heights[*ball] > 0.0) {
         let ink = Ink { color: theme.shadow(), weight: RING_WEIGHT };
-        scene.sprite.stamp(&mut canvas, mapping, scene.balls[ball], ink);
+        picture.sprite.stamp(&mut canvas, mapping, picture.balls[ball], ink);
     }
-    for ball in scene.upwards() {
+    for ball in picture.upwards() {
         let ink = Ink { color: theme.balls[ball], weight: BALL_WEIGHT };
-        let height = scene.heights[ball];
-        let sprite = if height > 0.0 { scene.sprite.raised(height, mapping.radius, glyphs) } else { scene.sprite };
-        sprite.stamp(&mut canvas, mapping, scene.lifted(ball), ink);
+        let height = picture.heights[ball];
+        let sprite = if height > 0.0 { picture.sprite.raised(height, mapping.radius, glyphs) } else { picture.sprite };
+        sprite.stamp(&mut canvas, mapping, picture.lifted(ball), ink);
     }
     canvas.paint(ui.buffer);
 }
 
-fn in_letters(scene: &Scene, ui: &mut Ui) {
-    let (theme, caps, mapping) = (ui.theme, ui.caps, &scene.mapping);
+fn in_letters(picture: &TablePicture, ui: &mut Ui) {
+    let (theme, caps, mapping) = (ui.theme, ui.caps, &picture.mapping);
     ui.buffer.set_style(mapping.bed, Style::new().bg(theme.cloth));
     let mut put = |place: DVec2, symbol: char, color: Color| {
         let cell = &mut ui.buffer[mapping.to_cell(place)];
         cell.set_char(symbol).set_fg(color);
     };
-    for spot in scene.spots() {
+    for spot in picture.spots() {
         put(spot.place, spot.letter, spot.color);
     }
-    scene.each_other_dot(|place| put(place, caps.pick(OTHER[0], OTHER[1]), theme.way));
+    picture.each_other_dot(|place| put(place, caps.pick(OTHER[0], OTHER[1]), theme.way));
     let dots = theme.cue_ball.ordered(caps.pick(DOTS, PLAIN_DOTS));
     let (letters, trail) = (theme.letters(), caps.pick(TRAIL[0], TRAIL[1]));
-    scene.each_dot(|ball, dot, age| {
+    picture.each_dot(|ball, dot, age| {
         let sign = match age {
             _ if dot.is_aloft() => ALOFT,
             Age::Trail => trail,
@@ -115,22 +115,22 @@ fn in_letters(scene: &Scene, ui: &mut Ui) {
         };
         put(dot.place, sign, path_color(theme, ball, age));
     });
-    scene.each_cue_dot(|place, sign| put(place, sign, theme.cue));
-    for ghost in scene.ghosts() {
+    picture.each_cue_dot(|place, sign| put(place, sign, theme.cue));
+    for ghost in picture.ghosts() {
         put(ghost.place, letters[ghost.ball].to_ascii_lowercase(), path_color(theme, ghost.ball, ghost.age));
     }
-    for (ball, place) in scene.view.film.into_iter().flatten().enumerate() {
+    for (ball, place) in picture.view.film.into_iter().flatten().enumerate() {
         put(place, letters[ball].to_ascii_lowercase(), theme.paths[ball]);
     }
-    for ball in scene.order().filter(|ball| scene.heights[*ball] > 0.0) {
-        put(scene.balls[ball], caps.pick(SHADOW[0], SHADOW[1]), theme.balls[ball]);
+    for ball in picture.order().filter(|ball| picture.heights[*ball] > 0.0) {
+        put(picture.balls[ball], caps.pick(SHADOW[0], SHADOW[1]), theme.balls[ball]);
     }
-    for ball in scene.upwards() {
-        let (x, y) = mapping.to_cell(scene.lifted(ball));
+    for ball in picture.upwards() {
+        let (x, y) = mapping.to_cell(picture.lifted(ball));
         let wide = mapping.ball_columns() >= BRACKET_COLUMNS && x > mapping.bed.x && x + 1 < mapping.bed.right();
         let text = if wide { format!("({})", letters[ball]) } else { letters[ball].to_string() };
         let mut style = theme.ball_letter(ball).add_modifier(Modifier::BOLD);
-        if !scene.view.is_moving && ball == scene.view.front {
+        if !picture.view.is_moving && ball == picture.view.front {
             style = style.add_modifier(Modifier::REVERSED);
         }
         ui.buffer.set_stringn(x - u16::from(wide), y, &text, 3, style);

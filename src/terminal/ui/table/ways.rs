@@ -8,7 +8,7 @@ use ratatui::style::{Color, Style};
 
 use crate::terminal::{
     Glyphs,
-    ui::{Ui, columns, table::scene::Scene},
+    ui::{Ui, columns, table::picture::TablePicture},
 };
 
 /// Distance of the two ways from which on the words stand there, m: two balls.
@@ -18,52 +18,52 @@ const FARTHEST: f64 = 0.3;
 const STEP: f64 = 0.005;
 
 /// Writes the words, each where nothing else is.
-pub fn draw_words(scene: &Scene, ui: &mut Ui) {
-    name_ways(scene, ui);
-    draw_note(scene, ui);
+pub fn draw_words(picture: &TablePicture, ui: &mut Ui) {
+    name_ways(picture, ui);
+    draw_note(picture, ui);
 }
 
 /// Writes whose each way is, where the two lie apart; nothing where they never do.
-fn name_ways(scene: &Scene, ui: &mut Ui) {
-    let Some((own, other)) = scene.view.shot.zip(scene.view.other) else { return };
+fn name_ways(picture: &TablePicture, ui: &mut Ui) {
+    let Some((own, other)) = picture.view.shot.zip(picture.view.other) else { return };
     if own.cue == other.cue {
         return;
     }
     let [own, other] = [&own.paths[0], &other.paths[0]];
-    let mut taken: Cells = own.iter().chain(other).map(|dot| scene.mapping.to_cell(dot.place)).collect();
-    taken.extend(pictures(scene));
+    let mut taken: Cells = own.iter().chain(other).map(|dot| picture.mapping.to_cell(dot.place)).collect();
+    taken.extend(pictures(picture));
     let theme = ui.theme;
     for (text, way, from, color) in
-        [("you", own, other, theme.paths[0]), (scene.view.other_name, other, own, theme.way)]
+        [("you", own, other, theme.paths[0]), (picture.view.other_name, other, own, theme.way)]
     {
         let width = columns(text) as u16;
         let is_apart = |place: DVec2| from.iter().all(|dot| dot.place.distance(place) > APART);
-        let apart = way.iter().filter(|dot| is_apart(dot.place)).map(|dot| scene.mapping.to_cell(dot.place));
+        let apart = way.iter().filter(|dot| is_apart(dot.place)).map(|dot| picture.mapping.to_cell(dot.place));
         let starts = apart.flat_map(|cell| beside(cell, width, 1));
-        let Some(cells) = free(scene, width, starts, &taken) else { continue };
+        let Some(cells) = free(picture, width, starts, &taken) else { continue };
         write(text, &cells, color, ui);
         taken.extend(cells);
     }
 }
 
 /// Marks the place of the view's note, and writes that beside it.
-fn draw_note(scene: &Scene, ui: &mut Ui) {
-    let Some((place, text)) = scene.view.note.filter(|(place, _)| scene.mapping.is_on_bed(*place)) else { return };
-    let mark = beside_balls(scene, place);
-    let (cell, color) = (scene.mapping.to_cell(mark.unwrap_or(place)), ui.theme.mark);
-    let pictures: Cells = pictures(scene).collect();
+fn draw_note(picture: &TablePicture, ui: &mut Ui) {
+    let Some((place, text)) = picture.view.note.filter(|(place, _)| picture.mapping.is_on_bed(*place)) else { return };
+    let mark = beside_balls(picture, place);
+    let (cell, color) = (picture.mapping.to_cell(mark.unwrap_or(place)), ui.theme.mark);
+    let pictures: Cells = pictures(picture).collect();
     if mark.is_some() {
         // The letters of ways are others.
         write(if ui.caps.glyphs == Glyphs::Letters { "*" } else { "\u{d7}" }, &[cell], color, ui);
     }
     let mut taken = pictures.clone();
-    scene.each_dot(|_, dot, _| {
-        taken.insert(scene.mapping.to_cell(dot.place));
+    picture.each_dot(|_, dot, _| {
+        taken.insert(picture.mapping.to_cell(dot.place));
     });
     let width = columns(text) as u16;
     // Rather over a way than far off.
     let tries = [(&taken, 1), (&pictures, 1), (&pictures, 3)];
-    let found = tries.into_iter().find_map(|(taken, rows)| free(scene, width, beside(cell, width, rows), taken));
+    let found = tries.into_iter().find_map(|(taken, rows)| free(picture, width, beside(cell, width, rows), taken));
     if let Some(cells) = found {
         write(text, &cells, color, ui);
     }
@@ -71,27 +71,29 @@ fn draw_note(scene: &Scene, ui: &mut Ui) {
 
 /// Where a place can be marked: there, or where a ball hides it, beside that ball on the same side of it, rather not on a ring. A ball
 /// that lies still where another comes to it hides their contact. `None` where other balls or the cushion leave no room.
-fn beside_balls(scene: &Scene, place: DVec2) -> Option<DVec2> {
-    if scene.is_clear(place) {
+fn beside_balls(picture: &TablePicture, place: DVec2) -> Option<DVec2> {
+    if picture.is_clear(place) {
         return Some(place);
     }
-    let nearest = scene.balls.into_iter().min_by(|one, other| one.distance(place).total_cmp(&other.distance(place)))?;
+    let nearest =
+        picture.balls.into_iter().min_by(|one, other| one.distance(place).total_cmp(&other.distance(place)))?;
     let away = (place - nearest).normalize_or(DVec2::X);
     let rays = [0.0, 1.0, -1.0, 2.0, -2.0].map(|turn| DVec2::from_angle(turn * FRAC_PI_4).rotate(away));
     let along = |way: DVec2| (0..=(FARTHEST / STEP) as u32).map(move |step| nearest + f64::from(step) * STEP * way);
-    let places = rays.into_iter().flat_map(|way| along(way).take_while(|at| scene.mapping.is_on_bed(*at)));
-    let free: Vec<DVec2> = places.filter(|at| scene.is_clear(*at) && !scene.has_picture(*at, &scene.balls)).collect();
-    let rings: Vec<DVec2> = scene.ghosts().into_iter().map(|ghost| ghost.place).collect();
-    free.iter().find(|at| !scene.has_picture(**at, &rings)).or(free.first()).copied()
+    let places = rays.into_iter().flat_map(|way| along(way).take_while(|at| picture.mapping.is_on_bed(*at)));
+    let free: Vec<DVec2> =
+        places.filter(|at| picture.is_clear(*at) && !picture.has_picture(*at, &picture.balls)).collect();
+    let rings: Vec<DVec2> = picture.ghosts().into_iter().map(|ghost| ghost.place).collect();
+    free.iter().find(|at| !picture.has_picture(**at, &rings)).or(free.first()).copied()
 }
 
 type Cells = HashSet<(u16, u16)>;
 
 /// The cells of the balls and of those that are not there.
-fn pictures(scene: &Scene) -> impl Iterator<Item = (u16, u16)> {
-    let balls = scene.balls.into_iter().chain(scene.ghosts().into_iter().map(|ghost| ghost.place));
+fn pictures(picture: &TablePicture) -> impl Iterator<Item = (u16, u16)> {
+    let balls = picture.balls.into_iter().chain(picture.ghosts().into_iter().map(|ghost| ghost.place));
     // A picture may reach into the rows and columns beside its middle.
-    balls.map(|place| scene.mapping.to_cell(place)).flat_map(|(x, y)| {
+    balls.map(|place| picture.mapping.to_cell(place)).flat_map(|(x, y)| {
         (x.saturating_sub(2)..=x + 2).flat_map(move |x| (y.saturating_sub(1)..=y + 1).map(move |y| (x, y)))
     })
 }
@@ -107,12 +109,12 @@ fn beside((x, y): (u16, u16), width: u16, rows: u16) -> impl Iterator<Item = (u1
 
 /// The cells of words of so many columns at the first of these starts at which nothing else is.
 fn free(
-    scene: &Scene,
+    picture: &TablePicture,
     width: u16,
     mut starts: impl Iterator<Item = (u16, u16)>,
     taken: &Cells,
 ) -> Option<Vec<(u16, u16)>> {
-    let bed = scene.mapping.bed;
+    let bed = picture.mapping.bed;
     let is_free = |&(x, y): &(u16, u16)| {
         let is_inside = x >= bed.x && y >= bed.y && x + width <= bed.right() && y < bed.bottom();
         is_inside && (x.saturating_sub(1)..=x + width).all(|x| !taken.contains(&(x, y)))

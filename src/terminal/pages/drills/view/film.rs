@@ -10,7 +10,7 @@ use crate::{
     study::filmed::FITTED,
     table::{BALL_NAMES, BALLS},
     terminal::{
-        FilmScene, Glyphs,
+        FilmReplay, Glyphs,
         pages::drills::{
             DrillsPage,
             view::{films::outcome, panes::Panes},
@@ -31,28 +31,28 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     let more = about(listed, unit, separator(ui.caps));
     draw_header(&format!("filmed shot {}", listed.filmed.number), &more, &Span::default(), header, ui);
     let panes = Panes::new(table(), area);
-    let scene = film.scene();
+    let played = film.played();
     let view = TableView {
-        shot: scene.map(|scene| scene.shot.as_ref()),
+        shot: played.map(|played| played.shot.as_ref()),
         time: film.playback.time,
-        film: scene.map(|scene| scene.replay.filmed_places(film.playback.time)),
+        film: played.map(|played| played.replay.filmed_places(film.playback.time)),
         ..TableView::new(table(), &listed.layout)
     };
     draw_table(&view, panes.table, ui);
     let time = film.playback.readout;
-    draw_stroke(scene, drills.units, panes.stroke, ui);
-    let stroke = scene.and_then(|scene| scene.stroke.as_ref());
+    draw_stroke(played, drills.units, panes.stroke, ui);
+    let stroke = played.and_then(|played| played.stroke.as_ref());
     draw_tip(stroke, drills.units.tip == TipUnit::Tips, table(), panes.tip, ui);
-    let spin = scene.and_then(|scene| scene.shot.spin(time, table().radius));
-    draw_spin_or_sight(spin, scene.map(|scene| scene.shot.meeting()), panes.sight, ui);
-    draw_distances(scene, time, unit, panes.aim, ui);
-    let events = scene.map(|scene| {
-        let recording = &scene.shot.recording;
+    let spin = played.and_then(|played| played.shot.spin(time, table().radius));
+    draw_spin_or_sight(spin, played.map(|played| played.shot.meeting()), panes.sight, ui);
+    draw_distances(played, time, unit, panes.aim, ui);
+    let events = played.map(|played| {
+        let recording = &played.shot.recording;
         ListedEvents { recording, events: recording.events(), unit }
     });
     draw_events("Events", events, Some(time), panes.score, ui);
-    match (scene, film.failure()) {
-        (Some(scene), _) => status_line(scene, listed, time, unit),
+    match (played, film.failure()) {
+        (Some(played), _) => status_line(played, listed, time, unit),
         (None, Some(sentence)) => Message::warning(sentence),
         (None, None) => Message::plain("the stroke is being fitted to the film's first 2 seconds"),
     }
@@ -72,10 +72,10 @@ fn distance(metres: f64, unit: LengthUnit) -> String {
 }
 
 /// How far the simulated cue ball is from the filmed one, and what that is worth.
-fn status_line(scene: &FilmScene, listed: &Listed, time: f64, unit: LengthUnit) -> Message {
-    let white = distance(scene.replay.apart(time)[0], unit);
-    if time >= scene.replay.duration() {
-        let simulated = if scene.shot.solved { "a point" } else { "no point" };
+fn status_line(played: &FilmReplay, listed: &Listed, time: f64, unit: LengthUnit) -> Message {
+    let white = distance(played.replay.apart(time)[0], unit);
+    if time >= played.replay.duration() {
+        let simulated = if played.shot.solved { "a point" } else { "no point" };
         let filmed = if listed.is_point { "a point" } else { "no point" };
         return Message::plain(format!("at rest, white {white} from the film; simulated {simulated}, filmed {filmed}"));
     }
@@ -84,30 +84,30 @@ fn status_line(scene: &FilmScene, listed: &Listed, time: f64, unit: LengthUnit) 
 }
 
 /// Draws what the stroke gave the cue ball, by the fit.
-fn draw_stroke(scene: Option<&FilmScene>, units: Units, area: Rect, ui: &mut Ui) {
+fn draw_stroke(played: Option<&FilmReplay>, units: Units, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The fitted stroke", area, ui);
-    let Some(scene) = scene else { return };
-    let [side, height] = match &scene.stroke {
+    let Some(played) = played else { return };
+    let [side, height] = match &played.stroke {
         Some(cue) => tip_rows(cue, units.tip, table().radius),
         None => [("cue", "not level".to_owned()), ("", String::new())],
     };
     let rows = [
-        ("ball", speed_words(scene.replay.recording.impulse().velocity.length(), units.length, 2)),
+        ("ball", speed_words(played.replay.recording.impulse().velocity.length(), units.length, 2)),
         side,
         height,
-        ("fitted", format!("2 s, {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),
+        ("fitted", format!("2 s, {} mm", fixed(1e3 * played.replay.fitted.rms, 1))),
     ];
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
     draw_lines(rows.map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
 }
 
 /// Draws how far each simulated ball is from the filmed one, and which is which.
-fn draw_distances(scene: Option<&FilmScene>, time: f64, unit: LengthUnit, area: Rect, ui: &mut Ui) {
-    let title = scene.map_or("Film".to_owned(), |_| format!("From the film at {} s", fixed(time, 2)));
+fn draw_distances(played: Option<&FilmReplay>, time: f64, unit: LengthUnit, area: Rect, ui: &mut Ui) {
+    let title = played.map_or("Film".to_owned(), |_| format!("From the film at {} s", fixed(time, 2)));
     let inner = draw_title(title, area, ui);
-    let Some(scene) = scene else { return };
+    let Some(played) = played else { return };
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
-    let apart = scene.replay.apart(time);
+    let apart = played.replay.apart(time);
     let distances: Vec<String> =
         (0..BALLS).map(|n| format!("{} {}", BALL_NAMES[n], distance(apart[n], unit))).collect();
     let legend = if ui.caps.glyphs == Glyphs::Letters {

@@ -6,7 +6,7 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    Scene,
+    ReplayShot,
     pages::training::Watch,
     ui::{TableView, Ui, draw_table, draw_title, write_right},
     words::short_count,
@@ -15,7 +15,8 @@ use crate::terminal::{
 /// Draws the table with its title.
 pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     let replay = &watch.replay;
-    let (Some(table), Some(reel), Some(Scene { example, shot })) = (watch.table(), &replay.reel, replay.scene()) else {
+    let (Some(table), Some(reel), Some(ReplayShot { example, shot })) = (watch.table(), &replay.reel, replay.shot())
+    else {
         let inner = draw_title("Shots", area, ui);
         let words = if watch.lacks_config() {
             ["", "shots need the run's", "configuration"]
@@ -33,7 +34,7 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
         _ => ("miss".to_owned(), ui.theme.warning()),
     };
     let title = Line::from(vec![
-        Span::styled(format!("Shot {} of {}", replay.index + 1, reel.scenes.len()), ui.theme.text()),
+        Span::styled(format!("Shot {} of {}", replay.index + 1, reel.shots.len()), ui.theme.text()),
         ui.dash(),
         Span::styled(outcome, style),
     ]);

@@ -55,7 +55,7 @@ pub struct Ghost {
 }
 
 /// What is drawn of a table, with where the balls are.
-pub struct Scene<'a> {
+pub struct TablePicture<'a> {
     pub view: &'a TableView<'a>,
     pub caps: Capabilities,
     pub mapping: Mapping,
@@ -72,7 +72,7 @@ pub struct Scene<'a> {
     pub clear: f64,
 }
 
-impl Scene<'_> {
+impl TablePicture<'_> {
     /// Whether no ball hides a place.
     pub fn is_clear(&self, place: DVec2) -> bool {
         self.balls.iter().all(|ball| ball.distance(place) > self.clear)
@@ -209,8 +209,8 @@ mod tests {
     };
     use ratatui::layout::Rect;
 
-    /// Calls `check` with the scene at `time` of a shot that meets both balls.
-    fn at(columns: u16, time: f64, check: impl Fn(&Scene, &Shot)) {
+    /// Calls `check` with the picture at `time` of a shot that meets both balls.
+    fn at(columns: u16, time: f64, check: impl Fn(&TablePicture, &Shot)) {
         let table = Table::preset("textbook").unwrap();
         let layout = Layout::parse("-1,0 0,0.02 0.6,0.1", &table).unwrap();
         let shot = Shot::new(&table, &layout, CueInputs::parse("0,0.3,0,0,4").unwrap(), true, "test").unwrap();
@@ -223,7 +223,8 @@ mod tests {
             let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
             let balls = apart(shot.recording.positions(time), 2.0 * reach);
             let (heights, off_table) = ([0.0; BALLS], [false; BALLS]);
-            let lying = Scene { view: &view, caps: ui.caps, mapping, time, balls, heights, off_table, sprite, clear };
+            let lying =
+                TablePicture { view: &view, caps: ui.caps, mapping, time, balls, heights, off_table, sprite, clear };
             check(&lying, &shot);
         });
     }
@@ -231,17 +232,17 @@ mod tests {
     #[test]
     fn the_cue_ball_has_a_ring_at_each_first_contact_and_no_ring_is_cut() {
         for columns in [64, 112, 176] {
-            at(columns, 0.0, |scene, shot| {
-                let ghosts = scene.ghosts();
+            at(columns, 0.0, |picture, shot| {
+                let ghosts = picture.ghosts();
                 for contact in &shot.contacts {
                     let is_there = |ghost: &Ghost| ghost.ball == 0 && ghost.place.distance(contact.place) < 0.07;
                     assert!(ghosts.iter().any(is_there), "{columns}: {ghosts:?}");
                 }
-                let reach = scene.reach();
+                let reach = picture.reach();
                 for ghost in &ghosts {
-                    let nearest = scene.balls.map(|ball| ball.distance(ghost.place)).into_iter().fold(1.0, f64::min);
+                    let nearest = picture.balls.map(|ball| ball.distance(ghost.place)).into_iter().fold(1.0, f64::min);
                     assert!(nearest > 2.0 * reach - 1e-9, "{columns}: {ghost:?} is {nearest} from a ball");
-                    scene
+                    picture
                         .each_dot(|_, dot, _| assert!(dot.place.distance(ghost.place) > reach, "{columns}: {ghost:?}"));
                 }
             });
@@ -252,7 +253,7 @@ mod tests {
     fn a_path_ages_as_its_ball_runs_along_it() {
         let count = |time: f64| {
             let ages = std::cell::RefCell::new([0; 3]);
-            at(112, time, |scene, _| scene.each_dot(|_, _, age| ages.borrow_mut()[age as usize] += 1));
+            at(112, time, |picture, _| picture.each_dot(|_, _, age| ages.borrow_mut()[age as usize] += 1));
             ages.into_inner()
         };
         let [ahead, trail, past] = count(0.0);
