@@ -20,7 +20,7 @@ pub enum DrillTask {
     /// Read what the user has played and saved there; all that follows is written there.
     Load(Box<Places>),
     /// Find the stroke that is taught.
-    Advise(Box<Position>),
+    Advise(Box<AdviceTask>),
     /// Play the next attempt of a session, and save it.
     Play(Box<Stroke>),
     /// Find out how often the player makes a stroke that is not played.
@@ -48,7 +48,7 @@ impl DrillTask {
 
 /// Where a stroke is asked for.
 #[derive(Clone, Debug)]
-pub struct Position {
+pub struct AdviceTask {
     /// Tells this question's answer from those to earlier ones.
     pub id: u64,
     /// The table.
@@ -80,7 +80,7 @@ pub struct Stroke {
     pub meant: CueInputs,
     /// Whether the player has seen a shot that makes the point.
     pub helped: bool,
-    /// The number of the position, see [`Position::id`].
+    /// The number of the position, see [`AdviceTask::id`].
     pub position: u64,
 }
 

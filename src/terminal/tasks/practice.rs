@@ -16,7 +16,7 @@ use crate::{
     },
     table::Table,
     terminal::{
-        DrillReport, DrillTask, FilmReplay, JudgedStroke, Loaded, Outcome, Position, Shot, Stroke, Taught,
+        AdviceTask, DrillReport, DrillTask, FilmReplay, JudgedStroke, Loaded, Outcome, Shot, Stroke, Taught,
         tasks::event::Event,
     },
 };
@@ -134,9 +134,9 @@ impl PracticeWorker {
         }
     }
 
-    fn teach(&mut self, position: &Position) -> Result<Option<Taught>, String> {
+    fn teach(&mut self, position: &AdviceTask) -> Result<Option<Taught>, String> {
         self.taught = None;
-        let Position { table, layout, rule, shooter, .. } = position;
+        let AdviceTask { table, layout, rule, shooter, .. } = position;
         let advice = if let Some(cue) = position.own {
             Some(Advice { cue, solved: true, chance: chance(*shooter, *rule, table, layout, &cue) })
         } else {

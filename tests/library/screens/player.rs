@@ -17,8 +17,8 @@ use carom::{
     storage::Places,
     table::{Layout, Table},
     terminal::{
-        Advice, Answer, App, Capabilities, CoachNews, CoachWorker, Depth, DrillReport, DrillTask, Effect, Glyphs, Job,
-        Position, PracticeWorker, Proposal, Reel, Settings, SettingsFile, Shot, Slot, Taught, TrainingReport,
+        Advice, AdviceTask, Answer, App, Capabilities, CoachNews, CoachWorker, Depth, DrillReport, DrillTask, Effect,
+        Glyphs, Job, PracticeWorker, Proposal, Reel, Settings, SettingsFile, Shot, Slot, Taught, TrainingReport,
     },
 };
 use crossterm::event::KeyEvent;
@@ -87,7 +87,7 @@ pub fn advice(job: &Job) -> Advice {
 }
 
 /// A shot that the coach teaches in the drills.
-fn taught(position: &Position, cue: &str) -> Taught {
+fn taught(position: &AdviceTask, cue: &str) -> Taught {
     let Proposal { shot, made, .. } = proposal(&position.table, &position.layout, cue, 400);
     let advice = carom::drills::Advice { cue: shot.cue, solved: true, chance: made.expect("it was judged") };
     Taught { advice, is_own: false, shot }

@@ -9,7 +9,7 @@ use crate::{
     table::{BALLS, CueBall, Layout, Opening, Side},
     terminal::{
         CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode, Terms,
-        pages::coach::{CoachPage, Position},
+        pages::coach::{CoachPage, Snapshot},
         shot::{
             OwnStroke,
             placing::{self, STEPS},
@@ -44,7 +44,7 @@ impl CoachPage {
                 self.advised().is_none_or(|advised| advised.choices.len() < 2),
                 "there is no other shot to choose",
             ),
-            CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
+            CoachCondition::Undoable => refuse(!self.history.can_undo(), "there is nothing to take back"),
             CoachCondition::Interrupted => refuse(
                 self.before.is_empty() && self.left_exams.is_empty(),
                 "no unfinished exam or earlier session; F3 shows what you practise",
@@ -53,7 +53,7 @@ impl CoachPage {
             CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is unchanged"),
             CoachCondition::PlayedOn => refuse(self.played_on() == 0, "the stroke is unchanged"),
             CoachCondition::StrokeUndone => refuse(!self.can_travel().1, "no change of the stroke was taken back"),
-            CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
+            CoachCondition::Redoable => refuse(!self.history.can_redo(), "nothing was taken back"),
         }
     }
 
@@ -83,7 +83,7 @@ impl CoachPage {
             Action::Opening => self.open(),
             Action::OtherBall => self.take_other_ball(),
             Action::Random => {
-                let layout = Layout::random(&self.balls.present().table, &mut self.rng);
+                let layout = Layout::random(&self.history.present().table, &mut self.rng);
                 self.place(layout);
             }
             Action::Undo if self.what_if().is_some() => return self.play_back(),
@@ -133,7 +133,7 @@ impl CoachPage {
         let layout = self.layout().for_the_opponent();
         self.selected = CueBall::Yellow.ordered([0, 1, 2])[self.selected];
         self.place(layout);
-        self.balls.present_mut().cue_ball = cue_ball;
+        self.history.present_mut().cue_ball = cue_ball;
         self.message = Some(Message::plain(format!("{cue_ball} is the cue ball now; Enter asks the coach")));
     }
 
@@ -206,33 +206,33 @@ impl CoachPage {
     /// Puts the balls elsewhere, as a step that can be taken back. The shot was for where they lay.
     pub(super) fn place(&mut self, layout: Layout) {
         self.drop_ball();
-        self.balls.push(self.position(layout));
+        self.history.push(self.snapshot(layout));
         self.rest();
     }
 
     /// The same table and policy with the balls elsewhere, on which there is no advice yet.
-    pub(super) fn position(&self, layout: Layout) -> Position {
-        let Position { table, policy, cue_ball, .. } = self.balls.present();
-        Position { policy: policy.clone(), cue_ball: *cue_ball, ..Position::new(Arc::clone(table), layout) }
+    pub(super) fn snapshot(&self, layout: Layout) -> Snapshot {
+        let Snapshot { table, policy, cue_ball, .. } = self.history.present();
+        Snapshot { policy: policy.clone(), cue_ball: *cue_ball, ..Snapshot::new(Arc::clone(table), layout) }
     }
 
     pub(super) fn undo(&mut self) {
-        let left = self.balls.present().clone();
-        self.balls.undo();
+        let left = self.history.present().clone();
+        self.history.undo();
         let terms = left.terms.map(|[before, after]| [after, before]);
         self.travelled(left, terms);
     }
 
     fn redo(&mut self) {
-        let left = self.balls.present().clone();
-        self.balls.redo();
-        self.travelled(left, self.balls.present().terms);
+        let left = self.history.present().clone();
+        self.history.redo();
+        self.travelled(left, self.history.present().terms);
     }
 
     /// A step was taken back or made again, which changes what is asked for from the first terms to the second. What has been
     /// chosen since stays.
-    fn travelled(&mut self, left: Position, terms: Option<[Terms; 2]>) {
-        let present = self.balls.present_mut();
+    fn travelled(&mut self, left: Snapshot, terms: Option<[Terms; 2]>) {
+        let present = self.history.present_mut();
         if (&left.table, left.layout, left.cue_ball) == (&present.table, present.layout, present.cue_ball) {
             // The balls are the same, and so is all that was answered about them.
             present.advised = left.advised;

@@ -35,11 +35,11 @@ impl CoachPage {
         if layout == *self.layout() {
             return None;
         }
-        let position = self.position(layout);
+        let snapshot = self.snapshot(layout);
         if drag.is_begun {
-            *self.balls.present_mut() = position;
+            *self.history.present_mut() = snapshot;
         } else {
-            self.balls.push(position);
+            self.history.push(snapshot);
         }
         self.drag = Some(Drag { is_begun: true, ..drag });
         self.message = None;

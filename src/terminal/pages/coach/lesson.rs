@@ -64,7 +64,7 @@ impl CoachPage {
     pub(super) fn renew_lesson(&mut self) {
         let Some(lesson) = &self.lesson else { return };
         let current = self.of_shot(system_of(&lesson.guide));
-        let is_other = !Arc::ptr_eq(&lesson.table, &self.balls.present().table)
+        let is_other = !Arc::ptr_eq(&lesson.table, &self.history.present().table)
             || lesson.is_of_shot != current.is_some()
             || current.is_some_and(|guide| *guide != lesson.guide);
         if is_other {
@@ -81,7 +81,7 @@ impl CoachPage {
         let own = self.of_shot(system).cloned();
         let is_of_shot = own.is_some();
         let guide = own.or_else(|| Applied::example(system?, self.table()).map(Guide::System))?;
-        let table = Arc::clone(&self.balls.present().table);
+        let table = Arc::clone(&self.history.present().table);
         Some(Lesson { path: guide.path(&table), guide, is_of_shot, table })
     }
 }

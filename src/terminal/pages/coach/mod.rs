@@ -65,7 +65,7 @@ const SPINNER_INTERVAL: f64 = 0.1;
 
 /// Everything that a step back brings back: where the balls lie, on which table, who is asked, for what, and the advice on them.
 #[derive(Clone, Debug)]
-struct Position {
+struct Snapshot {
     table: Arc<Table>,
     policy: Option<(String, Arc<Policy>)>,
     layout: Layout,
@@ -76,7 +76,7 @@ struct Position {
     advised: Vec<AdviceState>,
 }
 
-impl Position {
+impl Snapshot {
     /// Balls on a table, of which nothing has been asked yet.
     const fn new(table: Arc<Table>, layout: Layout) -> Self {
         Self { table, policy: None, layout, cue_ball: CueBall::White, terms: None, advised: Vec::new() }
@@ -141,7 +141,7 @@ pub struct CoachPage {
     company: Company,
     /// The player's own stroke, while there is one.
     own_stroke: Option<own_stroke::Own>,
-    balls: History<Position>,
+    history: History<Snapshot>,
     /// The selected ball is held by the mouse.
     drag: Option<Drag>,
     /// What the settings ask for, whatever keys have changed since.
@@ -194,7 +194,7 @@ impl CoachPage {
             player: None,
             company: Company::Alone,
             own_stroke: None,
-            balls: History::new(Position::new(Arc::new(table), layout)),
+            history: History::new(Snapshot::new(Arc::new(table), layout)),
             drag: None,
             of_settings: CoachQuery::default().terms(),
             of_start: CoachQuery::default().terms(),
@@ -264,7 +264,7 @@ impl CoachPage {
 
     /// Whether anything has been done since the start.
     fn is_begun(&self) -> bool {
-        self.balls.can_undo() || !self.balls.present().advised.is_empty() || self.query.terms() != self.of_start
+        self.history.can_undo() || !self.history.present().advised.is_empty() || self.query.terms() != self.of_start
     }
 
     /// Goes on with the exam that was left, or from where the last session ended; gives what was practised there.
@@ -391,32 +391,32 @@ impl CoachPage {
     fn take(&mut self, table: &Table, layout: Layout, cue_ball: CueBall, query: CoachQuery) {
         self.cancel();
         self.drop_ball();
-        let known = &self.balls.present().table;
+        let known = &self.history.present().table;
         let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
         let terms = Some([self.query.terms(), query.terms()]).filter(|[before, after]| before != after);
-        self.balls.push(Position { policy: query.policy.clone(), cue_ball, terms, ..Position::new(table, layout) });
+        self.history.push(Snapshot { policy: query.policy.clone(), cue_ball, terms, ..Snapshot::new(table, layout) });
         self.query = query;
         self.rest();
     }
 
     /// The table that is played on.
     pub fn table(&self) -> &Table {
-        &self.balls.present().table
+        &self.history.present().table
     }
 
     /// Where the balls lie before the shot.
     pub const fn layout(&self) -> &Layout {
-        &self.balls.present().layout
+        &self.history.present().layout
     }
 
     /// The ball that is the cue ball.
     pub const fn cue_ball(&self) -> CueBall {
-        self.balls.present().cue_ball
+        self.history.present().cue_ball
     }
 
     /// The advice on the layout, if it answers what is asked now.
     pub fn advised(&self) -> Option<&AdviceState> {
-        self.balls.present().advised.iter().find(|advised| advised.query == self.query)
+        self.history.present().advised.iter().find(|advised| advised.query == self.query)
     }
 
     /// The same as it is shown: nothing while the coach looks for something better.
@@ -426,7 +426,7 @@ impl CoachPage {
 
     fn advised_mut(&mut self) -> Option<&mut AdviceState> {
         let query = &self.query;
-        self.balls.present_mut().advised.iter_mut().find(|advised| advised.query == *query)
+        self.history.present_mut().advised.iter_mut().find(|advised| advised.query == *query)
     }
 
     /// The shot that is shown: the best so far while the coach thinks, else the chosen one of its advice.

@@ -39,7 +39,7 @@ impl CoachPage {
         let Own { what_if, about: (table, layout, query), .. } =
             self.own_stroke.as_ref().filter(|_| self.pending.is_none())?;
         let shown = self.proposal().map(|proposal| Arc::as_ptr(&proposal.shot));
-        let is_here = Arc::ptr_eq(table, &self.balls.present().table) && layout == self.layout();
+        let is_here = Arc::ptr_eq(table, &self.history.present().table) && layout == self.layout();
         let is_beside = what_if.coach.as_ref().map(Arc::as_ptr) == shown && *query == self.query;
         (is_here && is_beside).then_some(what_if)
     }
@@ -61,7 +61,7 @@ impl CoachPage {
         };
         match what_if {
             Ok(what_if) => {
-                let about = (Arc::clone(&self.balls.present().table), *self.layout(), self.query.clone());
+                let about = (Arc::clone(&self.history.present().table), *self.layout(), self.query.clone());
                 self.own_stroke = Some(Own { stroke: OwnStroke::new(cue), what_if, about, played_on: 0 });
             }
             Err(error) => return self.refuse(error),
@@ -121,7 +121,7 @@ impl CoachPage {
 
     /// Changes the player's own stroke.
     pub(super) fn change_stroke(&mut self, change: StrokeChange) -> Option<Effect> {
-        let (table, layout) = (Arc::clone(&self.balls.present().table), *self.layout());
+        let (table, layout) = (Arc::clone(&self.history.present().table), *self.layout());
         let mut stroke = self.own_stroke.as_ref()?.stroke.clone();
         match stroke.change(change, &table, &layout) {
             Ok(()) => self.strike(stroke),

@@ -14,7 +14,7 @@ use crate::{
         Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot, Terms,
         pages::{
             Page,
-            coach::{Choice, CoachPage, Position},
+            coach::{Choice, CoachPage, Snapshot},
             neighbour, next_skill,
         },
         ui::Message,
@@ -142,7 +142,7 @@ impl CoachPage {
     /// gone.
     fn studied(&mut self) -> Option<(&mut Option<Why>, &mut Choice)> {
         let shot = &self.studying.as_ref()?.shot;
-        self.balls.present_mut().advised.iter_mut().find_map(|AdviceState { why, choices, .. }| {
+        self.history.present_mut().advised.iter_mut().find_map(|AdviceState { why, choices, .. }| {
             Some((why, choices.iter_mut().find(|choice| Arc::ptr_eq(&choice.proposal.shot, shot))?))
         })
     }
@@ -157,7 +157,7 @@ impl CoachPage {
     /// Keeps the advice on the layout that `query` gave, and shows it from its best shot on if that is what is asked now.
     fn show(&mut self, query: CoachQuery, advice: Advice) {
         let is_asked = query == self.query;
-        let advised = &mut self.balls.present_mut().advised;
+        let advised = &mut self.history.present_mut().advised;
         advised.retain(|known| known.query != query);
         advised.extend(AdviceState::new(query, advice));
         if is_asked {
@@ -251,7 +251,7 @@ impl CoachPage {
     /// Asks for something else from now on, as a step that can be taken back.
     pub(super) fn change_terms(&mut self, terms: Terms) {
         let terms = [self.query.terms(), terms];
-        self.balls.push(Position { terms: Some(terms), ..self.balls.present().clone() });
+        self.history.push(Snapshot { terms: Some(terms), ..self.history.present().clone() });
         self.query = self.query.with(terms[1]);
         self.rest();
     }

@@ -6,7 +6,7 @@ use crate::{
     statistics::SuccessRate,
     terminal::{
         Advice, AdviceState, CoachQuery, Mode, Proposal,
-        pages::coach::{CoachPage, Position},
+        pages::coach::{CoachPage, Snapshot},
         shot::History,
         shown::{Author, Doing, ShownShot, ShownTable},
         tasks::onlooker::{Seen, SeenTable, damage_words},
@@ -160,7 +160,7 @@ impl CoachPage {
         self.query = CoachQuery { rule: shown.rule, skill: shown.skill, ..self.query.clone() };
         self.selected = shown.selected;
         let table = Arc::new(shown.table);
-        let mut position = Position { cue_ball: shown.cue_ball, ..Position::new(table, shown.layout) };
+        let mut snapshot = Snapshot { cue_ball: shown.cue_ball, ..Snapshot::new(table, shown.layout) };
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
         if let Some((shot, told)) = shot.zip(shown.shot) {
@@ -175,12 +175,12 @@ impl CoachPage {
             let is_early = told.author == Author::Search;
             let proposal = Proposal { shot, made, risk: None, next: None, is_early };
             let advice = Advice { proposals: vec![proposal], seed: 1, effort: None, found: None };
-            position.advised.extend(AdviceState::new(self.query.clone(), advice));
+            snapshot.advised.extend(AdviceState::new(self.query.clone(), advice));
             // The closer look is the player's own.
-            if let Some(advised) = position.advised.first_mut() {
+            if let Some(advised) = snapshot.advised.first_mut() {
                 advised.choice_mut().is_studied = true;
             }
         }
-        self.balls = History::new(position);
+        self.history = History::new(snapshot);
     }
 }

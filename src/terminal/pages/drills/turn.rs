@@ -17,7 +17,7 @@ use crate::{
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
     table::{CueBall, Layout, Table},
     terminal::{
-        DrillTask, Outcome, Position, Shot, Stroke, Taught,
+        AdviceTask, DrillTask, Outcome, Shot, Stroke, Taught,
         pages::drills::{
             Watched,
             sight::{Sight, sight},
@@ -293,7 +293,7 @@ impl Turn {
         self.lesson = Lesson::Pending;
         self.position = QUESTIONS.fetch_add(1, Ordering::Relaxed);
         let is_exact = self.layout == self.exercise.layout;
-        vec![DrillTask::Advise(Box::new(Position {
+        vec![DrillTask::Advise(Box::new(AdviceTask {
             id: self.position,
             table: self.table.clone(),
             layout: self.layout,
