@@ -72,7 +72,7 @@ pub use tasks::{
     PracticeWorker,
     advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
     calibration::{CalibrationReport, CalibrationTask, Judged, Judging, KeptEntries},
-    drills::{AdviceTask, DrillReport, DrillTask, JudgedStroke, Loaded, Outcome, Stroke, Taught},
+    drills::{AdviceTask, DrillReport, DrillTask, JudgedStroke, Loaded, ModelShot, Outcome, Stroke},
     onlooker::{Onlooker, Seen, SeenTable},
     recommender::{Answer, CoachNews, CoachWorker, Job},
     reel::{Reel, ReplayShot},

@@ -109,10 +109,10 @@ impl WhatIf {
         self.verdict.words(cue_ball, units.length).replacen(": ", ", if played exactly: ", 1)
     }
 
-    /// How the stroke differs from the coach's, who is called `teacher`, and whether there is room for the cue; without one, how it is
+    /// How the stroke differs from the coach's, who is called `advisor`, and whether there is room for the cue; without one, how it is
     /// struck. `coach_made` is how often the player makes the coach's, if known: a stroke that is made as often is not called wrong,
     /// even where it misses if played exactly.
-    pub fn difference(&self, teacher: &str, coach_made: Option<f64>, cue_ball: CueBall, units: Units) -> String {
+    pub fn difference(&self, advisor: &str, coach_made: Option<f64>, cue_ball: CueBall, units: Units) -> String {
         let Some(coach) = &self.coach else {
             let room = if self.has_room { "" } else { " No room for the cue." };
             return self.shot.words.sentence(cue_ball, units) + room;
@@ -126,7 +126,7 @@ impl WhatIf {
             (true, false) => "",
         };
         if parts.is_empty() {
-            format!("You: as the {teacher}{room}")
+            format!("You: as the {advisor}{room}")
         } else {
             format!("You: {}{room}", parts.join(", "))
         }

@@ -19,7 +19,7 @@ use crate::{
 pub enum DrillTask {
     /// Read what the user has played and saved there; all that follows is written there.
     Load(Box<Places>),
-    /// Find the stroke that is taught.
+    /// Find the model shot.
     Advise(Box<AdviceTask>),
     /// Play the next attempt of a session, and save it.
     Play(Box<Stroke>),
@@ -79,7 +79,7 @@ pub struct Stroke {
     /// What the player means.
     pub meant: CueInputs,
     /// Whether the player has seen a shot that makes the point.
-    pub helped: bool,
+    pub with_hint: bool,
     /// The number of the position, see [`AdviceTask::id`].
     pub position: u64,
 }
@@ -103,9 +103,9 @@ pub struct JudgedStroke {
     pub cancel: Arc<AtomicBool>,
 }
 
-/// A stroke that is taught, ready to be shown.
+/// A model shot, the exercise's or the coach's, ready to be shown.
 #[derive(Clone, Debug)]
-pub struct Taught {
+pub struct ModelShot {
     /// The stroke, and how often the player makes it.
     pub advice: Advice,
     /// Whether it is the exercise's own; otherwise it is the coach's.
@@ -146,7 +146,7 @@ pub enum DrillReport {
     /// Of [`DrillTask::Load`].
     Loaded(Box<Loaded>),
     /// Of [`DrillTask::Advise`]: with the question's number; `None` where no point was found.
-    Taught(u64, Result<Option<Taught>, String>),
+    ModelShot(u64, Result<Option<ModelShot>, String>),
     /// Of [`DrillTask::Play`]: the session's identity, what came of it, and whether it could be saved.
     Played(String, Result<Box<Outcome>, String>, Result<(), String>),
     /// How often the player makes what was meant: the session's identity, the number of the attempt, the share.

@@ -16,7 +16,7 @@ use crate::{
     },
     table::Table,
     terminal::{
-        AdviceTask, DrillReport, DrillTask, FilmReplay, JudgedStroke, Loaded, Outcome, Shot, Stroke, Taught,
+        AdviceTask, DrillReport, DrillTask, FilmReplay, JudgedStroke, Loaded, ModelShot, Outcome, Shot, Stroke,
         tasks::event::Event,
     },
 };
@@ -29,8 +29,8 @@ const BUDGET: Duration = Duration::from_millis(300);
 pub struct PracticeWorker {
     store: Option<Store>,
     coach: Option<Coach>,
-    /// The stroke that is taught, and in which position.
-    taught: Option<(u64, Advice)>,
+    /// The model shot, and in which position.
+    model_shot: Option<(u64, Advice)>,
     /// The session that was played last: it knows of strokes that were judged meanwhile.
     last: Option<Session>,
     /// How many attempts of each session are known to be on the disk.
@@ -48,8 +48,8 @@ impl PracticeWorker {
             }
             DrillTask::Advise(position) => {
                 if !position.cancel.load(Ordering::Relaxed) {
-                    let taught = catch_unwind(AssertUnwindSafe(|| self.teach(&position)));
-                    reply(DrillReport::Taught(position.id, taught.unwrap_or_else(|_| Err(failed.to_owned()))));
+                    let found = catch_unwind(AssertUnwindSafe(|| self.find_model_shot(&position)));
+                    reply(DrillReport::ModelShot(position.id, found.unwrap_or_else(|_| Err(failed.to_owned()))));
                 }
             }
             DrillTask::Play(stroke) => {
@@ -134,8 +134,8 @@ impl PracticeWorker {
         }
     }
 
-    fn teach(&mut self, position: &AdviceTask) -> Result<Option<Taught>, String> {
-        self.taught = None;
+    fn find_model_shot(&mut self, position: &AdviceTask) -> Result<Option<ModelShot>, String> {
+        self.model_shot = None;
         let AdviceTask { table, layout, rule, shooter, .. } = position;
         let advice = if let Some(cue) = position.own {
             Some(Advice { cue, solved: true, chance: chance(*shooter, *rule, table, layout, &cue) })
@@ -154,14 +154,14 @@ impl PracticeWorker {
             let coach = self.coach(table);
             advise(coach, layout, &request, position.is_coachs).map_err(|error| error.to_string())?
         };
-        self.taught = advice.map(|advice| (position.id, advice));
-        let taught = advice.map(|advice| {
+        self.model_shot = advice.map(|advice| (position.id, advice));
+        let model_shot = advice.map(|advice| {
             let source = if position.own.is_some() { "exercise" } else { "coach" };
             let shot =
                 Shot::new(table, layout, advice.cue, advice.solved, source).map_err(|error| error.to_string())?;
-            Ok(Taught { advice, is_own: position.own.is_some(), shot: Arc::new(shot) })
+            Ok(ModelShot { advice, is_own: position.own.is_some(), shot: Arc::new(shot) })
         });
-        taught.transpose()
+        model_shot.transpose()
     }
 
     /// The coach for this table, made when it is first needed.
@@ -172,11 +172,11 @@ impl PracticeWorker {
 
     /// Plays a stroke. The attempt is on the disk before its result is reported; how good the stroke was comes after that.
     fn play(&mut self, stroke: Stroke, reply: &mut dyn FnMut(DrillReport)) {
-        let Stroke { mut session, meant, helped, position } = stroke;
+        let Stroke { mut session, meant, with_hint, position } = stroke;
         self.remember(&mut session);
         let place = session.position().ok().flatten();
         let rule = session.exercise().map(|exercise| exercise.rule);
-        let (played, (table, layout), rule) = match (session.play(meant, helped), place, rule) {
+        let (played, (table, layout), rule) = match (session.play(meant, with_hint), place, rule) {
             (Ok(played), Some(place), Some(rule)) => (played, place, rule),
             (Err(error), ..) => return reply(DrillReport::Played(session.id, Err(error.to_string()), Ok(()))),
             _ => return,
@@ -184,7 +184,7 @@ impl PracticeWorker {
         let number = session.attempts.len() - 1;
         // With the cue raised where it had to be.
         let meant = session.attempts[number].meant.unwrap_or(meant);
-        if let Some((_, advice)) = self.taught.as_ref().filter(|(id, _)| *id == position) {
+        if let Some((_, advice)) = self.model_shot.as_ref().filter(|(id, _)| *id == position) {
             session.attempts[number].advised = Some(advice.cue);
             session.attempts[number].advised_chance = Some(advice.chance.rate);
         }

@@ -16,7 +16,7 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 pub struct Beside {
     /// The word for whose shot it is.
-    pub teacher: &'static str,
+    pub advisor: &'static str,
     /// How often the player makes that, where it is known.
     pub made: Option<f64>,
     /// Who plays.
@@ -27,7 +27,7 @@ pub struct Beside {
 
 /// Draws the panel.
 pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) {
-    let Beside { teacher, made, cue_ball, units } = *beside;
+    let Beside { advisor, made, cue_ball, units } = *beside;
     let mut title = vec![Span::styled("You", ui.theme.ball(0))];
     let own = match what_if.made {
         Some(rate) => format!(" {} %", percent(rate.rate)),
@@ -37,7 +37,7 @@ pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) 
     title.push(Span::styled(own, ui.theme.text()));
     if what_if.coach.is_some() {
         title.push(ui.dash());
-        title.push(Span::styled(teacher, ui.theme.text().fg(ui.theme.way_sign)));
+        title.push(Span::styled(advisor, ui.theme.text().fg(ui.theme.way_sign)));
     }
     title.extend(made.map(|made| Span::styled(format!(" {} %", percent(made)), ui.theme.text())));
     let inner = draw_title(title, area, ui);
@@ -45,7 +45,7 @@ pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) 
     let plain = |words: String| spell(&words, ui.caps);
     let paragraphs = [
         (plain(what_if.outcome(cue_ball, units)), outcome_style),
-        (plain(what_if.difference(teacher, made, cue_ball, units)), ui.theme.text()),
+        (plain(what_if.difference(advisor, made, cue_ball, units)), ui.theme.text()),
     ];
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     write_paragraphs(&paragraphs, text, ui);

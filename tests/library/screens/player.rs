@@ -18,7 +18,7 @@ use carom::{
     table::{Layout, Table},
     terminal::{
         Advice, AdviceTask, Answer, App, Capabilities, CoachNews, CoachWorker, Depth, DrillReport, DrillTask, Effect,
-        Glyphs, Job, PracticeWorker, Proposal, Reel, Settings, SettingsFile, Shot, Slot, Taught, TrainingReport,
+        Glyphs, Job, ModelShot, PracticeWorker, Proposal, Reel, Settings, SettingsFile, Shot, Slot, TrainingReport,
     },
 };
 use crossterm::event::KeyEvent;
@@ -52,7 +52,7 @@ pub struct Player {
     /// The question how often a stroke of the player's own is made.
     pub judged: Option<Box<Job>>,
     /// The shot that the coach teaches in the drills; none by itself, since what it finds depends on how fast the machine is.
-    pub taught: Option<&'static str>,
+    pub model_shot: Option<&'static str>,
     pub copied: Vec<String>,
     /// What is asked of processes and of the terminal.
     pub effects: Vec<Effect>,
@@ -87,10 +87,10 @@ pub fn advice(job: &Job) -> Advice {
 }
 
 /// A shot that the coach teaches in the drills.
-fn taught(position: &AdviceTask, cue: &str) -> Taught {
+fn model_shot(position: &AdviceTask, cue: &str) -> ModelShot {
     let Proposal { shot, made, .. } = proposal(&position.table, &position.layout, cue, 400);
     let advice = carom::drills::Advice { cue: shot.cue, solved: true, chance: made.expect("it was judged") };
-    Taught { advice, is_own: false, shot }
+    ModelShot { advice, is_own: false, shot }
 }
 
 /// Where one begins.
@@ -111,7 +111,7 @@ impl Player {
             asked: None,
             study: None,
             judged: None,
-            taught: None,
+            model_shot: None,
             copied: Vec::new(),
             effects: Vec::new(),
             practice: PracticeWorker::default(),
@@ -248,8 +248,8 @@ impl Player {
             let mut reports = Vec::new();
             match task {
                 DrillTask::Advise(position) if position.own.is_none() => {
-                    let taught = self.taught.map(|cue| taught(&position, cue));
-                    reports.push(DrillReport::Taught(position.id, Ok(taught)));
+                    let model_shot = self.model_shot.map(|cue| model_shot(&position, cue));
+                    reports.push(DrillReport::ModelShot(position.id, Ok(model_shot)));
                 }
                 task => self.practice.run(task, &mut |report| reports.push(report)),
             }

@@ -89,14 +89,14 @@ fn balls_of_the_drills_keep_their_colours_on_the_coachs_table() {
     assert_eq!((*coach.app.coach.layout(), coach.app.coach.cue_ball().name()), (layout, "yellow"));
 }
 
-/// At a match against the coach, which teaches `taught`, after a miss.
-fn against_the_coach(taught: Option<&'static str>, shorter: &str) -> Player {
+/// At a match against the coach, which teaches `model_shot`, after a miss.
+fn against_the_coach(model_shot: Option<&'static str>, shorter: &str) -> Player {
     let mut player = Player::practising(NO_COLOUR).press("o o o o");
     if !shorter.is_empty() {
         player = player.press(shorter);
     }
     player.says("Score: against the coach");
-    player.taught = taught;
+    player.model_shot = model_shot;
     player.misses().press("Enter")
 }
 
@@ -104,9 +104,9 @@ const SHOT: &str = "0,0.2,2,140,3";
 
 #[test]
 fn in_a_match_against_the_coach_it_makes_the_strokes_of_the_other_ball_and_they_count_on_its_side_alone() {
-    for (taught, meant) in [(Some(SHOT), CueInputs::parse(SHOT).unwrap().speed), (None, FIRST_SPEED)] {
-        let turn = against_the_coach(taught, "");
-        let words = if taught.is_some() {
+    for (model_shot, meant) in [(Some(SHOT), CueInputs::parse(SHOT).unwrap().speed), (None, FIRST_SPEED)] {
+        let turn = against_the_coach(model_shot, "");
+        let words = if model_shot.is_some() {
             "with errors as large as yours; Space plays it"
         } else {
             "Space plays full at a ball"

@@ -125,7 +125,7 @@ pub enum DrillCondition {
     /// While a shot is watched that has come to its end.
     Ended,
     /// Where the model shot is known.
-    Taught,
+    ModelShot,
     /// The same while the stroke is set, and the model shot is not beside it.
     Adoptable,
     /// While the model shot is on the table beside the stroke.
@@ -251,7 +251,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Playable, &[letter(' ', A::Play)], Some(("play", 1)), "play the stroke, with the player's errors"),
     bind(Stroke, W::Set, &[key(Enter, A::Play)], None, "play the stroke, once it was changed"),
 ], [
-    bind(Stroke, W::Taught, &[letter('v', A::Hint)], Some(("hint", 1)),
+    bind(Stroke, W::ModelShot, &[letter('v', A::Hint)], Some(("hint", 1)),
         "show the model shot, and hide it; the attempt then counts as one with a hint"),
     bind(Stroke, W::Adoptable, &[letter('w', A::WhatIf)], Some(("what if", 1)),
         "take the model shot over into your stroke, to change it and see what comes of it; the attempt then counts as one \

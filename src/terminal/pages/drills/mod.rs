@@ -39,7 +39,7 @@ pub use catalogue::Catalogue;
 pub use question::Question;
 pub use records::{Estimate, Records};
 pub use sight::{Meets, Sight};
-pub use turn::{Lesson, Stage, Turn};
+pub use turn::{ModelShotState, Stage, Turn};
 pub use watched::Watched;
 
 /// Who plays.

@@ -26,10 +26,10 @@ impl DrillsPage {
                 }
                 return tasks;
             }
-            DrillReport::Taught(id, answer) => {
-                let taught = answer.unwrap_or_else(|sentence| self.refuse(sentence));
+            DrillReport::ModelShot(id, answer) => {
+                let model_shot = answer.unwrap_or_else(|sentence| self.refuse(sentence));
                 if let Some(turn) = &mut self.turn {
-                    turn.advised(id, taught);
+                    turn.advised(id, model_shot);
                 }
             }
             DrillReport::Played(id, played, saved) => {

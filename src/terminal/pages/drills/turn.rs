@@ -17,7 +17,7 @@ use crate::{
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
     table::{CueBall, Layout, Table},
     terminal::{
-        AdviceTask, DrillTask, Outcome, Shot, Stroke, Taught,
+        AdviceTask, DrillTask, ModelShot, Outcome, Shot, Stroke,
         pages::drills::{
             Watched,
             sight::{Sight, sight},
@@ -41,15 +41,15 @@ pub enum Stage {
     Watching(Box<Watched>),
 }
 
-/// The stroke that is taught, as far as it is known.
+/// The model shot, as far as it is known.
 #[derive(Debug)]
-pub enum Lesson {
+pub enum ModelShotState {
     /// The coach is still thinking.
     Pending,
     /// It has found no shot that makes the point.
     Missing,
     /// This one.
-    Known(Box<Taught>),
+    Known(Box<ModelShot>),
 }
 
 /// The page of an exercise.
@@ -70,12 +70,12 @@ pub struct Turn {
     pub stage: Stage,
     /// Whether the coach may advise jumps and massés here.
     pub jumps: bool,
-    /// The stroke that is taught.
-    pub lesson: Lesson,
+    /// The model shot.
+    pub model_shot: ModelShotState,
     /// Whether it is shown.
     pub shows_hint: bool,
     /// Whether it was shown since the balls were placed.
-    pub is_helped: bool,
+    pub with_hint: bool,
     /// Whether a jump is shown from the side too.
     pub is_from_side: bool,
     /// The page of the aim's text, where one has no room for all of it; beyond the last the first comes again.
@@ -84,7 +84,7 @@ pub struct Turn {
     ahead: Option<Session>,
     /// The stroke that is set, with what it was before.
     pub(super) stroke: OwnStroke,
-    /// The stroke beside the one that is taught, once that was taken over.
+    /// The stroke beside the model shot, once that was taken over.
     pub(super) what_if: Option<WhatIf>,
     position: u64,
     cancel: Arc<AtomicBool>,
@@ -111,9 +111,9 @@ impl Turn {
             table,
             layout,
             stage: Stage::Aiming,
-            lesson: Lesson::Pending,
+            model_shot: ModelShotState::Pending,
             shows_hint: is_coachs,
-            is_helped: false,
+            with_hint: false,
             is_from_side: false,
             text_page: 0,
             ahead: None,
@@ -211,7 +211,7 @@ impl Turn {
 
     /// Whether the coach is still thinking about the stroke that it is to make.
     pub fn is_coach_thinking(&self) -> bool {
-        self.is_coachs_turn() && matches!(self.lesson, Lesson::Pending)
+        self.is_coachs_turn() && matches!(self.model_shot, ModelShotState::Pending)
     }
 
     /// The line of aim, while the stroke is set.
@@ -220,24 +220,24 @@ impl Turn {
         is_there.then(|| sight(&self.table, &self.layout, self.stroke().phi))
     }
 
-    /// The stroke that is taught, if it is known and there is one.
-    pub const fn taught(&self) -> Option<&Taught> {
-        if let Lesson::Known(taught) = &self.lesson { Some(taught) } else { None }
+    /// The model shot, if it is known and there is one.
+    pub const fn model_shot(&self) -> Option<&ModelShot> {
+        if let ModelShotState::Known(model_shot) = &self.model_shot { Some(model_shot) } else { None }
     }
 
     /// The same while it is shown.
-    pub fn hint(&self) -> Option<&Taught> {
-        self.taught().filter(|_| self.shows_hint)
+    pub fn hint(&self) -> Option<&ModelShot> {
+        self.model_shot().filter(|_| self.shows_hint)
     }
 
-    /// The shot on the table: the one that is watched, the one that is taught while it is shown, or the player's own beside it.
+    /// The shot on the table: the one that is watched, the model shot while it is shown, or the player's own beside it.
     pub fn shot(&self) -> Option<&Shot> {
         if let Some(what_if) = self.what_if() {
             return Some(&what_if.shot);
         }
         match self.watched() {
             Some(watched) if !self.shows_hint => watched.outcome.shot.as_deref(),
-            _ => self.hint().map(|taught| taught.shot.as_ref()),
+            _ => self.hint().map(|model_shot| model_shot.shot.as_ref()),
         }
     }
 
@@ -286,11 +286,11 @@ impl Turn {
         Some(if played.made { Message::good(text) } else { Message::warning(text) })
     }
 
-    /// Asks for the stroke that is taught in this position. Nobody waits for the one before any more.
+    /// Asks for the model shot in this position. Nobody waits for the one before any more.
     pub(super) fn ask(&mut self) -> Vec<DrillTask> {
         self.stop_asking();
         self.what_if = None;
-        self.lesson = Lesson::Pending;
+        self.model_shot = ModelShotState::Pending;
         self.position = QUESTIONS.fetch_add(1, Ordering::Relaxed);
         let is_exact = self.layout == self.exercise.layout;
         vec![DrillTask::Advise(Box::new(AdviceTask {
@@ -314,12 +314,13 @@ impl Turn {
     }
 
     /// The answer to question `id`; late ones are dropped.
-    pub(super) fn advised(&mut self, id: u64, taught: Option<Taught>) {
+    pub(super) fn advised(&mut self, id: u64, model_shot: Option<ModelShot>) {
         if id == self.position {
-            if let Some(taught) = taught.as_ref().filter(|_| self.is_coachs_turn()) {
-                self.stroke = OwnStroke::new(taught.advice.cue);
+            if let Some(model_shot) = model_shot.as_ref().filter(|_| self.is_coachs_turn()) {
+                self.stroke = OwnStroke::new(model_shot.advice.cue);
             }
-            self.lesson = taught.map_or(Lesson::Missing, |taught| Lesson::Known(Box::new(taught)));
+            self.model_shot =
+                model_shot.map_or(ModelShotState::Missing, |model_shot| ModelShotState::Known(Box::new(model_shot)));
         }
     }
 
@@ -328,12 +329,12 @@ impl Turn {
         self.stroke.settle();
         self.text_page = 0;
         self.stage = Stage::Waiting;
-        self.is_helped |= self.shows_hint;
+        self.with_hint |= self.shows_hint;
         self.shows_hint = false;
         DrillTask::Play(Box::new(Stroke {
             session: self.session.clone(),
             meant: *self.stroke(),
-            helped: self.is_helped,
+            with_hint: self.with_hint,
             position: self.position,
         }))
     }
@@ -390,7 +391,7 @@ impl Turn {
         self.begin(stored)
     }
 
-    /// A session is on the disk, or cannot be; asks for what is taught where the balls lie elsewhere next.
+    /// A session is on the disk, or cannot be; asks for the model shot where the balls lie elsewhere next.
     pub(super) fn saved(&mut self, session: &Session) -> Vec<DrillTask> {
         let Some(ahead) = self.ahead.take_if(|ahead| ahead.id == session.id) else { return Vec::new() };
         if ahead != *session {
@@ -406,7 +407,7 @@ impl Turn {
         newest.venue == Venue::Table && !newest.attempts.is_empty()
     }
 
-    /// Begins another session of the same exercises, and asks for what is taught where that may be another stroke.
+    /// Begins another session of the same exercises, and asks for the model shot where that may be another stroke.
     pub(super) fn begin(&mut self, session: Session) -> Vec<DrillTask> {
         let asks_otherwise = (session.skill, session.is_game()) != (self.session.skill, self.session.is_game());
         self.session = session;
@@ -441,7 +442,7 @@ impl Turn {
         if is_moved {
             self.what_if = None;
         }
-        self.is_helped = self.shows_hint || self.what_if.is_some();
+        self.with_hint = self.shows_hint || self.what_if.is_some();
         is_moved
     }
 

@@ -4,8 +4,8 @@ use crate::{
     coach::Skill,
     drills::{Attempt, Goal, Session, Venue},
     terminal::{
-        DrillAction as Action, DrillCondition as Condition, DrillContext, DrillTask, Effect, Taught,
-        pages::drills::{DrillsPage, Lesson, Question, Stage, Turn},
+        DrillAction as Action, DrillCondition as Condition, DrillContext, DrillTask, Effect, ModelShot,
+        pages::drills::{DrillsPage, ModelShotState, Question, Stage, Turn},
         shot::OwnStroke,
         ui::Message,
         words::player_words,
@@ -44,11 +44,11 @@ impl Turn {
                 | Condition::Set
                 | Condition::Aiming
                 | Condition::Watching
-                | Condition::Taught
+                | Condition::ModelShot
                 | Condition::Adoptable,
             ) if self.is_coach_thinking() => Some("the coach is still thinking"),
             (Stage::Aiming, Condition::Playable | Condition::Set) if self.is_coachs_turn() => None,
-            (Stage::Aiming, Condition::Taught) if self.is_coachs_turn() && self.hint().is_some() => {
+            (Stage::Aiming, Condition::ModelShot) if self.is_coachs_turn() && self.hint().is_some() => {
                 Some("the coach's stroke is shown already")
             }
             (Stage::Aiming, Condition::Aiming | Condition::Watching | Condition::Adoptable)
@@ -78,12 +78,12 @@ impl Turn {
             (_, Condition::Counted) => {
                 refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
             }
-            (_, Condition::Taught) => refuse(self.is_exam(), "an exam gives no hints")
-                .or(refuse(matches!(self.lesson, Lesson::Pending), "the coach is still thinking"))
-                .or(refuse(self.taught().is_none(), "the coach has found no shot that makes the point")),
+            (_, Condition::ModelShot) => refuse(self.is_exam(), "an exam gives no hints")
+                .or(refuse(matches!(self.model_shot, ModelShotState::Pending), "the coach is still thinking"))
+                .or(refuse(self.model_shot().is_none(), "the coach has found no shot that makes the point")),
             (_, Condition::Alone) => refuse(self.what_if().is_some(), "Esc takes the model shot off the table first"),
             (_, Condition::Adoptable) => self
-                .disabled_reason(Condition::Taught)
+                .disabled_reason(Condition::ModelShot)
                 .or_else(|| self.disabled_reason(Condition::Aiming))
                 .or_else(|| self.disabled_reason(Condition::Alone)),
             (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not beside your stroke"),
@@ -161,7 +161,7 @@ impl DrillsPage {
                 turn.leave_what_if();
                 turn.shows_hint = !turn.shows_hint;
                 turn.text_page = 0;
-                turn.is_helped |= turn.shows_hint && turn.is_aiming();
+                turn.with_hint |= turn.shows_hint && turn.is_aiming();
             }
             Action::TurnSideView => self.message = Some(Message::plain(turn.turn_side_view(self.units.length))),
             Action::TurnText(pages) => turn.text_page += pages,
@@ -282,25 +282,26 @@ impl DrillsPage {
     /// Notes an attempt at a real table.
     fn log(&mut self, made: bool) -> Option<Effect> {
         let turn = self.turn.as_ref()?;
-        let (newest, was_helped, layout) = (turn.newest(), turn.is_helped, turn.layout);
+        let (newest, was_with_hint, layout) = (turn.newest(), turn.with_hint, turn.layout);
         let mut tasks = Vec::new();
         if newest.venue != Venue::Table || newest.is_over() {
             tasks = self.restart(Some(Venue::Table));
         }
         let turn = self.turn.as_mut()?;
         // A hint that was seen is known in the new session too.
-        turn.is_helped |= was_helped && turn.layout == layout;
+        turn.with_hint |= was_with_hint && turn.layout == layout;
         let mut session = turn.newest().clone();
         match session.log(made) {
             Ok(()) => {
                 // Not if the balls of this repetition have not been shown yet.
                 let is_shown = |note: &&mut Attempt| note.layout.unwrap_or(turn.exercise.layout) == turn.layout;
                 if let Some(note) = session.attempts.last_mut().filter(is_shown) {
-                    note.helped = turn.is_helped;
+                    note.helped = turn.with_hint;
                     // The advised shot goes into the estimate of the skill: it must be the model shot, or have been shown, for
                     // this layout.
-                    let known = |taught: &&Taught| (taught.is_own || turn.is_helped) && !turn.session.is_game();
-                    let advice = turn.taught().filter(known).map(|taught| taught.advice);
+                    let known =
+                        |model_shot: &&ModelShot| (model_shot.is_own || turn.with_hint) && !turn.session.is_game();
+                    let advice = turn.model_shot().filter(known).map(|model_shot| model_shot.advice);
                     note.advised = advice.map(|advice| advice.cue);
                     note.advised_chance = advice.map(|advice| advice.chance.rate);
                 }

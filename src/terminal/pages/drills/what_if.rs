@@ -1,4 +1,4 @@
-//! What if: the stroke that is set beside the one that is taught, once that was taken over.
+//! What if: the stroke that is set beside the model shot, once that was taken over.
 
 use std::sync::{Arc, atomic::Ordering};
 
@@ -6,33 +6,33 @@ use crate::{
     statistics::SuccessRate,
     terminal::{
         DrillTask, JudgedStroke,
-        pages::drills::{Lesson, Turn, turn::QUESTIONS},
+        pages::drills::{ModelShotState, Turn, turn::QUESTIONS},
         shot::{WhatIf, what_if},
     },
 };
 
 impl Turn {
-    /// The stroke beside the one that is taught, while the player sets it.
+    /// The stroke beside the model shot, while the player sets it.
     pub fn what_if(&self) -> Option<&WhatIf> {
         self.what_if.as_ref().filter(|_| self.is_aiming())
     }
 
-    /// Takes the stroke that is taught over into the one that is set; the attempt counts as one with a hint.
+    /// Takes the model shot over into the one that is set; the attempt counts as one with a hint.
     pub(super) fn take_over(&mut self) -> Vec<DrillTask> {
-        let Lesson::Known(taught) = &self.lesson else { return Vec::new() };
-        let (cue, shot) = (taught.advice.cue, Arc::clone(&taught.shot));
+        let ModelShotState::Known(model_shot) = &self.model_shot else { return Vec::new() };
+        let (cue, shot) = (model_shot.advice.cue, Arc::clone(&model_shot.shot));
         self.stroke.set(cue);
         self.what_if = Some(WhatIf::new(shot, self.situation()));
-        (self.is_helped, self.shows_hint, self.text_page) = (true, false, 0);
+        (self.with_hint, self.shows_hint, self.text_page) = (true, false, 0);
         self.judge()
     }
 
-    /// Takes the stroke that is taught off the table.
+    /// Takes the model shot off the table.
     pub(super) fn leave_what_if(&mut self) {
         self.what_if = None;
     }
 
-    /// Compares the stroke as it is set now with the one that is taught, if that is wanted.
+    /// Compares the stroke as it is set now with the model shot, if that is wanted.
     pub(super) fn compare(&mut self) -> Vec<DrillTask> {
         let Some(mut what_if) = self.what_if.take() else { return Vec::new() };
         // What cannot be simulated cannot be compared; playing it will say why.

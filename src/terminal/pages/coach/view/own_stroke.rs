@@ -27,7 +27,7 @@ pub const COACH: &str = "coach";
 pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &mut Ui) {
     let (table, shot) = (coach.table(), &*what_if.shot);
     let beside = Beside {
-        teacher: COACH,
+        advisor: COACH,
         made: coach
             .proposal()
             .filter(|proposal| !proposal.is_early)

@@ -8,7 +8,7 @@ use crate::{
     terminal::{
         Capabilities, Shot,
         pages::drills::{
-            DrillsPage, Lesson, Meets, Sight, Turn,
+            DrillsPage, Meets, ModelShotState, Sight, Turn,
             view::{draw_header, panels, panes::Panes, score},
         },
         shot::Meeting,
@@ -41,7 +41,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let view = TableView {
         shot: turn.shot(),
         other: what_if.and_then(|what_if| what_if.coach.as_deref()),
-        other_name: turn.taught().map_or("", panels::teacher),
+        other_name: turn.model_shot().map_or("", panels::advisor),
         time,
         spots: &spots,
         ..TableView::new(&turn.table, &turn.layout)
@@ -55,11 +55,11 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         draw_precision(drills, turn, &panes, ui);
     }
     let beside = score::draw(drills, turn, panes.score, ui);
-    match what_if.zip(turn.taught()) {
-        Some((what_if, taught)) => {
+    match what_if.zip(turn.model_shot()) {
+        Some((what_if, model_shot)) => {
             let beside = Beside {
-                teacher: panels::teacher(taught),
-                made: Some(taught.advice.chance.rate),
+                advisor: panels::advisor(model_shot),
+                made: Some(model_shot.advice.chance.rate),
                 cue_ball: turn.cue_ball,
                 units: drills.units,
             };
@@ -135,25 +135,25 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
     if let Some(verdict) = turn.verdict(unit) {
         return verdict;
     }
-    Message::plain(match (turn.watched().is_some(), &turn.lesson) {
+    Message::plain(match (turn.watched().is_some(), &turn.model_shot) {
         (true, _) => "the shot is running; Enter skips to its end",
-        (false, Lesson::Pending) if turn.is_coachs_turn() => "the coach is thinking about its stroke",
-        (false, Lesson::Missing) if turn.is_coachs_turn() => {
+        (false, ModelShotState::Pending) if turn.is_coachs_turn() => "the coach is thinking about its stroke",
+        (false, ModelShotState::Missing) if turn.is_coachs_turn() => {
             "the coach knows no stroke here; Space plays full at a ball"
         }
         (false, _) if turn.is_coachs_turn() => "the coach's stroke, with errors as large as yours; Space plays it",
-        (false, Lesson::Pending) => "set the stroke and play it; the coach is still thinking",
-        (false, Lesson::Missing) => "set the stroke and play it; the coach has found no shot here",
-        (false, Lesson::Known(_)) if turn.what_if().is_some() => {
+        (false, ModelShotState::Pending) => "set the stroke and play it; the coach is still thinking",
+        (false, ModelShotState::Missing) => "set the stroke and play it; the coach has found no shot here",
+        (false, ModelShotState::Known(_)) if turn.what_if().is_some() => {
             "what if: change your stroke; the attempt counts as one with a hint"
         }
-        (false, Lesson::Known(taught)) if turn.shows_hint && taught.is_own => {
+        (false, ModelShotState::Known(model_shot)) if turn.shows_hint && model_shot.is_own => {
             "this is the model shot; the attempt counts as one with a hint"
         }
-        (false, Lesson::Known(_)) if turn.shows_hint => {
+        (false, ModelShotState::Known(_)) if turn.shows_hint => {
             "this is the coach's shot; the attempt counts as one with a hint"
         }
-        (false, Lesson::Known(_)) if turn.is_exam() || turn.session.is_match() => "set the stroke and play it",
-        (false, Lesson::Known(_)) => "set the stroke and play it; at a real table: m made, n missed",
+        (false, ModelShotState::Known(_)) if turn.is_exam() || turn.session.is_match() => "set the stroke and play it",
+        (false, ModelShotState::Known(_)) => "set the stroke and play it; at a real table: m made, n missed",
     })
 }

@@ -8,8 +8,8 @@ use crate::{
     physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
     table::CueBall,
     terminal::{
-        Capabilities, DrillAction, Taught,
-        pages::drills::{Lesson, Meets, Sight, Turn, Watched, keys::EXERCISE, view::percent},
+        Capabilities, DrillAction, ModelShot,
+        pages::drills::{Meets, ModelShotState, Sight, Turn, Watched, keys::EXERCISE, view::percent},
         ui::{Ui, draw_lines, draw_title, pair, separator, spell, stroke_rows, wrap_by},
         words::{fixed, rail_name},
     },
@@ -58,7 +58,7 @@ pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16
         // In a game the balls have gone elsewhere, and what was to be learnt with them.
         let is_elsewhere = turn.session.is_game() && turn.layout != turn.exercise.layout;
         match turn.hint() {
-            Some(taught) => paragraphs.push((hint(turn, taught, units, ui.caps), ui.theme.text())),
+            Some(model_shot) => paragraphs.push((hint(turn, model_shot, units, ui.caps), ui.theme.text())),
             _ if is_elsewhere || turn.exercise.point.is_empty() => {}
             _ => paragraphs.push((turn.exercise.point.clone(), ui.theme.text())),
         }
@@ -137,8 +137,8 @@ fn obstacle_word(obstacle: Obstacle, cue_ball: CueBall) -> String {
 }
 
 /// Whose shot the advice is.
-pub const fn teacher(taught: &Taught) -> &'static str {
-    if taught.is_own { "model shot" } else { "coach" }
+pub const fn advisor(model_shot: &ModelShot) -> &'static str {
+    if model_shot.is_own { "model shot" } else { "coach" }
 }
 
 /// How a stroke differs from another one, as a player would say it; nothing where the difference is too small to see or to play.
@@ -152,10 +152,10 @@ fn told(turn: &Turn, stroke: &CueInputs, other: &CueInputs, units: Units) -> Opt
 }
 
 /// How often the advised stroke is made, how to strike it, and how the stroke that is set differs.
-fn hint(turn: &Turn, taught: &Taught, units: Units, caps: Capabilities) -> String {
-    let advice = &taught.advice;
-    let sentence = taught.shot.words.sentence(turn.cue_ball, units);
-    let words = format!("{} makes {}: {sentence}", teacher(taught), percent(advice.chance.rate));
+fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -> String {
+    let advice = &model_shot.advice;
+    let sentence = model_shot.shot.words.sentence(turn.cue_ball, units);
+    let words = format!("{} makes {}: {sentence}", advisor(model_shot), percent(advice.chance.rate));
     if turn.is_with_coach() {
         return spell(&words, caps);
     }
@@ -166,12 +166,12 @@ fn hint(turn: &Turn, taught: &Taught, units: Units, caps: Capabilities) -> Strin
 /// How often the stroke is made, and the advised one.
 fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
     let own = watched.chance.map_or_else(|| caps.pick("…", "...").to_owned(), percent);
-    match &turn.lesson {
+    match &turn.model_shot {
         _ if watched.is_by_coach() => format!("The coach makes this {own}"),
-        Lesson::Known(taught) => {
-            format!("Yours makes {own}, {} {}", teacher(taught), percent(taught.advice.chance.rate))
+        ModelShotState::Known(model_shot) => {
+            format!("Yours makes {own}, {} {}", advisor(model_shot), percent(model_shot.advice.chance.rate))
         }
-        Lesson::Pending | Lesson::Missing => format!("Yours makes {own}"),
+        ModelShotState::Pending | ModelShotState::Missing => format!("Yours makes {own}"),
     }
 }
 
@@ -182,15 +182,15 @@ fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities)
     if watched.is_by_coach() {
         return vec![spell(&format!("the coach's hand: {added}"), caps)];
     }
-    let lesson = match &turn.lesson {
-        Lesson::Known(taught) => told(turn, meant, &taught.advice.cue, units).map_or_else(
-            || format!("{}: almost the same", teacher(taught)),
-            |yours| format!("yours, beside the {}: {yours}", teacher(taught)),
+    let compared = match &turn.model_shot {
+        ModelShotState::Known(model_shot) => told(turn, meant, &model_shot.advice.cue, units).map_or_else(
+            || format!("{}: almost the same", advisor(model_shot)),
+            |yours| format!("yours, beside the {}: {yours}", advisor(model_shot)),
         ),
-        Lesson::Pending => "the coach is still thinking".to_owned(),
-        Lesson::Missing => "the coach has found no shot".to_owned(),
+        ModelShotState::Pending => "the coach is still thinking".to_owned(),
+        ModelShotState::Missing => "the coach has found no shot".to_owned(),
     };
-    [lesson, format!("your hand: {added}")].map(|words| spell(&words, caps)).to_vec()
+    [compared, format!("your hand: {added}")].map(|words| spell(&words, caps)).to_vec()
 }
 
 #[cfg(test)]
