@@ -21,7 +21,7 @@ impl CalibrationPage {
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         let sheet = self.sheet();
         let (can, reason) = match when {
-            Condition::Here => (true, ""),
+            Condition::Always => (true, ""),
             Condition::Known => (
                 sheet.trouble.is_none(),
                 "the file of entries cannot be read: mend it, or N keeps it aside and begins anew",

@@ -60,7 +60,7 @@ pub enum CalibrationAction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CalibrationCondition {
     /// Whatever is shown.
-    Here,
+    Always,
     /// Where the file of entries was read.
     Known,
     /// Where a stroke of the test is entered.
@@ -100,36 +100,36 @@ impl CalibrationContext {
 #[rustfmt::skip]
 pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Known, &[key(Enter, A::Enter)], Some(("enter a stroke", 1)), "enter what was marked of a stroke of the test"),
-    bind(Calibration, W::Here, &[
+    bind(Calibration, W::Always, &[
         key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
         key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
         ], Some(("test", 2)), "mark another test")
         .each(&["mark the next test", "mark the test before", "mark the last test", "mark the first test"]),
-    bind(Calibration, W::Here, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page")
+    bind(Calibration, W::Always, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page")
         .each(&["mark a test ten on; of the values, the next page", "mark a test ten back; of the values, the page before"]),
-    bind(Calibration, W::Here, &[key(Tab, A::Turn)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
-    bind(Calibration, W::Here, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test of which one more stroke tells most"),
+    bind(Calibration, W::Always, &[key(Tab, A::Turn)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
+    bind(Calibration, W::Always, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test of which one more stroke tells most"),
     bind(Calibration, W::Undo, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
     bind(Calibration, W::Stroke, &[letter('e', A::Amend)], Some(("edit", 1)), "change what was entered of the marked stroke"),
     bind(Calibration, W::Stroke, &[key(Left, A::Stroke(-1)), key(Right, A::Stroke(1)), letter('h', A::Stroke(-1)), letter('l', A::Stroke(1))],
         Some(("stroke", 2)), "mark another stroke of the test")
         .each(&["mark the stroke of the test before", "mark the next stroke of the test"]),
     bind(Calibration, W::Stroke, &[key(Delete, A::TakeOut), key(Backspace, A::TakeOut)], Some(("delete", 1)), "delete the marked stroke"),
-    bind(Calibration, W::Here, &[letter('x', A::LeaveOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
+    bind(Calibration, W::Always, &[letter('x', A::LeaveOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
     bind(Calibration, W::Found, &[letter('s', A::Save)], Some(("save", 1)), "save the table under a name"),
     bind(Calibration, W::Saved, &[letter('p', A::Use)], Some(("play on it", 1)), "play on the saved table, here and at every start"),
     bind(Calibration, W::Daily, &[letter('d', A::Daily)], Some(("check of the day", 1)), "two strokes that say how the table plays today; back to all tests"),
     bind(Calibration, W::Entered, &[letter('N', A::Anew)], None, "begin anew; what was entered is kept beside the file"),
-    bind(Program, W::Here, &[key(Esc, A::Back)], Some(("back", 1)), "back to the coach"),
+    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the coach"),
 ];
 
 /// The form of a stroke.
 #[rustfmt::skip]
 pub const FORM: &[Binding<A, W>] = &[
-    bind(Marks, W::Here, &[key(Enter, A::Answer(true))], Some(("next, keep", 1)), "go to the next mark; after the last one keep the stroke"),
-    bind(Marks, W::Here, &[key(Down, A::Field(1)), key(Up, A::Field(-1)), key(Tab, A::Field(1)), key(BackTab, A::Field(-1))],
+    bind(Marks, W::Always, &[key(Enter, A::Answer(true))], Some(("next, keep", 1)), "go to the next mark; after the last one keep the stroke"),
+    bind(Marks, W::Always, &[key(Down, A::Field(1)), key(Up, A::Field(-1)), key(Tab, A::Field(1)), key(BackTab, A::Field(-1))],
         Some(("mark", 2)), "type another mark").each(&["type the next mark", "type the mark before"]),
-    bind(Marks, W::Here, &[ctrl('t', A::Tape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),
-    bind(Marks, W::Here, &[ctrl('e', A::FarEnd)], Some(("far end", 1)), "this stroke was played from the far end, where the balls meet the other rails; again for your own"),
-    bind(Marks, W::Here, &[key(Esc, A::Answer(false))], Some(("back", 1)), "leave the form; it is there again when the same stroke is entered"),
+    bind(Marks, W::Always, &[ctrl('t', A::Tape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),
+    bind(Marks, W::Always, &[ctrl('e', A::FarEnd)], Some(("far end", 1)), "this stroke was played from the far end, where the balls meet the other rails; again for your own"),
+    bind(Marks, W::Always, &[key(Esc, A::Answer(false))], Some(("back", 1)), "leave the form; it is there again when the same stroke is entered"),
 ];

@@ -24,7 +24,7 @@ impl CoachPage {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
         match when {
-            CoachCondition::Anytime => None,
+            CoachCondition::Always => None,
             CoachCondition::Named => {
                 refuse(self.player.is_none(), "others need a name to follow you by: start carom --player NAME")
             }

@@ -111,7 +111,7 @@ pub enum CoachAction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoachCondition {
     /// Whatever the coach does.
-    Anytime,
+    Always,
     /// While the coach is not thinking.
     Idle,
     /// While balls are placed.
@@ -161,11 +161,11 @@ pub const COACH: &[Binding<A, W>] = &[
         "leave the shot and select the white ball", "leave the shot and select the yellow ball",
         "leave the shot and select the red ball", "leave the shot, back to placing the balls",
         ]),
-    bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
+    bind(Shot, W::Always, &[letter('v', A::NextView)], Some(("view", 1)),
         "turn the panels: shot and balls, chances, margins and maps, plan").known_as("diamonds words"),
     bind(Shot, W::Idle, &[letter('w', A::WhatIf)], Some(("try", 1)),
         "a stroke of your own, which begins as the shot that is shown, to change it and see what comes of it").known_as("adopt compare try own"),
-    bind(Shot, W::Anytime, &[letter('y', A::NextSystem)], None,
+    bind(Shot, W::Always, &[letter('y', A::NextSystem)], None,
         "diamond systems on the table: the shot's own, then the others, then none")
         .known_as("corner-5 corner five and a half plus seven count numbers learn teach"),
     bind(Shot, W::Shot, &[letter('N', A::TurnNumbers)], Some(("numbers", 1)),
@@ -240,14 +240,14 @@ pub const COACH: &[Binding<A, W>] = &[
         .known_as("clear reset opening break start"),
     bind(Balls, W::Idle, &[letter('r', A::Random)], None, "random position").known_as("shuffle"),
     bind(Balls, W::Idle, &[letter('x', A::OtherBall)], None, "the opponent's turn: play with the other ball"),
-    bind(Program, W::Anytime, &[letter('d', A::OpenDrills)], Some(("drills", 1)),
+    bind(Program, W::Always, &[letter('d', A::OpenDrills)], Some(("drills", 1)),
         "practise: exercises, exams, games, matches, and my positions").known_as("play run"),
-    bind(Program, W::Anytime, &[letter('f', A::OpenFilms)], None, "filmed shots: watch real balls beside simulated ones"),
-    bind(Balls, W::Anytime, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise")
+    bind(Program, W::Always, &[letter('f', A::OpenFilms)], None, "filmed shots: watch real balls beside simulated ones"),
+    bind(Balls, W::Always, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise")
         .known_as("export share keep store"),
     bind(Program, W::Named, &[letter('F', A::TurnShown)], None,
         "let others follow your table (carom follow NAME), or no longer").known_as("show share watch spectators live public"),
-    bind(Program, W::Anytime, &[letter('t', A::OpenTraining)], Some(("train", 1)),
+    bind(Program, W::Always, &[letter('t', A::OpenTraining)], Some(("train", 1)),
         "train agents and watch them learn"),
 ];
 
@@ -264,12 +264,12 @@ pub const FOLLOW: &[Binding<A, W>] = &[
 
 /// A stroke of the player's own.
 #[rustfmt::skip]
-pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
-    bind(Stroke, W::Anytime, &[letter(' ', A::PlayPause), key(Enter, A::PlayPause)], Some(("play", 1)),
+pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Always, [
+    bind(Stroke, W::Always, &[letter(' ', A::PlayPause), key(Enter, A::PlayPause)], Some(("play", 1)),
         "play and pause your stroke"),
-    bind(Stroke, W::Anytime, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("leave", 1)),
+    bind(Stroke, W::Always, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("leave", 1)),
         "leave your stroke; a shot of the coach's beside it is as it was"),
-    bind(Stroke, W::Anytime, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
+    bind(Stroke, W::Always, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
         "take the balls as your stroke leaves them, for the next one"),
 ], [
     bind(Stroke, W::StrokeChanged, &[letter('u', A::StrokeBack), letter('z', A::StrokeBack)], Some(("undo", 1)),
@@ -277,14 +277,14 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
     bind(Stroke, W::PlayedOn, &[letter('u', A::Undo), letter('z', A::Undo)], Some(("undo", 1)), "put the balls back where your last stroke was played"),
     bind(Stroke, W::StrokeUndone, &[letter('U', A::StrokeAgain), letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)],
         Some(("redo", 1)), "make a change of the stroke again that was taken back"),
-    bind(Stroke, W::Anytime, &[letter(',', A::Event(-1)), letter('.', A::Event(1))], Some(("event", 2)),
+    bind(Stroke, W::Always, &[letter(',', A::Event(-1)), letter('.', A::Event(1))], Some(("event", 2)),
         "step from event to event").each(&["step to the event before", "step to the next event"]),
 ], [
-    bind(Stroke, W::Anytime, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('$', A::ToEnd)], None,
+    bind(Stroke, W::Always, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('$', A::ToEnd)], None,
         "to the stroke, to the end").each(&["to the stroke", "to the end of the shot"]),
-    bind(Stroke, W::Anytime, &[letter('<', A::Pace(-1)), letter('>', A::Pace(1))], None, "play slower or faster")
+    bind(Stroke, W::Always, &[letter('<', A::Pace(-1)), letter('>', A::Pace(1))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),
-    bind(Stroke, W::Anytime, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
-    bind(Stroke, W::Anytime, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise"),
+    bind(Stroke, W::Always, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
+    bind(Stroke, W::Always, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise"),
     bind(Program, W::Named, &[letter('F', A::TurnShown)], None, "let others follow your table (carom follow NAME), or no longer"),
 ]);

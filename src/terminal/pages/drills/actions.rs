@@ -19,7 +19,7 @@ impl DrillsPage {
     pub fn disabled_reason(&self, when: DrillCondition) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         match when {
-            DrillCondition::Here => None,
+            DrillCondition::Always => None,
             DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
             DrillCondition::MarkedOwn => {
                 refuse(!self.catalogue.is_own(), "bundled exercises stay; only my positions go")

@@ -99,7 +99,7 @@ pub enum DrillAction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DrillCondition {
     /// On its page.
-    Here,
+    Always,
     /// Where an exercise is marked.
     Marked,
     /// Where the marked exercise is a saved position of the player's.
@@ -185,27 +185,28 @@ impl DrillContext {
     }
 }
 
-const BACK: Binding<A, W> = bind(Program, W::Here, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before");
+const BACK: Binding<A, W> =
+    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before");
 
 /// The library.
 #[rustfmt::skip]
 pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Library, W::Marked, &[key(Enter, A::Open)], Some(("practise", 1)), "open the marked exercise"),
     bind(Library, W::Marked, lines!(A::Line), Some(("choose", 2)), "mark another exercise").each(marks!("exercise")),
-    bind(Library, W::Here, &[key(Left, A::Category(-1)), key(Right, A::Category(1)), key(BackTab, A::Category(-1)),
+    bind(Library, W::Always, &[key(Left, A::Category(-1)), key(Right, A::Category(1)), key(BackTab, A::Category(-1)),
         key(Tab, A::Category(1))], Some(("category", 2)), "list another category")
         .each(&["list the category before", "list the next category"]),
-    bind(Library, W::Here, &[letter('/', A::Search)], Some(("find", 1)), "find words in titles, points and tags")
+    bind(Library, W::Always, &[letter('/', A::Search)], Some(("find", 1)), "find words in titles, points and tags")
         .known_as("diamonds systems banks"),
     bind(Library, W::Filtered, &[letter('0', A::All)], Some(("all", 1)), "list everything again"),
-    bind(Library, W::Here, &[letter('e', A::Exam(1)), letter('E', A::Exam(2)), letter('X', A::Exam(3))], Some(("exam", 1)),
+    bind(Library, W::Always, &[letter('e', A::Exam(1)), letter('E', A::Exam(2)), letter('X', A::Exam(3))], Some(("exam", 1)),
         "an exam of 20 exercises, one attempt each: of grade 1 to 3, 2 to 4, 3 to 5").each(&[
         "an exam of grade 1 to 3: 20 exercises, one attempt each", "an exam of grade 2 to 4: 20 exercises, one attempt each",
         "an exam of grade 3 to 5: 20 exercises, one attempt each",
         ]),
-    bind(Library, W::Here, &[letter('p', A::Player)], Some(("player", 1)), "choose the player whose errors are played"),
-    bind(Library, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of all exercises, and the skill that it shows"),
-    bind(Library, W::Here, &[
+    bind(Library, W::Always, &[letter('p', A::Player)], Some(("player", 1)), "choose the player whose errors are played"),
+    bind(Library, W::Always, &[letter('r', A::Record)], Some(("record", 1)), "the record of all exercises, and the skill that it shows"),
+    bind(Library, W::Always, &[
         letter('1', A::Grade(1)), letter('2', A::Grade(2)), letter('3', A::Grade(3)), letter('4', A::Grade(4)),
         letter('5', A::Grade(5)),
         ], None, "list one grade alone, 1 the easiest; once more lists all").each(&[
@@ -216,8 +217,8 @@ pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Library, W::Marked, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Library, W::Marked, &[letter('y', A::Share)], Some(("share", 1)), "show the exercise as a code of one line, and copy it")
         .known_as("export clipboard"),
-    bind(Film, W::Here, &[letter('f', A::OpenFilms)], Some(("film", 1)), "filmed shots: watch real balls beside simulated ones"),
-    bind(Library, W::Here, &[letter('a', A::Add)], Some(("add", 1)), "add a position from a code that is typed or pasted")
+    bind(Film, W::Always, &[letter('f', A::OpenFilms)], Some(("film", 1)), "filmed shots: watch real balls beside simulated ones"),
+    bind(Library, W::Always, &[letter('a', A::Add)], Some(("add", 1)), "add a position from a code that is typed or pasted")
         .known_as("import"),
     bind(Library, W::MarkedOwn, &[letter('x', A::Remove), key(Delete, A::Remove)], None, "remove one of my positions; asks first"),
     BACK,
@@ -226,8 +227,8 @@ pub const LIBRARY: &[Binding<A, W>] = &[
 /// Words that are looked for.
 #[rustfmt::skip]
 pub const SEARCH: &[Binding<A, W>] = &[
-    bind(Library, W::Here, &[key(Enter, A::Answer(true))], Some(("choose from these", 1)), "choose from what is found"),
-    bind(Library, W::Here, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "list what was listed before"),
+    bind(Library, W::Always, &[key(Enter, A::Answer(true))], Some(("choose from these", 1)), "choose from what is found"),
+    bind(Library, W::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "list what was listed before"),
     bind(Library, W::Marked, &[key(Down, A::Line(1)), key(Up, A::Line(-1))], None, "mark another exercise")
         .each(&["mark the next exercise", "mark the exercise before"]),
 ];
@@ -235,7 +236,7 @@ pub const SEARCH: &[Binding<A, W>] = &[
 /// What comes in an exam.
 #[rustfmt::skip]
 pub const EXAM: &[Binding<A, W>] = &[
-    bind(Program, W::Here, &[key(Enter, A::BeginExam)], Some(("begin", 1)), "begin the exam"),
+    bind(Program, W::Always, &[key(Enter, A::BeginExam)], Some(("begin", 1)), "begin the exam"),
     BACK,
 ];
 
@@ -256,8 +257,8 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Adoptable, &[letter('w', A::WhatIf)], Some(("what if", 1)),
         "take the model shot over into your stroke, to change it and see what comes of it; the attempt then counts as one \
          with a hint").known_as("adopt compare try hint"),
-    bind(Stroke, W::Here, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
-    bind(Stroke, W::Here, &[key(PageDown, A::TurnText(1)), key(PageUp, A::TurnText(-1))], None,
+    bind(Stroke, W::Always, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
+    bind(Stroke, W::Always, &[key(PageDown, A::TurnText(1)), key(PageUp, A::TurnText(-1))], None,
         "turn the pages of a text that is longer than its room").each(&[
         "the next page of a text that is longer than its room", "the page before of a text that is longer than its room",
         ]),
@@ -281,7 +282,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
         "make a change of the stroke again that was taken back"),
     bind(Position, W::Free, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Restart, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
-    bind(Score, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
+    bind(Score, W::Always, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
     bind(Program, W::Compared, &[key(Esc, A::LeaveWhatIf)], Some(("model shot off", 1)),
         "take the model shot off the table; your stroke stays as it is set"),
     bind(Program, W::Alone, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
@@ -290,7 +291,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
 /// An exam that is over.
 #[rustfmt::skip]
 pub const RESULT: &[Binding<A, W>] = &[
-    bind(Program, W::Here, &[key(Enter, A::Back), key(Esc, A::Back)], Some(("library", 1)), "back to the library"),
+    bind(Program, W::Always, &[key(Enter, A::Back), key(Esc, A::Back)], Some(("library", 1)), "back to the library"),
 ];
 
 /// A record.
@@ -298,7 +299,7 @@ pub const RESULT: &[Binding<A, W>] = &[
 pub const RECORD: &[Binding<A, W>] = &[
     bind(Record, W::OfExercise, &[letter('a', A::Scope)], Some(("all or one", 1)), "the record of all exercises, or of this one"),
     bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as my skill, and play with it"),
-    bind(Record, W::Here, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))], Some(("scroll", 2)), "earlier sessions").each(&[
+    bind(Record, W::Always, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))], Some(("scroll", 2)), "earlier sessions").each(&[
         "earlier sessions, by one line", "later sessions, by one line", "earlier sessions, by ten lines", "later sessions, by ten lines",
         ]),
     BACK,
@@ -307,8 +308,8 @@ pub const RECORD: &[Binding<A, W>] = &[
 /// The list of filmed shots.
 #[rustfmt::skip]
 pub const FILMS: &[Binding<A, W>] = &[
-    bind(Film, W::Here, &[key(Enter, A::Open)], Some(("watch", 1)), "watch the marked shot"),
-    bind(Film, W::Here, lines!(A::Line), Some(("choose", 2)), "mark another shot").each(marks!("shot")),
+    bind(Film, W::Always, &[key(Enter, A::Open)], Some(("watch", 1)), "watch the marked shot"),
+    bind(Film, W::Always, lines!(A::Line), Some(("choose", 2)), "mark another shot").each(marks!("shot")),
     BACK,
 ];
 
@@ -322,7 +323,7 @@ pub const FILM: &[Binding<A, W>] = &[
     bind(Film, W::Filmed, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
         key(Down, A::Pace(-1)), key(Up, A::Pace(1))], Some(("speed", 2)), "play slower or faster")
         .each(&["play slower", "play faster"]),
-    bind(Film, W::Here, &[letter('[', A::Filmed(-1)), letter(']', A::Filmed(1))], Some(("other shot", 2)),
+    bind(Film, W::Always, &[letter('[', A::Filmed(-1)), letter(']', A::Filmed(1))], Some(("other shot", 2)),
         "watch the shot before, the next shot").each(&["watch the shot before", "watch the next shot"]),
     BACK,
 ];

@@ -38,7 +38,7 @@ pub enum SettingsAction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SettingsCondition {
     /// On its page.
-    Here,
+    Always,
     /// Where what is marked is not as by default.
     Changed,
 }
@@ -66,36 +66,36 @@ impl SettingsContext {
 }
 
 const BACK: Binding<A, W> =
-    bind(Program, W::Here, &[key(Esc, A::Back)], Some(("back", 1)), "back to the screen before");
+    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the screen before");
 
 /// The settings.
 #[rustfmt::skip]
 pub const VALUES: &[Binding<A, W>] = &[
-    bind(Settings, W::Here, &[key(Left, A::Value(-1)), key(Right, A::Value(1)), letter('h', A::Value(-1)), letter('l', A::Value(1))],
+    bind(Settings, W::Always, &[key(Left, A::Value(-1)), key(Right, A::Value(1)), letter('h', A::Value(-1)), letter('l', A::Value(1))],
         Some(("change", 2)), "take the value before, the next value")
         .each(&["take the value before", "take the next value"]),
-    bind(Settings, W::Here, &[key(Enter, A::Type)], Some(("type", 1)), "type a value"),
-    bind(Settings, W::Here, lines!(A::Line), Some(("choose", 2)), "mark another setting").each(marks!("setting")),
+    bind(Settings, W::Always, &[key(Enter, A::Type)], Some(("type", 1)), "type a value"),
+    bind(Settings, W::Always, lines!(A::Line), Some(("choose", 2)), "mark another setting").each(marks!("setting")),
     bind(Settings, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the default"),
-    bind(Settings, W::Here, &[key(Tab, A::Turn)], Some(("keys", 1)), "to the keys"),
+    bind(Settings, W::Always, &[key(Tab, A::Turn)], Some(("keys", 1)), "to the keys"),
     BACK,
 ];
 
 /// The keys.
 #[rustfmt::skip]
 pub const KEYS: &[Binding<A, W>] = &[
-    bind(OwnKeys, W::Here, &[key(Enter, A::Press)], Some(("new key", 1)), "choose a key for what is marked"),
-    bind(OwnKeys, W::Here, &[key(Left, A::KeyContext(-1)), key(Right, A::KeyContext(1)), letter('h', A::KeyContext(-1)), letter('l', A::KeyContext(1))],
+    bind(OwnKeys, W::Always, &[key(Enter, A::Press)], Some(("new key", 1)), "choose a key for what is marked"),
+    bind(OwnKeys, W::Always, &[key(Left, A::KeyContext(-1)), key(Right, A::KeyContext(1)), letter('h', A::KeyContext(-1)), letter('l', A::KeyContext(1))],
         Some(("page", 2)), "list the keys of another page")
         .each(&["list the keys of the page before", "list the keys of the next page"]),
-    bind(OwnKeys, W::Here, lines!(A::Line), Some(("choose", 2)), "mark something else").each(marks!("line")),
+    bind(OwnKeys, W::Always, lines!(A::Line), Some(("choose", 2)), "mark something else").each(marks!("line")),
     bind(OwnKeys, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the keys that it has by default"),
-    bind(OwnKeys, W::Here, &[key(Tab, A::Turn)], Some(("settings", 1)), "to the settings"),
+    bind(OwnKeys, W::Always, &[key(Tab, A::Turn)], Some(("settings", 1)), "to the settings"),
     BACK,
 ];
 
 /// A key that is to be pressed.
 #[rustfmt::skip]
 pub const PRESSING: &[Binding<A, W>] = &[
-    bind(OwnKeys, W::Here, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "leave all as it is"),
+    bind(OwnKeys, W::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "leave all as it is"),
 ];

@@ -41,14 +41,14 @@ impl TrainingPage {
         }
         let Some(watch) = &self.watch else {
             return match when {
-                Condition::Here | Condition::MayTrain => None,
+                Condition::Always | Condition::MayTrain => None,
                 Condition::Marked => refuse(self.list.marked().is_none(), "there is no run yet; n starts one"),
                 Condition::MarkedCanGoOn => self.refusal_of_marked(),
                 _ => Some("no run is watched"),
             };
         };
         match when {
-            Condition::Here | Condition::MayTrain => None,
+            Condition::Always | Condition::MayTrain => None,
             Condition::Marked => refuse(self.list.marked().is_none(), "there is no run yet"),
             Condition::MarkedCanGoOn => self.refusal_of_marked(),
             Condition::Charts => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),

@@ -99,7 +99,7 @@ impl TrainingContext {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrainingCondition {
     /// On its page.
-    Here,
+    Always,
     /// Where runs may be started.
     MayTrain,
     /// Where a run is marked.
@@ -126,7 +126,8 @@ pub enum TrainingCondition {
     Shots,
 }
 
-const BACK: Binding<A, W> = bind(Program, W::Here, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before");
+const BACK: Binding<A, W> =
+    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before");
 
 #[rustfmt::skip]
 const MARK: Binding<A, W> = bind(List, W::Marked, lines!(A::Line), Some(("choose", 2)), "mark another run")
@@ -153,14 +154,14 @@ pub const COMPARE: &[Binding<A, W>] = &[
 /// The form for a new run.
 #[rustfmt::skip]
 pub const FORM: &[Binding<A, W>] = &[
-    bind(Form, W::Here, &[key(Enter, A::Start)], Some(("start", 1)), "start the run"),
-    bind(Form, W::Here, &[key(Down, A::Field(1)), key(Up, A::Field(-1)), key(Tab, A::Field(1)), key(BackTab, A::Field(-1))],
+    bind(Form, W::Always, &[key(Enter, A::Start)], Some(("start", 1)), "start the run"),
+    bind(Form, W::Always, &[key(Down, A::Field(1)), key(Up, A::Field(-1)), key(Tab, A::Field(1)), key(BackTab, A::Field(-1))],
         Some(("field", 2)), "go to another field").each(&["go to the next field", "go to the field before"]),
-    bind(Form, W::Here, &[key(Left, A::Value(-1)), key(Right, A::Value(1))], Some(("value", 2)),
+    bind(Form, W::Always, &[key(Left, A::Value(-1)), key(Right, A::Value(1))], Some(("value", 2)),
         "choose a value; numbers can be typed as well").each(&[
         "choose the value before; numbers can be typed as well", "choose the next value; numbers can be typed as well",
         ]),
-    bind(Form, W::Here, &[key(Backspace, A::Erase)], None, "take a digit back"),
+    bind(Form, W::Always, &[key(Backspace, A::Erase)], None, "take a digit back"),
     BACK,
 ];
 
@@ -194,7 +195,7 @@ pub const WATCH: &[Binding<A, W>] = &[
         .each(&["select the next chart", "select the chart before"]),
     bind(Charts, W::Charts, &[letter('l', A::Log)], Some(("log", 1)), "logarithmic scale for the selected chart"),
     bind(Charts, W::Charts, &[letter('s', A::Smooth)], Some(("smooth", 1)), "smooth over 1, 3 or 10 % of what is shown, or not"),
-    bind(Charts, W::Here, &[
+    bind(Charts, W::Always, &[
         letter('1', A::Show(0)), letter('2', A::Show(1)), letter('3', A::Show(2)), letter('4', A::Show(3)),
         letter('5', A::Show(4)), letter('6', A::Show(5)), letter('7', A::Show(6)), letter('8', A::Show(7)),
         letter('9', A::Show(8)),

@@ -57,7 +57,7 @@ impl Question {
     /// As long as what it may be asked and answered.
     pub const fn when(&self) -> TrainingCondition {
         match self {
-            Self::Long { .. } => TrainingCondition::Here,
+            Self::Long { .. } => TrainingCondition::Always,
             Self::Stop | Self::Abandon => TrainingCondition::AtWork,
             Self::Name(_) | Self::Replace(_) => TrainingCondition::HasPolicy,
         }
