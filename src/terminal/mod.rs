@@ -38,9 +38,9 @@ use plain::Beginning;
 pub use app::{
     App, LEAST_SIZE, Overlay,
     bindings::{Action, Condition},
+    command_palette::{Command, CommandPalette},
     document::document as keys_document,
     key_context::KeyContext,
-    palette::{Command, CommandPalette},
     palette_keys::PaletteAction,
 };
 pub use capabilities::{Capabilities, Depth, Glyphs};
@@ -81,7 +81,7 @@ pub use tasks::{
 pub use terms::Terms;
 pub use ui::{
     geometry::Mapping,
-    theme::{Palette, UnknownPalette},
+    theme::{ThemeName, UnknownTheme},
     toasts::{Toast, Toasts},
 };
 

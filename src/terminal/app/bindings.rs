@@ -37,7 +37,7 @@ pub enum Action {
     /// Draws the table with the next simpler set of characters.
     NextGlyphs,
     /// Shows the next of the themes.
-    NextPalette,
+    NextTheme,
     /// Opens a screen, where it was left.
     Open(PageId),
     /// Answers what the page asks: yes, or what was typed; or no.
@@ -179,7 +179,7 @@ const PROGRAM: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: refusals and failures so far"),
     palette_keys::OPEN,
     bind(Program, Condition::Always, &[letter('g', A::NextGlyphs)], None, "draw with sextants, half blocks or letters"),
-    bind(Program, Condition::Always, &[letter('T', A::NextPalette)], None, "the next theme: dark, light, high contrast, colour-blind, mono"),
+    bind(Program, Condition::Always, &[letter('T', A::NextTheme)], None, "the next theme: dark, light, high contrast, colour-blind, mono"),
     bind(Program, Condition::Shell, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
     bind(Program, Condition::Always, &[letter('q', A::Quit), ctrl('c', A::Quit)], Some(("quit", 1)), "quit"),
 ];

@@ -3,13 +3,12 @@
 //! What its screens share is here; each screen has a state of its own. [`view`] is what drawing reads.
 
 pub mod bindings;
+pub mod command_palette;
 pub mod document;
-mod finding;
 pub mod key_context;
 mod keys;
 mod mouse;
 mod news;
-pub mod palette;
 pub mod palette_keys;
 mod settings;
 mod tabs;
@@ -34,8 +33,8 @@ use crate::{
     table::{Layout, LayoutError, Table},
     terminal::{
         Action, CalibrationAction, Capabilities, CoachAction, CommandPalette, Complaint, DrillAction, Effect, Glyphs,
-        Keys, LONGEST_FOR_GUESTS, PageId, Palette, SavedSession, Seat, Settings, SettingsAction, SettingsPage,
-        StrokeDraft, Subscriptions, Toasts, TrainingAction,
+        Keys, LONGEST_FOR_GUESTS, PageId, SavedSession, Seat, Settings, SettingsAction, SettingsPage, StrokeDraft,
+        Subscriptions, ThemeName, Toasts, TrainingAction,
         pages::{
             Page,
             calibration::CalibrationPage,
@@ -90,12 +89,12 @@ pub struct App {
     pub mouse: bool,
     /// What the terminal can show.
     pub caps: Capabilities,
-    /// The look with any palette that has colours.
+    /// The look with any theme that has colours.
     full_look: Capabilities,
     /// The finest characters to draw with: octants only where they were asked for.
     finest: Glyphs,
     theme: Theme,
-    palette: Palette,
+    theme_name: ThemeName,
     /// Whether the last session has left a stroke that was typed in part.
     pub(super) had_draft: bool,
     /// Whether the player is a guest of this machine.
@@ -129,7 +128,7 @@ impl App {
             full_look: caps,
             finest: caps.finest(),
             theme: Theme::new(caps.depth),
-            palette: Palette::default(),
+            theme_name: ThemeName::default(),
             had_draft: false,
             is_guest: false,
             detect: None,
@@ -191,7 +190,7 @@ impl App {
         self.settings.settings = settings.clone();
         self.in_force = settings.clone();
         self.mouse = settings.mouse;
-        self.choose_palette(settings.palette);
+        self.choose_theme(settings.theme);
         self
     }
 
@@ -276,7 +275,7 @@ impl App {
                 });
             }
             Action::NextGlyphs => self.next_glyphs(),
-            Action::NextPalette => self.next_palette(),
+            Action::NextTheme => self.next_theme(),
             Action::Open(screen) => return self.open(screen),
             Action::Answer(yes) => {
                 return self.update(match self.screen {

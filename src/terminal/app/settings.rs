@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::{
     table::{PRESETS, Table},
     terminal::{
-        App, Capabilities, CoachQuery, Depth, Effect, Glyphs, Palette, Settings, SettingsReport,
+        App, Capabilities, CoachQuery, Depth, Effect, Glyphs, Settings, SettingsReport, ThemeName,
         ui::{Message, Theme},
     },
 };
@@ -58,14 +58,14 @@ impl App {
             self.full_look = self.detect.map_or(self.full_look, |detect| detect(&settings));
             self.finest = self.full_look.finest();
         }
-        self.choose_palette(settings.palette);
+        self.choose_theme(settings.theme);
     }
 
     /// Lets the settings' screen show what keys of other screens have changed since; nothing else changes.
     pub(super) fn show_session(&mut self) {
         let CoachQuery { rule, skill, plan, .. } = self.coach.query;
         let (step_mm, speed) = (self.coach.step_mm(), self.coach.playback.speed());
-        let settings = Settings { palette: self.palette, rule, skill, plan, step_mm, speed, ..self.in_force.clone() };
+        let settings = Settings { theme: self.theme_name, rule, skill, plan, step_mm, speed, ..self.in_force.clone() };
         let is_played = |table: Result<Table, _>| table.is_ok_and(|table| table == *self.coach.table());
         let table = if is_played(settings.table()) {
             None
@@ -78,15 +78,15 @@ impl App {
     }
 
     /// The next theme, for this session.
-    pub(super) fn next_palette(&mut self) {
+    pub(super) fn next_theme(&mut self) {
         let message = if self.in_force.depth == Some(Depth::Mono) {
             "no colours here: colours = \"none\" among the settings, F5".to_owned()
         } else if self.full_look.depth == Depth::Mono {
             "no colours here: NO_COLOR is set or the terminal has none".to_owned()
         } else {
-            self.choose_palette(self.palette.next());
+            self.choose_theme(self.theme_name.next());
             self.show_session();
-            format!("theme: {}, for this session; F5 keeps it", self.palette)
+            format!("theme: {}, for this session; F5 keeps it", self.theme_name)
         };
         *self.page_mut().message_mut() = Some(Message::plain(message));
     }
@@ -94,7 +94,7 @@ impl App {
     /// The next characters that the terminal can show, for this session.
     pub(super) fn next_glyphs(&mut self) {
         let caps = self.caps.with_next_glyphs(self.finest);
-        let refused = if self.palette == Palette::Mono {
+        let refused = if self.theme_name == ThemeName::Mono {
             "the theme mono draws with letters: T chooses another"
         } else if caps == self.caps {
             "letters are all that this terminal shows: TERM or the locale says so"
@@ -107,10 +107,10 @@ impl App {
     }
 
     /// Draws with these colours from now on.
-    pub(super) fn choose_palette(&mut self, palette: Palette) {
-        self.palette = palette;
+    pub(super) fn choose_theme(&mut self, name: ThemeName) {
+        self.theme_name = name;
         let mono = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, ..self.full_look };
-        self.caps = if palette == Palette::Mono { mono } else { self.full_look };
-        self.theme = Theme::of(palette, self.caps.depth);
+        self.caps = if name == ThemeName::Mono { mono } else { self.full_look };
+        self.theme = Theme::of(name, self.caps.depth);
     }
 }

@@ -13,7 +13,7 @@ use crate::{
     storage::may_read,
     table::PRESETS,
     terminal::{
-        Depth, Glyphs, Palette, Settings,
+        Depth, Glyphs, Settings, ThemeName,
         shot::{placing::STEPS, playback::SPEEDS},
     },
 };
@@ -64,9 +64,9 @@ pub const ENTRIES: &[Entry] = &[
         key: "theme",
         about: "Colours of the screen.",
         accepted: "\"dark\", \"light\", \"high-contrast\", \"colour-blind\", \"mono\"",
-        choices: || Palette::ALL.map(|palette| quoted(palette.name())).to_vec(),
-        get: |settings| quoted(settings.palette.name()),
-        set: |settings, value| put(&mut settings.palette, parsed(value)),
+        choices: || ThemeName::ALL.map(|theme| quoted(theme.name())).to_vec(),
+        get: |settings| quoted(settings.theme.name()),
+        set: |settings, value| put(&mut settings.theme, parsed(value)),
     },
     Entry {
         group: "Looks",

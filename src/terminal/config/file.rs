@@ -129,7 +129,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::terminal::Palette;
+    use crate::terminal::ThemeName;
 
     fn task(path: &Path, change: impl Into<Option<Change>>) -> SettingsTask {
         let places = Places::under(path.parent().unwrap());
@@ -147,7 +147,7 @@ mod tests {
         let mut file = SettingsFile::default();
         assert_eq!(file.run(&task(&path, None)).settings, Some(Settings::default()));
         let report = file.run(&task(&path, theme("light")));
-        assert_eq!((report.settings.unwrap().palette, report.troubles.len()), (Palette::Light, 0));
+        assert_eq!((report.settings.unwrap().theme, report.troubles.len()), (ThemeName::Light, 0));
     }
 
     #[cfg(unix)]
@@ -175,14 +175,14 @@ mod tests {
         file.run(&task(&path, None));
         fs::write(&path, "speed = 2.0\n").unwrap();
         let settings = file.run(&task(&path, theme("light"))).settings.unwrap();
-        assert_eq!((settings.speed, settings.palette), (2.0, Palette::Light));
+        assert_eq!((settings.speed, settings.theme), (2.0, ThemeName::Light));
         fs::write(&path, "speed = \n").unwrap();
         let report = file.run(&task(&path, theme("mono")));
         assert!(report.troubles[0].contains("this change lasts until the program ends"), "{report:?}");
         assert_eq!(fs::read_to_string(&path).unwrap(), "speed = \n");
         fs::remove_file(&path).unwrap();
         let settings = file.run(&task(&path, theme("light"))).settings.unwrap();
-        assert_eq!((settings.speed, settings.palette), (Settings::default().speed, Palette::Light), "made anew");
+        assert_eq!((settings.speed, settings.theme), (Settings::default().speed, ThemeName::Light), "made anew");
     }
 
     #[test]

@@ -18,7 +18,7 @@ use crate::{
     game::Rule,
     storage::{self, Places},
     table::{PRESETS, Table},
-    terminal::{Depth, Glyphs, Keys, Palette, keymap::remap},
+    terminal::{Depth, Glyphs, Keys, ThemeName, keymap::remap},
 };
 
 pub use change::Change;
@@ -30,7 +30,7 @@ pub use read::Complaint;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// The colours.
-    pub palette: Palette,
+    pub theme: ThemeName,
     /// How many colours the terminal has; `None` to find out.
     pub depth: Option<Depth>,
     /// What the table is drawn with; `None` to find out.
@@ -66,7 +66,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            palette: Palette::default(),
+            theme: ThemeName::default(),
             depth: None,
             glyphs: None,
             table: "match".to_owned(),

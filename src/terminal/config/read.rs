@@ -169,11 +169,11 @@ fn shown(text: &str, value: &Spanned<DeValue>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{coach::Skill, game::Rule, table::Table, terminal::Palette};
+    use crate::{coach::Skill, game::Rule, table::Table, terminal::ThemeName};
 
     #[test]
     fn the_documentation_is_itself_a_file_and_changes_nothing() {
-        let mut settings = Settings { palette: Palette::Light, rule: Rule::ThreeCushion, ..Settings::default() };
+        let mut settings = Settings { theme: ThemeName::Light, rule: Rule::ThreeCushion, ..Settings::default() };
         settings.skill = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1".parse().unwrap();
         settings.keys.add(chord("x").unwrap(), chord("Ctrl-r").unwrap());
         assert_eq!(read(&settings.document()), (settings, Vec::new()));
@@ -186,7 +186,7 @@ mod tests {
     fn every_wrong_line_is_named_and_the_others_count() {
         let text = "theme = \"light\"\nspeed = 9.5\nskill = 3\n\ntempo = 1\nthink_ms = 0.5\n[keys]\n\"Hyper-x\" = \"Enter\"\n\"x\" = \"Enter\"\n";
         let (settings, complaints) = read(text);
-        assert_eq!((settings.palette, settings.speed, settings.skill), (Palette::Light, 1.0, Skill::EXPERT));
+        assert_eq!((settings.theme, settings.speed, settings.skill), (ThemeName::Light, 1.0, Skill::EXPERT));
         assert_ne!(settings.keys, Settings::default().keys);
         let said: Vec<String> = complaints.iter().map(ToString::to_string).collect();
         assert_eq!(complaints.iter().map(|complaint| complaint.line).collect::<Vec<_>>(), [2, 3, 5, 6, 8].map(Some));
@@ -229,7 +229,7 @@ mod tests {
             let (settings, complaints) =
                 read(&format!("speed = 2.0\n{wrong}\nrule = \"one-cushion\"\njumps = false\n"));
             assert_eq!((settings.speed, settings.rule, settings.jumps), (2.0, Rule::OneCushion, false), "{wrong}");
-            assert_eq!(settings.palette, Settings::default().palette, "{wrong}");
+            assert_eq!(settings.theme, Settings::default().theme, "{wrong}");
             let [complaint] = &complaints[..] else { panic!("{wrong}: {complaints:?}") };
             assert!(complaint.line == Some(2) && complaint.text.contains(wrong), "{complaints:?}");
         }

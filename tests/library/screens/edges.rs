@@ -141,5 +141,5 @@ fn what_is_typed_is_mended_where_the_cursor_is() {
     let kept = Player::watching(TRUE_COLOUR).press("k C-u a c Left b");
     assert!(kept.text(80, 24).contains("under the name: abc"), "{}", kept.text(80, 24));
     let set = Player::new().press("F5 Enter l i g t Left h Enter");
-    assert!(set.app.settings.settings.palette.name() == "light", "{}", set.text(80, 24));
+    assert!(set.app.settings.settings.theme.name() == "light", "{}", set.text(80, 24));
 }

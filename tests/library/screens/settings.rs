@@ -144,7 +144,7 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     let player = player.press("Right");
     player.says("this change lasts until the program ends; ").says("was not written: ");
     assert_eq!(player.settings_text(), "theme = \n");
-    assert_eq!(player.app.settings.settings.palette.name(), "light");
+    assert_eq!(player.app.settings.settings.theme.name(), "light");
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn themes_and_characters_of_the_session_are_shown_too() {
     let player = player.press("T");
     player.says("high-contrast ▸ now; the file has dark");
     let player = player.press("Enter Enter");
-    assert_eq!(Settings::load(&player.path("config.toml")).0.palette.name(), "high-contrast");
+    assert_eq!(Settings::load(&player.path("config.toml")).0.theme.name(), "high-contrast");
     assert_eq!(player.app.caps.glyphs, Glyphs::Half);
     let player = with(NO_COLOUR, "").press("T");
     player.says("no colours here: NO_COLOR is set or the terminal has none");

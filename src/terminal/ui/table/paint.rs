@@ -146,7 +146,7 @@ mod tests {
         physics::CueInputs,
         table::{Layout, Table},
         terminal::{
-            Capabilities, Depth, Mapping, Palette, Shot,
+            Capabilities, Depth, Mapping, Shot, ThemeName,
             ui::{TableView, draw_table, drawn},
         },
     };
@@ -204,16 +204,16 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_ahead_a_trail_and_what_is_past_are_told_apart_in_every_palette() {
-        for palette in Palette::ALL.into_iter().filter(|palette| *palette != Palette::Mono) {
+    fn what_lies_ahead_a_trail_and_what_is_past_are_told_apart_in_every_theme() {
+        for name in ThemeName::ALL.into_iter().filter(|name| *name != ThemeName::Mono) {
             for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
-                let theme = Theme::of(palette, depth);
+                let theme = Theme::of(name, depth);
                 for ball in 0..BALLS {
                     let [ahead, trail, past] =
                         [Age::Ahead, Age::Trail, Age::Past].map(|age| path_color(&theme, ball, age));
                     let all = [ahead, trail, past, theme.cloth];
                     for (n, one) in all.iter().enumerate() {
-                        assert!(!all[n + 1..].contains(one), "{palette} {depth:?} ball {ball}: {all:?}");
+                        assert!(!all[n + 1..].contains(one), "{name} {depth:?} ball {ball}: {all:?}");
                     }
                 }
             }

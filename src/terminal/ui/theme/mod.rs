@@ -1,12 +1,12 @@
 //! The colours of everything on the screen, brought down to what the terminal has.
 
-mod palette;
+mod themes;
 
 use ratatui::style::{Color, Modifier, Style};
 
 use crate::{table::CueBall, terminal::Depth};
 
-pub use palette::{Palette, UnknownPalette};
+pub use themes::{ThemeName, UnknownTheme};
 
 /// Colours by their purpose. In monochrome all of them are [`Color::Reset`]: crossterm under `NO_COLOR` turns bold and
 /// reverse off with every colour command, so that only letters and modifiers may tell things apart.

@@ -2,7 +2,7 @@
 
 use ratatui::style::{Color, Modifier};
 
-use crate::terminal::{Depth, Palette, ui::Theme};
+use crate::terminal::{Depth, ThemeName, ui::Theme};
 
 /// The 16 colours as terminals have them, in the order of their codes: the Linux console (and VGA), xterm, Visual Studio Code.
 const SIXTEEN: [[u32; 16]; 3] = [
@@ -49,12 +49,10 @@ const EYES: [[[f64; 3]; 3]; 4] = [
     [[1.255_528, -0.076_749, -0.178_779], [-0.078_411, 0.930_809, 0.147_602], [0.004_733, 0.691_367, 0.303_900]],
 ];
 
-/// The palettes that have colours, at every depth that has some.
-fn themes() -> impl Iterator<Item = (Palette, Theme)> {
-    let palettes = Palette::ALL.into_iter().filter(|palette| *palette != Palette::Mono);
-    palettes.flat_map(|palette| {
-        [Depth::True, Depth::Indexed, Depth::Ansi].map(|depth| (palette, Theme::of(palette, depth)))
-    })
+/// The themes that have colours, at every depth that has some.
+fn themes() -> impl Iterator<Item = (ThemeName, Theme)> {
+    let names = ThemeName::ALL.into_iter().filter(|name| *name != ThemeName::Mono);
+    names.flat_map(|name| [Depth::True, Depth::Indexed, Depth::Ansi].map(|depth| (name, Theme::of(name, depth))))
 }
 
 /// The number among the 16 colours, if it is one of them.
@@ -125,15 +123,15 @@ fn monochrome_never_names_a_colour() {
     let theme = Theme::new(Depth::Mono);
     assert_eq!(theme.ball(2).fg, Some(Color::Reset));
     assert_eq!([theme.cloth, theme.outcomes[4], theme.outline], [Color::Reset; 3]);
-    assert_eq!(Theme::of(Palette::Light, Depth::Mono).balls, [Color::Reset; 3]);
+    assert_eq!(Theme::of(ThemeName::Light, Depth::Mono).balls, [Color::Reset; 3]);
 }
 
 #[test]
-fn text_can_be_read_in_every_palette_at_every_depth() {
-    for (palette, theme) in themes() {
-        let least = match (palette, theme.depth) {
-            (Palette::HighContrast, Depth::Ansi) => 5.0,
-            (Palette::HighContrast, _) => 7.0,
+fn text_can_be_read_in_every_theme_at_every_depth() {
+    for (name, theme) in themes() {
+        let least = match (name, theme.depth) {
+            (ThemeName::HighContrast, Depth::Ansi) => 5.0,
+            (ThemeName::HighContrast, _) => 7.0,
             // The user's own grey decides.
             (_, Depth::Ansi) => 3.9,
             _ => 4.5,
@@ -146,7 +144,7 @@ fn text_can_be_read_in_every_palette_at_every_depth() {
             for color in [color].into_iter().chain(brighter) {
                 for sixteen in &SIXTEEN {
                     let contrast = contrast(color, theme.background, sixteen);
-                    assert!(contrast >= least, "{palette} {:?}: {color} has {contrast:.1}", theme.depth);
+                    assert!(contrast >= least, "{name} {:?}: {color} has {contrast:.1}", theme.depth);
                 }
             }
         }
@@ -154,11 +152,11 @@ fn text_can_be_read_in_every_palette_at_every_depth() {
 }
 
 #[test]
-fn things_that_mean_something_are_told_apart_in_every_palette_at_every_depth() {
+fn things_that_mean_something_are_told_apart_in_every_theme_at_every_depth() {
     let mut found = Vec::new();
-    for (palette, theme) in themes() {
+    for (name, theme) in themes() {
         let mut check = |what: &str, group: &[Color], least: f64| {
-            found.extend(too_near(&format!("{palette} {what}"), &theme, group, least, &EYES[0]));
+            found.extend(too_near(&format!("{name} {what}"), &theme, group, least, &EYES[0]));
         };
         let [white, yellow, red] = theme.balls;
         check("balls", &[white, yellow, red, theme.cloth], 30.0);
@@ -185,7 +183,7 @@ fn things_that_mean_something_are_told_apart_in_every_palette_at_every_depth() {
 
 #[test]
 fn people_who_see_fewer_colours_tell_the_balls_the_cloth_and_the_news_apart() {
-    let theme = Theme::of(Palette::ColourBlind, Depth::True);
+    let theme = Theme::of(ThemeName::ColourBlind, Depth::True);
     for eyes in &EYES {
         let check = |what: &str, group: &[Color]| {
             assert_eq!(too_near(what, &theme, group, 20.0, eyes), Vec::<String>::new());
@@ -199,11 +197,11 @@ fn people_who_see_fewer_colours_tell_the_balls_the_cloth_and_the_news_apart() {
 
 #[test]
 fn names_are_read_back_and_go_round() {
-    let mut palette = Palette::default();
-    for _ in Palette::ALL {
-        assert_eq!(palette.name().parse(), Ok(palette));
-        palette = palette.next();
+    let mut name = ThemeName::default();
+    for _ in ThemeName::ALL {
+        assert_eq!(name.name().parse(), Ok(name));
+        name = name.next();
     }
-    assert_eq!(palette, Palette::default());
-    assert!("neon".parse::<Palette>().unwrap_err().to_string().contains("high-contrast"));
+    assert_eq!(name, ThemeName::default());
+    assert!("neon".parse::<ThemeName>().unwrap_err().to_string().contains("high-contrast"));
 }

@@ -1,4 +1,4 @@
-//! The palettes to choose from: what each changes of the dark one.
+//! The themes to choose from: what each changes of the dark one.
 
 use std::{fmt, str::FromStr};
 
@@ -9,9 +9,9 @@ use crate::terminal::{
     ui::{Theme, theme::resolve},
 };
 
-/// A choice of colours.
+/// The name of a choice of colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Palette {
+pub enum ThemeName {
     /// Light on dark.
     #[default]
     Dark,
@@ -25,12 +25,12 @@ pub enum Palette {
     Mono,
 }
 
-/// A name that no palette has.
+/// A name that no theme has.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("there is no theme \"{0}\"; use dark, light, high-contrast, colour-blind or mono")]
-pub struct UnknownPalette(String);
+pub struct UnknownTheme(String);
 
-impl Palette {
+impl ThemeName {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Dark, Self::Light, Self::HighContrast, Self::ColourBlind, Self::Mono];
 
@@ -48,34 +48,34 @@ impl Palette {
     /// The next one, and the first after the last.
     #[must_use]
     pub fn next(self) -> Self {
-        let place = Self::ALL.iter().position(|palette| *palette == self).unwrap_or(0);
+        let place = Self::ALL.iter().position(|one| *one == self).unwrap_or(0);
         Self::ALL[(place + 1) % Self::ALL.len()]
     }
 }
 
-impl fmt::Display for Palette {
+impl fmt::Display for ThemeName {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.pad(self.name())
     }
 }
 
-impl FromStr for Palette {
-    type Err = UnknownPalette;
+impl FromStr for ThemeName {
+    type Err = UnknownTheme;
 
-    fn from_str(text: &str) -> Result<Self, UnknownPalette> {
-        Self::ALL.into_iter().find(|palette| palette.name() == text).ok_or_else(|| UnknownPalette(text.to_owned()))
+    fn from_str(text: &str) -> Result<Self, UnknownTheme> {
+        Self::ALL.into_iter().find(|one| one.name() == text).ok_or_else(|| UnknownTheme(text.to_owned()))
     }
 }
 
 impl Theme {
-    /// The colours of a palette for `depth`. The table itself looks the same in light and dark.
-    pub fn of(palette: Palette, depth: Depth) -> Self {
-        match palette {
-            Palette::Dark => Self::new(depth),
-            Palette::Light => light(depth),
-            Palette::HighContrast => high_contrast(depth),
-            Palette::ColourBlind => colour_blind(depth),
-            Palette::Mono => Self::new(Depth::Mono),
+    /// The colours of a theme for `depth`. The table itself looks the same in light and dark.
+    pub fn of(name: ThemeName, depth: Depth) -> Self {
+        match name {
+            ThemeName::Dark => Self::new(depth),
+            ThemeName::Light => light(depth),
+            ThemeName::HighContrast => high_contrast(depth),
+            ThemeName::ColourBlind => colour_blind(depth),
+            ThemeName::Mono => Self::new(Depth::Mono),
         }
     }
 }
