@@ -5,12 +5,12 @@ pub mod chart;
 pub mod events;
 pub mod field;
 pub mod geometry;
+pub mod hit;
 pub mod input;
 pub mod list;
 pub mod message;
 pub mod panel;
 pub mod profile;
-pub mod sight;
 pub mod spin;
 mod sprites;
 pub mod status_line;
@@ -28,6 +28,7 @@ pub use self::{
     canvas::{Canvas, Ink},
     events::{ListedEvents, draw_events},
     field::{Dot, draw_field, face_in, spot_mark},
+    hit::draw_spin_or_hit,
     input::{TextField, Typed, is_typed},
     message::{Message, Tone},
     panel::{
@@ -35,7 +36,6 @@ pub use self::{
         write_paragraphs,
     },
     profile::{draw_profile, side_view_below},
-    sight::draw_spin_or_sight,
     status_line::{draw_question, draw_status},
     stroke::stroke_rows,
     table::{Spot, TableView, ball_at, cue_sign, draw_table},

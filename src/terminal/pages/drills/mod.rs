@@ -4,6 +4,7 @@
 //! [`DrillReport`]. [`actions`] is what each key does.
 
 mod actions;
+mod aim_line;
 mod book;
 mod catalogue;
 pub mod film;
@@ -11,7 +12,6 @@ pub mod keys;
 mod question;
 mod records;
 mod reports;
-mod sight;
 mod turn;
 mod turn_actions;
 mod view;
@@ -34,11 +34,11 @@ use crate::{
     },
 };
 
+pub use aim_line::{AimLine, AimTarget};
 pub use book::{Book, record_of};
 pub use catalogue::Catalogue;
 pub use question::Question;
 pub use records::{Estimate, Records};
-pub use sight::{Meets, Sight};
 pub use turn::{ModelShotState, Stage, Turn};
 pub use watched::Watched;
 

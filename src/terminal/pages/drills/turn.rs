@@ -20,7 +20,7 @@ use crate::{
         AdviceTask, DrillTask, ModelShot, Outcome, Shot, Stroke,
         pages::drills::{
             Watched,
-            sight::{Sight, sight},
+            aim_line::{AimLine, aim_line},
         },
         shot::{OwnStroke, Playback, Profile, StrokeChange, WhatIf, aiming, stroke::TipSlips},
         ui::Message,
@@ -215,9 +215,9 @@ impl Turn {
     }
 
     /// The line of aim, while the stroke is set.
-    pub fn sight(&self) -> Option<Sight> {
+    pub fn aim_line(&self) -> Option<AimLine> {
         let is_there = self.is_aiming() && !self.is_coach_thinking();
-        is_there.then(|| sight(&self.table, &self.layout, self.stroke().phi))
+        is_there.then(|| aim_line(&self.table, &self.layout, self.stroke().phi))
     }
 
     /// The model shot, if it is known and there is one.

@@ -45,7 +45,7 @@ use crate::{
         },
         shot::playback::passed,
         ui::{
-            ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_spin_or_sight, draw_table,
+            ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_spin_or_hit, draw_table,
             draw_tip, spell, write_paragraphs,
         },
         words::{event_words, fine, fixed, in_diamonds, percent},
@@ -186,7 +186,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     {
         let unit = coach.units.length;
         draw_aim_map(&study.aim, study.hand, (unit, coach.is_in_numbers), panes.shot, ui);
-        draw_tip_map(&study.tip, &shot.cue, table, unit, panes.tip.union(panes.sight), ui);
+        draw_tip_map(&study.tip, &shot.cue, table, unit, panes.tip.union(panes.hit), ui);
         draw_legend([&study.aim, &study.tip], advised.query.rule, panes.events, ui);
         return says_why;
     }
@@ -202,7 +202,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     draw_tip(shot.map(|shot| &shot.cue), how_long, table, panes.tip, ui);
     let time = coach.watched().map(|_| coach.playback.readout);
     let spin = shot.zip(time).and_then(|(shot, time)| shot.spin(time, table.radius));
-    draw_spin_or_sight(spin, shot.map(Shot::meeting), panes.sight, ui);
+    draw_spin_or_hit(spin, shot.map(Shot::meeting), panes.hit, ui);
     match () {
         () if told.is_some() && is_beside || is_explained => {}
         () if shot.is_none() && coach.followed().is_none() => draw_asked(coach, panes.events, ui),

@@ -15,7 +15,7 @@ use crate::{
             },
         },
         shot::WhatIf,
-        ui::{Beside, Ui, draw_lines, draw_spin_or_sight, draw_tip, draw_title, draw_what_if, pair, stroke_rows},
+        ui::{Beside, Ui, draw_lines, draw_spin_or_hit, draw_tip, draw_title, draw_what_if, pair, stroke_rows},
         words::{fixed, speed_words},
     },
 };
@@ -47,7 +47,7 @@ pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &
         draw_set(shot, coach, panes.shot, ui);
     }
     draw_tip(Some(&shot.cue), coach.units.tip == TipUnit::Tips, table, panes.tip, ui);
-    draw_spin_or_sight(shot.spin(time, table.radius), Some(shot.meeting()), panes.sight, ui);
+    draw_spin_or_hit(shot.spin(time, table.radius), Some(shot.meeting()), panes.hit, ui);
     if !is_wide {
         draw_listed(coach, Some(shot), Some(time), panes.events, ui);
     }

@@ -19,7 +19,7 @@ const ROWS_A_PANEL_ROW: u16 = 5;
 const BELOW_BESIDE: u16 = 4;
 /// Columns beside the table: at least, and at most.
 const BESIDE: (u16, u16) = (16, 36);
-/// Columns of what a view tells, of the shot, the tip, the sight and the events where they stand side by side: where there is
+/// Columns of what a view tells, of the shot, the tip, the hit and the events where they stand side by side: where there is
 /// just room for them, and where there is more. The tip's may be wider.
 const NARROW: [u16; 5] = [38, 32, 12, 12, 22];
 const WIDE: [u16; 5] = [39, 33, 14, 16, 29];
@@ -28,7 +28,7 @@ const MOST_TIP_WIDTH: u16 = 18;
 const MORE_WIDTH: u16 = 38;
 /// Columns from which on all of these find room.
 const ALL_BELOW_WIDTH: u16 = width(NARROW);
-/// Rows of the panels from which on the sight stands below the tip, in columns that are as wide as both of its balls.
+/// Rows of the panels from which on the hit stands below the tip, in columns that are as wide as both of its balls.
 const STACKED_ROWS: u16 = 12;
 const STACKED_WIDTH: u16 = 16;
 /// Rows of the shot's numbers with their title where the column beside the table is narrow: as few as hold them all, and as
@@ -37,10 +37,10 @@ const SHOT_ROWS: [u16; 3] = [7, 9, 8];
 const TALL: u16 = 20;
 /// Columns of a column from which on its panels are the wide ones.
 const WIDE_COLUMN: u16 = 30;
-/// Most rows of tip and sight, one below the other and side by side, and those of the sight below the tip: at least, and where
+/// Most rows of tip and hit, one below the other and side by side, and those of the hit below the tip: at least, and where
 /// there are more than so many for both.
 const PRECISION_ROWS: (u16, u16) = (13, 10);
-const SIGHT_ROWS: [u16; 2] = [4, 5];
+const HIT_ROWS: [u16; 2] = [4, 5];
 const MANY_ROWS: u16 = 13;
 
 /// How large the table has to be above all panels, against the one that has some beside it: a twentieth is a fair price for
@@ -61,7 +61,7 @@ pub struct Panes {
     /// The cue ball's face.
     pub tip: Rect,
     /// The shooter's view of the first ball; beside or below the tip.
-    pub sight: Rect,
+    pub hit: Rect,
     /// What happens in the shot.
     pub events: Rect,
 }
@@ -116,15 +116,15 @@ impl Panes {
         }
         // A face is twice as many columns as rows, and its panel has a title.
         let spare = area.width.saturating_sub(width(widths));
-        let [info, shot, tip, sight, events] = widths;
+        let [info, shot, tip, hit, events] = widths;
         let tip = (tip + spare).min(2 * (rows - 1)).clamp(tip, MOST_TIP_WIDTH);
-        let taken = width([info, shot, tip, sight, events]);
+        let taken = width([info, shot, tip, hit, events]);
         let others = area.width.saturating_sub(taken) / (MORE_WIDTH + 1);
-        let [info, shot, tip, sight] = [info, shot, tip, sight].map(&mut panel);
-        let (tip, sight) = if is_stacked { stacked(tip) } else { (tip, sight) };
+        let [info, shot, tip, hit] = [info, shot, tip, hit].map(&mut panel);
+        let (tip, hit) = if is_stacked { stacked(tip) } else { (tip, hit) };
         let more = [1, 2].map(|n| panel(if n <= others { MORE_WIDTH } else { 0 }));
         let events = panel(area.width);
-        Self { table: room, info, more, shot, tip, sight, events }
+        Self { table: room, info, more, shot, tip, hit, events }
     }
 
     fn some_beside(table: &Table, area: Rect) -> Self {
@@ -140,7 +140,7 @@ impl Panes {
         };
         let precision_rows = rows.saturating_sub(shot).min(most);
         let precision = Rect { y: bottom - precision_rows, height: precision_rows, ..column };
-        let (tip, sight) = if is_wide { split(column.width / 2, precision).into() } else { stacked(precision) };
+        let (tip, hit) = if is_wide { split(column.width / 2, precision).into() } else { stacked(precision) };
         let half = area.width / 2;
         let below = |x: u16, width: u16| Rect::new(area.x + x, bottom, width, middle.bottom() - bottom);
         Self {
@@ -149,7 +149,7 @@ impl Panes {
             more: [Rect::ZERO; 2],
             shot: Rect { height: rows - precision_rows, ..column },
             tip,
-            sight,
+            hit,
             events: below(half + 1, area.width - half - 1),
         }
     }
@@ -157,13 +157,13 @@ impl Panes {
 
 /// Columns of panels side by side, with a blank between every two that are there.
 const fn width(panels: [u16; 5]) -> u16 {
-    let [info, shot, tip, sight, events] = panels;
-    info + shot + tip + sight + events + if sight > 0 { 4 } else { 3 }
+    let [info, shot, tip, hit, events] = panels;
+    info + shot + tip + hit + events + if hit > 0 { 4 } else { 3 }
 }
 
-/// Tip and sight one below the other.
+/// Tip and hit one below the other.
 fn stacked(area: Rect) -> (Rect, Rect) {
-    let rows = SIGHT_ROWS[usize::from(area.height >= MANY_ROWS)].min(area.height);
+    let rows = HIT_ROWS[usize::from(area.height >= MANY_ROWS)].min(area.height);
     let tip = Rect { height: area.height - rows, ..area };
     (tip, Rect { y: tip.bottom(), height: rows, ..area })
 }
@@ -192,10 +192,10 @@ mod tests {
             for height in 24..=80 {
                 let panes = Panes::new(&table, Rect::new(0, 0, width, height));
                 let table = Mapping::fit(&table, panes.table).outer();
-                let Panes { info, more, shot, tip, sight, events, .. } = panes;
+                let Panes { info, more, shot, tip, hit, events, .. } = panes;
                 let [header, status] = [0, height - 2].map(|y| Rect::new(0, y, width, 1));
                 let hints = Rect { y: height - 1, ..header };
-                let all = [header, table, info, shot, tip, sight, events, status, hints, more[0], more[1]];
+                let all = [header, table, info, shot, tip, hit, events, status, hints, more[0], more[1]];
                 let (smaller, side) = panes.with_side_view();
                 assert!(side.height >= 6 && side.width >= 60, "{width}×{height}: {side}");
                 let small = Mapping::fit(&Table::default(), smaller.table).outer();

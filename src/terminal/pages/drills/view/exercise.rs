@@ -8,12 +8,12 @@ use crate::{
     terminal::{
         Capabilities, Shot,
         pages::drills::{
-            DrillsPage, Meets, ModelShotState, Sight, Turn,
+            AimLine, AimTarget, DrillsPage, ModelShotState, Turn,
             view::{draw_header, panels, panes::Panes, score},
         },
         shot::Meeting,
         ui::{
-            Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_profile, draw_spin_or_sight, draw_table,
+            Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_profile, draw_spin_or_hit, draw_table,
             draw_tip, draw_what_if, separator,
         },
     },
@@ -34,9 +34,9 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let what_if = turn.what_if();
     // The whole way is drawn then.
     let spots = turn
-        .sight()
+        .aim_line()
         .filter(|_| what_if.is_none())
-        .map_or_else(Vec::new, |sight| spots(turn, &sight, ui.theme, ui.caps));
+        .map_or_else(Vec::new, |aim_line| spots(turn, &aim_line, ui.theme, ui.caps));
     let time = turn.watched().filter(|_| !turn.shows_hint).map_or(0.0, |watched| watched.playback.time);
     let view = TableView {
         shot: turn.shot(),
@@ -83,7 +83,7 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, panes: &Panes, ui: &mut Ui) 
     );
     let watched = turn.watched().filter(|_| !turn.shows_hint);
     let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
-    draw_spin_or_sight(spin, meeting(turn), panes.sight, ui);
+    draw_spin_or_hit(spin, meeting(turn), panes.hit, ui);
 }
 
 /// How hard it is, and how it is repeated.
@@ -98,15 +98,15 @@ fn about(turn: &Turn, caps: Capabilities) -> String {
 
 /// What the cue ball meets first along the line of aim, or in the shot that was played.
 fn meeting(turn: &Turn) -> Option<Meeting> {
-    let Some(sight) = turn.sight() else { return turn.shot().map(Shot::meeting) };
-    Some(match sight.meets {
-        Meets::Ball(hit) => Meeting::Ball(hit),
-        Meets::Cushion(mark) => Meeting::Rail(mark.rail, None),
+    let Some(aim_line) = turn.aim_line() else { return turn.shot().map(Shot::meeting) };
+    Some(match aim_line.target {
+        AimTarget::Ball(hit) => Meeting::Ball(hit),
+        AimTarget::Cushion(mark) => Meeting::Rail(mark.rail, None),
     })
 }
 
 /// The line of aim with the ball at its end, and the cue.
-fn spots(turn: &Turn, sight: &Sight, theme: &Theme, caps: Capabilities) -> Vec<Spot> {
+fn spots(turn: &Turn, aim_line: &AimLine, theme: &Theme, caps: Capabilities) -> Vec<Spot> {
     let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(turn.stroke().phi));
     let dot = caps.pick('·', '.');
     let sign = cue_sign(ahead, caps);
@@ -117,10 +117,10 @@ fn spots(turn: &Turn, sight: &Sight, theme: &Theme, caps: Capabilities) -> Vec<S
     let reach = turn.table.reach() + DVec2::splat(turn.table.radius);
     let on_table = |spot: &Spot| spot.place.abs().cmple(reach).all();
     // The ball at the end of the line is drawn over it.
-    let line = steps(DOT, sight.way - 1.5 * turn.table.radius, DOT);
+    let line = steps(DOT, aim_line.way - 1.5 * turn.table.radius, DOT);
     let line = line.map(|way| spot(start + way * ahead, theme.paths[0], dot));
     let ghost = Spot {
-        place: sight.end,
+        place: aim_line.end,
         is_ball: true,
         color: theme.paths[0],
         letter: theme.letters()[0].to_ascii_lowercase(),

@@ -17,7 +17,7 @@ use crate::{
         },
         shot::film::{Listed, table},
         ui::{
-            ListedEvents, Message, TableView, Ui, draw_events, draw_header, draw_lines, draw_spin_or_sight, draw_table,
+            ListedEvents, Message, TableView, Ui, draw_events, draw_header, draw_lines, draw_spin_or_hit, draw_table,
             draw_tip, draw_title, pair, separator, tip_rows, write_paragraphs,
         },
         words::{fixed, speed_words},
@@ -44,7 +44,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     let stroke = played.and_then(|played| played.stroke.as_ref());
     draw_tip(stroke, drills.units.tip == TipUnit::Tips, table(), panes.tip, ui);
     let spin = played.and_then(|played| played.shot.spin(time, table().radius));
-    draw_spin_or_sight(spin, played.map(|played| played.shot.meeting()), panes.sight, ui);
+    draw_spin_or_hit(spin, played.map(|played| played.shot.meeting()), panes.hit, ui);
     draw_distances(played, time, unit, panes.aim, ui);
     let events = played.map(|played| {
         let recording = &played.shot.recording;

@@ -9,7 +9,7 @@ use crate::{
     table::CueBall,
     terminal::{
         Capabilities, DrillAction, ModelShot,
-        pages::drills::{Meets, ModelShotState, Sight, Turn, Watched, keys::EXERCISE, view::percent},
+        pages::drills::{AimLine, AimTarget, ModelShotState, Turn, Watched, keys::EXERCISE, view::percent},
         ui::{Ui, draw_lines, draw_title, pair, separator, spell, stroke_rows, wrap_by},
         words::{fixed, rail_name},
     },
@@ -43,8 +43,8 @@ pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16
     } else {
         // The stroke's numbers tell it too: it comes last.
         let mut least = None;
-        if let Some(sight) = turn.sight() {
-            paragraphs.push((sight_words(&sight, turn.cue_ball, turn.table.diamond(), units), ui.theme.accent()));
+        if let Some(aim_line) = turn.aim_line() {
+            paragraphs.push((aim_line_words(&aim_line, turn.cue_ball, turn.table.diamond(), units), ui.theme.accent()));
             match turn.least_elevation() {
                 Ok(LeastElevation { theta, over: Some(over) }) => {
                     least = Some((least_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
@@ -104,15 +104,15 @@ fn lines_of(paragraphs: &[(String, Style)], width: impl Fn(usize) -> usize) -> V
 }
 
 /// What the line of aim meets.
-fn sight_words(sight: &Sight, cue_ball: CueBall, diamond: f64, units: Units) -> String {
+fn aim_line_words(aim_line: &AimLine, cue_ball: CueBall, diamond: f64, units: Units) -> String {
     let (in_a_metre, symbol) = units.length.small();
-    let way = format!("{} {symbol}", fixed(in_a_metre * sight.way, 0));
-    match sight.meets {
-        Meets::Ball(hit) => {
+    let way = format!("{} {symbol}", fixed(in_a_metre * aim_line.way, 0));
+    match aim_line.target {
+        AimTarget::Ball(hit) => {
             let side = hit.side().map_or_else(String::new, |side| format!(", {side} side"));
             format!("{} {:.0} % full{side}, {way}", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
         }
-        Meets::Cushion(mark) => {
+        AimTarget::Cushion(mark) => {
             format!("{} at {}, {way}", rail_name(mark.rail), units.place.exact(mark.diamond, diamond, 1))
         }
     }
@@ -210,9 +210,9 @@ mod tests {
     fn places_the_tip_and_the_speed_are_told_in_the_units_of_the_settings() {
         let table = Table::default();
         let mark = RailPoint { rail: Rail::Left, diamond: 2.04 };
-        let sight = Sight { end: glam::DVec2::ZERO, way: 0.5, meets: Meets::Cushion(mark) };
+        let aim_line = AimLine { end: glam::DVec2::ZERO, way: 0.5, target: AimTarget::Cushion(mark) };
         let other = Units { tip: TipUnit::Mm, place: PlaceUnit::Mm, length: LengthUnit::Feet };
-        let said = |units| sight_words(&sight, CueBall::White, table.diamond(), units);
+        let said = |units| aim_line_words(&aim_line, CueBall::White, table.diamond(), units);
         assert_eq!(said(Units::default()), "left rail at 2.0 diamonds, 50 cm");
         assert_eq!(said(other), "left rail at 724 mm, 20 in");
         let cue = CueInputs { a: 0.2, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 };

@@ -19,13 +19,13 @@ const BESIDE: (u16, u16) = (22, 36);
 /// Columns of the stroke and the tip where all panels stand side by side.
 const STROKE_WIDTH: u16 = 22;
 const TIP_WIDTH: u16 = 14;
-const SIGHT_WIDTH: u16 = 12;
+const HIT_WIDTH: u16 = 12;
 /// Columns that the score's title needs.
 const SCORE_WIDTH: u16 = 30;
-/// Rows of the stroke's numbers with their title, and of the sight below the tip.
+/// Rows of the stroke's numbers with their title, and of the hit below the tip.
 const STROKE_ROWS: u16 = 6;
-const SIGHT_ROWS: u16 = 4;
-/// Most rows of tip and sight.
+const HIT_ROWS: u16 = 4;
+/// Most rows of tip and hit.
 const PRECISION_ROWS: u16 = 13;
 /// Share of the aim's words in the room that they have beside the score.
 const AIM: (u16, u16) = (3, 5);
@@ -42,7 +42,7 @@ pub struct Panes {
     /// The cue ball's face.
     pub tip: Rect,
     /// The shooter's view of the first ball.
-    pub sight: Rect,
+    pub hit: Rect,
     /// Where the aim leads, or what came of the stroke.
     pub aim: Rect,
     /// The score.
@@ -58,10 +58,10 @@ impl Panes {
     }
 
     /// The same with room for a jump from the side, and that room: below the table where panels stand beside it, which takes
-    /// rows from the table, else in the place of the stroke's numbers, the tip and the sight.
+    /// rows from the table, else in the place of the stroke's numbers, the tip and the hit.
     pub fn with_side_view(self) -> (Self, Rect) {
         if self.stroke.y >= self.aim.y {
-            return (self, self.stroke.union(self.sight));
+            return (self, self.stroke.union(self.hit));
         }
         let (table, side) = side_view_below(self.table, self.aim.y);
         (Self { table, ..self }, side)
@@ -74,8 +74,8 @@ impl Panes {
             let left = (area.x + x).min(area.right());
             Rect::new(left, top, width.min(area.right() - left), area.bottom() - top)
         };
-        let sight = STROKE_WIDTH + TIP_WIDTH + 2;
-        let aim = sight + SIGHT_WIDTH + 1;
+        let hit = STROKE_WIDTH + TIP_WIDTH + 2;
+        let aim = hit + HIT_WIDTH + 1;
         let room = area.width.saturating_sub(aim + 1);
         let words = (room * AIM.0 / AIM.1).min(room.saturating_sub(SCORE_WIDTH));
         let score = aim + words + 1;
@@ -83,7 +83,7 @@ impl Panes {
             table: upper,
             stroke: panel(0, STROKE_WIDTH),
             tip: panel(STROKE_WIDTH + 1, TIP_WIDTH),
-            sight: panel(sight, SIGHT_WIDTH),
+            hit: panel(hit, HIT_WIDTH),
             aim: panel(aim, words),
             score: panel(score, area.width.saturating_sub(score)),
         }
@@ -93,14 +93,14 @@ impl Panes {
         let (room, column) = with_column(table, area, BELOW_BESIDE, BESIDE);
         let bottom = column.bottom();
         let precision_rows = column.height.saturating_sub(STROKE_ROWS).min(PRECISION_ROWS);
-        let sight_rows = SIGHT_ROWS.min(precision_rows);
+        let hit_rows = HIT_ROWS.min(precision_rows);
         let aim = area.width * AIM.0 / AIM.1;
         let below = |x: u16, width: u16| Rect::new(area.x + x, bottom, width, area.bottom() - bottom);
         Self {
             table: room,
             stroke: Rect { height: column.height - precision_rows, ..column },
-            tip: Rect { y: bottom - precision_rows, height: precision_rows - sight_rows, ..column },
-            sight: Rect { y: bottom - sight_rows, height: sight_rows, ..column },
+            tip: Rect { y: bottom - precision_rows, height: precision_rows - hit_rows, ..column },
+            hit: Rect { y: bottom - hit_rows, height: hit_rows, ..column },
             aim: below(0, aim),
             score: below(aim + 1, area.width - aim - 1),
         }
@@ -125,7 +125,7 @@ mod tests {
                 let rest = [Mapping::fit(&table, smaller.table).outer(), smaller.aim, smaller.score];
                 assert!(rest.iter().all(|pane| pane.intersection(side).is_empty()), "{width}×{height}: {side}");
                 let bed = Mapping::fit(&table, panes.table).outer();
-                let all = [bed, panes.stroke, panes.tip, panes.sight, panes.aim, panes.score];
+                let all = [bed, panes.stroke, panes.tip, panes.hit, panes.aim, panes.score];
                 for (n, one) in all.iter().enumerate() {
                     assert!(one.right() <= width && one.bottom() <= height + 1, "{width}×{height} {n}: {one}");
                     assert!(one.width >= 12 && one.height >= 4, "{width}×{height} {n}: {one}");

@@ -18,15 +18,15 @@ const LOW: u16 = 5;
 const BEHIND: char = '#';
 
 /// Draws how the cue ball spins while a shot plays, else how it meets the first object ball.
-pub fn draw_spin_or_sight(spin: Option<Spin>, meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
+pub fn draw_spin_or_hit(spin: Option<Spin>, meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     match spin {
         Some(spin) => draw_spin(&spin, area, ui),
-        None => draw_sight(meeting, area, ui),
+        None => draw_panel(meeting, area, ui),
     }
 }
 
 /// Draws the panel: how the object ball is met, or what is met before it.
-fn draw_sight(meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
+fn draw_panel(meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     let is_low = area.height <= LOW + 1;
     let title = match meeting.filter(|_| is_low) {
         // A share by itself looks like a chance.

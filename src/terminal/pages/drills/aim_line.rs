@@ -10,7 +10,7 @@ use crate::{
 
 /// What the line meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Meets {
+pub enum AimTarget {
     /// An object ball, and how.
     Ball(Hit),
     /// A cushion, where the line goes on to its nose: the mark by which players aim.
@@ -19,17 +19,17 @@ pub enum Meets {
 
 /// The line of aim.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
+pub struct AimLine {
     /// The cue ball's centre where it meets something, m.
     pub end: DVec2,
     /// How far it goes to there, m.
     pub way: f64,
     /// What it meets.
-    pub meets: Meets,
+    pub target: AimTarget,
 }
 
 /// The line of aim in the direction `phi`, rad. A cue ball that is struck with side and a raised cue swerves off it.
-pub fn sight(table: &Table, layout: &Layout, phi: f64) -> Sight {
+pub fn aim_line(table: &Table, layout: &Layout, phi: f64) -> AimLine {
     let (start, direction) = (layout.balls[0], DVec2::from_angle(phi));
     let diameter = 2.0 * table.radius;
     let ball = (1..BALLS).filter_map(|ball| {
@@ -49,10 +49,10 @@ pub fn sight(table: &Table, layout: &Layout, phi: f64) -> Sight {
     if let Some((ball, way, aside)) = ball.filter(|ball| ball.1 <= room) {
         let end = start + way * direction;
         let hit = Hit { ball, place: end, fullness: 1.0 - aside.abs() / diameter, left: aside < 0.0 };
-        return Sight { end, way, meets: Meets::Ball(hit) };
+        return AimLine { end, way, target: AimTarget::Ball(hit) };
     }
     let [mark, _] = line_of_aim(table, layout, phi);
-    Sight { end: start + room * direction, way: room, meets: Meets::Cushion(mark) }
+    AimLine { end: start + room * direction, way: room, target: AimTarget::Cushion(mark) }
 }
 
 #[cfg(test)]
@@ -75,19 +75,19 @@ mod tests {
             // Level, in the middle: the simulated ball runs straight.
             let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: degrees.to_radians(), speed: 5.0 };
             let recording = Recording::new(&table, &layout, &cue).unwrap();
-            let sight = sight(&table, &layout, cue.phi);
+            let aim_line = aim_line(&table, &layout, cue.phi);
             let first = recording.events().iter()
                 .find(|event| matches!(event.kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _)));
             let first = first.expect("5 m/s reach the other end of the table");
-            prop_assert!(recording.state(0, first.time).position.distance(sight.end) < 1e-6);
-            match (first.kind, sight.meets) {
-                (EventKind::BallBall(_, ball), Meets::Ball(hit)) => {
+            prop_assert!(recording.state(0, first.time).position.distance(aim_line.end) < 1e-6);
+            match (first.kind, aim_line.target) {
+                (EventKind::BallBall(_, ball), AimTarget::Ball(hit)) => {
                     let real = first_hit(&table, &recording).unwrap();
                     prop_assert_eq!((ball, real.left), (hit.ball, hit.left));
                     prop_assert!((real.fullness - hit.fullness).abs() < 1e-3, "{:?} {:?}", real, hit);
                 }
                 // A stroke is given by the same number everywhere.
-                (EventKind::BallRail(..), Meets::Cushion(mark)) =>
+                (EventKind::BallRail(..), AimTarget::Cushion(mark)) =>
                     prop_assert_eq!(mark, aim(&table, &layout, &cue).unwrap().ahead),
                 other => prop_assert!(false, "{:?}", other),
             }
@@ -98,10 +98,10 @@ mod tests {
     fn a_cushion_is_marked_where_the_line_meets_its_nose_not_where_the_ball_stops() {
         let table = Table::default();
         let layout = Layout::parse("2d,2d 7d,3.5d 1d,0.5d", &table).unwrap();
-        let sight = sight(&table, &layout, 45_f64.to_radians());
-        let Meets::Cushion(mark) = sight.meets else { panic!("a ball is met") };
+        let aim_line = aim_line(&table, &layout, 45_f64.to_radians());
+        let AimTarget::Cushion(mark) = aim_line.target else { panic!("a ball is met") };
         // Two diamonds up are two to the right; the ball's centre stops a radius short of the cushion.
         assert!(mark.rail == Rail::Top && (mark.diamond - 4.0).abs() < 1e-9, "{mark:?}");
-        assert!((sight.end.y - table.reach().y).abs() < 1e-9 && sight.end.x < -0.5 * table.radius);
+        assert!((aim_line.end.y - table.reach().y).abs() < 1e-9 && aim_line.end.x < -0.5 * table.radius);
     }
 }
