@@ -14,7 +14,7 @@ use carom::{
     },
     storage::Places,
     table::{Layout, Table},
-    terminal::{App, Capabilities, Reel, Slot, TrainingReport},
+    terminal::{App, Capabilities, FollowSlot, Reel, TrainingReport},
 };
 use crossterm::event::KeyCode::{Char, Enter};
 
@@ -67,7 +67,7 @@ fn show(app: &mut App, place: &Path, table: &Table) -> Result<(), Box<dyn Error>
     let mut update = Follower::new(place).look().ok_or("nothing is to be seen of the run")?;
     let reel = update.examples.take().map(|examples| Reel::record(&examples, table));
     app.receive_training(TrainingReport::HasPolicy(place.to_owned(), true));
-    app.receive_training(TrainingReport::Followed(Slot::Main, place.to_owned(), Box::new(update)));
+    app.receive_training(TrainingReport::Followed(FollowSlot::Main, place.to_owned(), Box::new(update)));
     app.receive_training(TrainingReport::Recorded(place.to_owned(), reel.ok_or("the run has no shots to show")?));
     Ok(())
 }

@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use crate::{
     learning::run::request::Request,
-    terminal::{CalibrationTask, DrillTask, Job, Keeping, Launch, SettingsTask},
+    terminal::{CalibrationTask, CoachJob, DrillTask, Keeping, Launch, SettingsTask},
 };
 
 /// What the program around the app has to do.
 #[derive(Clone, Debug)]
 pub enum Effect {
     /// Ask the coach for a shot, or for a closer look at the job's own; the answers go to [`App::receive`](super::App::receive).
-    Ask(Box<Job>),
+    Ask(Box<CoachJob>),
     /// Start a process that trains; how it ends goes to [`App::receive_training`](super::App::receive_training), as do the answers to what follows.
     Train(Box<Launch>),
     /// Ask a run for something.

@@ -72,11 +72,11 @@ pub use tasks::{
     PracticeWorker,
     advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
     calibration::{CalibrationReport, CalibrationTask, Judged, Judging, KeptEntries},
-    drills::{AdviceTask, DrillReport, DrillTask, JudgedStroke, Loaded, ModelShot, Outcome, Stroke},
+    drills::{AdviceTask, AttemptOutcome, DrillReport, DrillTask, JudgedStroke, LoadedRecords, ModelShot, PlayTask},
     onlooker::{Onlooker, Seen, SeenTable},
-    recommender::{Answer, CoachNews, CoachWorker, Job},
+    recommender::{CoachAnswer, CoachJob, CoachNews, CoachWorker},
     reel::{Reel, ReplayShot},
-    training::{Failure, Keeping, Kept, Launch, Slot, Subscriptions, TrainingReport},
+    training::{FollowSlot, KeepOutcome, Keeping, Launch, Subscriptions, TrainerFailure, TrainingReport},
 };
 pub use terms::Terms;
 pub use ui::{

@@ -1,10 +1,10 @@
 //! Reports from the background, and their messages: sentences on the status line, refusals and failures as toasts.
 
-use crate::terminal::{Answer, App, CalibrationReport, DrillReport, DrillTask, Effect, PageId, TrainingReport};
+use crate::terminal::{App, CalibrationReport, CoachAnswer, DrillReport, DrillTask, Effect, PageId, TrainingReport};
 
 impl App {
     /// The coach has something to say. Late answers to cancelled questions are dropped.
-    pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
+    pub fn receive(&mut self, answer: CoachAnswer) -> Option<Effect> {
         let was_thinking = self.coach.spinner().is_some();
         let effect = self.coach.receive(answer);
         if was_thinking && self.coach.spinner().is_none() {

@@ -15,7 +15,7 @@ use crate::{
     printing::{self, FULL_VERSION, OneLine},
     storage::Places,
     terminal::{
-        Answer, App, CoachNews, Effect, SavedSession, TrainingReport,
+        App, CoachAnswer, CoachNews, Effect, SavedSession, TrainingReport,
         host::{events, guard::TerminalGuard, log, pace::Pace, showing::Showing},
         tasks::{Tasks, event::Event},
     },
@@ -76,7 +76,7 @@ const fn can_come_later(news: &Event) -> bool {
     matches!(
         news,
         Event::Training(TrainingReport::Followed(..) | TrainingReport::HasPolicy(..))
-            | Event::Answer(Answer { news: CoachNews::Better(_), .. })
+            | Event::Answer(CoachAnswer { news: CoachNews::Better(_), .. })
     )
 }
 

@@ -22,7 +22,7 @@ pub enum DrillTask {
     /// Find the model shot.
     Advise(Box<AdviceTask>),
     /// Play the next attempt of a session, and save it.
-    Play(Box<Stroke>),
+    Play(Box<PlayTask>),
     /// Find out how often the player makes a stroke that is not played.
     Judge(Box<JudgedStroke>),
     /// Save a session, in which something was noted or taken back; with the attempts that it had before.
@@ -73,7 +73,7 @@ pub struct AdviceTask {
 
 /// A stroke that is to be played.
 #[derive(Clone, Debug)]
-pub struct Stroke {
+pub struct PlayTask {
     /// The session so far.
     pub session: Session,
     /// What the player means.
@@ -116,7 +116,7 @@ pub struct ModelShot {
 
 /// What came of a stroke.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct AttemptOutcome {
     /// The session with this attempt.
     pub session: Session,
     /// What came of it.
@@ -129,7 +129,7 @@ pub struct Outcome {
 
 /// What the user has, read from the disk.
 #[derive(Clone, Debug)]
-pub struct Loaded {
+pub struct LoadedRecords {
     /// Sessions, the oldest first.
     pub sessions: Vec<Session>,
     /// Own positions.
@@ -144,11 +144,11 @@ pub struct Loaded {
 #[derive(Clone, Debug)]
 pub enum DrillReport {
     /// Of [`DrillTask::Load`].
-    Loaded(Box<Loaded>),
+    Loaded(Box<LoadedRecords>),
     /// Of [`DrillTask::Advise`]: with the question's number; `None` where no point was found.
     ModelShot(u64, Result<Option<ModelShot>, String>),
     /// Of [`DrillTask::Play`]: the session's identity, what came of it, and whether it could be saved.
-    Played(String, Result<Box<Outcome>, String>, Result<(), String>),
+    Played(String, Result<Box<AttemptOutcome>, String>, Result<(), String>),
     /// How often the player makes what was meant: the session's identity, the number of the attempt, the share.
     Judged(String, usize, f64),
     /// Of [`DrillTask::Judge`], with the question's number.

@@ -4,7 +4,7 @@ use crossterm::event::Event as TerminalEvent;
 
 use crate::{
     platform::Signal,
-    terminal::{Answer, CalibrationReport, DrillReport, Seen, SettingsReport, TrainingReport},
+    terminal::{CalibrationReport, CoachAnswer, DrillReport, Seen, SettingsReport, TrainingReport},
 };
 
 /// Something that the screen has to deal with.
@@ -17,7 +17,7 @@ pub enum Event {
     /// A signal.
     Signal(Signal),
     /// The coach has answered.
-    Answer(Answer),
+    Answer(CoachAnswer),
     /// Something has come of what the training screen wanted.
     Training(TrainingReport),
     /// Something else is seen of somebody else's table.

@@ -36,8 +36,8 @@ use crate::{
     },
     table::Table,
     terminal::{
-        CalibrationTask, CoachWorker, DrillTask, Failure, Job, Keeping, Launch, Reel, SettingsFile, SettingsTask, Slot,
-        Subscriptions, TrainingReport,
+        CalibrationTask, CoachJob, CoachWorker, DrillTask, FollowSlot, Keeping, Launch, Reel, SettingsFile,
+        SettingsTask, Subscriptions, TrainerFailure, TrainingReport,
         tasks::{event::Event, onlooker::Onlooker, polling::Poll, trainer::Trainer, worker::Worker},
     },
 };
@@ -58,7 +58,7 @@ pub struct Tasks {
     followed: [Option<Poll>; 2],
     shown: Option<Poll>,
     /// The coach's thread; like those below it starts with its first task.
-    coach: Option<Worker<Box<Job>>>,
+    coach: Option<Worker<Box<CoachJob>>>,
     /// The thread that plays strokes and writes files for the drills.
     practice: Option<Worker<DrillTask>>,
     /// The thread of the settings' file.
@@ -95,10 +95,10 @@ impl Tasks {
     ///
     /// # Errors
     /// A thread that could not be started.
-    pub fn ask(&mut self, job: Box<Job>) -> io::Result<bool> {
+    pub fn ask(&mut self, job: Box<CoachJob>) -> io::Result<bool> {
         let to_screen = self.to_screen.clone();
         let mut coach = CoachWorker::default();
-        let work = move |job: Box<Job>| {
+        let work = move |job: Box<CoachJob>| {
             if !job.cancel.load(Ordering::Relaxed) {
                 // A screen that is gone needs no answer.
                 coach.answer(&job, |answer| drop(to_screen.send(Event::Answer(answer))));
@@ -130,7 +130,7 @@ impl Tasks {
                 self.shown = Some(Poll::start("onlooker", FOLLOW_INTERVAL, self.to_screen.clone(), look)?);
             }
         }
-        for (n, slot) in Slot::ALL.into_iter().enumerate() {
+        for (n, slot) in FollowSlot::ALL.into_iter().enumerate() {
             if wanted.followed[n] != self.wanted.followed[n] {
                 self.followed[n] = None;
                 if let Some(folder) = wanted.followed[n].clone() {
@@ -148,8 +148,8 @@ impl Tasks {
         let poll = match news {
             Event::Shown(_) => &self.shown,
             Event::Training(TrainingReport::Runs(_)) => &self.list,
-            Event::Training(TrainingReport::Followed(Slot::Main, ..)) => &self.followed[0],
-            Event::Training(TrainingReport::Followed(Slot::Compared, ..)) => &self.followed[1],
+            Event::Training(TrainingReport::Followed(FollowSlot::Main, ..)) => &self.followed[0],
+            Event::Training(TrainingReport::Followed(FollowSlot::Compared, ..)) => &self.followed[1],
             _ => &None,
         };
         if let Some(poll) = poll {
@@ -234,7 +234,7 @@ impl Tasks {
     /// # Errors
     /// A thread that could not be started, here and below.
     pub fn train(&self, launch: Launch) -> io::Result<()> {
-        let (hand_over, started) = channel::<Result<Trainer, Failure>>();
+        let (hand_over, started) = channel::<Result<Trainer, TrainerFailure>>();
         let Launch { arguments, folder } = launch;
         self.spawn("trainer", move || {
             let failure = started.recv().ok()?.and_then(trainer::wait).err()?;
@@ -335,17 +335,17 @@ fn list(folder: PathBuf) -> impl FnMut() -> Option<Event> {
 /// # Errors
 /// A thread that could not be started.
 fn follow(
-    slot: Slot,
+    slot: FollowSlot,
     folder: PathBuf,
     to_screen: Sender<Event>,
 ) -> io::Result<impl FnMut() -> Option<Event> + Send + 'static> {
-    let recorder = if slot == Slot::Main { Some(recorder(folder.clone(), to_screen.clone())?) } else { None };
+    let recorder = if slot == FollowSlot::Main { Some(recorder(folder.clone(), to_screen.clone())?) } else { None };
     let mut follower = Follower::new(&folder);
     let (mut table, mut examples, mut had_policy) = (None, None, None);
     Ok(move || {
         let update = follower.look();
         // Reported first, so that a run that has just finished never seems to have no policy.
-        if slot == Slot::Main {
+        if slot == FollowSlot::Main {
             let has_policy = folder.join(POLICY).exists();
             if had_policy.replace(has_policy) != Some(has_policy) {
                 // A screen that is gone needs no news.

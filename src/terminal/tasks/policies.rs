@@ -8,7 +8,7 @@ use crate::{
         policy::kept::{self, KeepError},
         run::POLICY,
     },
-    terminal::{Keeping, Kept, tasks::training::NO_POLICY},
+    terminal::{KeepOutcome, Keeping, tasks::training::NO_POLICY},
 };
 
 /// The policy of the run in `folder`.
@@ -27,14 +27,14 @@ pub fn load(folder: &Path) -> Result<Arc<Policy>, String> {
 ///
 /// # Errors
 /// A sentence where there is none, or the copy cannot be written.
-pub fn keep(keeping: &Keeping) -> Result<Kept, String> {
+pub fn keep(keeping: &Keeping) -> Result<KeepOutcome, String> {
     let Keeping { from, folder, name, replace } = keeping;
     if !from.exists() {
         return Err(NO_POLICY.to_owned());
     }
     match kept::keep(folder, from, name, *replace) {
-        Ok(_) => Ok(Kept::Done),
-        Err(KeepError::Taken(_)) => Ok(Kept::Taken),
+        Ok(_) => Ok(KeepOutcome::Done),
+        Err(KeepError::Taken(_)) => Ok(KeepOutcome::Taken),
         Err(error) => Err(error.to_string()),
     }
 }

@@ -16,8 +16,8 @@ use crate::{
     },
     table::Table,
     terminal::{
-        AdviceTask, DrillReport, DrillTask, FilmReplay, JudgedStroke, Loaded, ModelShot, Outcome, Shot, Stroke,
-        tasks::event::Event,
+        AdviceTask, AttemptOutcome, DrillReport, DrillTask, FilmReplay, JudgedStroke, LoadedRecords, ModelShot,
+        PlayTask, Shot, tasks::event::Event,
     },
 };
 
@@ -171,8 +171,8 @@ impl PracticeWorker {
     }
 
     /// Plays a stroke. The attempt is on the disk before its result is reported; how good the stroke was comes after that.
-    fn play(&mut self, stroke: Stroke, reply: &mut dyn FnMut(DrillReport)) {
-        let Stroke { mut session, meant, with_hint, position } = stroke;
+    fn play(&mut self, stroke: PlayTask, reply: &mut dyn FnMut(DrillReport)) {
+        let PlayTask { mut session, meant, with_hint, position } = stroke;
         self.remember(&mut session);
         let place = session.position().ok().flatten();
         let rule = session.exercise().map(|exercise| exercise.rule);
@@ -196,7 +196,7 @@ impl PracticeWorker {
         let shot = (!played.miscue).then(|| Shot::new(&table, &layout, played.stroke, played.made, "player"));
         let shot = shot.and_then(Result::ok).map(Arc::new);
         let next = session.position().ok().flatten();
-        let outcome = Box::new(Outcome { session: session.clone(), played, shot, next });
+        let outcome = Box::new(AttemptOutcome { session: session.clone(), played, shot, next });
         reply(DrillReport::Played(session.id.clone(), Ok(outcome), saved));
         let share = chance(session.shooter(), rule, &table, &layout, &meant).rate;
         session.attempts[number].chance = Some(share);
@@ -229,7 +229,7 @@ fn estimated(sessions: &[Session]) -> Result<(Option<Skill>, String), String> {
     Ok((skill, sentence))
 }
 
-fn load(store: &Store) -> Loaded {
+fn load(store: &Store) -> LoadedRecords {
     let (sessions, positions, own) = (store.sessions(), store.positions(), store.own_skill());
     let mut troubles = sessions.notes;
     troubles.extend(positions.notes);
@@ -237,5 +237,5 @@ fn load(store: &Store) -> Loaded {
         troubles.push(error.to_string());
         None
     });
-    Loaded { sessions: sessions.items, positions: positions.items, skill: skill.map(|own| own.skill), troubles }
+    LoadedRecords { sessions: sessions.items, positions: positions.items, skill: skill.map(|own| own.skill), troubles }
 }

@@ -45,7 +45,7 @@ const ATTEMPTS: usize = 100;
 
 /// A question to the coach.
 #[derive(Clone, Debug)]
-pub struct Job {
+pub struct CoachJob {
     /// Tells this question's answers from those to earlier questions.
     pub id: u64,
     /// The table.
@@ -72,7 +72,7 @@ pub struct Job {
 
 /// What the coach says to a question.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub struct CoachAnswer {
     /// The question's number.
     pub id: u64,
     /// What it says.
@@ -113,10 +113,10 @@ impl CoachWorker {
     }
 
     /// Answers a question on this thread; `tell` hears everything as soon as it is known. A panic becomes a sentence.
-    pub fn answer(&mut self, job: &Job, mut tell: impl FnMut(Answer)) {
-        let mut tell = |news| tell(Answer { id: job.id, news });
+    pub fn answer(&mut self, job: &CoachJob, mut tell: impl FnMut(CoachAnswer)) {
+        let mut tell = |news| tell(CoachAnswer { id: job.id, news });
         if let Some((cue, attempts)) = &job.stroke {
-            let Job { table, layout, query, seed, .. } = job;
+            let CoachJob { table, layout, query, seed, .. } = job;
             let judged = || judge(query.shooter(), query.rule, table, layout, cue, attempts.clone(), *seed);
             // Where it fails, it is not known.
             if let Ok(made) = catch_unwind(AssertUnwindSafe(judged)) {
@@ -136,7 +136,7 @@ impl CoachWorker {
         tell(found.map_or_else(CoachNews::Refused, CoachNews::Advice));
     }
 
-    fn advice(&mut self, job: &Job, layout: &Layout, tell: &mut dyn FnMut(Proposal)) -> Result<Advice, String> {
+    fn advice(&mut self, job: &CoachJob, layout: &Layout, tell: &mut dyn FnMut(Proposal)) -> Result<Advice, String> {
         let CoachQuery { rule, skill, doubt, plan, jumps, first, .. } = job.query;
         let request = Request {
             rule,
@@ -173,9 +173,9 @@ impl CoachWorker {
     }
 
     /// Looks at a shot closely, then at the layout after it.
-    fn study(&mut self, job: &Job, cue: &CueInputs, tell: &mut dyn FnMut(CoachNews)) -> Option<Advice> {
+    fn study(&mut self, job: &CoachJob, cue: &CueInputs, tell: &mut dyn FnMut(CoachNews)) -> Option<Advice> {
         if let Some(found) = job.found.as_deref().filter(|_| !job.cancel.load(Ordering::Relaxed)) {
-            let Job { table, layout, query, .. } = job;
+            let CoachJob { table, layout, query, .. } = job;
             let why = why(query.shooter(), query.rule, table, layout, found, job.seed);
             // A reason that cannot be found is left out.
             if let Ok(why) = why {
@@ -194,7 +194,7 @@ impl CoachWorker {
     }
 
     /// The coach for the question's table, with its policy.
-    fn coach(&mut self, job: &Job) -> &Coach {
+    fn coach(&mut self, job: &CoachJob) -> &Coach {
         let fits =
             |(query, coach): &(CoachQuery, Coach)| *coach.table() == job.table && query.has_policy_of(&job.query);
         let known = self.coach.take().filter(fits).unwrap_or_else(|| {
@@ -210,7 +210,7 @@ impl CoachWorker {
 }
 
 /// What the coach has found, ready to be shown.
-fn proposals(job: &Job, layout: &Layout, found: Recommendation) -> Result<Advice, String> {
+fn proposals(job: &CoachJob, layout: &Layout, found: Recommendation) -> Result<Advice, String> {
     let proposal = |cue, solved, source: Source, made, risk, next| {
         let shot = Shot::new(&job.table, layout, cue, solved, source.to_string()).map_err(|error| error.to_string())?;
         Ok(Proposal { shot: Arc::new(shot), made, risk, next, is_early: false })
@@ -227,8 +227,8 @@ fn proposals(job: &Job, layout: &Layout, found: Recommendation) -> Result<Advice
 }
 
 /// Looks at a shot closely, which was recorded; breaks off between two parts where nobody waits any more.
-fn study(job: &Job, cue: &CueInputs, recording: &Recording) -> Option<ShotAnalysis> {
-    let Job { table, layout, query, .. } = job;
+fn study(job: &CoachJob, cue: &CueInputs, recording: &Recording) -> Option<ShotAnalysis> {
+    let CoachJob { table, layout, query, .. } = job;
     let CoachQuery { rule, skill, .. } = query;
     let sensitivity = Sensitivity::new(*rule, table, layout, query.shooter().doubts());
     let go_on = || (!job.cancel.load(Ordering::Relaxed)).then_some(());

@@ -9,7 +9,7 @@ use std::{
 
 use crate::{
     platform::{self, UNFINISHED},
-    terminal::Failure,
+    terminal::TrainerFailure,
 };
 
 /// Bytes at the end of what a process says in which its last sentence is looked for.
@@ -22,7 +22,7 @@ pub type Trainer = (Child, File);
 ///
 /// # Errors
 /// Where it cannot be started.
-pub fn start(arguments: &[OsString]) -> Result<Trainer, Failure> {
+pub fn start(arguments: &[OsString]) -> Result<Trainer, TrainerFailure> {
     let start = || {
         let program = std::env::current_exe()?;
         // What it says goes to a file that has no name. A pipe would break with the end of this screen, and a write to
@@ -33,7 +33,7 @@ pub fn start(arguments: &[OsString]) -> Result<Trainer, Failure> {
         // Signals of the terminal go to a group of processes: not to this one.
         Ok((platform::own_group(&mut command).spawn()?, said))
     };
-    start().map_err(|error: std::io::Error| Failure {
+    start().map_err(|error: std::io::Error| TrainerFailure {
         process: None,
         sentence: format!("training cannot be started: {error}"),
     })
@@ -43,10 +43,10 @@ pub fn start(arguments: &[OsString]) -> Result<Trainer, Failure> {
 ///
 /// # Errors
 /// Where it fails: with its own sentence where it says one.
-pub fn wait((mut process, said): Trainer) -> Result<(), Failure> {
+pub fn wait((mut process, said): Trainer) -> Result<(), TrainerFailure> {
     let failure = {
         let process = Some(process.id());
-        move |sentence| Failure { process, sentence }
+        move |sentence| TrainerFailure { process, sentence }
     };
     match process.wait() {
         // One that was stopped can go on, and its page says so.

@@ -20,14 +20,14 @@ pub const NO_POLICY: &str = "the run has no networks for the coach: they come wi
 
 /// Which of the two runs that can be followed at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Slot {
+pub enum FollowSlot {
     /// The one that is watched.
     Main,
     /// The one that it is compared with.
     Compared,
 }
 
-impl Slot {
+impl FollowSlot {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Main, Self::Compared];
 }
@@ -37,7 +37,7 @@ impl Slot {
 pub struct Subscriptions {
     /// The folder whose runs are listed.
     pub runs: Option<PathBuf>,
-    /// The runs that are followed, in the order of [`Slot::ALL`].
+    /// The runs that are followed, in the order of [`FollowSlot::ALL`].
     pub followed: [Option<PathBuf>; 2],
     /// The folder in which somebody else shows their table.
     pub shown: Option<PathBuf>,
@@ -62,7 +62,7 @@ impl Launch {
 
 /// How a process that trains has failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Failure {
+pub struct TrainerFailure {
     /// The process, where it could be started.
     pub process: Option<u32>,
     /// Why it has failed, in a sentence.
@@ -84,7 +84,7 @@ pub struct Keeping {
 
 /// What has come of keeping a policy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kept {
+pub enum KeepOutcome {
     /// It is kept.
     Done,
     /// The name is taken.
@@ -97,17 +97,17 @@ pub enum TrainingReport {
     /// The runs there are.
     Runs(Result<Listing, String>),
     /// News of the run in a folder that is followed.
-    Followed(Slot, PathBuf, Box<Update>),
+    Followed(FollowSlot, PathBuf, Box<Update>),
     /// The latest shots of the run in a folder, recorded.
     Recorded(PathBuf, Reel),
     /// The process that was to train in a folder has failed.
-    TrainerFailed(PathBuf, Failure),
+    TrainerFailed(PathBuf, TrainerFailure),
     /// Whether the run in a folder that is followed has a policy by now.
     HasPolicy(PathBuf, bool),
     /// A run was asked for something.
     Sent(Request, Result<(), String>),
     /// A policy was to be kept.
-    Kept(Keeping, Result<Kept, String>),
+    Kept(Keeping, Result<KeepOutcome, String>),
     /// The policy of the run in a folder.
     Policy(PathBuf, Result<Arc<Policy>, String>),
 }

@@ -7,7 +7,7 @@ use carom::{
     coach::{FirstMet, Skill},
     game::Rule,
     physics::CueInputs,
-    terminal::{Answer, CoachNews, CoachWorker, Settings, View},
+    terminal::{CoachAnswer, CoachNews, CoachWorker, Settings, View},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
@@ -48,7 +48,7 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
     let mut player = Player::new().press("Enter");
     let job = player.asked.take().expect("the coach is asked");
     let so_far = proposal(&job.table, &job.layout, OTHERS[0], 893);
-    player.app.receive(Answer { id: job.id, news: CoachNews::Better(so_far) });
+    player.app.receive(CoachAnswer { id: job.id, news: CoachNews::Better(so_far) });
     assert!(player.app.coach.shot().is_some());
     let player = player.press("d p Esc");
     assert_eq!(job.query.skill, Skill::EXPERT);
@@ -243,7 +243,7 @@ fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() 
     let mut told = Vec::new();
     worker.answer(&job, |answer| told.push(answer));
     assert!(told.len() > 1 && told[..told.len() - 1].iter().all(|one| matches!(one.news, CoachNews::Better(_))));
-    for Answer { id, news } in told {
+    for CoachAnswer { id, news } in told {
         player = player.tell(id, news);
     }
     let best = player.app.coach.proposal().unwrap().clone();
@@ -252,7 +252,7 @@ fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() 
     let mut told = Vec::new();
     worker.answer(&job, |answer| told.push(answer));
     assert_eq!(told.len(), 3, "why it leads, the closer look, and the next shot");
-    for Answer { id, news } in told {
+    for CoachAnswer { id, news } in told {
         player = player.tell(id, news);
     }
     assert!(player.text(120, 40).contains("Why: shot 2 ("), "{}", player.text(120, 40));
@@ -262,7 +262,7 @@ fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() 
     let mut told = Vec::new();
     job.cancel.store(true, Ordering::Relaxed);
     worker.answer(&job, |answer| told.push(answer));
-    assert!(matches!(&told[..], [Answer { news: CoachNews::Next(None), .. }]));
+    assert!(matches!(&told[..], [CoachAnswer { news: CoachNews::Next(None), .. }]));
 }
 
 #[test]
@@ -270,8 +270,8 @@ fn a_perfect_player_gets_the_first_point() {
     let player = Player::new().press("S S S S S Enter");
     let mut told = Vec::new();
     CoachWorker::unhurried(30_000).answer(&player.asked.clone().unwrap(), |answer| told.push(answer));
-    let [Answer { news: CoachNews::Advice(advice), .. }] = &told[..] else { panic!("{told:?}") };
+    let [CoachAnswer { news: CoachNews::Advice(advice), .. }] = &told[..] else { panic!("{told:?}") };
     assert!(advice.effort.unwrap().simulations < 1000 && advice.proposals[0].shot.solved);
-    let player = told.into_iter().fold(player, |player, Answer { id, news }| player.tell(id, news));
+    let player = told.into_iter().fold(player, |player, CoachAnswer { id, news }| player.tell(id, news));
     assert!(player.text(80, 24).contains("makes the point (networks"), "{}", player.text(80, 24));
 }

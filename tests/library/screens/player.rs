@@ -17,8 +17,9 @@ use carom::{
     storage::Places,
     table::{Layout, Table},
     terminal::{
-        Advice, AdviceTask, Answer, App, Capabilities, CoachNews, CoachWorker, Depth, DrillReport, DrillTask, Effect,
-        Glyphs, Job, ModelShot, PracticeWorker, Proposal, Reel, Settings, SettingsFile, Shot, Slot, TrainingReport,
+        Advice, AdviceTask, App, Capabilities, CoachAnswer, CoachJob, CoachNews, CoachWorker, Depth, DrillReport,
+        DrillTask, Effect, FollowSlot, Glyphs, ModelShot, PracticeWorker, Proposal, Reel, Settings, SettingsFile, Shot,
+        TrainingReport,
     },
 };
 use crossterm::event::KeyEvent;
@@ -47,10 +48,10 @@ pub const NEXT: &str = "-0.353,0.054,3.2,87.8,5.07";
 pub struct Player {
     pub app: App,
     /// The question to the coach, which a test answers when it likes.
-    pub asked: Option<Box<Job>>,
-    pub study: Option<Box<Job>>,
+    pub asked: Option<Box<CoachJob>>,
+    pub study: Option<Box<CoachJob>>,
     /// The question how often a stroke of the player's own is made.
-    pub judged: Option<Box<Job>>,
+    pub judged: Option<Box<CoachJob>>,
     /// The shot that the coach teaches in the drills; none by itself, since what it finds depends on how fast the machine is.
     pub model_shot: Option<&'static str>,
     pub copied: Vec<String>,
@@ -79,7 +80,7 @@ pub fn proposal(table: &Table, layout: &Layout, cue: &str, made: usize) -> Propo
 }
 
 /// The coach's advice on the opening position.
-pub fn advice(job: &Job) -> Advice {
+pub fn advice(job: &CoachJob) -> Advice {
     let proposal = |cue, made| proposal(&job.table, &job.layout, cue, made);
     let best = proposal(SHOT, 940);
     let others = OTHERS.into_iter().zip([893, 620]).map(|(cue, made)| proposal(cue, made));
@@ -166,7 +167,7 @@ impl Player {
 
     /// At a run that has played 1.2 of 5 million shots.
     pub fn watching(caps: Capabilities) -> Self {
-        Self::listing(caps).press("Enter").has_policy(true).update(Slot::Main, NAME, known()).quiet()
+        Self::listing(caps).press("Enter").has_policy(true).update(FollowSlot::Main, NAME, known()).quiet()
     }
 }
 
@@ -261,7 +262,7 @@ impl Player {
     }
 
     pub fn tell(mut self, id: u64, news: CoachNews) -> Self {
-        if let Some(effect) = self.app.receive(Answer { id, news }) {
+        if let Some(effect) = self.app.receive(CoachAnswer { id, news }) {
             self.take(effect);
         }
         self
@@ -284,7 +285,7 @@ impl Player {
     /// The closer look at the shot that is shown, by the real coach, but for the next shot, which is [`NEXT`].
     pub fn studied(mut self) -> Self {
         // Even if nobody waits for it any more.
-        let job = Job { cancel: Arc::default(), ..*self.study.take().expect("a closer look is wanted") };
+        let job = CoachJob { cancel: Arc::default(), ..*self.study.take().expect("a closer look is wanted") };
         let mut study = None;
         CoachWorker::unhurried(1).answer(&job, |answer| {
             if let CoachNews::Study(found) = answer.news {
@@ -303,11 +304,11 @@ impl Player {
     }
 
     /// News of a run, its shots recorded as the program does it.
-    pub fn update(self, slot: Slot, name: &str, mut update: Update) -> Self {
+    pub fn update(self, slot: FollowSlot, name: &str, mut update: Update) -> Self {
         let folder = Path::new(RUNS).join(name);
         let reel = update.examples.take().map(|examples| Reel::record(&examples, &Table::default()));
         let player = self.report(TrainingReport::Followed(slot, folder.clone(), Box::new(update)));
-        match reel.filter(|_| slot == Slot::Main) {
+        match reel.filter(|_| slot == FollowSlot::Main) {
             Some(reel) => player.report(TrainingReport::Recorded(folder, reel)),
             None => player,
         }
@@ -317,7 +318,7 @@ impl Player {
         let phase = if let Condition::Is(phase) = condition { phase } else { Phase::Training };
         let status = RunStatus { phase, reason: reason.map(str::to_owned), ..status() };
         let update = Update { condition: Some(condition), status: Some(status), ..Update::default() };
-        self.update(Slot::Main, NAME, update)
+        self.update(FollowSlot::Main, NAME, update)
     }
 
     pub fn has_policy(self, has_policy: bool) -> Self {

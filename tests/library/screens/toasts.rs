@@ -6,7 +6,7 @@ use super::{
     player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check, check_at},
     runs::{NAME, RUNS},
 };
-use carom::terminal::{CoachNews, Failure, TrainingReport};
+use carom::terminal::{CoachNews, TrainerFailure, TrainingReport};
 use ratatui::style::Color;
 
 /// At the coach, who has refused with sentences of this many words.
@@ -54,7 +54,7 @@ fn they_go_in_their_time_by_one_picture_and_answers_with_the_next_key() {
 #[test]
 fn what_fails_elsewhere_is_told_wherever_one_is_and_can_be_read_again() {
     let mut player = Player::new().press("F5");
-    let failure = Failure { process: None, sentence: "the disk is full".to_owned() };
+    let failure = TrainerFailure { process: None, sentence: "the disk is full".to_owned() };
     player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(NAME), failure));
     player.warns("the disk is full");
     assert_eq!(player.app.take_unwritten().len(), 1, "it goes to the log, once");
@@ -82,7 +82,7 @@ fn nothing_lies_over_the_page_of_messages() {
 fn what_fails_while_the_page_of_messages_is_open_is_told_there_once() {
     let count = |player: &Player, (width, height)| player.text(width, height).matches("the disk is full").count();
     let fail = |player: &mut Player| {
-        let failure = Failure { process: None, sentence: "the disk is full".to_owned() };
+        let failure = TrainerFailure { process: None, sentence: "the disk is full".to_owned() };
         player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(NAME), failure));
     };
     let mut open = Player::new().press("F6");

@@ -19,14 +19,17 @@ use carom::{
         },
     },
     table::Table,
-    terminal::{App, CoachWorker, Effect, Failure, Kept, KeyContext, Launch, Slot, TrainingContext, TrainingReport},
+    terminal::{
+        App, CoachWorker, Effect, FollowSlot, KeepOutcome, KeyContext, Launch, TrainerFailure, TrainingContext,
+        TrainingReport,
+    },
 };
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use proptest::prelude::*;
 use ratatui::layout::Size;
 
-fn failure(process: Option<u32>, sentence: &str) -> Failure {
-    Failure { process, sentence: sentence.to_owned() }
+fn failure(process: Option<u32>, sentence: &str) -> TrainerFailure {
+    TrainerFailure { process, sentence: sentence.to_owned() }
 }
 
 #[test]
@@ -85,7 +88,7 @@ fn a_new_run_is_filled_in_and_started() {
     assert_eq!(player.app.wanted().followed[0].as_deref(), Some(launch.folder.as_path()));
     let missing = Update { condition: Some(Condition::Missing), ..Update::default() };
     let failed = player
-        .report(TrainingReport::Followed(Slot::Main, launch.folder.clone(), Box::new(missing)))
+        .report(TrainingReport::Followed(FollowSlot::Main, launch.folder.clone(), Box::new(missing)))
         .report(TrainingReport::TrainerFailed(launch.folder.clone(), failure(Some(7), "the disk is full")));
     failed.says("the disk is full");
 }
@@ -157,7 +160,7 @@ fn every_condition_says_what_it_is_and_what_to_do() {
 fn what_is_wrong_with_the_files_is_said() {
     let notices = Some(vec!["metrics.jsonl has been emptied".to_owned(), "3 lines are no records".to_owned()]);
     let player = Player::watching(TRUE_COLOUR);
-    let player = player.update(Slot::Main, NAME, Update { notices, ..Update::default() });
+    let player = player.update(FollowSlot::Main, NAME, Update { notices, ..Update::default() });
     player.says("metrics.jsonl has been emptied; 3 lines are no records");
 }
 
@@ -195,7 +198,7 @@ fn a_run_is_compared_with_another() {
     assert_eq!(player.app.wanted().followed[1].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
     let mut other = known();
     other.records = (1..=250).map(record).collect();
-    let player = player.update(Slot::Compared, OTHER, other);
+    let player = player.update(FollowSlot::Compared, OTHER, other);
     check("compare", &player);
     player.says("success 0.874 after 5,000,000 shots");
     let player = player.press("c");
@@ -296,14 +299,14 @@ fn shots_that_were_seen_do_not_play_again_when_one_comes_back_to_them() {
     // What follows the run looks at all of it anew; a run that was stopped has measured itself after its last line.
     for after in [1_200_000, 1_210_000] {
         let news = || Update { begins: true, examples: Some(examples(after)), ..known() };
-        let seen = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, news()).quiet().press("F2 F4");
-        let again = seen.update(Slot::Main, NAME, news());
+        let seen = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, news()).quiet().press("F2 F4");
+        let again = seen.update(FollowSlot::Main, NAME, news());
         assert_eq!(again.app.frame_interval(), None, "{after}");
         // One that has gone on from before comes to the same number with other shots.
         let mut other = examples(1_100_000);
         other.shots.pop();
         let fresh = Update { begins: true, examples: Some(other), ..known() };
-        assert!(again.update(Slot::Main, NAME, fresh).app.frame_interval().is_some(), "{after}");
+        assert!(again.update(FollowSlot::Main, NAME, fresh).app.frame_interval().is_some(), "{after}");
     }
 }
 
@@ -313,7 +316,7 @@ fn a_run_whose_configuration_cannot_be_read_is_shown_all_the_same() {
         let notices = Some(vec!["config.json cannot be read; the charts are shown without it".to_owned()]);
         let update = Update { config: None, examples: None, notices, ..known() };
         let list = Player::listing(TRUE_COLOUR).press("Enter").has_policy(true);
-        list.update(Slot::Main, NAME, update)
+        list.update(FollowSlot::Main, NAME, update)
     };
     broken().shows(&["training ", "1 mean reward", "3 critic loss"]);
     broken().says("4 held-out reward");
@@ -331,7 +334,7 @@ fn the_coach_takes_the_bundled_weights_again() {
     let table = Table::default();
     let policy = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
     let config = Some(Box::new(config("three-cushion")));
-    let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, Update { config, ..Update::default() });
+    let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, Update { config, ..Update::default() });
     let player = player.report(TrainingReport::Policy(folder, Ok(Arc::new(policy))));
     let asked = |player: &Player| (player.app.coach.query.name().to_owned(), player.app.coach.query.rule);
     assert_eq!(asked(&player), (NAME.to_owned(), Rule::ThreeCushion));
@@ -345,7 +348,7 @@ fn the_coach_takes_the_bundled_weights_again() {
 #[test]
 fn a_reward_that_is_no_success_is_not_called_one() {
     let config = Some(Box::new(config("r1-difficulty")));
-    let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, Update { config, ..Update::default() });
+    let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, Update { config, ..Update::default() });
     player.says("4 held-out reward");
     let text = player.text(120, 40);
     assert!(!text.contains("success") && !text.contains("95 %") && !text.contains("point"), "{text}");
@@ -377,13 +380,13 @@ fn a_policy_is_kept_under_a_name() {
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     assert_eq!((keeping.folder.as_path(), keeping.name.as_str()), (Path::new("/policies"), "aq"));
     assert_eq!(keeping.from, Path::new(RUNS).join(NAME).join("policy.safetensors"));
-    let player = player.report(TrainingReport::Kept(*keeping, Ok(Kept::Taken)));
+    let player = player.report(TrainingReport::Kept(*keeping, Ok(KeepOutcome::Taken)));
     player.says("there are networks called aq already; replace them?");
     let mut player = player.press("y");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     assert!(keeping.replace);
     player
-        .report(TrainingReport::Kept(*keeping, Ok(Kept::Done)))
+        .report(TrainingReport::Kept(*keeping, Ok(KeepOutcome::Done)))
         .says("kept; use them by: carom recommend --policy aq");
 }
 
@@ -391,7 +394,7 @@ fn a_policy_is_kept_under_a_name() {
 fn a_name_that_is_taken_is_told_where_something_else_is_asked_meanwhile() {
     let mut player = Player::watching(TRUE_COLOUR).press("k Enter S");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
-    let player = player.report(TrainingReport::Kept(*keeping, Ok(Kept::Taken)));
+    let player = player.report(TrainingReport::Kept(*keeping, Ok(KeepOutcome::Taken)));
     player.warns("is not saved: there is another of this name");
     player.says("measure it, save it and end it?");
 }
@@ -403,7 +406,7 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
     let mut config = config("three-cushion");
     config.table = thesis.clone();
     let update = Update { config: Some(Box::new(config)), ..Update::default() };
-    let mut player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, update).press("w");
+    let mut player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, update).press("w");
     assert!(matches!(player.effects.pop(), Some(Effect::LoadPolicy(from)) if from == folder));
     let none = player.report(TrainingReport::Policy(folder.clone(), Err("the run has no policy".into())));
     none.says("the run has no policy");
@@ -451,7 +454,7 @@ fn numbers_that_change_keep_their_places() {
         let mut status = status();
         (status.shots, status.shots_per_second) = (shots, speed);
         let update = Update { status: Some(status), ..Update::default() };
-        let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, update);
+        let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, update);
         player.picture(120, 40).content().to_vec()
     };
     let (before, after) = (columns(1_200_000, 433.0), columns(1_200_433, 1298.0));
@@ -478,8 +481,8 @@ proptest! {
             player = match news {
                 0 => player.report(TrainingReport::Runs(Ok(listing()))),
                 1 => player.report(TrainingReport::Runs(Ok(Listing::default()))),
-                2 => player.update(Slot::Main, NAME, known()),
-                3 => player.update(Slot::Compared, OTHER, known()),
+                2 => player.update(FollowSlot::Main, NAME, known()),
+                3 => player.update(FollowSlot::Compared, OTHER, known()),
                 4 => player.condition(Condition::Died, None),
                 5 => player.condition(Condition::Is(Phase::Finished), None),
                 6 => player.report(TrainingReport::TrainerFailed(Path::new(RUNS).join(NAME), failure(None, "it failed"))),

@@ -7,7 +7,7 @@ use crate::{
     game::Point,
     table::{Layout, Table},
     terminal::{
-        CoachQuery, Effect, Job,
+        CoachJob, CoachQuery, Effect,
         pages::{Page, coach::CoachPage},
         shot::{
             OwnStroke, StrokeChange, WhatIf, aiming,
@@ -163,7 +163,7 @@ impl CoachPage {
         let job = self.job(None);
         let (seed, from) = advised.unwrap_or((job.seed, 0));
         let cancel = self.own_stroke.as_mut()?.what_if.ask(job.id);
-        Some(Effect::Ask(Box::new(Job { stroke: Some((cue, from..from + attempts)), seed, cancel, ..job })))
+        Some(Effect::Ask(Box::new(CoachJob { stroke: Some((cue, from..from + attempts)), seed, cancel, ..job })))
     }
 
     fn situation(&self) -> Situation<'_> {
@@ -178,7 +178,7 @@ mod tests {
         physics::CueInputs,
         statistics::SuccessRate,
         table::{Layout, Table},
-        terminal::{Advice, Answer, CoachAction as Action, CoachNews, Proposal, Shot},
+        terminal::{Advice, CoachAction as Action, CoachAnswer, CoachNews, Proposal, Shot},
     };
     use std::sync::atomic::Ordering;
 
@@ -193,12 +193,12 @@ mod tests {
         let made = Some(SuccessRate::new(890, 1000));
         let best = Proposal { shot, made, risk: None, next: None, is_early: false };
         let advice = Advice { proposals: vec![best], seed: 1, effort: None, found: None };
-        assert!(page.receive(Answer { id: job.id, news: CoachNews::Advice(advice) }).is_some(), "it is studied");
+        assert!(page.receive(CoachAnswer { id: job.id, news: CoachNews::Advice(advice) }).is_some(), "it is studied");
         page
     }
 
     /// The question that an action asks about the stroke.
-    fn asked(page: &mut CoachPage, action: Action) -> Box<Job> {
+    fn asked(page: &mut CoachPage, action: Action) -> Box<CoachJob> {
         match page.update(action) {
             Some(Effect::Ask(job)) if job.stroke.is_some() => job,
             other => panic!("{action:?}: {other:?}"),
@@ -217,7 +217,7 @@ mod tests {
         assert!(first.cancel.load(Ordering::Relaxed) && !second.cancel.load(Ordering::Relaxed));
         assert!((second.stroke.as_ref().unwrap().0.speed - 2.6).abs() < 1e-9);
         let tell = |page: &mut CoachPage, id: u64, made| {
-            assert!(page.receive(Answer { id, news: CoachNews::Judged(SuccessRate::new(made, 100)) }).is_none());
+            assert!(page.receive(CoachAnswer { id, news: CoachNews::Judged(SuccessRate::new(made, 100)) }).is_none());
             page.what_if().unwrap().made.map(|rate| rate.rate)
         };
         assert_eq!(tell(&mut page, first.id, 10), None);

@@ -11,7 +11,7 @@ use crate::{
     physics::CueInputs,
     table::BALLS,
     terminal::{
-        Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot, Terms,
+        Advice, AdviceState, CoachAnswer, CoachJob, CoachNews, CoachQuery, Effect, Effort, Mode, Proposal, Shot, Terms,
         pages::{
             Page,
             coach::{Choice, CoachPage, Snapshot},
@@ -47,15 +47,15 @@ impl CoachPage {
     pub(super) fn ask(&mut self) -> Effect {
         self.playback.pause();
         let former = self.advised().map_or_else(Vec::new, AdviceState::strokes);
-        let job = Job { former, ..self.job(None) };
+        let job = CoachJob { former, ..self.job(None) };
         let (cancel, query) = (Arc::clone(&job.cancel), job.query.clone());
         self.pending = Some(Pending { id: job.id, cancel, query, waited: 0.0, so_far: None });
         Effect::Ask(Box::new(job))
     }
 
-    pub(super) fn job(&mut self, shot: Option<CueInputs>) -> Job {
+    pub(super) fn job(&mut self, shot: Option<CueInputs>) -> CoachJob {
         self.questions += 1;
-        Job {
+        CoachJob {
             id: self.questions,
             table: self.table().clone(),
             layout: *self.layout(),
@@ -85,7 +85,7 @@ impl CoachPage {
     }
 
     /// The coach has something to say. Late answers to cancelled questions are dropped.
-    pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
+    pub fn receive(&mut self, answer: CoachAnswer) -> Option<Effect> {
         let names = self.cue_ball().names();
         let awaited = self.pending.as_mut().filter(|pending| pending.id == answer.id);
         let is_study = self.studying.as_ref().is_some_and(|studying| studying.id == answer.id);
@@ -186,7 +186,7 @@ impl CoachPage {
         }
         let shot = wanted?;
         let found = self.advised().and_then(AdviceState::unexplained).cloned();
-        let job = Job { found, ..self.job(Some(shot.cue)) };
+        let job = CoachJob { found, ..self.job(Some(shot.cue)) };
         self.studying = Some(Studying { id: job.id, cancel: Arc::clone(&job.cancel), shot });
         Some(Effect::Ask(Box::new(job)))
     }

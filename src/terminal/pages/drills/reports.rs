@@ -4,7 +4,7 @@ use crate::{
     coach::Skill,
     drills::{Attempt, Exercise, Library, Session},
     terminal::{
-        DrillContext, DrillReport, DrillTask, Loaded,
+        DrillContext, DrillReport, DrillTask, LoadedRecords,
         pages::{
             Page,
             drills::{Book, DrillsPage, Estimate, Question, Stage},
@@ -107,8 +107,8 @@ impl DrillsPage {
         Vec::new()
     }
 
-    fn loaded(&mut self, loaded: Loaded) {
-        let Loaded { sessions, positions, skill, troubles } = loaded;
+    fn loaded(&mut self, loaded: LoadedRecords) {
+        let LoadedRecords { sessions, positions, skill, troubles } = loaded;
         self.book = Book::new(sessions, troubles);
         self.take_own(positions);
         // A skill that was kept is played with, as long as no other was chosen.

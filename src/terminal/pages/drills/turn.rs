@@ -17,7 +17,7 @@ use crate::{
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
     table::{CueBall, Layout, Table},
     terminal::{
-        AdviceTask, DrillTask, ModelShot, Outcome, Shot, Stroke,
+        AdviceTask, AttemptOutcome, DrillTask, ModelShot, PlayTask, Shot,
         pages::drills::{
             Watched,
             aim_line::{AimLine, aim_line},
@@ -275,7 +275,7 @@ impl Turn {
     /// The result of the watched stroke, once it may be shown.
     pub fn verdict(&self, unit: LengthUnit) -> Option<Message> {
         let watched = self.watched().filter(|watched| watched.is_settled)?;
-        let Outcome { played, .. } = &watched.outcome;
+        let AttemptOutcome { played, .. } = &watched.outcome;
         let mut text = played.words(self.cue_ball, unit);
         if watched.is_by_coach() {
             text += " (the coach)";
@@ -331,7 +331,7 @@ impl Turn {
         self.stage = Stage::Waiting;
         self.with_hint |= self.shows_hint;
         self.shows_hint = false;
-        DrillTask::Play(Box::new(Stroke {
+        DrillTask::Play(Box::new(PlayTask {
             session: self.session.clone(),
             meant: *self.stroke(),
             with_hint: self.with_hint,
@@ -340,7 +340,7 @@ impl Turn {
     }
 
     /// The stroke was played.
-    pub(super) fn played(&mut self, outcome: Outcome) {
+    pub(super) fn played(&mut self, outcome: AttemptOutcome) {
         if outcome.session.id != self.session.id || !matches!(self.stage, Stage::Waiting) {
             return;
         }

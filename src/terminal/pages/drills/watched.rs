@@ -2,14 +2,14 @@
 
 use crate::{
     physics::CueInputs,
-    terminal::{Outcome, shot::Playback},
+    terminal::{AttemptOutcome, shot::Playback},
 };
 
 /// A stroke that was played.
 #[derive(Debug)]
 pub struct Watched {
     /// What came of it.
-    pub outcome: Outcome,
+    pub outcome: AttemptOutcome,
     /// What the player had meant.
     pub meant: CueInputs,
     /// How often the player makes that, as soon as it is known.

@@ -32,7 +32,7 @@ use crate::{
     storage::Places,
     table::Table,
     terminal::{
-        CoachQuery, Failure, Keeping, Kept, Slot, Subscriptions, TrainingContext, TrainingReport,
+        CoachQuery, FollowSlot, KeepOutcome, Keeping, Subscriptions, TrainerFailure, TrainingContext, TrainingReport,
         pages::Page,
         ui::{Message, TextField, Typed},
         words::taken_words,
@@ -154,8 +154,8 @@ impl TrainingPage {
     pub fn receive(&mut self, report: TrainingReport) -> Option<(Table, CoachQuery)> {
         match report {
             TrainingReport::Runs(found) => self.list.take(found),
-            TrainingReport::Followed(Slot::Main, folder, update) => self.followed(&folder, *update),
-            TrainingReport::Followed(Slot::Compared, folder, update) => {
+            TrainingReport::Followed(FollowSlot::Main, folder, update) => self.followed(&folder, *update),
+            TrainingReport::Followed(FollowSlot::Compared, folder, update) => {
                 let other = self.watch.as_mut().and_then(|watch| watch.other.as_mut());
                 if let Some(other) = other.filter(|other| other.run.folder == folder) {
                     other.run.apply(*update);
@@ -209,7 +209,7 @@ impl TrainingPage {
     }
 
     /// A process that was to train in `folder` has failed. That is nothing to worry about where another one trains there.
-    fn failed(&mut self, folder: &Path, failure: &Failure) {
+    fn failed(&mut self, folder: &Path, failure: &TrainerFailure) {
         let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder && watch.is_at_work());
         let at_work = watch.and_then(|watch| watch.own.run.status.as_ref()).map(|status| status.process);
         if at_work.is_some() && at_work != failure.process {
@@ -234,18 +234,18 @@ impl TrainingPage {
         }
     }
 
-    fn kept(&mut self, keeping: Keeping, outcome: Result<Kept, String>) {
+    fn kept(&mut self, keeping: Keeping, outcome: Result<KeepOutcome, String>) {
         let name = keeping.name;
         match outcome {
-            Ok(Kept::Done) => {
+            Ok(KeepOutcome::Done) => {
                 let call = shell_word(&name);
                 self.message = Some(Message::good(format!("kept; use them by: carom recommend --policy {call}")));
             }
             // A player who has left the run meanwhile, or is asked something else, is not asked any more, but told.
-            Ok(Kept::Taken) if self.page() == TrainingContext::Watch && self.question.is_none() => {
+            Ok(KeepOutcome::Taken) if self.page() == TrainingContext::Watch && self.question.is_none() => {
                 self.question = Some(Question::Replace(name));
             }
-            Ok(Kept::Taken) => self.message = Some(Message::warning(taken_words(&name))),
+            Ok(KeepOutcome::Taken) => self.message = Some(Message::warning(taken_words(&name))),
             Err(sentence) => self.message = Some(Message::warning(format!("{name} is not kept: {sentence}"))),
         }
     }
