@@ -26,7 +26,7 @@ pub struct Terms {
 impl Terms {
     /// The same after a change from `before` to `now`; what is neither of it stays.
     #[must_use]
-    pub fn after(self, [before, now]: [Self; 2]) -> Self {
+    pub fn with_change(self, [before, now]: [Self; 2]) -> Self {
         Self {
             rule: if self.rule == before.rule { now.rule } else { self.rule },
             skill: if self.skill == before.skill { now.skill } else { self.skill },

@@ -81,9 +81,9 @@ impl<'a> SavedSession<'a> {
         Terms { rule: self.rule, skill: self.skill, plan: self.plan, first: FirstMet::Any }
     }
 
-    /// The same after former sessions that were not gone on with, the latest first.
+    /// The same, followed by former sessions that were not gone on with, the latest first.
     #[must_use]
-    pub fn after(mut self, former: Cow<'a, [SavedSession<'static>]>) -> Self {
+    pub fn followed_by(mut self, former: Cow<'a, [SavedSession<'static>]>) -> Self {
         self.former = match former {
             Cow::Borrowed(former) => Cow::Borrowed(&former[..former.len().min(MOST_FORMER)]),
             Cow::Owned(mut former) => {
@@ -245,7 +245,7 @@ mod tests {
         };
         for number in 1..=9 {
             let former = SavedSession::load(&path).unwrap().map_or_else(Vec::new, SavedSession::with_former);
-            by(number).after(Cow::Borrowed(&former)).save(&path).unwrap();
+            by(number).followed_by(Cow::Borrowed(&former)).save(&path).unwrap();
         }
         let kept = SavedSession::load(&path).unwrap().unwrap().with_former();
         assert_eq!(kept, (1..=9).rev().take(1 + MOST_FORMER).map(by).collect::<Vec<_>>());

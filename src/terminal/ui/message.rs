@@ -45,9 +45,9 @@ impl Message {
         Self { tone: Tone::Warning, text: without_numbers(text.into()) }
     }
 
-    /// The same news after some other words.
+    /// The same news, with other words before it.
     #[must_use]
-    pub fn after(self, words: &str) -> Self {
+    pub fn prefixed(self, words: &str) -> Self {
         Self { text: format!("{words}: {}", self.text), ..self }
     }
 

@@ -88,7 +88,7 @@ fn status_line(app: &App, marked: Option<&Command>) -> Message {
             let reason = app.disabled_reason(command.when);
             let words = sentence(command, reason);
             let message = if reason.is_some() { Message::poor(words) } else { Message::plain(words) };
-            message.after(command.title)
+            message.prefixed(command.title)
         },
     )
 }

@@ -243,7 +243,7 @@ impl CoachPage {
         self.query.policy.clone_from(&present.policy);
         let before = self.query.terms();
         if let Some(change) = terms {
-            self.query = self.query.with(before.after(change));
+            self.query = self.query.with(before.with_change(change));
         }
         self.rest();
         self.say_terms(before, false);

@@ -219,7 +219,7 @@ impl CoachPage {
     /// where it ended, and those before it that were not gone on with, as far as that is somewhere else.
     pub fn offer(&mut self, last: Option<SavedSession<'static>>) {
         if let Some((last, set)) = last.as_ref().and_then(|last| Some((last, last.settings?))) {
-            self.query = self.query.with(self.of_settings.after([set, last.terms()]));
+            self.query = self.query.with(self.of_settings.with_change([set, last.terms()]));
         }
         self.of_start = self.query.terms();
         let is_elsewhere = |last: &SavedSession| {
@@ -259,7 +259,7 @@ impl CoachPage {
         } else {
             Cow::Owned([&others[..], &self.before].concat())
         };
-        Some(ended(practice).after(former))
+        Some(ended(practice).followed_by(former))
     }
 
     /// Whether anything has been done since the start.

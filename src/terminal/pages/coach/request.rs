@@ -200,7 +200,7 @@ impl CoachPage {
             self.message = Some(match chance(proposal, &advised.query) {
                 // Whose chance it is stands above the list, and one row is all there is.
                 Some(chance) => Message::good(format!("{words}: {chance}")),
-                None => news(proposal, None, &advised.query, names).after(&words),
+                None => news(proposal, None, &advised.query, names).prefixed(&words),
             });
         }
         self.leave_example();

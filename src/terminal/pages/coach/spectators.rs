@@ -137,7 +137,7 @@ impl CoachPage {
 
     /// What the status line says, with a word that others may look on where they may.
     pub(super) fn marked(&self, message: Message) -> Message {
-        if self.is_shown() { message.after(SHOWN) } else { message }
+        if self.is_shown() { message.prefixed(SHOWN) } else { message }
     }
 
     /// Shows the table of somebody else from now on.

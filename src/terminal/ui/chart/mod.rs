@@ -150,7 +150,7 @@ pub fn draw_chart(chart: &Chart, area: Rect, ui: &mut Ui) {
     }
     ui.buffer.set_style(area, ui.theme.text());
     let chart = &Chart { shots: sound(chart.shots), ..*chart };
-    title::draw_title(chart, area, ui);
+    title::draw_chart_title(chart, area, ui);
     let below = Rect { y: area.y + 1, height: area.height - 1, ..area };
     let labelled = below.width >= LEFT + LEAST_PLOT;
     let left = if labelled { LEFT } else { 0 };

@@ -41,7 +41,7 @@ struct Part {
 }
 
 /// Draws the row over a rule.
-pub fn draw_title(chart: &Chart, area: Rect, ui: &mut Ui) {
+pub fn draw_chart_title(chart: &Chart, area: Rect, ui: &mut Ui) {
     let width = usize::from(area.width);
     let rule = ui.caps.pick("─", "-");
     ui.buffer.set_stringn(area.x, area.y, rule.repeat(width), width, ui.theme.rule());

@@ -13,7 +13,7 @@ use crate::{
             Target,
             drills::{
                 DrillsPage,
-                view::{READABLE, best_run, draw_header, high_run, percent},
+                view::{READABLE, best_run, draw_header, high_run, percent_words},
             },
         },
         ui::{
@@ -184,7 +184,7 @@ fn about(drills: &DrillsPage, exercise: &Exercise, theme: &Theme) -> Vec<Paragra
     }
     match drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
         Some(score) => {
-            let rate = percent(score.rate.rate);
+            let rate = percent_words(score.rate.rate);
             let words = format!("you: {} of {}, {rate}{}", score.made, score.tried, best_run(score));
             add(words, theme.good(), false);
         }

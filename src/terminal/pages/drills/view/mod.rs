@@ -79,6 +79,6 @@ fn best_run(record: &Record) -> String {
 }
 
 /// A share as people say it, like `55 %`.
-fn percent(share: f64) -> String {
+fn percent_words(share: f64) -> String {
     format!("{} %", words::percent(share))
 }

@@ -9,7 +9,7 @@ use crate::{
     table::CueBall,
     terminal::{
         Capabilities, DrillAction, ModelShot,
-        pages::drills::{AimLine, AimTarget, ModelShotState, Turn, Watched, keys::EXERCISE, view::percent},
+        pages::drills::{AimLine, AimTarget, ModelShotState, Turn, Watched, keys::EXERCISE, view::percent_words},
         ui::{Ui, draw_lines, draw_title, pair, separator, spell, stroke_rows, wrap_by},
         words::{fixed, rail_name},
     },
@@ -155,7 +155,7 @@ fn told(turn: &Turn, stroke: &CueInputs, other: &CueInputs, units: Units) -> Opt
 fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -> String {
     let advice = &model_shot.advice;
     let sentence = model_shot.shot.words.sentence(turn.cue_ball, units);
-    let words = format!("{} makes {}: {sentence}", advisor(model_shot), percent(advice.chance.rate));
+    let words = format!("{} makes {}: {sentence}", advisor(model_shot), percent_words(advice.chance.rate));
     if turn.is_with_coach() {
         return spell(&words, caps);
     }
@@ -165,11 +165,11 @@ fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -
 
 /// How often the stroke is made, and the advised one.
 fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
-    let own = watched.chance.map_or_else(|| caps.pick("…", "...").to_owned(), percent);
+    let own = watched.chance.map_or_else(|| caps.pick("…", "...").to_owned(), percent_words);
     match &turn.model_shot {
         _ if watched.is_by_coach() => format!("The coach makes this {own}"),
         ModelShotState::Known(model_shot) => {
-            format!("Yours makes {own}, {} {}", advisor(model_shot), percent(model_shot.advice.chance.rate))
+            format!("Yours makes {own}, {} {}", advisor(model_shot), percent_words(model_shot.advice.chance.rate))
         }
         ModelShotState::Pending | ModelShotState::Missing => format!("Yours makes {own}"),
     }

@@ -11,7 +11,7 @@ use crate::{
     terminal::{
         pages::drills::{
             DrillsPage, Estimate, record_of,
-            view::{READABLE, draw_header, high_run, percent},
+            view::{READABLE, draw_header, high_run, percent_words},
         },
         ui::{
             Message, Ui,
@@ -157,7 +157,7 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
         };
         ui.buffer.set_string(inner.x + 1, y, started(session), ui.theme.faint());
         put(ui.buffer, ENDS[0].0, &format!("{}/{}", record.made, record.tried), ui.theme.text());
-        put(ui.buffer, ENDS[1].0, &percent(record.rate.rate), ui.theme.text());
+        put(ui.buffer, ENDS[1].0, &percent_words(record.rate.rate), ui.theme.text());
         put(ui.buffer, ENDS[2].0, &high_run(&record).map_or("-".to_owned(), |run| run.to_string()), ui.theme.text());
         let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2}"));
         put(ui.buffer, ENDS[3].0, &average, ui.theme.text());

@@ -7,7 +7,7 @@ use crate::{
     terminal::{
         pages::drills::{
             DrillsPage, Turn,
-            view::{draw_header, percent},
+            view::{draw_header, percent_words},
         },
         ui::{Message, Ui, draw_title, shorten, split, write_paragraphs, write_right},
     },
@@ -29,7 +29,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         let (sign, style) = if attempt.made { (signs[0], ui.theme.good()) } else { (signs[1], ui.theme.warning()) };
         write_right(ui.buffer, inner.x, inner.x + 3, y, &(n + 1).to_string(), ui.theme.faint());
         ui.buffer.set_string(inner.x + 4, y, sign, style);
-        let chance = attempt.chance.map_or(String::new(), percent);
+        let chance = attempt.chance.map_or(String::new(), percent_words);
         let room = usize::from(inner.width.saturating_sub(6 + 7));
         let title = shorten(&exercise.title, room, ui.caps);
         ui.buffer.set_stringn(inner.x + 6, y, title, room, ui.theme.text());

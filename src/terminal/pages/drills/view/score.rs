@@ -11,7 +11,7 @@ use crate::{
     terminal::{
         pages::drills::{
             DrillsPage, Turn,
-            view::{best_run, percent},
+            view::{best_run, percent_words},
         },
         ui::{Ui, draw_title, write_paragraphs},
         words::chance_words,
@@ -107,7 +107,7 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
     let (helped, unhelped): (Vec<_>, Vec<_>) = own.partition(|attempt| attempt.helped);
     if !helped.is_empty() {
         let share = helped.len() as f64 / (helped.len() + unhelped.len()) as f64;
-        lines.push(format!("{} of your attempts with a hint ({})", helped.len(), percent(share)));
+        lines.push(format!("{} of your attempts with a hint ({})", helped.len(), percent_words(share)));
     }
     lines
 }
