@@ -19,7 +19,7 @@ pub struct Point {
     /// Smallest, mean and largest finite value; `None` where there is no finite value.
     pub finite: Option<Span>,
     /// What else there was.
-    pub odd: NonFinite,
+    pub non_finite: NonFinite,
 }
 
 /// Finite values of a stretch.
@@ -53,7 +53,7 @@ impl Point {
     /// Successive lines, at least one, as one point.
     fn of(lines: &[Line]) -> Self {
         let mut span = Span { min: f64::INFINITY, mean: 0.0, max: f64::NEG_INFINITY, not_positive: 0 };
-        let (mut odd, mut finite) = (NonFinite::default(), 0.0);
+        let (mut non_finite, mut finite) = (NonFinite::default(), 0.0);
         // The sum of large values would overflow: it is one of shares.
         let share = 1.0 / lines.len() as f64;
         for &(_, value) in lines {
@@ -63,7 +63,7 @@ impl Point {
                 span.mean += value * share;
                 span.not_positive += u64::from(value <= 0.0);
             } else {
-                odd.count(value);
+                non_finite.count(value);
             }
         }
         let span = (finite > 0.0).then(|| {
@@ -71,7 +71,7 @@ impl Point {
             let mean = (span.mean / (finite * share)).clamp(span.min, span.max);
             Span { mean, ..span }
         });
-        Self { shots: (lines[0].0, lines[lines.len() - 1].0), finite: span, odd }
+        Self { shots: (lines[0].0, lines[lines.len() - 1].0), finite: span, non_finite }
     }
 }
 
@@ -134,11 +134,11 @@ impl History {
     }
 
     /// All values of a quantity that were not finite.
-    pub fn odd(&self, quantity: Quantity) -> NonFinite {
-        let mut odd = NonFinite::default();
+    pub fn non_finite(&self, quantity: Quantity) -> NonFinite {
+        let mut non_finite = NonFinite::default();
         let values = self.of(quantity).iter().map(|(_, value)| *value);
-        values.filter(|value| !value.is_finite()).for_each(|value| odd.count(value));
-        odd
+        values.filter(|value| !value.is_finite()).for_each(|value| non_finite.count(value));
+        non_finite
     }
 
     fn of(&self, quantity: Quantity) -> &[Line] {
@@ -197,8 +197,8 @@ mod tests {
         let history = history_of((0..600_000).map(|n| record(100 * n, reward(n), None)));
         let points = history.points(Quantity::Reward, ALL);
         assert!(points.len() <= MOST_POINTS && points.is_sorted_by(|one, next| one.shots.1 < next.shots.0));
-        let odd = NonFinite { nan: 1, above: 1, below: 1 };
-        assert_eq!((history.odd(Quantity::Reward), points[0].odd), (odd, odd));
+        let non_finite = NonFinite { nan: 1, above: 1, below: 1 };
+        assert_eq!((history.non_finite(Quantity::Reward), points[0].non_finite), (non_finite, non_finite));
         let peaks: Vec<_> = points.iter().filter(|point| point.finite.is_some_and(|span| span.max == 9.0)).collect();
         assert!(peaks.len() == 1 && (peaks[0].shots.0..=peaks[0].shots.1).contains(&12_345_600));
         // A part of them is drawn line by line again.
@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn a_run_that_went_on_from_earlier_begins_anew() {
         let history = history_of([100, 200, 300, 200, 250].map(|shots| record(shots, f64::NAN, Some(shots as f64))));
-        assert_eq!((history.best(), history.odd(Quantity::Reward).nan), (Some(250.0), 2));
+        assert_eq!((history.best(), history.non_finite(Quantity::Reward).nan), (Some(250.0), 2));
         let shots: Vec<_> = history.points(Quantity::Reward, ALL).iter().map(|point| point.shots.0).collect();
         assert_eq!(shots, [200, 250]);
         assert_eq!((history.last_of(Quantity::HeldOut), history.last_of(Quantity::Reward)), (Some(250.0), None));

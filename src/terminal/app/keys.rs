@@ -36,7 +36,7 @@ impl App {
         if (key.code, key.modifiers) == (KeyCode::Char('c'), KeyModifiers::CONTROL) {
             return self.update(Action::Quit);
         }
-        if self.is_blind() {
+        if self.is_too_small() {
             let refuse_help = |when| match when {
                 Condition::Help => Some(""),
                 Condition::Shell => self.no_shell(),
@@ -88,7 +88,7 @@ impl App {
     }
 
     /// Whether nothing could be seen of what a key does, for want of room.
-    pub(super) const fn is_blind(&self) -> bool {
+    pub(super) const fn is_too_small(&self) -> bool {
         !self.area.is_empty() && view::is_too_small(self.area)
     }
 
@@ -100,7 +100,7 @@ impl App {
 
     /// Text was pasted.
     pub fn paste(&mut self, text: &str) {
-        if self.is_blind() {
+        if self.is_too_small() {
             return;
         }
         self.input(Typed::Paste(text));

@@ -353,11 +353,11 @@ impl App {
     }
 
     /// What the program around has to find out as long as it is wanted; it goes to [`App::receive_training`] and [`CoachPage::see`].
-    pub fn wanted(&self) -> Subscriptions {
+    pub fn subscriptions(&self) -> Subscriptions {
         if let Some(followed) = self.coach.followed() {
             return Subscriptions { shown: Some(followed.folder.clone()), ..Subscriptions::default() };
         }
-        if self.screen == PageId::Training { self.training.wanted() } else { Subscriptions::default() }
+        if self.screen == PageId::Training { self.training.subscriptions() } else { Subscriptions::default() }
     }
 
     /// What others may see of the coach's table, while the player allows it.

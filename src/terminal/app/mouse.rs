@@ -24,7 +24,7 @@ impl App {
     }
 
     fn point(&mut self, event: MouseEvent) -> Option<Effect> {
-        if self.is_blind() {
+        if self.is_too_small() {
             return None;
         }
         match event.kind {

@@ -75,7 +75,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"auto\", \"true\", \"256\", \"16\", \"none\"",
         choices: || DEPTHS.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&DEPTHS, &settings.depth)),
-        set: |settings, value| put(&mut settings.depth, named(&DEPTHS, value)),
+        set: |settings, value| put(&mut settings.depth, lookup(&DEPTHS, value)),
     },
     Entry {
         group: "Looks",
@@ -84,7 +84,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"auto\", \"octant\", \"sextant\", \"half\", \"letters\"",
         choices: || GLYPHS.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&GLYPHS, &settings.glyphs)),
-        set: |settings, value| put(&mut settings.glyphs, named(&GLYPHS, value)),
+        set: |settings, value| put(&mut settings.glyphs, lookup(&GLYPHS, value)),
     },
     Entry {
         group: "Game",
@@ -185,7 +185,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"tips\", \"mm\"",
         choices: || TipUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&TipUnit::NAMED, &settings.units.tip)),
-        set: |settings, value| put(&mut settings.units.tip, named(&TipUnit::NAMED, value)),
+        set: |settings, value| put(&mut settings.units.tip, lookup(&TipUnit::NAMED, value)),
     },
     Entry {
         group: "Units",
@@ -194,7 +194,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"diamonds\", \"mm\"",
         choices: || PlaceUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&PlaceUnit::NAMED, &settings.units.place)),
-        set: |settings, value| put(&mut settings.units.place, named(&PlaceUnit::NAMED, value)),
+        set: |settings, value| put(&mut settings.units.place, lookup(&PlaceUnit::NAMED, value)),
     },
     Entry {
         group: "Units",
@@ -203,7 +203,7 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "\"metres\", \"feet\"",
         choices: || LengthUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&LengthUnit::NAMED, &settings.units.length)),
-        set: |settings, value| put(&mut settings.units.length, named(&LengthUnit::NAMED, value)),
+        set: |settings, value| put(&mut settings.units.length, lookup(&LengthUnit::NAMED, value)),
     },
 ];
 
@@ -248,7 +248,7 @@ fn one_of(value: &DeValue, accepted: &[f64]) -> Option<f64> {
     number(value, f64::MIN, f64::MAX).filter(|number| accepted.contains(number))
 }
 
-fn named<T: Copy>(names: &[(&str, T)], value: &DeValue) -> Option<T> {
+fn lookup<T: Copy>(names: &[(&str, T)], value: &DeValue) -> Option<T> {
     let text = value.as_str()?;
     names.iter().find(|(name, _)| *name == text).map(|(_, value)| *value)
 }

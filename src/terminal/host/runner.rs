@@ -105,7 +105,7 @@ impl Runner {
         self.draw()?;
         let mut pace = Pace::new(Instant::now());
         loop {
-            self.tasks.want(self.app.wanted())?;
+            self.tasks.subscribe(self.app.subscriptions())?;
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
             // A toast goes by itself: one picture more, and no other.
             let toast = self.app.toast_time().map(|left| self.ticked + Duration::from_secs_f64(left));

@@ -53,7 +53,7 @@ const LIST_INTERVAL: Duration = Duration::from_secs(2);
 #[derive(Debug)]
 pub struct Tasks {
     to_screen: Sender<Event>,
-    wanted: Subscriptions,
+    subscriptions: Subscriptions,
     list: Option<Poll>,
     followed: [Option<Poll>; 2],
     shown: Option<Poll>,
@@ -77,7 +77,7 @@ impl Tasks {
     pub fn new(to_screen: Sender<Event>) -> Self {
         Self {
             to_screen,
-            wanted: Subscriptions::default(),
+            subscriptions: Subscriptions::default(),
             list: None,
             followed: [None, None],
             shown: None,
@@ -111,35 +111,35 @@ impl Tasks {
     ///
     /// # Errors
     /// A thread that could not be started.
-    pub fn want(&mut self, wanted: Subscriptions) -> io::Result<()> {
-        if wanted == self.wanted {
+    pub fn subscribe(&mut self, subscriptions: Subscriptions) -> io::Result<()> {
+        if subscriptions == self.subscriptions {
             return Ok(());
         }
-        if wanted.runs != self.wanted.runs {
+        if subscriptions.runs != self.subscriptions.runs {
             // What is dropped stops.
             self.list = None;
-            if let Some(folder) = wanted.runs.clone() {
+            if let Some(folder) = subscriptions.runs.clone() {
                 self.list = Some(Poll::start("runs", LIST_INTERVAL, self.to_screen.clone(), list(folder))?);
             }
         }
-        if wanted.shown != self.wanted.shown {
+        if subscriptions.shown != self.subscriptions.shown {
             self.shown = None;
-            if let Some(folder) = wanted.shown.clone() {
+            if let Some(folder) = subscriptions.shown.clone() {
                 let mut onlooker = Onlooker::new(folder);
                 let look = move || onlooker.look().map(Event::Shown);
                 self.shown = Some(Poll::start("onlooker", FOLLOW_INTERVAL, self.to_screen.clone(), look)?);
             }
         }
         for (n, slot) in FollowSlot::ALL.into_iter().enumerate() {
-            if wanted.followed[n] != self.wanted.followed[n] {
+            if subscriptions.followed[n] != self.subscriptions.followed[n] {
                 self.followed[n] = None;
-                if let Some(folder) = wanted.followed[n].clone() {
+                if let Some(folder) = subscriptions.followed[n].clone() {
                     let caps = follow(slot, folder, self.to_screen.clone())?;
                     self.followed[n] = Some(Poll::start("follower", FOLLOW_INTERVAL, self.to_screen.clone(), caps)?);
                 }
             }
         }
-        self.wanted = wanted;
+        self.subscriptions = subscriptions;
         Ok(())
     }
 

@@ -59,7 +59,7 @@ fn the_newest_run_comes_first_and_the_mark_stays_at_its_run() {
     let mut more = listing();
     more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::Is(Phase::Training)));
     let player = player.report(TrainingReport::Runs(Ok(more))).press("Enter");
-    assert_eq!(player.app.wanted().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
+    assert_eq!(player.app.subscriptions().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn a_new_run_is_filled_in_and_started() {
     assert_eq!(arguments[..9], wanted);
     assert_eq!(arguments[9..], ["--seed", "2", "--from", &format!("{RUNS}/{NAME}"), "--run", folder]);
     assert!(folder.starts_with("/runs/20") && folder.ends_with("-ddpg-textbook-one-cushion-2"), "{folder}");
-    assert_eq!(player.app.wanted().followed[0].as_deref(), Some(launch.folder.as_path()));
+    assert_eq!(player.app.subscriptions().followed[0].as_deref(), Some(launch.folder.as_path()));
     let missing = Update { condition: Some(Condition::Missing), ..Update::default() };
     let failed = player
         .report(TrainingReport::Followed(FollowSlot::Main, launch.folder.clone(), Box::new(missing)))
@@ -195,14 +195,14 @@ fn a_run_is_compared_with_another() {
     // The nearest other run is marked.
     player.shows(&["compare with", NAME, OTHER, "Run 2 of 3", "Enter compare"]);
     let player = player.press("Enter");
-    assert_eq!(player.app.wanted().followed[1].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
+    assert_eq!(player.app.subscriptions().followed[1].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
     let mut other = known();
     other.records = (1..=250).map(record).collect();
     let player = player.update(FollowSlot::Compared, OTHER, other);
     check("compare", &player);
     player.says("success 0.874 after 5,000,000 shots");
     let player = player.press("c");
-    assert_eq!(player.app.wanted().followed[1], None);
+    assert_eq!(player.app.subscriptions().followed[1], None);
     let same = Player::watching(TRUE_COLOUR).press("c Up Enter");
     same.says("a run cannot be compared with itself");
     same.shows(&["compare with"]);
@@ -425,9 +425,9 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
 fn escape_goes_back_page_by_page_to_the_coach_or_to_the_shell() {
     let player = Player::watching(TRUE_COLOUR).press("c Esc Esc n Esc");
     assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Runs));
-    assert_eq!(player.app.wanted().followed, [None, None], "nobody watches any more");
+    assert_eq!(player.app.subscriptions().followed, [None, None], "nobody watches any more");
     let player = player.press("Esc");
-    assert_eq!((player.app.place(), player.app.wanted().runs), (KeyContext::Coach, None));
+    assert_eq!((player.app.place(), player.app.subscriptions().runs), (KeyContext::Coach, None));
     let mut alone = App::watching(TRUE_COLOUR, Some(Path::new(RUNS).join(NAME)), None).unwrap();
     assert_eq!(alone.place(), KeyContext::Training(TrainingContext::Watch));
     let escape = KeyEvent::from(KeyCode::Esc);

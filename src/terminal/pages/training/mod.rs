@@ -137,7 +137,7 @@ impl TrainingPage {
     }
 
     /// What has to be found out now.
-    pub fn wanted(&self) -> Subscriptions {
+    pub fn subscriptions(&self) -> Subscriptions {
         let lists = matches!(self.page(), TrainingContext::Runs | TrainingContext::Form | TrainingContext::Compare);
         let folder = |named: &Named| named.run.folder.clone();
         Subscriptions {

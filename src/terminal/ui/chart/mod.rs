@@ -47,7 +47,7 @@ pub struct Curve<'a> {
     /// The values in the order of their shots.
     pub points: &'a [Point],
     /// All values of the quantity that were not finite, which the title names.
-    pub odd: NonFinite,
+    pub non_finite: NonFinite,
     /// Whose they are.
     pub whose: SeriesId,
 }

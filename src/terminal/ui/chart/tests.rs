@@ -30,12 +30,12 @@ fn stretch(shots: (u64, u64), values: &[f64]) -> Point {
         max: finite.iter().copied().fold(f64::NEG_INFINITY, f64::max),
         not_positive: finite.iter().filter(|value| **value <= 0.0).count() as u64,
     };
-    let odd = NonFinite {
+    let non_finite = NonFinite {
         nan: count(|value| value.is_nan()),
         above: count(|value| **value == f64::INFINITY),
         below: count(|value| **value == f64::NEG_INFINITY),
     };
-    Point { shots, finite: (!finite.is_empty()).then(span), odd }
+    Point { shots, finite: (!finite.is_empty()).then(span), non_finite }
 }
 
 const BRAILLE: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
@@ -63,7 +63,7 @@ fn curve(points: &[Point], whose: SeriesId) -> Curve<'_> {
         above: sum.above + next.above,
         below: sum.below + next.below,
     };
-    Curve { points, odd: points.iter().map(|point| point.odd).fold(NonFinite::default(), add), whose }
+    Curve { points, non_finite: points.iter().map(|point| point.non_finite).fold(NonFinite::default(), add), whose }
 }
 
 fn draw(chart: &Chart, area: Rect, theme: &Theme, caps: Capabilities, buffer: &mut Buffer) {

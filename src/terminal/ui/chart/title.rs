@@ -107,7 +107,7 @@ fn right(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
         };
         let mut add = |need, text: String| parts.extend((!text.is_empty()).then_some(Part { need, text, style }));
         add(Need::NotPositive, not_positive_words(curve, chart, caps));
-        add(Need::NonFinite, odd_words(curve.odd, caps));
+        add(Need::NonFinite, non_finite_words(curve.non_finite, caps));
     }
     let own = chart.curves.iter().find(|curve| curve.whose == SeriesId::Own);
     let last = own.and_then(|own| own.points.iter().rfind(|point| point.shots.0 as f64 <= chart.shots.1));
@@ -120,7 +120,7 @@ fn right(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
 /// The last value, or what stands in its place.
 fn value(point: &Point, theme: &Theme, caps: Capabilities) -> (String, Style) {
     let infinity = caps.pick("∞", "inf");
-    match (point.finite, point.odd) {
+    match (point.finite, point.non_finite) {
         (Some(span), _) => (compact(span.mean), theme.text().fg(theme.curves[0])),
         (None, NonFinite { above: 1.., .. }) => (infinity.to_owned(), theme.warning()),
         (None, NonFinite { below: 1.., .. }) => (format!("-{infinity}"), theme.warning()),
@@ -129,9 +129,9 @@ fn value(point: &Point, theme: &Theme, caps: Capabilities) -> (String, Style) {
 }
 
 /// The values that are not finite, if there are any.
-fn odd_words(odd: NonFinite, caps: Capabilities) -> String {
+fn non_finite_words(non_finite: NonFinite, caps: Capabilities) -> String {
     let (infinity, times) = (caps.pick("∞", "inf"), caps.pick("×", "x"));
-    let counts = [("NaN", "", odd.nan), ("", infinity, odd.above), ("-", infinity, odd.below)];
+    let counts = [("NaN", "", non_finite.nan), ("", infinity, non_finite.above), ("-", infinity, non_finite.below)];
     let named = counts.into_iter().filter(|(_, _, count)| *count > 0);
     named.map(|(sign, name, count)| format!("{sign}{name} {times}{count}")).collect::<Vec<_>>().join(" ")
 }

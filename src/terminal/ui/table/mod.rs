@@ -66,7 +66,7 @@ pub struct TableView<'a> {
     /// The ball that lies on top of the others; marked while balls are placed.
     pub front: usize,
     /// Whether the paths of the object balls are left out, for something else that there is to see.
-    pub is_lean: bool,
+    pub cue_path_only: bool,
     /// Whether the cushions of the shot are numbered on the rails, and the corners with the diamonds that are counted to there.
     pub is_numbered: bool,
     /// What else is drawn, below the paths and the balls, the first lowest.
@@ -90,7 +90,7 @@ impl<'a> TableView<'a> {
             time: 0.0,
             is_moving: true,
             front: 0,
-            is_lean: false,
+            cue_path_only: false,
             is_numbered: true,
             spots: &[],
             note: None,

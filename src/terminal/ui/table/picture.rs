@@ -122,7 +122,7 @@ impl TablePicture<'_> {
         let absent: Vec<DVec2> =
             ghosts.iter().map(|ghost| ghost.place).chain(self.view.film.into_iter().flatten()).collect();
         let is_free = |place: DVec2| absent.iter().all(|other| other.distance(place) > GHOST_CLEAR * self.clear);
-        let balls = if self.view.is_lean { 1 } else { BALLS };
+        let balls = if self.view.cue_path_only { 1 } else { BALLS };
         for (ball, path) in shot.paths[..balls].iter().enumerate().rev() {
             let seen = path.iter().step_by(stride).enumerate();
             for (_, dot) in seen.filter(|(number, dot)| self.is_drawn(*number, dot) && is_free(dot.place)) {

@@ -80,7 +80,7 @@ impl PageView for CoachPage {
             other: self.what_if().and_then(|what_if| what_if.coach.as_deref()),
             other_name: COACH,
             // While the coach thinks each better shot would move them all.
-            is_lean: planned.is_some() || lesson.is_some() || self.spinner().is_some(),
+            cue_path_only: planned.is_some() || lesson.is_some() || self.spinner().is_some(),
             // Those of a system are there then.
             is_numbered: lesson.is_none(),
             spots: &spots,

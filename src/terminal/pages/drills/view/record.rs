@@ -43,7 +43,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     let [numbers, chart] = split(width, top);
     draw_numbers(rows, skill.as_ref(), scope, numbers, ui);
     let points = points(&sessions, scope);
-    let curves = [Curve { points: &points, odd: NonFinite::default(), whose: SeriesId::Own }];
+    let curves = [Curve { points: &points, non_finite: NonFinite::default(), whose: SeriesId::Own }];
     let tried = points.last().map_or(0, |point| point.shots.1);
     let chart_of = Chart {
         title: "made of 100, session by session",
@@ -125,7 +125,11 @@ fn points(sessions: &[&Session], scope: Option<&str>) -> Vec<Point> {
         before = last;
         let share = 100.0 * record.rate.rate;
         let finite = Values { min: share, mean: share, max: share, not_positive: u64::from(share <= 0.0) };
-        (record.tried > 0).then_some(Point { shots: (first, last), finite: Some(finite), odd: NonFinite::default() })
+        (record.tried > 0).then_some(Point {
+            shots: (first, last),
+            finite: Some(finite),
+            non_finite: NonFinite::default(),
+        })
     });
     shares.collect()
 }

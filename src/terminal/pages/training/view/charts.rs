@@ -39,9 +39,13 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
         let other = watch.other.as_ref().map(|other| points(&other.run, quantity, &range));
         let mut curves = Vec::new();
         if let (Some(other), Some(points)) = (&watch.other, &other) {
-            curves.push(Curve { points, odd: other.run.history.odd(quantity), whose: SeriesId::Other });
+            curves.push(Curve { points, non_finite: other.run.history.non_finite(quantity), whose: SeriesId::Other });
         }
-        curves.push(Curve { points: &own, odd: watch.own.run.history.odd(quantity), whose: SeriesId::Own });
+        curves.push(Curve {
+            points: &own,
+            non_finite: watch.own.run.history.non_finite(quantity),
+            whose: SeriesId::Own,
+        });
         let chart = Chart {
             title: &title,
             curves: &curves,
