@@ -54,7 +54,7 @@ pub use keymap::remap::Keys;
 pub use pages::{
     calibration::keys::{CalibrationAction, CalibrationCondition, CalibrationContext},
     coach::{
-        AdviceState, Followed, Mode, View,
+        AdviceState, Followed, InfoPanel, Mode,
         keys::{CoachAction, CoachCondition},
     },
     drills::keys::{DrillAction, DrillCondition, DrillContext},
@@ -128,7 +128,7 @@ fn with_what_was_left(app: App, places: &Places) -> App {
     let last = SavedSession::load_or_put_aside(&places.last);
     let draft = StrokeDraft::read_or_put_aside(&places.draft);
     let notices = [last.as_ref().err().cloned(), draft.as_ref().err().cloned()];
-    let app = app.with_last(last.unwrap_or_default()).with_draft(draft.unwrap_or_default());
+    let app = app.with_saved_session(last.unwrap_or_default()).with_draft(draft.unwrap_or_default());
     notices.iter().fold(app.with_own_skill(own.map(|own| own.skill)), |app, notice| app.with_notice(notice.as_deref()))
 }
 

@@ -19,7 +19,7 @@ impl App {
             return None;
         }
         let effect = self.take_key(key);
-        self.gather(true);
+        self.collect_toasts(true);
         effect
     }
 
@@ -104,7 +104,7 @@ impl App {
             return;
         }
         self.input(Typed::Paste(text));
-        self.gather(true);
+        self.collect_toasts(true);
     }
 
     /// Takes what was typed or pasted where text is typed; `false` where none is, or the key means something else.

@@ -8,8 +8,8 @@ pub mod document;
 pub mod key_context;
 mod keys;
 mod mouse;
-mod news;
 pub mod palette_keys;
+mod reports;
 mod settings;
 mod tabs;
 mod view;
@@ -210,7 +210,7 @@ impl App {
 
     /// The same program with the way back to where the last session ended.
     #[must_use]
-    pub fn with_last(mut self, last: Option<SavedSession<'static>>) -> Self {
+    pub fn with_saved_session(mut self, last: Option<SavedSession<'static>>) -> Self {
         self.coach.offer(last);
         self
     }
@@ -235,10 +235,10 @@ impl App {
     }
 
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
-    pub fn last(&self) -> Option<SavedSession<'_>> {
+    pub fn saved_session(&self) -> Option<SavedSession<'_>> {
         // An exam is gone on with whatever was done after it.
         let is_open = |session: &&Session| self.screen == PageId::Drills || session.is_exam();
-        self.coach.last(self.drills.unfinished().filter(is_open))
+        self.coach.saved_session(self.drills.unfinished().filter(is_open))
     }
 
     /// Says what has changed since the user was here before.

@@ -19,7 +19,7 @@ impl App {
     /// The mouse was used somewhere on the screen that was drawn last.
     pub fn mouse(&mut self, event: MouseEvent) -> Option<Effect> {
         let effect = self.point(event);
-        self.gather(true);
+        self.collect_toasts(true);
         effect
     }
 

@@ -29,7 +29,7 @@ impl App {
             let said = format!("you now play on {}{long}", table.name);
             self.calibration.message = Some(Message::good(said));
         }
-        self.gather(false);
+        self.collect_toasts(false);
         effect
     }
 

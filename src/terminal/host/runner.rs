@@ -155,7 +155,7 @@ impl Runner {
     /// When something is to be written down for the next session, if there is anything new.
     fn forgets(&self) -> Option<Instant> {
         let (before, when) = &self.remembered;
-        (self.app.last() != *before).then(|| *when + REMEMBERED)
+        (self.app.saved_session() != *before).then(|| *when + REMEMBERED)
     }
 
     /// Writes down what the next session may go on from, at the end and now and then: a crash costs two seconds of it.
@@ -164,7 +164,7 @@ impl Runner {
         if !at_the_end && when.elapsed() < REMEMBERED {
             return;
         }
-        let last = self.app.last();
+        let last = self.app.saved_session();
         if last == *before {
             self.remembered.1 = Instant::now();
             return;

@@ -74,7 +74,7 @@ fn whoever_looks_on_sees_the_same_table_and_shot_and_cannot_touch_them() {
         let shown = player.app.shown_table().unwrap();
         app.coach.see(seen(&shown));
         assert_eq!(
-            (app.place(), app.coach.layout(), app.last()),
+            (app.place(), app.coach.layout(), app.saved_session()),
             (KeyContext::Follow, player.app.coach.layout(), None)
         );
         for size in SIZES {

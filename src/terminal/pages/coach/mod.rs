@@ -85,7 +85,7 @@ impl Snapshot {
 
 /// What the panel beside the shot's tells; see the screen for what goes with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum View {
+pub enum InfoPanel {
     /// The shot in words before the stroke; where the balls lie while they are placed, and how they move as it plays.
     #[default]
     Shot,
@@ -97,7 +97,7 @@ pub enum View {
     Plan,
 }
 
-impl View {
+impl InfoPanel {
     /// The one after it; after the last the first.
     const fn next(self) -> Self {
         match self {
@@ -126,7 +126,7 @@ pub struct CoachPage {
     /// The user's own skill, where one is kept.
     pub own: Option<Skill>,
     /// What the panels show.
-    pub view: View,
+    pub view: InfoPanel,
     /// Whether the shot is told in the thesis' numbers instead of a player's.
     pub is_in_numbers: bool,
     /// Whether all events are listed; else contacts only.
@@ -186,7 +186,7 @@ impl CoachPage {
             message: None,
             query: CoachQuery::default(),
             own: None,
-            view: View::default(),
+            view: InfoPanel::default(),
             is_in_numbers: false,
             has_all_events: false,
             is_from_side: false,
@@ -240,7 +240,7 @@ impl CoachPage {
 
     /// What the next session may go on from, with what is practised or the exam that waits to be gone on with; `None` while
     /// nothing is and the balls lie as at the start.
-    pub fn last<'a>(&'a self, practised: Option<&'a Session>) -> Option<SavedSession<'a>> {
+    pub fn saved_session<'a>(&'a self, practised: Option<&'a Session>) -> Option<SavedSession<'a>> {
         let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
         let is_begun = self.is_begun() || practised.is_some() || !self.left_exams.is_empty();
         if self.followed().is_some() || !is_begun {

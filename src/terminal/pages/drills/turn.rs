@@ -264,7 +264,7 @@ impl Turn {
     }
 
     /// The session as far as it may be shown.
-    pub fn told(&self) -> Session {
+    pub fn settled_session(&self) -> Session {
         let mut session = self.session.clone();
         if self.is_open() {
             session.undo();

@@ -41,7 +41,7 @@ fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
 #[test]
 fn an_exam_that_was_left_is_there_at_the_next_start_too() {
     let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter Esc y F2 Right");
-    let practice = left.app.last().and_then(|last| last.practice.map(|session| session.attempts.len()));
+    let practice = left.app.saved_session().and_then(|last| last.practice.map(|session| session.attempts.len()));
     assert_eq!(practice, Some(1));
 }
 
@@ -51,7 +51,7 @@ fn exams_that_were_left_or_are_open_are_all_gone_on_with() {
         (0..exercises).fold(player.press("e Enter"), |player, _| player.press("Space Enter Enter"))
     };
     let attempts = |player: &Player| {
-        let sessions = player.app.last().unwrap().into_owned().with_former();
+        let sessions = player.app.saved_session().unwrap().into_owned().with_former();
         sessions.iter().filter_map(|one| one.practice.as_ref().map(|exam| exam.attempts.len())).collect::<Vec<_>>()
     };
     // On another page than its own, too, an exam is under way.
@@ -79,7 +79,7 @@ fn an_exam_that_has_not_begun_is_left_without_a_question() {
 fn an_exam_of_which_only_the_first_page_was_seen_has_not_begun() {
     for keys in ["e", "e Enter"] {
         let seen = Player::at_library(TRUE_COLOUR, &[], &[]).press(keys);
-        assert!(seen.app.last().is_none_or(|last| last.practice.is_none()), "{keys}");
+        assert!(seen.app.saved_session().is_none_or(|last| last.practice.is_none()), "{keys}");
     }
 }
 
@@ -122,9 +122,9 @@ fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
 fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
     let place = |player: &Player| *player.app.coach.layout();
     let next = |player: &Player| {
-        let last = player.app.last().map(SavedSession::into_owned);
+        let last = player.app.saved_session().map(SavedSession::into_owned);
         let mut next = Player::new();
-        next.app = next.app.with_last(last);
+        next.app = next.app.with_saved_session(last);
         next
     };
     let first = Player::new().press("r");
@@ -160,7 +160,7 @@ fn an_open_run_is_given_up_only_on_demand_and_gone_on_with_where_it_was_left() {
     let left = run.press("Esc");
     assert_eq!(left.app.place(), LIBRARY);
     left.says("what you have begun is kept; Enter on the exercise goes on with it");
-    assert_eq!(left.app.last().and_then(|last| last.practice.map(|run| run.attempts.len())), Some(1));
+    assert_eq!(left.app.saved_session().and_then(|last| last.practice.map(|run| run.attempts.len())), Some(1));
     let on = left.press("Enter");
     on.says("run of 5: it goes on here after 1 played");
     let played = on.press("Space Enter Enter");

@@ -11,9 +11,9 @@ use crate::screens::player::{Player, TRUE_COLOUR};
 #[test]
 fn nothing_is_remembered_before_something_was_done_and_then_all_of_it() {
     let player = Player::new();
-    assert!(player.app.last().is_none());
+    assert!(player.app.saved_session().is_none());
     let player = player.press("Right R S x");
-    let last = player.app.last().unwrap();
+    let last = player.app.saved_session().unwrap();
     assert_eq!((last.layout, &*last.table), (*player.app.coach.layout(), player.app.coach.table()));
     assert_eq!((last.rule, last.cue_ball), (Rule::OneCushion, player.app.page().cue_ball()));
     assert_ne!(last.skill, Skill::EXPERT);
@@ -21,25 +21,25 @@ fn nothing_is_remembered_before_something_was_done_and_then_all_of_it() {
     let saved = last.clone().into_owned();
     assert_eq!(saved, last, "what is written is what was compared");
     let moved = player.press("Right");
-    assert_ne!(moved.app.last(), Some(saved.clone()));
-    assert_eq!(moved.press("u").app.last(), Some(saved.clone()));
+    assert_ne!(moved.app.saved_session(), Some(saved.clone()));
+    assert_eq!(moved.press("u").app.saved_session(), Some(saved.clone()));
 }
 
 #[test]
 fn what_is_practised_is_remembered_as_long_as_it_is_on_the_screen() {
     let player = Player::practising(TRUE_COLOUR).press("m");
-    let saved = player.app.last().unwrap().into_owned();
+    let saved = player.app.saved_session().unwrap().into_owned();
     assert_eq!(saved.practice.as_ref().map(|session| session.attempts.len()), Some(1));
     let noted = player.press("n");
-    assert_ne!(noted.app.last(), Some(saved.clone()));
-    assert!(noted.press("F2").app.last().is_none(), "the coach's table is as at the start");
+    assert_ne!(noted.app.saved_session(), Some(saved.clone()));
+    assert!(noted.press("F2").app.saved_session().is_none(), "the coach's table is as at the start");
 }
 
 /// The next start after `player` has left, with this text in the settings' file.
 fn next(player: &Player, settings: &str) -> Player {
-    let last = player.app.last().map(SavedSession::into_owned);
+    let last = player.app.saved_session().map(SavedSession::into_owned);
     let mut next = Player::with_settings(TRUE_COLOUR, settings);
-    next.app = next.app.with_last(last);
+    next.app = next.app.with_saved_session(last);
     next
 }
 
@@ -53,7 +53,7 @@ fn rule_player_and_plan_are_at_the_next_start_as_they_were_left_but_for_what_was
     assert_eq!(terms(&second), left);
     second.is_silent_on("c goes on");
     assert_eq!(second.app.coach.layout(), Player::new().app.coach.layout());
-    assert!(second.app.last().is_none(), "the file stays as it is");
+    assert!(second.app.saved_session().is_none(), "the file stays as it is");
     // The settings go before what was left, where they have changed since, and each by itself.
     let set = next(&chosen, "skill = \"club\"");
     assert_eq!(terms(&set), Terms { skill: Skill::CLUB, ..left });

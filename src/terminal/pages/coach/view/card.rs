@@ -16,7 +16,7 @@ use crate::{
             CoachPage,
             view::{
                 shot::WIDE,
-                told::{place_along, to_hundredths},
+                words::{place_along, to_hundredths},
             },
         },
         ui::{Ui, columns, draw_title, spell},

@@ -12,7 +12,7 @@ mod own_stroke;
 mod panes;
 mod plan;
 mod shot;
-mod told;
+mod words;
 
 use glam::DVec2;
 use ratatui::layout::{Margin, Position, Rect};
@@ -21,7 +21,7 @@ use crate::{
     coach::words::TipUnit,
     table::BALLS,
     terminal::{
-        AdviceState, Capabilities, Mapping, Mode, Shot, View,
+        AdviceState, Capabilities, InfoPanel, Mapping, Mode, Shot,
         pages::{
             Asked, PageArea, PageView, Target,
             coach::{
@@ -39,7 +39,7 @@ use crate::{
                     panes::Panes,
                     plan::{draw_plan, plan_spots},
                     shot::{draw_proposal, draw_shot},
-                    told::draw_told,
+                    words::draw_told,
                 },
             },
         },
@@ -64,7 +64,7 @@ impl PageView for CoachPage {
         let profile = self.profile();
         let (panes, side) = panes(self, area.screen);
         let choice = self.shown().map(AdviceState::choice);
-        let planned = choice.filter(|_| self.view == View::Plan && self.what_if().is_none());
+        let planned = choice.filter(|_| self.view == InfoPanel::Plan && self.what_if().is_none());
         let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
         let lesson = self.lesson.as_ref();
         if let Some(lesson) = lesson {
@@ -125,7 +125,7 @@ impl PageView for CoachPage {
         if side.contains(at) {
             return None;
         }
-        let (_, panel) = views(self.view, &panes).find(|(view, _)| *view == View::Chances)?;
+        let (_, panel) = views(self.view, &panes).find(|(view, _)| *view == InfoPanel::Chances)?;
         let advised = self.shown().filter(|_| panel.contains(at) && self.what_if().is_none())?;
         choice_at(advised, panel, at.y).map(Target::Shot)
     }
@@ -134,7 +134,7 @@ impl PageView for CoachPage {
 /// Where the kiss lies in wait that spoils most strokes, and how many, before the shot that it is known of is played.
 fn kiss_note(coach: &CoachPage) -> Option<(DVec2, String)> {
     let advised = coach.shown().filter(|advised| advised.chosen == 0 && coach.what_if().is_none());
-    let kiss = advised.filter(|_| coach.told().is_some() && coach.view == View::Shot)?.why.as_ref()?.kiss?;
+    let kiss = advised.filter(|_| coach.told().is_some() && coach.view == InfoPanel::Shot)?.why.as_ref()?.kiss?;
     let names = coach.cue_ball().names();
     let balls = match kiss.balls {
         [0, other] | [other, 0] => format!("kiss with {}", names[other]),
@@ -158,7 +158,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
         draw_own_stroke(coach, what_if, panes, ui);
         return false;
     }
-    let told = coach.told().filter(|_| chosen == View::Shot);
+    let told = coach.told().filter(|_| chosen == InfoPanel::Shot);
     let is_beside = panes.is_beside();
     // Before the stroke words have the room of what only tells later, or tells the same.
     let is_wide = !is_beside && !coach.is_in_numbers;
@@ -170,7 +170,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
         };
         draw_told(coach, told, area, ui)
     });
-    let explained = coach.shown().filter(|_| is_beside && chosen == View::Chances && coach.told().is_some());
+    let explained = coach.shown().filter(|_| is_beside && chosen == InfoPanel::Chances && coach.told().is_some());
     let is_explained = explained.is_some_and(|advised| draw_why(advised, panes.events, ui));
     // Where all panels stand below, the chances among them say it.
     let says_why = has_told_why || is_explained || !is_beside;
@@ -181,7 +181,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
             None => draw_info(coach, view, !has_told_why && !is_explained, area, ui),
         }
     }
-    if let (View::Margins, Some(advised), Some(shot)) = (chosen, coach.shown(), shot)
+    if let (InfoPanel::Margins, Some(advised), Some(shot)) = (chosen, coach.shown(), shot)
         && let Some(study) = &advised.choice().study
     {
         let unit = coach.units.length;
@@ -224,8 +224,9 @@ fn draw_listed(coach: &CoachPage, shot: Option<&Shot>, time: Option<f64>, area: 
 }
 
 /// The chosen view and the others that there is room for, each with its panel.
-fn views(chosen: View, panes: &Panes) -> impl Iterator<Item = (View, Rect)> {
-    let others = [View::Chances, View::Margins, View::Plan].into_iter().filter(move |view| *view != chosen);
+fn views(chosen: InfoPanel, panes: &Panes) -> impl Iterator<Item = (InfoPanel, Rect)> {
+    let others =
+        [InfoPanel::Chances, InfoPanel::Margins, InfoPanel::Plan].into_iter().filter(move |view| *view != chosen);
     std::iter::once((chosen, panes.info)).chain(others.zip(panes.more).filter(|(_, area)| !area.is_empty()))
 }
 
@@ -235,7 +236,7 @@ pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
 }
 
 /// Draws what one of the views tells; the chances say why the first shot leads, if nothing else does.
-fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut Ui) {
+fn draw_info(coach: &CoachPage, view: InfoPanel, says_why: bool, area: Rect, ui: &mut Ui) {
     let advised = coach.shown();
     let is_followed = coach.followed().is_some();
     let choice = advised.map(AdviceState::choice);
@@ -248,20 +249,20 @@ fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut
         (None, None) => "no shot yet; Enter asks the coach",
     };
     match view {
-        View::Shot => draw_balls(coach, area, ui),
-        View::Chances => draw_chances(advised, empty, says_why, area, ui),
-        View::Margins => {
+        InfoPanel::Shot => draw_balls(coach, area, ui),
+        InfoPanel::Chances => draw_chances(advised, empty, says_why, area, ui),
+        InfoPanel::Margins => {
             let study = choice.and_then(|choice| choice.study.as_deref());
             let shot = choice.map(|choice| &*choice.proposal.shot);
             draw_margins(study.zip(shot), (coach.units.length, coach.is_in_numbers), empty, area, ui);
         }
-        View::Plan => draw_plan(choice.filter(|_| !is_followed), coach.units.length, empty, area, ui),
+        InfoPanel::Plan => draw_plan(choice.filter(|_| !is_followed), coach.units.length, empty, area, ui),
     }
 }
 
 /// Why the shot leads that is about to be played, where its words stand on the page and a row of `room` columns holds it.
 fn why_told(coach: &CoachPage, room: usize, ui: &Ui) -> Option<String> {
-    let is_told = coach.view == View::Shot && coach.what_if().is_none() && coach.told().is_some();
+    let is_told = coach.view == InfoPanel::Shot && coach.what_if().is_none() && coach.told().is_some();
     why_line(coach.shown().filter(|_| is_told)?, room, ui)
 }
 

@@ -20,7 +20,7 @@ use crate::{
 
 /// Draws the panel; gives the first row that is left.
 pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) -> u16 {
-    let session = turn.told();
+    let session = turn.settled_session();
     let place = if session.venue == Venue::Table { "Real table: " } else { "Score: " };
     let title = format!("{place}{}", session.goal.words());
     // The innings of a match are told below.

@@ -11,14 +11,14 @@ impl App {
             // What was refused because the coach was thinking is not so any more.
             self.toasts.go_on();
         }
-        self.gather(false);
+        self.collect_toasts(false);
         effect
     }
 
     /// The thread that thinks is gone, and with it the answer.
     pub fn coach_lost(&mut self) {
         self.coach.lost();
-        self.gather(false);
+        self.collect_toasts(false);
     }
 
     /// Something has come of what the training screen wanted.
@@ -31,7 +31,7 @@ impl App {
                 self.turn_to(PageId::Coach);
             }
         }
-        self.gather(false);
+        self.collect_toasts(false);
     }
 
     /// Something has come of a task of the drill screens, or the coach's position is saved; gives what is to be done next.
@@ -39,7 +39,7 @@ impl App {
         let report = match report {
             DrillReport::PositionSaved(exercise, outcome) if self.coach.has_saved(&exercise.name) => {
                 self.coach.saved(exercise, outcome);
-                self.gather(false);
+                self.collect_toasts(false);
                 return Vec::new();
             }
             other => other,
@@ -49,19 +49,19 @@ impl App {
         let troubles = self.drills.book.troubles.iter().filter(|trouble| !known.contains(trouble));
         self.toasts.push_first(&troubles.cloned().collect::<Vec<_>>());
         self.coach.own = self.drills.player.own.or(self.coach.own);
-        self.gather(false);
+        self.collect_toasts(false);
         tasks
     }
 
     /// Something has come of a task of the calibration's page.
     pub fn receive_calibration(&mut self, report: CalibrationReport) -> Option<Effect> {
         let tasks = self.calibration.receive(report);
-        self.gather(false);
+        self.collect_toasts(false);
         (!tasks.is_empty()).then_some(Effect::Calibrate(tasks))
     }
 
     /// Makes toasts of what is refused or has failed since: the answer to a key, or something that came by itself.
-    pub(super) fn gather(&mut self, is_answer: bool) {
+    pub(super) fn collect_toasts(&mut self, is_answer: bool) {
         let Self { coach, training, drills, settings, calibration, toasts, .. } = self;
         let messages = [
             &mut coach.message,
