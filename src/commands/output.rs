@@ -15,7 +15,7 @@ use crate::{
     coach::{Units, words::LengthUnit},
     physics::Impulse,
     printing::{self, OneLine},
-    storage::{LONGEST_LINE, NextLine, next_line, room_in},
+    storage::{LONGEST_LINE, NextLine, folder_state, next_line},
     terminal::Settings,
 };
 
@@ -27,7 +27,7 @@ pub fn tell(sentence: impl Display) {
 
 /// Refuses, before anything is worked out, to write into `folder` where nothing can be written; the first file would be `path`.
 pub fn check_place(folder: &Path, path: &Path) -> Result<(), Failure> {
-    match room_in(folder).refusal {
+    match folder_state(folder).refusal {
         Some(refusal) => Err(Failure::failed(format_args!("{} cannot be written: {refusal}", path.display()))),
         None => Ok(()),
     }

@@ -84,8 +84,8 @@ pub struct ExamScore {
     pub nearest: &'static str,
 }
 
-/// The mark of the attempts that there are; `None` before the first.
-pub fn mark(session: &Session) -> Option<ExamScore> {
+/// The score of the attempts that there are; `None` before the first.
+pub fn score(session: &Session) -> Option<ExamScore> {
     let attempts = &session.attempts;
     let pars: Vec<Par> = attempts.iter().filter_map(|attempt| session.exercise_of(attempt)?.par).collect();
     let sum = |of: fn(&Par) -> f64, term: fn(f64) -> f64| pars.iter().map(|par| term(of(par))).sum::<f64>();
@@ -154,21 +154,21 @@ mod tests {
     }
 
     #[test]
-    fn the_mark_is_the_player_whose_average_is_nearest() {
+    fn the_nearest_is_the_player_whose_average_is_nearest() {
         let exam = draw(&library(), 2, 1).unwrap();
         // Averages over 20 exercises are 4, 10 and 18.
         for (made, nearest) in
             [(0, "beginner"), (6, "beginner"), (8, "club"), (13, "club"), (15, "world-class"), (20, "world-class")]
         {
             let mut session = Session::new(Goal::Exam, Venue::Table, exam.clone(), Skill::CLUB, 1);
-            assert_eq!(mark(&session), None);
+            assert_eq!(score(&session), None);
             for number in 0..LENGTH {
                 session.log(number < made).unwrap();
             }
-            let mark = mark(&session).unwrap();
-            assert!((mark.expected.world_class - 18.0).abs() < 1e-9);
-            assert!((mark.spread.club - 5.0_f64.sqrt()).abs() < 1e-9, "of 20 even chances");
-            assert_eq!((mark.made, mark.nearest), (made, nearest));
+            let score = score(&session).unwrap();
+            assert!((score.expected.world_class - 18.0).abs() < 1e-9);
+            assert!((score.spread.club - 5.0_f64.sqrt()).abs() < 1e-9, "of 20 even chances");
+            assert_eq!((score.made, score.nearest), (made, nearest));
         }
     }
 }

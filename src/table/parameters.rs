@@ -20,7 +20,7 @@ const LONGEST: f64 = 10.0;
 /// The bundled tables whose equations are those of the thesis alone: numerics are judged on them.
 pub const JUDGED: [&str; 2] = ["textbook", "thesis"];
 
-/// Their files, in the order of [`PRESETS`].
+/// Their files.
 const MATCH: &str = include_str!("match.toml");
 const TEXTBOOK: &str = include_str!("textbook.toml");
 const THESIS: &str = include_str!("thesis.toml");
@@ -163,8 +163,8 @@ impl Table {
             [MATCH, TEXTBOOK, THESIS]
                 .map(|text| Table::from_toml(text).expect("a bundled table is valid: a test reads them all"))
         });
-        let place = PRESETS.iter().position(|preset| *preset == name);
-        place.map(|place| BUNDLED[place].clone()).ok_or_else(|| TableError::Unknown(name.to_owned()))
+        let bundled = BUNDLED.iter().find(|table| table.name == name);
+        bundled.cloned().ok_or_else(|| TableError::Unknown(name.to_owned()))
     }
 
     /// The table that the file at `path` describes. One that bears a bundled table's name and is another is called after its file: the

@@ -67,9 +67,9 @@ impl Seat {
     /// What the player should know before anything is lost: why nothing can be kept.
     pub fn warning(&self) -> Option<String> {
         let folder = &self.places.own;
-        let room = storage::room_in(folder);
-        let is_full = room.free.is_some_and(|free| free < LEAST_ROOM);
-        let refusal = room.refusal.map(|error| error.to_string());
+        let state = storage::folder_state(folder);
+        let is_full = state.free.is_some_and(|free| free < LEAST_ROOM);
+        let refusal = state.refusal.map(|error| error.to_string());
         let refusal = refusal.or_else(|| is_full.then(|| "the disk is full".to_owned()))?;
         Some(format!("nothing can be kept in {}: {refusal}", folder.display()))
     }

@@ -9,7 +9,7 @@ use crate::{
     commands::input::table_in,
     drills::Store,
     learning::run::list::{Listing, runs_in},
-    storage::{Places, room_in},
+    storage::{Places, folder_state},
     terminal::{Complaint, SavedSession},
 };
 
@@ -37,9 +37,9 @@ fn lossy<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
 
 impl Place {
     fn look(what: &'static str, path: &Path) -> Self {
-        let room = room_in(path);
-        let refusal = room.refusal.map(|error| error.to_string());
-        Self { what, path: path.to_owned(), exists: room.exists, refusal, free_bytes: room.free }
+        let state = folder_state(path);
+        let refusal = state.refusal.map(|error| error.to_string());
+        Self { what, path: path.to_owned(), exists: state.exists, refusal, free_bytes: state.free }
     }
 
     /// Where nothing can be kept.

@@ -21,7 +21,7 @@ use crate::{
     },
     drills::{
         Advice, Exercise, Goal, Par, Session, Store, advise, chance, changes, check, difference,
-        exam::{ExamScore, mark},
+        exam::{ExamScore, score},
     },
     physics::{CueInputs, least_elevation},
     statistics::SuccessRate,
@@ -309,7 +309,7 @@ impl<'a> StrokeByStroke<'a> {
     pub fn finish(&self) -> Result<(), Failure> {
         let session = &self.session;
         let record = session.record();
-        let mark = mark(session).filter(|_| session.goal == Goal::Exam);
+        let score = score(session).filter(|_| session.goal == Goal::Exam);
         if self.options.json {
             return Ok(json_line(&Outcome {
                 kind: "result",
@@ -320,9 +320,9 @@ impl<'a> StrokeByStroke<'a> {
                     white: session.side(CueBall::White).into(),
                     yellow: session.side(CueBall::Yellow).into(),
                 }),
-                expected: mark.map(|mark| mark.expected),
-                spread: mark.map(|mark| mark.spread),
-                nearest: mark.map(|mark| mark.nearest),
+                expected: score.map(|score| score.expected),
+                spread: score.map(|score| score.spread),
+                nearest: score.map(|score| score.nearest),
             })?);
         }
         if let Some(score) = session.score_words() {
@@ -333,18 +333,18 @@ impl<'a> StrokeByStroke<'a> {
         } else {
             line(words(&record))?;
         }
-        match (session.goal, mark) {
+        match (session.goal, score) {
             (Goal::Run(points), _) if session.is_over() => {
                 line(format_args!("the run of {points} is made, after {}", plural(record.tried, "attempt")))
             }
             (Goal::Run(points), _) => line(format_args!("the run of {points} is not made yet")),
-            (Goal::Exam, Some(mark)) => line(mark_words(&mark, session.exercises.len())),
+            (Goal::Exam, Some(score)) => line(exam_words(&score, session.exercises.len())),
             _ => Ok(()),
         }
     }
 }
 
-fn mark_words(ExamScore { tried, made, expected, spread, nearest }: &ExamScore, of: usize) -> String {
+fn exam_words(ExamScore { tried, made, expected, spread, nearest }: &ExamScore, of: usize) -> String {
     let unfinished = if *tried < of { format!(" ({tried} of {of} played)") } else { String::new() };
     format!(
         "score {made} of {tried}{unfinished}; a beginner makes {:.1} ± {:.1}, a club player {:.1} ± {:.1}, a world-class player {:.1} ± {:.1} \

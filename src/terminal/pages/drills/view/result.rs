@@ -38,7 +38,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     write_right(ui.buffer, list.x, score.x, list.y, " your stroke makes ", ui.theme.faint());
     let inner = draw_title("Score", score, ui);
     let text = Rect { x: inner.x + 1, y: inner.y + 1, width: inner.width - 2, height: inner.height.saturating_sub(1) };
-    let Some(mark) = exam::mark(session) else { return Message::plain("nothing was played") };
+    let Some(mark) = exam::score(session) else { return Message::plain("nothing was played") };
     let expected = |name: &str, points: f64| format!("{name:<12}{points:>5.1} of {}", mark.tried);
     let paragraphs = [
         (format!("{} of {} made", mark.made, mark.tried), ui.theme.accent()),

@@ -75,8 +75,8 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
         let place = session.exercises.iter().position(|each| each.name == exercise);
         let number = place.map_or(tried, |place| place + 1);
         lines.push(format!("exercise {number} of {}: {made} of {tried} made", session.exercises.len()));
-        if let Some(mark) = exam::mark(session) {
-            let [beginner, club, best] = [mark.expected.beginner, mark.expected.club, mark.expected.world_class]
+        if let Some(score) = exam::score(session) {
+            let [beginner, club, best] = [score.expected.beginner, score.expected.club, score.expected.world_class]
                 .map(|points| format!("{points:.1}"));
             lines.push(format!("so far a beginner makes {beginner}, club {club}, world class {best}"));
         }

@@ -19,7 +19,7 @@ pub struct FolderState {
 }
 
 /// Looks at the folder, or at the one above it in which it would be made.
-pub fn room_in(folder: &Path) -> FolderState {
+pub fn folder_state(folder: &Path) -> FolderState {
     let above = match existing(folder) {
         Ok(above) => above,
         Err(error) => return FolderState { exists: false, refusal: Some(error), free: None },
@@ -55,11 +55,11 @@ mod tests {
     fn a_folder_that_is_not_there_is_judged_by_the_one_above_and_not_made() {
         let home = tempfile::tempdir().unwrap();
         let deep = home.path().join("deep/folder");
-        let room = room_in(&deep);
-        assert!(!room.exists && room.refusal.is_none(), "{room:?}");
+        let state = folder_state(&deep);
+        assert!(!state.exists && state.refusal.is_none(), "{state:?}");
         assert!(!home.path().join("deep").exists());
-        let room = room_in(home.path());
-        assert!(room.exists && room.refusal.is_none(), "{room:?}");
+        let state = folder_state(home.path());
+        assert!(state.exists && state.refusal.is_none(), "{state:?}");
         assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 0);
     }
 
@@ -67,7 +67,7 @@ mod tests {
     fn where_a_file_stands_in_the_way_nothing_can_be_written() {
         let home = tempfile::tempdir().unwrap();
         std::fs::write(home.path().join("taken"), "").unwrap();
-        let room = room_in(&home.path().join("taken/inside"));
-        assert!(room.refusal.is_some(), "{room:?}");
+        let state = folder_state(&home.path().join("taken/inside"));
+        assert!(state.refusal.is_some(), "{state:?}");
     }
 }
