@@ -353,7 +353,7 @@ impl Resting {
             let held = if yields || is_lost {
                 None
             } else {
-                self.effort.add(HELD * self.contacts.len() as u64);
+                self.effort.add(HELD * self.contacts.len().pow(2) as u64);
                 self.scene(table, &phase.balls).accelerations(&self.first)
             };
             let (linear, angular) = held.unwrap_or_else(|| {
@@ -458,7 +458,7 @@ impl Resting {
         if scene.set.yields() || self.seeks() {
             return self.sought(scene, near, false);
         }
-        self.effort.add(HELD * self.contacts.len() as u64);
+        self.effort.add(HELD * self.contacts.len().pow(2) as u64);
         scene.forces(Some(&self.first)).unwrap_or_else(|| self.sought(scene, near, true))
     }
 

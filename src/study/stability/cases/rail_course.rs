@@ -15,6 +15,9 @@ use crate::{
 /// Error that the engine's resting contacts may have, s and m.
 const ALLOWED: f64 = 1e-9;
 
+/// A ball that has so little way left may be stopped in the contact, even while it slips, m: the engine's limit for what rests is half of it.
+const NO_WAY: f64 = 2e-11;
+
 /// Points of Simpson's rule: the integrands are smooth, and doubling the points changes less than 1e-14.
 const POINTS: u32 = 2000;
 
@@ -45,11 +48,13 @@ pub fn follows_quadrature(table: &Table, shot: &Shot, trace: &Trace) -> Result<(
     let slid = 2.0 * along.abs() / friction * along * simpson(|y| y.powi(7) * weight(y));
     let end = v.dot(t) - 2.0 / 7.0 * along;
     let deceleration = 5.0 / 7.0 * table.rolling_friction * table.gravity;
-    let place = from.dot(t) + end * time + 2.0 / 7.0 * slid + end * end.abs() / (2.0 * deceleration);
+    let way_left = end * end.abs() / (2.0 * deceleration);
+    let place = from.dot(t) + end * time + 2.0 / 7.0 * slid + way_left;
     let off = (trace.end.balls[0].position.dot(t) - place).abs();
     let late = (trace.end.time - (time + end.abs() / deceleration)).abs();
     // What rolls with next to no speed takes for ever to lose it: the time is worth less than the place.
-    if off > ALLOWED || late > ALLOWED * (1.0 + 1.0 / deceleration) {
+    let stopped = if way_left.abs() < NO_WAY { (2.0 * NO_WAY / deceleration).sqrt() } else { 0.0 };
+    if off > ALLOWED || late > ALLOWED * (1.0 + 1.0 / deceleration) + stopped {
         return Err(format!("pressed on a smooth cushion for {time} s, it stops {off:e} m and {late:e} s off"));
     }
     Ok(())
@@ -69,4 +74,33 @@ fn simpson(f: impl Fn(f64) -> f64) -> f64 {
     let h = 1.0 / f64::from(POINTS);
     let inner: f64 = (1..POINTS).map(|i| f(f64::from(i) * h) * if i % 2 == 1 { 4.0 } else { 2.0 }).sum();
     h / 3.0 * (f(0.0) + inner + f(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{physics::CueDegrees, table::Layout};
+
+    #[test]
+    fn a_ball_that_ends_its_slip_with_next_to_no_speed_may_stop_at_once() {
+        let mut table = Table::preset("textbook").unwrap();
+        (table.rail_friction, table.rail_restitution) = (0.0, 0.0);
+        let from = DVec2::new(-1.389_249_999_999_999_9, 0.103_462_840_455_506_34);
+        let layout = Layout::new([from, DVec2::new(1.250_325, 0.0), DVec2::new(1.250_325, 0.123)]);
+        // It comes to 5e-7 m/s along the cushion, and would roll on for 1.8e-12 m, in 7 µs.
+        let cue = CueDegrees {
+            a: 0.074_935_402_441_466_46,
+            b: 0.683_397_420_328_201_2,
+            theta_deg: 20.0,
+            phi_deg: 178.899_194_767_320_98,
+            speed: 0.101_524_723_760_162_82,
+        };
+        let shot = Shot { layout, cue };
+        let mut trace = Trace::new(&table);
+        trace.play(&table, &shot);
+        assert_eq!(follows_quadrature(&table, &shot, &trace), Ok(()));
+        // Whoever stops much sooner is told.
+        trace.end.time -= 1e-4;
+        assert!(follows_quadrature(&table, &shot, &trace).is_err());
+    }
 }
