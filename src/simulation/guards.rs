@@ -4,17 +4,17 @@
 //! second. Of 10⁵ random shots on "thesis" fewer than ten take so much that nothing rests any more, as a test here counts.
 
 /// Multiplications for the forces on contacts where it is known what holds, for each pair of them.
-pub const HELD: u64 = 600;
+pub const HELD: u64 = 700;
 
 /// Multiplications in what else a step of a resting contact does, the roots of its predictions among them.
-pub const STEP: u64 = 10_000;
+pub const STEP: u64 = 14_000;
 
 /// Multiplications after which a step of a resting contact is given up, and with it all resting contacts of the shot: some hundred times
 /// as many as most steps take.
 pub const MOST_STEP: u64 = 6_000_000;
 
 /// Multiplications after which nothing rests any more: see [`super::micro_collisions`].
-pub const MOST_RESTING: u64 = 30_000_000;
+pub const MOST_RESTING: u64 = 36_000_000;
 
 /// Budget, in multiplications, once nothing rests (impacts in the air included); when it is spent the shot is ended, which is not physics:
 /// what takes part in another contact stands still from then on, and the audit of the stability table misses the energy.

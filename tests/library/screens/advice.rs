@@ -232,7 +232,7 @@ fn a_closer_look_that_fails_is_said_to_have_failed() {
     let id = player.study.take().unwrap().id;
     let failed = player.tell(id, CoachNews::Next(None));
     failed.shows(&["could not be worked out"]).is_silent_on("being worked out");
-    failed.press("v").shows(&["stop could not be worked out", "next none"]);
+    failed.press("v").shows(&["stop could not be worked out", "next could not be worked out"]);
 }
 
 #[test]

@@ -185,7 +185,7 @@ fn strokes_are_edited_deleted_and_come_back() {
     assert_eq!(kept(&back).trials[0].typed("stop"), "5.4");
     let none = back.press("u u");
     assert!(kept(&none).trials.is_empty());
-    none.press("u").warns("nothing was changed here yet");
+    none.press("u").warns("nothing to undo yet");
     let anew = measured().press("N y");
     anew.says("u takes this back");
     assert!(kept(&anew).trials.is_empty() && anew.path("calibration.before.toml").exists());
@@ -292,13 +292,13 @@ fn a_table_that_cannot_be_played_on_is_not_said_to_be() {
     fs::remove_file(player.path("tables/gone.toml")).unwrap();
     let player = player.press("p");
     player.warns("gone.toml");
-    player.is_silent_on("is played on from now on");
+    player.is_silent_on("you now play on");
     assert_ne!(player.app.coach.table().name, "gone");
     // Where the settings cannot be changed it is another one at the next start.
     let player = measured().press("s C-u").type_in("short").press("Enter");
     fs::write(player.path("config.toml"), "speed = = 2\n").unwrap();
     let player = player.press("p");
-    player.says("short.toml is played on until the program ends").is_silent_on("at every start");
+    player.says("you now play on short until the program ends").is_silent_on("at every start");
     assert_eq!(player.app.coach.table().name, "short");
 }
 
