@@ -352,7 +352,7 @@ impl App {
         None
     }
 
-    /// What the program around has to find out as long as it is wanted; it goes to [`App::receive_training`] and [`CoachPage::see`].
+    /// What the program around has to find out as long as it is wanted; it goes to [`App::receive_training`] and `CoachPage::see`.
     pub fn subscriptions(&self) -> Subscriptions {
         if let Some(followed) = self.coach.followed() {
             return Subscriptions { shown: Some(followed.folder.clone()), ..Subscriptions::default() };
