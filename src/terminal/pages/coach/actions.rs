@@ -26,7 +26,7 @@ impl CoachPage {
         match when {
             CoachCondition::Always => None,
             CoachCondition::Named => {
-                refuse(self.player.is_none(), "others need a name to follow you by: start carom --player NAME")
+                refuse(self.player.is_none(), "start carom --player NAME so that others can follow")
             }
             CoachCondition::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
             _ if thinking.is_some() => thinking,
