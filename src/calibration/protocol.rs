@@ -133,7 +133,7 @@ impl Test {
         lengths + if (rails % 2 == 1) == self.is_back() { place } else { 8.0 - place }
     }
 
-    /// How many short rails a ball has met on its way, and where it stands; of one that stands at a rail, that one is not among them.
+    /// How many short rails a ball has met on its way, and where it stands. The rail at which it stands is not counted.
     pub fn place(&self, table: &Table, way: f64) -> (usize, f64) {
         let radius = table.radius / table.diamond();
         let rails = ((way - radius) / (8.0 - 2.0 * radius) - ROUNDING).floor().max(0.0) as usize;

@@ -55,7 +55,8 @@ impl Change {
     }
 
     /// What it means at the table, against what was held of one that is called `before`; `None` where the tests tell next to
-    /// nothing of it, where a player sees nothing of it, or where it was held to be nought, of which no share can be told.
+    /// nothing of it, where a player sees nothing of it, or where the share would be one of nought: of what
+    /// it was before or, for `mu_r`, whose share is inverse, of what it is now.
     fn meaning(&self, before: &str) -> Option<String> {
         let (what, [less, same, more], is_inverse) = match self.name.as_str() {
             // What resists less lets a ball roll farther, in the same proportion.

@@ -87,8 +87,8 @@ pub struct Recommendation {
     /// How often the player makes it, from independent attempts that took no part in the choice; `None` where there is no
     /// such shot or time ran out before a single attempt. A perfect player always makes what makes the point.
     pub make_probability: Option<SuccessRate>,
-    /// The first of the attempts that this comes from, as [`judge`](super::judge) counts them: not the very first ones where those have
-    /// chosen the shot.
+    /// The first attempt behind `make_probability`, as [`judge`](super::judge) counts them: above 0 where earlier attempts took part in the
+    /// choice.
     pub judged_from: usize,
     /// What would miss it by itself, where anything is in doubt and time did not run out.
     pub risk: Option<Risk>,

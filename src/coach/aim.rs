@@ -100,11 +100,11 @@ pub fn aim(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Aim, ShotE
 /// and behind.
 pub fn line_of_aim(table: &Table, layout: &Layout, phi: f64) -> [RailPoint; 2] {
     let [from, direction] = [layout.balls[0], DVec2::from_angle(phi)];
-    [mark(table, from, direction), mark(table, from, -direction)]
+    [rail_point(table, from, direction), rail_point(table, from, -direction)]
 }
 
 /// Where the line from a place on the table in a direction meets the noses of the cushions.
-fn mark(table: &Table, from: DVec2, direction: DVec2) -> RailPoint {
+fn rail_point(table: &Table, from: DVec2, direction: DVec2) -> RailPoint {
     let half = 0.5 * DVec2::new(table.length, table.width);
     let distance = |rail: Rail| {
         let inward = rail.normal();

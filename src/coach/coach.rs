@@ -359,9 +359,9 @@ pub fn make_probability(
     })
 }
 
-/// How often a stroke is made in these `attempts`, whose errors are those by which the answer to a request with `seed` is judged, rounded up
-/// to whole pieces of 25: of the recommended stroke from [`Recommendation::judged_from`] on, and of the others from 0 on, the number that
-/// stands in the answer, if there was time for all attempts at it.
+/// How often a stroke is made in these `attempts` (widened to whole pieces of 25), with the errors by which the answer to a request with
+/// `seed` is judged. Given the range that the answer used, from [`Recommendation::judged_from`] on for the recommended stroke and from 0 on
+/// for an alternative, this is the answer's number, if there was time for all of its attempts.
 pub fn judge(
     shooter: Shooter,
     rule: Rule,

@@ -39,7 +39,7 @@ type Merit = (u32, u32);
 
 /// What was found: shots that make the point, the policy's favourites first, and the best attempt where there are none.
 pub struct Found {
-    /// Shots that make the point, with what the cue ball does in them.
+    /// Shots that make the point, with their tallies.
     pub solutions: Vec<(Suggestion, Tally)>,
     /// The best of those that do not.
     pub attempt: Suggestion,

@@ -57,7 +57,7 @@ impl FirstMet {
         said.ok_or_else(|| UnknownFirstMet { word: word.to_owned(), names })
     }
 
-    /// Whether a shot in which the cue ball did this begins so.
+    /// Whether a shot with this tally begins so.
     pub fn allows(self, tally: &Tally) -> bool {
         let met = if tally.cushions_before_first > 0 { Self::Cushion } else { Self::of_ball(tally.first_ball()) };
         self == Self::Any || self == met

@@ -60,7 +60,7 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// The kind of a shot in which the cue ball did this.
+    /// The kind of a shot with this tally.
     pub fn of(tally: &Tally, cue: &CueInputs) -> Self {
         let way = match tally.cushions_before_second {
             0 => Way::Direct,

@@ -6,7 +6,6 @@ mod candidates;
 mod clock;
 #[expect(clippy::module_inception, reason = "`coach::Coach` is what a reader expects")]
 mod coach;
-mod coming;
 mod doubt;
 mod draws;
 mod ease;
@@ -14,6 +13,7 @@ mod elevated;
 mod evidence;
 mod first;
 mod first_met;
+mod incoming;
 mod kind;
 mod margins;
 mod next;

@@ -136,7 +136,7 @@ impl Candidate {
         task.suits(&cue, &tally).then(|| Self::of(Suggestion { cue, source }, &tally, weight))
     }
 
-    /// A shot that makes the point, in which the cue ball did this.
+    /// A shot with this tally, which makes the point.
     pub fn of(shot: Suggestion, tally: &Tally, weight: f64) -> Self {
         let cue = &shot.cue;
         Self {

@@ -53,15 +53,14 @@ pub fn inning(
     rng: &mut Xoshiro256PlusPlus,
     tell: &mut dyn FnMut(&Inning, &Layout),
 ) -> Result<Inning, LayoutError> {
-    // A perfect player has no doubts.
-    let request = &Request { doubt: request.shooter().doubts(), ..request.clone() };
+    // A perfect player has none.
+    let doubt = request.shooter().doubts();
     let mut inning = Inning::default();
     let mut layout = *layout;
-    let real =
-        Worlds::new(coach.table(), &layout, Doubt { placing: 0.0, ..request.doubt }).draw(|| errors::normal(rng)).table;
+    let real = Worlds::new(coach.table(), &layout, Doubt { placing: 0.0, ..doubt }).draw(|| errors::normal(rng)).table;
     while inning.points < most && Instant::now() < until {
         let request = Request { seed: request.seed.wrapping_add(u64::from(inning.points)), ..request.clone() };
-        let told = misplaced(coach.table(), &layout, request.doubt.placing, || errors::normal(rng));
+        let told = misplaced(coach.table(), &layout, doubt.placing, || errors::normal(rng));
         let advice = coach.recommend(&told, &request)?;
         inning.simulations += advice.simulations;
         inning.elapsed += advice.elapsed;

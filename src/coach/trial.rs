@@ -96,7 +96,7 @@ impl Task<'_> {
         }
     }
 
-    /// Whether a stroke that did this is one of those looked for: it makes the point, begins as it should and may be advised.
+    /// Whether a stroke with this tally is one of those looked for: it makes the point, begins as it should and may be advised.
     pub fn suits(&self, cue: &CueInputs, tally: &Tally) -> bool {
         self.point().is_made(tally) && self.first.allows(tally) && self.allows(cue)
     }
@@ -106,7 +106,7 @@ impl Task<'_> {
         Point::of(self.rule, self.table, self.layout)
     }
 
-    /// What the cue ball does in one stroke up to the decision; `None` where time ran out before.
+    /// The tally of one stroke up to the decision; `None` where time ran out before.
     pub fn play(&self, cue: &CueInputs) -> Option<Tally> {
         self.play_on(self.table, self.layout, cue)
     }

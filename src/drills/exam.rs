@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_is_the_player_whose_average_is_nearest() {
+    fn an_exam_names_the_player_whose_average_is_closest_to_the_score() {
         let exam = draw(&library(), 2, 1).unwrap();
         // Averages over 20 exercises are 4, 10 and 18.
         for (made, nearest) in

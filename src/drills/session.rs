@@ -206,8 +206,18 @@ impl Session {
 
     /// The cue ball of attempt `number`, or where that is still to be made, of the next: in a match it changes with each miss.
     pub fn cue_ball_of(&self, number: usize) -> CueBall {
-        let misses = self.attempts.iter().take(number).filter(|attempt| !attempt.made).count();
-        if self.is_match() && misses % 2 == 1 { self.cue_ball.other() } else { self.cue_ball }
+        self.cue_balls().nth(number).unwrap_or(self.cue_ball)
+    }
+
+    /// The cue balls of all attempts, and at last of the next.
+    fn cue_balls(&self) -> impl Iterator<Item = CueBall> {
+        let change = |now: &mut CueBall, attempt: &Attempt| {
+            if self.is_match() && !attempt.made {
+                *now = now.other();
+            }
+            Some(*now)
+        };
+        std::iter::once(self.cue_ball).chain(self.attempts.iter().scan(self.cue_ball, change))
     }
 
     /// The cue ball of the next attempt.
@@ -259,14 +269,7 @@ impl Session {
 
     /// The score of one side of a match.
     pub fn side(&self, cue_ball: CueBall) -> Record {
-        let changed = |now: &mut CueBall, attempt: &Attempt| {
-            let own = *now;
-            if self.is_match() && !attempt.made {
-                *now = own.other();
-            }
-            Some(own)
-        };
-        let balls: Vec<CueBall> = self.attempts.iter().scan(self.cue_ball, changed).collect();
+        let balls: Vec<CueBall> = self.cue_balls().collect();
         Record::of_part(self, |number| balls[number] == cue_ball)
     }
 

@@ -7,7 +7,7 @@ use std::{
 
 use super::{
     spelling::{is_wanted, spelt},
-    visible::{is_hidden, parts, write_escaped},
+    visible::{is_hidden, parts},
 };
 
 /// Takes an output's text in, and gives it on with everything shown that a terminal would obey. New lines and tabs
@@ -72,13 +72,13 @@ impl<W: Write> Shown<W> {
     fn show(&mut self, text: &str) -> io::Result<()> {
         let is_obeyed = |character: char| is_hidden(character) && !matches!(character, '\n' | '\t');
         let spelling = if self.spells { spelt(text) } else { text.into() };
-        let mut shown = String::with_capacity(spelling.len());
         for (plain, hidden) in parts(&spelling, is_obeyed) {
-            shown.push_str(plain);
-            // Writing into a string does not fail.
-            let _ = hidden.map(|hidden| write_escaped(&mut shown, hidden));
+            self.inner.write_all(plain.as_bytes())?;
+            if let Some(hidden) = hidden {
+                write!(self.inner, "{}", hidden.escape_default())?;
+            }
         }
-        self.inner.write_all(shown.as_bytes())
+        Ok(())
     }
 }
 

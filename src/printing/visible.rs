@@ -20,17 +20,12 @@ pub fn is_hidden(character: char) -> bool {
         )
 }
 
-/// `text` in parts, each of which goes out as it is, with the character after it that `is_obeyed`; the last part may have none.
+/// Splits `text` behind each character that `is_obeyed`: the plain text before it, and the character, which the last part may lack.
 pub(super) fn parts(text: &str, is_obeyed: impl Fn(char) -> bool + Copy) -> impl Iterator<Item = (&str, Option<char>)> {
     text.split_inclusive(is_obeyed).map(move |part| match part.chars().next_back().filter(|last| is_obeyed(*last)) {
         Some(last) => (&part[..part.len() - last.len_utf8()], Some(last)),
         None => (part, None),
     })
-}
-
-/// Writes `character` as Rust does in a string: `\r`, `\u{1b}`.
-pub(super) fn write_escaped(out: &mut impl Write, character: char) -> fmt::Result {
-    write!(out, "{}", character.escape_default())
 }
 
 /// Text on one line: whatever a terminal would obey, new lines too, stands as what it is. For names that others chose.
@@ -49,7 +44,9 @@ impl Write for Escaping<'_, '_> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         for (plain, hidden) in parts(text, is_hidden) {
             self.0.write_str(plain)?;
-            hidden.map_or(Ok(()), |hidden| write_escaped(self.0, hidden))?;
+            if let Some(hidden) = hidden {
+                write!(self.0, "{}", hidden.escape_default())?;
+            }
         }
         Ok(())
     }

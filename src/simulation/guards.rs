@@ -3,7 +3,7 @@
 //! Work is counted in multiplications of numbers, not in time, so that a shot is the same on every machine; 10⁹ of them take about half a
 //! second. Of 10⁵ random shots on "thesis" fewer than ten take so much that nothing rests any more, as a test here counts.
 
-/// Multiplications for the forces on contacts where it is known what holds, for each pair of them.
+/// Multiplications for the forces on contacts where it is known what holds, times the square of their number.
 pub const HELD: u64 = 700;
 
 /// Multiplications in what else a step of a resting contact does, the roots of its predictions among them.

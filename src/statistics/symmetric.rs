@@ -24,12 +24,12 @@ pub fn cholesky(matrix: &[Vec<f64>], least: f64) -> Result<Vec<Vec<f64>>, usize>
     Ok(factor)
 }
 
-/// Half the logarithm of the determinant, by the factor; `None` where the matrix is no covariance.
+/// Half the logarithm of the determinant of a positive definite matrix, from its Cholesky factor; `None` where it is not positive definite.
 pub fn half_log_determinant(matrix: &[Vec<f64>]) -> Option<f64> {
     Some(cholesky(matrix, 0.0).ok()?.iter().filter_map(|line| line.last()).map(|entry| entry.ln()).sum())
 }
 
-/// The covariance of so many independent numbers with deviation 1.
+/// The identity matrix of so many rows.
 pub fn identity(size: usize) -> Vec<Vec<f64>> {
     (0..size).map(|row| (0..size).map(|column| f64::from(u8::from(row == column))).collect()).collect()
 }

@@ -20,7 +20,7 @@ const LONGEST: f64 = 10.0;
 /// The bundled tables whose equations are those of the thesis alone: numerics are judged on them.
 pub const JUDGED: [&str; 2] = ["textbook", "thesis"];
 
-/// Their files.
+// The files of [`PRESETS`].
 const MATCH: &str = include_str!("match.toml");
 const TEXTBOOK: &str = include_str!("textbook.toml");
 const THESIS: &str = include_str!("thesis.toml");

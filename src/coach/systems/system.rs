@@ -212,8 +212,8 @@ impl System {
         let radius = 4.0 * table.radius / table.width;
         match self {
             Self::Corner5 => leg.at_y(radius).filter(|_| leg.way.y < 0.0),
-            Self::Plus => leg.at_y(-BEHIND).filter(|_| leg.way.y < 0.0),
-            Self::Seven => leg.at_x(8.0 + BEHIND).filter(|_| leg.way.x > 0.0),
+            Self::Plus => leg.at_rail(Rail::Bottom).filter(|_| leg.way.y < 0.0),
+            Self::Seven => leg.at_rail(Rail::Right).filter(|_| leg.way.x > 0.0),
         }
     }
 
@@ -239,8 +239,7 @@ impl System {
     pub const fn third_at(self, along: f64) -> DVec2 {
         match self {
             Self::Corner5 => DVec2::new(along, 0.0),
-            Self::Plus => DVec2::new(along, -BEHIND),
-            Self::Seven => DVec2::new(8.0 + BEHIND, along),
+            Self::Plus | Self::Seven => edge(self.rails()[2], along),
         }
     }
 

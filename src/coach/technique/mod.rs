@@ -12,8 +12,8 @@ use serde::Serialize;
 use super::{
     Hit, RailPoint,
     aim::hit,
-    coming::{JUST_BEFORE, english},
     first_hit,
+    incoming::{JUST_BEFORE, english},
 };
 use crate::{
     game::Tally,

@@ -65,8 +65,9 @@ impl ShotWords {
 
     /// The line along which the cue points, from cushion to cushion, on the noses.
     pub fn aim(&self, units: Units) -> String {
-        let mark = |mark: RailPoint| format!("{} on the {}", self.place(mark.diamond, units, 2), rail_words(mark.rail));
-        format!("Cue from {} to {}.", mark(self.behind), mark(self.ahead))
+        let point =
+            |point: RailPoint| format!("{} on the {}", self.place(point.diamond, units, 2), rail_words(point.rail));
+        format!("Cue from {} to {}.", point(self.behind), point(self.ahead))
     }
 
     /// Which ball, and how full; the cushions that come before it, and where the first of them is met.

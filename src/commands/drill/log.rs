@@ -196,7 +196,7 @@ impl Log {
 
     /// Takes results from the standard input, and answers each.
     fn read(&mut self) -> Result<(), Failure> {
-        let (mut refused, mut has_nothing) = (0, false);
+        let (mut refused, mut lacked_undo) = (0, false);
         while let Some(text) = ask("make, miss or undo: ")? {
             if text.is_empty() {
                 continue;
@@ -212,14 +212,14 @@ impl Log {
                         self.keep().or_else(|failure| if failure.is_silent() { Ok(()) } else { Err(failure) })?;
                     } else {
                         self.lock = None;
-                        has_nothing = true;
+                        lacked_undo = true;
                         tell(self.nothing_to_undo());
                     }
                 }
             }
         }
         of_refused_lines(refused)?;
-        if has_nothing && !io::stdin().is_terminal() {
+        if lacked_undo && !io::stdin().is_terminal() {
             return Err(Failure::failed("an undo had nothing to take back, as was told"));
         }
         Ok(())

@@ -175,17 +175,17 @@ impl<'a> StrokeByStroke<'a> {
     /// Plays one stroke; when its result is printed, it is safe on the disk. `false` where the coach is asked for a stroke and finds no point.
     pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: StrokeInput) -> Result<bool, Failure> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
-        let helped = matches!(stroke, StrokeInput::Coach);
+        let by_coach = matches!(stroke, StrokeInput::Coach);
         let cue_ball = self.session.cue_ball_now();
         if let StrokeInput::Own(cue) = &stroke {
             check(table, cue).map_err(Failure::wrong_input)?;
         }
-        let own = if helped { None } else { self.own(layout) };
+        let own = if by_coach { None } else { self.own(layout) };
         let advice = match own {
             Some(cue) if self.compares => {
                 Some(Advice { cue, solved: true, chance: chance(self.session.shooter(), rule, table, layout, &cue) })
             }
-            _ if helped || self.compares => self.advice(table, layout)?,
+            _ if by_coach || self.compares => self.advice(table, layout)?,
             _ => None,
         };
         let meant = match (stroke, advice) {
@@ -193,13 +193,13 @@ impl<'a> StrokeByStroke<'a> {
             (StrokeInput::Coach, Some(advice)) => advice.cue,
             (StrokeInput::Coach, None) => return Ok(false),
         };
-        let played = self.session.play(meant, helped).map_err(Failure::wrong_input)?;
+        let played = self.session.play(meant, by_coach).map_err(Failure::wrong_input)?;
         let raised = self.session.attempts.last().and_then(|attempt| attempt.meant).unwrap_or(meant);
         let is_raised = raised != meant;
         let meant = raised;
         let share = chance(self.session.shooter(), rule, table, layout, &meant);
         if let Some(attempt) = self.session.attempts.last_mut() {
-            attempt.by_coach = helped;
+            attempt.by_coach = by_coach;
             attempt.chance = Some(share.rate);
             attempt.advised = advice.map(|advice| advice.cue);
             attempt.advised_chance = advice.map(|advice| advice.chance.rate);
@@ -255,7 +255,7 @@ impl<'a> StrokeByStroke<'a> {
         let side =
             if self.session.is_match() { format!(", {}", self.session.side_words(cue_ball)) } else { String::new() };
         line(format_args!("{number}{side}: {verdict}; run {run}; this shot is made {} of the time", percent(&share)))?;
-        if helped {
+        if by_coach {
             line(format_args!("   the coach played {}", shot_text(&meant)))?;
         } else if let Some(advice) = advice {
             let changes = if changes.is_empty() { String::new() } else { format!(": {}", changes.join(", ")) };

@@ -1,4 +1,4 @@
-//! The heartbeat of a run at work: about once a second it tells what it is doing, and it listens to what it is asked.
+//! The heartbeat of a run that is training: about once a second it tells what it is doing, and it listens to what it is asked.
 
 use std::{
     collections::VecDeque,

@@ -27,11 +27,11 @@ pub fn file_identity(data: &Metadata) -> u64 {
 /// # Errors
 /// Whatever else the file system reports.
 pub fn sync_folder(folder: &Path) -> io::Result<()> {
-    can_refuse(File::open(folder)?.sync_all())
+    unless_unsupported(File::open(folder)?.sync_all())
 }
 
-/// What came of a request that a file system need not know.
-fn can_refuse(answer: io::Result<()>) -> io::Result<()> {
+/// The `answer`, where a file system that does not know the request counts as success.
+fn unless_unsupported(answer: io::Result<()>) -> io::Result<()> {
     let is_unknown = |errno| [Errno::INVAL, Errno::NOTSUP, Errno::OPNOTSUPP, Errno::NOSYS].contains(&errno);
     match answer {
         Err(error) if Errno::from_io_error(&error).is_some_and(is_unknown) => Ok(()),
@@ -64,9 +64,11 @@ mod tests {
     #[test]
     fn a_file_system_that_syncs_no_folders_has_not_failed() {
         for errno in [Errno::INVAL, Errno::NOTSUP, Errno::NOSYS] {
-            can_refuse(Err(errno.into())).unwrap();
+            unless_unsupported(Err(errno.into())).unwrap();
         }
-        assert!(can_refuse(Err(Errno::IO.into())).is_err() && can_refuse(Err(Errno::NOSPC.into())).is_err());
+        assert!(
+            unless_unsupported(Err(Errno::IO.into())).is_err() && unless_unsupported(Err(Errno::NOSPC.into())).is_err()
+        );
         sync_folder(tempfile::tempdir().unwrap().path()).unwrap();
     }
 }

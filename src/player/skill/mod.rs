@@ -143,7 +143,7 @@ impl Skill {
             // A cue is held neither below the cloth nor over the back.
             theta: (cue.theta + own.theta * errors[2]).clamp(0.0, STEEPEST.max(cue.theta)),
             phi: cue.phi + own.phi * errors[3],
-            // Nor does a stroke go backwards, or so fast that nobody would believe the record of it.
+            // Nor does a stroke go backwards, or faster than a session's record may say (`drills::validity`).
             speed: (cue.speed + own.speed * errors[4]).clamp(1e-3, Self::FASTEST),
         }
     }

@@ -92,7 +92,7 @@ fn sentence(text: &str, table: &Table) -> Option<Said> {
     let [first, tip, stroke] = text.split("; ").collect::<Vec<_>>()[..] else { return None };
     let (rail, ball) = match first.rsplit_once(", then ") {
         // Which cushions follow before the ball, the course says, too.
-        Some((rails, ball)) => (Some(rail_mark(rails.split(", then ").next()?.split_once(" first at ")?)?), ball),
+        Some((rails, ball)) => (Some(rail_point(rails.split(", then ").next()?.split_once(" first at ")?)?), ball),
         None => (None, first),
     };
     let (name, full) = ball.split_once(", ")?;
@@ -162,7 +162,7 @@ fn speed_of(table: &Table, lengths: f64) -> Option<f64> {
     Some(0.5 * (low + high))
 }
 
-fn rail_mark((rail, diamond): (&str, &str)) -> Option<RailPoint> {
+fn rail_point((rail, diamond): (&str, &str)) -> Option<RailPoint> {
     let rail = Rail::ALL.into_iter().find(|one| rail.starts_with(one.name()))?;
     Some(RailPoint { rail, diamond: diamond.trim_end_matches('.').parse().ok()? })
 }
@@ -173,7 +173,7 @@ fn course(text: &str) -> Option<Vec<Stop>> {
     let text = text.trim_end_matches('.').to_lowercase();
     let text = text.split_once(", ").map_or(&*text, |(stops, _)| stops);
     let stop = |words: &str| match words.split_once(' ') {
-        Some(mark) => Some(Stop::Cushion(rail_mark(mark)?)),
+        Some(mark) => Some(Stop::Cushion(rail_point(mark)?)),
         None => Some(Stop::Ball(BALL_NAMES.iter().position(|name| *name == words)?)),
     };
     text.split(" \u{2013} ").filter(|words| !words.ends_with(" again")).map(stop).collect()
@@ -184,7 +184,7 @@ fn aim(text: &str, table: &Table, layout: &Layout) -> Option<(f64, f64)> {
     let (from, to) = text.strip_prefix("Cue from ")?.split_once(" to ")?;
     let place = |mark: &str| {
         let (diamond, rail) = mark.split_once(" on the ")?;
-        Some(rail_mark((rail, diamond))?.place(table))
+        Some(rail_point((rail, diamond))?.place(table))
     };
     let start = layout.balls[0];
     let [behind, ahead] = [start - place(from)?, place(to)? - start];

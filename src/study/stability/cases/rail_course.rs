@@ -15,8 +15,8 @@ use crate::{
 /// Error that the engine's resting contacts may have, s and m.
 const ALLOWED: f64 = 1e-9;
 
-/// A ball that has so little way left may be stopped in the contact, even while it slips, m: the engine's limit for what rests is half of it.
-const NO_WAY: f64 = 2e-11;
+/// Way left, m, below which the engine may stop a ball in the contact though it still slips: twice its own limit (`Tolerance::still`).
+const NEGLIGIBLE_WAY: f64 = 2e-11;
 
 /// Points of Simpson's rule: the integrands are smooth, and doubling the points changes less than 1e-14.
 const POINTS: u32 = 2000;
@@ -53,7 +53,7 @@ pub fn follows_quadrature(table: &Table, shot: &Shot, trace: &Trace) -> Result<(
     let off = (trace.end.balls[0].position.dot(t) - place).abs();
     let late = (trace.end.time - (time + end.abs() / deceleration)).abs();
     // What rolls with next to no speed takes for ever to lose it: the time is worth less than the place.
-    let stopped = if way_left.abs() < NO_WAY { (2.0 * NO_WAY / deceleration).sqrt() } else { 0.0 };
+    let stopped = if way_left.abs() < NEGLIGIBLE_WAY { (2.0 * NEGLIGIBLE_WAY / deceleration).sqrt() } else { 0.0 };
     if off > ALLOWED || late > ALLOWED * (1.0 + 1.0 / deceleration) + stopped {
         return Err(format!("pressed on a smooth cushion for {time} s, it stops {off:e} m and {late:e} s off"));
     }
