@@ -207,7 +207,7 @@ fn the_plan_and_where_it_goes_on() {
     check("plan", &player);
     let large = player.text(200, 60);
     assert!(large.contains("Plan · next point on average 97 %") && large.contains("next 100 % very hard"), "{large}");
-    assert_eq!(player.app.coach.view, InfoPanel::Plan);
+    assert_eq!(player.app.coach.info, InfoPanel::Plan);
     // Ends of the balls are drawn around the places where they are meant to stop.
     let yellow = Color::Rgb(0xf6, 0xc3, 0x24);
     let count = |picture: &Buffer| picture.content().iter().filter(|cell| cell.fg == yellow).count();

@@ -109,7 +109,7 @@ impl CoachPage {
             }
             Action::TurnSideView => self.turn_side_view(),
             Action::TurnShown => self.turn_shown(),
-            Action::NextView => self.view = self.view.next(),
+            Action::NextInfoPanel => self.info = self.info.next(),
             Action::Shot(shots) => self.choose(|advised| advised.turn(shots)),
             Action::Show(shot) => self.choose(|advised| advised.show(shot)),
             Action::WhatIf => return self.take_over(),

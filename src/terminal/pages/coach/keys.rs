@@ -74,7 +74,7 @@ pub enum CoachAction {
     /// Shows the shot's jump from the side, or no longer.
     TurnSideView,
     /// Shows something else in the panels.
-    NextView,
+    NextInfoPanel,
     /// Shows another of the shots that may be chosen, the next where positive.
     Shot(isize),
     /// Shows one of them by its place in the list; no key does it, but the mouse.
@@ -161,7 +161,7 @@ pub const COACH: &[Binding<A, W>] = &[
         "leave the shot and select the white ball", "leave the shot and select the yellow ball",
         "leave the shot and select the red ball", "leave the shot, back to placing the balls",
         ]),
-    bind(Shot, W::Always, &[letter('v', A::NextView)], Some(("view", 1)),
+    bind(Shot, W::Always, &[letter('v', A::NextInfoPanel)], Some(("view", 1)),
         "turn the panels: shot and balls, chances, margins and maps, plan").known_as("diamonds words"),
     bind(Shot, W::Idle, &[letter('w', A::WhatIf)], Some(("try", 1)),
         "a stroke of your own, which begins as the shot that is shown, to change it and see what comes of it").known_as("adopt compare try own"),
@@ -268,7 +268,7 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Always, [
     bind(Stroke, W::Always, &[letter(' ', A::PlayPause), key(Enter, A::PlayPause)], Some(("play", 1)),
         "play and pause your stroke"),
     bind(Stroke, W::Always, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("leave", 1)),
-        "leave your stroke; a shot of the coach's beside it is as it was"),
+        "leave your stroke; the coach's shot stays as it was"),
     bind(Stroke, W::Always, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
         "take the balls as your stroke leaves them, for the next one"),
 ], [

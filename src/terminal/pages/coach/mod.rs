@@ -126,7 +126,7 @@ pub struct CoachPage {
     /// The user's own skill, where one is kept.
     pub own: Option<Skill>,
     /// What the panels show.
-    pub view: InfoPanel,
+    pub info: InfoPanel,
     /// Whether the shot is told in the thesis' numbers instead of a player's.
     pub is_in_numbers: bool,
     /// Whether all events are listed; else contacts only.
@@ -186,7 +186,7 @@ impl CoachPage {
             message: None,
             query: CoachQuery::default(),
             own: None,
-            view: InfoPanel::default(),
+            info: InfoPanel::default(),
             is_in_numbers: false,
             has_all_events: false,
             is_from_side: false,

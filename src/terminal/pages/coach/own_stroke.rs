@@ -9,10 +9,7 @@ use crate::{
     terminal::{
         CoachJob, CoachQuery, Effect,
         pages::{Page, coach::CoachPage},
-        shot::{
-            OwnStroke, StrokeChange, WhatIf, aiming,
-            what_if::{self, Situation},
-        },
+        shot::{OwnStroke, StrokeChange, WhatIf, aiming, what_if::Situation},
     },
 };
 
@@ -51,6 +48,11 @@ impl CoachPage {
 
     /// Takes the coach's shot over into the player's own stroke; without one that is aimed full at a ball.
     pub(super) fn take_over(&mut self) -> Option<Effect> {
+        self.take_over_after(0)
+    }
+
+    /// The same after so many strokes of the player's own.
+    fn take_over_after(&mut self, played_on: usize) -> Option<Effect> {
         let situation = self.situation();
         let (cue, what_if) = if let Some(coach) = self.proposal().map(|proposal| Arc::clone(&proposal.shot)) {
             (coach.cue, Ok(WhatIf::new(coach, situation)))
@@ -62,7 +64,7 @@ impl CoachPage {
         match what_if {
             Ok(what_if) => {
                 let about = (Arc::clone(&self.history.present().table), *self.layout(), self.query.clone());
-                self.own_stroke = Some(Own { stroke: OwnStroke::new(cue), what_if, about, played_on: 0 });
+                self.own_stroke = Some(Own { stroke: OwnStroke::new(cue), what_if, about, played_on });
             }
             Err(error) => return self.refuse(error),
         }
@@ -94,15 +96,7 @@ impl CoachPage {
         self.take_over_after(played_on)
     }
 
-    fn take_over_after(&mut self, played_on: usize) -> Option<Effect> {
-        let effect = self.take_over();
-        if let Some(own) = &mut self.own_stroke {
-            own.played_on = played_on;
-        }
-        effect
-    }
-
-    /// Leaves the player's own stroke; a shot of the coach's beside it is as it was.
+    /// Leaves the player's own stroke; the coach's shot stays as it was.
     pub(super) fn leave_own_stroke(&mut self) {
         self.own_stroke = None;
         if self.proposal().is_some() {
@@ -167,7 +161,7 @@ impl CoachPage {
     }
 
     fn situation(&self) -> Situation<'_> {
-        what_if::Situation { table: self.table(), layout: self.layout(), rule: self.query.rule }
+        Situation { table: self.table(), layout: self.layout(), rule: self.query.rule }
     }
 }
 
@@ -248,7 +242,7 @@ mod tests {
         asked(&mut page, Action::WhatIf);
         page.take_skill(crate::coach::Skill::CLUB);
         assert!(page.what_if().is_none() && page.shot().is_none());
-        page.update(Action::NextView);
+        page.update(Action::NextInfoPanel);
         assert!(page.own_stroke.is_none());
     }
 }

@@ -42,7 +42,7 @@ fn an_export_is_found() {
 
 #[test]
 fn diamonds_are_found() {
-    assert!(at_coach("diamond").contains(&Action::Coach(CoachAction::NextView)));
+    assert!(at_coach("diamond").contains(&Action::Coach(CoachAction::NextInfoPanel)));
     assert!(in_the_library("diamond").contains(&Action::Drill(DrillAction::Search)));
 }
 

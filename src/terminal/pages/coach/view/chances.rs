@@ -10,7 +10,7 @@ use crate::{
     terminal::{
         AdviceState, Proposal,
         pages::coach::Choice,
-        ui::{Ui, columns, cut, draw_nothing, draw_title, list, shorten, spell, wrap, write_right},
+        ui::{Ui, below_title, columns, cut, draw_nothing, draw_title, list, shorten, spell, wrap, write_right},
         words::{chance_words, fixed, percent, skill_word},
     },
 };
@@ -143,9 +143,7 @@ fn fitting(sentences: impl Iterator<Item = String>, width: usize, rows: usize, u
 
 /// The place of the shot that the panel in `area` tells in this row of the screen.
 pub fn choice_at(advised: &AdviceState, area: Rect, row: u16) -> Option<usize> {
-    // The first row is the title's.
-    let inner = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
-    list::line_at(advised.chosen, advised.choices.len(), inner, row)
+    list::line_at(advised.chosen, advised.choices.len(), below_title(area), row)
 }
 
 /// What sort of shot it is, as players call it, or that it makes no point: the first ball, the pattern, how full, and how hard,

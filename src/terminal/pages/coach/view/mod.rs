@@ -37,9 +37,9 @@ use crate::{
                     margins::draw_margins,
                     own_stroke::{COACH, draw_own_stroke},
                     panes::Panes,
-                    plan::{draw_plan, plan_spots},
+                    plan::{FAILED, draw_plan, plan_spots},
                     shot::{draw_proposal, draw_shot},
-                    words::draw_told,
+                    words::draw_shot_words,
                 },
             },
         },
@@ -64,7 +64,7 @@ impl PageView for CoachPage {
         let profile = self.profile();
         let (panes, side) = panes(self, area.screen);
         let choice = self.shown().map(AdviceState::choice);
-        let planned = choice.filter(|_| self.view == InfoPanel::Plan && self.what_if().is_none());
+        let planned = choice.filter(|_| self.info == InfoPanel::Plan && self.what_if().is_none());
         let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
         let lesson = self.lesson.as_ref();
         if let Some(lesson) = lesson {
@@ -125,16 +125,16 @@ impl PageView for CoachPage {
         if side.contains(at) {
             return None;
         }
-        let (_, panel) = views(self.view, &panes).find(|(view, _)| *view == InfoPanel::Chances)?;
-        let advised = self.shown().filter(|_| panel.contains(at) && self.what_if().is_none())?;
-        choice_at(advised, panel, at.y).map(Target::Shot)
+        let (_, chances) = info_panels(self.info, &panes).find(|(panel, _)| *panel == InfoPanel::Chances)?;
+        let advised = self.shown().filter(|_| chances.contains(at) && self.what_if().is_none())?;
+        choice_at(advised, chances, at.y).map(Target::Shot)
     }
 }
 
 /// Where the kiss lies in wait that spoils most strokes, and how many, before the shot that it is known of is played.
 fn kiss_note(coach: &CoachPage) -> Option<(DVec2, String)> {
     let advised = coach.shown().filter(|advised| advised.chosen == 0 && coach.what_if().is_none());
-    let kiss = advised.filter(|_| coach.told().is_some() && coach.view == InfoPanel::Shot)?.why.as_ref()?.kiss?;
+    let kiss = advised.filter(|_| coach.told().is_some() && coach.info == InfoPanel::Shot)?.why.as_ref()?.kiss?;
     let names = coach.cue_ball().names();
     let balls = match kiss.balls {
         [0, other] | [other, 0] => format!("kiss with {}", names[other]),
@@ -149,11 +149,11 @@ fn panes(coach: &CoachPage, area: Rect) -> (Panes, Rect) {
     if coach.profile().is_some() { panes.with_side_view() } else { (panes, Rect::ZERO) }
 }
 
-/// Draws the panels: the chosen view's, with the maps in place of shot, tip and events beside the margins; then others as
+/// Draws the panels: the chosen info panel's, with the maps in place of shot, tip and events beside the margins; then others as
 /// far as there is room. Whether one of them says why the first shot leads.
 fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     let (table, shot) = (coach.table(), coach.shot().map(AsRef::as_ref));
-    let chosen = coach.view;
+    let chosen = coach.info;
     if let Some(what_if) = coach.what_if() {
         draw_own_stroke(coach, what_if, panes, ui);
         return false;
@@ -168,17 +168,17 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
             () if is_wide => panes.info.union(panes.shot),
             () => panes.info,
         };
-        draw_told(coach, told, area, ui)
+        draw_shot_words(coach, told, area, ui)
     });
     let explained = coach.shown().filter(|_| is_beside && chosen == InfoPanel::Chances && coach.told().is_some());
     let is_explained = explained.is_some_and(|advised| draw_why(advised, panes.events, ui));
     // Where all panels stand below, the chances among them say it.
     let says_why = has_told_why || is_explained || !is_beside;
-    for (view, area) in views(chosen, panes) {
-        match coach.lesson.as_ref().filter(|_| view == chosen) {
+    for (panel, area) in info_panels(chosen, panes) {
+        match coach.lesson.as_ref().filter(|_| panel == chosen) {
             Some(lesson) => draw_lesson(lesson, area, ui),
-            None if told.is_some() && view == chosen => {}
-            None => draw_info(coach, view, !has_told_why && !is_explained, area, ui),
+            None if told.is_some() && panel == chosen => {}
+            None => draw_info(coach, panel, !has_told_why && !is_explained, area, ui),
         }
     }
     if let (InfoPanel::Margins, Some(advised), Some(shot)) = (chosen, coach.shown(), shot)
@@ -223,10 +223,10 @@ fn draw_listed(coach: &CoachPage, shot: Option<&Shot>, time: Option<f64>, area: 
     draw_events(name, listed, time, area, ui);
 }
 
-/// The chosen view and the others that there is room for, each with its panel.
-fn views(chosen: InfoPanel, panes: &Panes) -> impl Iterator<Item = (InfoPanel, Rect)> {
+/// The chosen info panel and the others that there is room for, each with its area.
+fn info_panels(chosen: InfoPanel, panes: &Panes) -> impl Iterator<Item = (InfoPanel, Rect)> {
     let others =
-        [InfoPanel::Chances, InfoPanel::Margins, InfoPanel::Plan].into_iter().filter(move |view| *view != chosen);
+        [InfoPanel::Chances, InfoPanel::Margins, InfoPanel::Plan].into_iter().filter(move |panel| *panel != chosen);
     std::iter::once((chosen, panes.info)).chain(others.zip(panes.more).filter(|(_, area)| !area.is_empty()))
 }
 
@@ -235,8 +235,8 @@ pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
     Mapping::fit(coach.table(), panes(coach, area).0.table)
 }
 
-/// Draws what one of the views tells; the chances say why the first shot leads, if nothing else does.
-fn draw_info(coach: &CoachPage, view: InfoPanel, says_why: bool, area: Rect, ui: &mut Ui) {
+/// Draws what one of the info panels tells; the chances say why the first shot leads, if nothing else does.
+fn draw_info(coach: &CoachPage, panel: InfoPanel, says_why: bool, area: Rect, ui: &mut Ui) {
     let advised = coach.shown();
     let is_followed = coach.followed().is_some();
     let choice = advised.map(AdviceState::choice);
@@ -244,11 +244,11 @@ fn draw_info(coach: &CoachPage, view: InfoPanel, says_why: bool, area: Rect, ui:
         (Some(_), _) => "the coach is thinking",
         (None, Some(_)) if is_followed => "only the player sees this",
         (None, None) if is_followed => "no shot yet",
-        (None, Some(choice)) if choice.is_studied => "could not be worked out",
+        (None, Some(choice)) if choice.is_studied => FAILED,
         (None, Some(_)) => "being worked out",
         (None, None) => "no shot yet; Enter asks the coach",
     };
-    match view {
+    match panel {
         InfoPanel::Shot => draw_balls(coach, area, ui),
         InfoPanel::Chances => draw_chances(advised, empty, says_why, area, ui),
         InfoPanel::Margins => {
@@ -262,7 +262,7 @@ fn draw_info(coach: &CoachPage, view: InfoPanel, says_why: bool, area: Rect, ui:
 
 /// Why the shot leads that is about to be played, where its words stand on the page and a row of `room` columns holds it.
 fn why_told(coach: &CoachPage, room: usize, ui: &Ui) -> Option<String> {
-    let is_told = coach.view == InfoPanel::Shot && coach.what_if().is_none() && coach.told().is_some();
+    let is_told = coach.info == InfoPanel::Shot && coach.what_if().is_none() && coach.told().is_some();
     why_line(coach.shown().filter(|_| is_told)?, room, ui)
 }
 

@@ -23,7 +23,7 @@ use crate::{
 /// Whose shot the other one is.
 pub const COACH: &str = "coach";
 
-/// Draws the panels: both strokes where the view's panel is, the others for the player's own.
+/// Draws the panels: both strokes where the info panel is, the others for the player's own.
 pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &mut Ui) {
     let (table, shot) = (coach.table(), &*what_if.shot);
     let beside = Beside {

@@ -19,12 +19,12 @@ const ROWS_A_PANEL_ROW: u16 = 5;
 const BELOW_BESIDE: u16 = 4;
 /// Columns beside the table: at least, and at most.
 const BESIDE: (u16, u16) = (16, 36);
-/// Columns of what a view tells, of the shot, the tip, the hit and the events where they stand side by side: where there is
+/// Columns of what an info panel tells, of the shot, the tip, the hit and the events where they stand side by side: where there is
 /// just room for them, and where there is more. The tip's may be wider.
 const NARROW: [u16; 5] = [38, 32, 12, 12, 22];
 const WIDE: [u16; 5] = [39, 33, 14, 16, 29];
 const MOST_TIP_WIDTH: u16 = 18;
-/// Columns of what other views tell beside them.
+/// Columns of what other info panels tell beside them.
 const MORE_WIDTH: u16 = 38;
 /// Columns from which on all of these find room.
 const ALL_BELOW_WIDTH: u16 = width(NARROW);
@@ -52,9 +52,9 @@ const LARGE: f64 = 0.95;
 pub struct Panes {
     /// Rails and cloth are drawn as large as fits in here.
     pub table: Rect,
-    /// What the chosen view tells.
+    /// What the chosen info panel tells.
     pub info: Rect,
-    /// What other views tell, where there is room; empty where there is none.
+    /// What other info panels tell, where there is room; empty where there is none.
     pub more: [Rect; 2],
     /// The cue inputs and the impulse.
     pub shot: Rect,
@@ -82,7 +82,7 @@ impl Panes {
     }
 
     /// The same with room for a jump from the side, and that room: below the table where panels stand beside it, which takes rows
-    /// from the table, else in the place of the view's panel and the shot's.
+    /// from the table, else in the place of the info panel and the shot's.
     pub fn with_side_view(self) -> (Self, Rect) {
         if !self.is_beside() {
             return (self, self.info.union(self.shot));

@@ -28,6 +28,9 @@ const ROWS: usize = 3;
 /// What the distances of the stops are.
 const SPREAD_WORDS: &str = "half of the made shots stop this close";
 
+/// What is said where the closer look at a shot has failed.
+pub const FAILED: &str = "could not be worked out";
+
 /// Draws the panel; without a shot it says `empty`.
 pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: Rect, ui: &mut Ui) {
     let mut title = vec![Span::styled("Plan", ui.theme.text())];
@@ -81,7 +84,7 @@ fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
 fn stop_words(choice: &Choice, unit: LengthUnit, is_explained: bool, theme: &Theme) -> (&'static str, String) {
     let (in_a_metre, symbol) = unit.small();
     let Some(study) = &choice.study else {
-        let words = if choice.is_studied { "could not be worked out" } else { "being tried" };
+        let words = if choice.is_studied { FAILED } else { "being tried" };
         return ("stop", words.to_owned());
     };
     let meant = choice.proposal.shot.recording.final_layout();
@@ -103,7 +106,7 @@ fn next_words(choice: &Choice, room: usize, ui: &Ui) -> String {
     match (&choice.next, choice.is_studied) {
         (Some(next), _) => next.proposals.first().map_or_else(String::new, |proposal| shot_words(proposal, room, ui)),
         (None, false) => "being looked for".to_owned(),
-        (None, true) if choice.study.is_none() => "could not be worked out".to_owned(),
+        (None, true) if choice.study.is_none() => FAILED.to_owned(),
         (None, true) => "none".to_owned(),
     }
 }

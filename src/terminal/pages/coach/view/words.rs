@@ -21,7 +21,7 @@ use crate::{
 
 /// Draws the panel. The line of aim stands in the title, or where that has no room for it in a row; what else has no room is left
 /// out from the end. Whether it says why the first shot leads.
-pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui) -> bool {
+pub fn draw_shot_words(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui) -> bool {
     let (words, units, cue_ball) = (&proposal.shot.words, coach.units, coach.cue_ball());
     let part = |text: String, style| (spell(&text, ui.caps), style);
     let (width, rows) = (usize::from(area.width.saturating_sub(2)), usize::from(area.height.saturating_sub(1)));
