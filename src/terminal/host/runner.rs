@@ -1,4 +1,4 @@
-//! The loop: waits for news, hands them to the app, and draws once when something has changed.
+//! The loop: waits for events, hands them to the app, and draws once when something has changed.
 
 use std::{
     fs,
@@ -43,7 +43,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     // Without a log the program is as good.
     let _ = log::start(&places.log, std::env::var("CAROM_LOG").ok().as_deref());
     info!(version = FULL_VERSION, caps = ?app.caps, "the screen opens");
-    let (to_screen, news) = events::open()?;
+    let (to_screen, events) = events::open()?;
     let session = TerminalGuard::start(app.mouse)?;
     let tasks = Tasks::new(to_screen);
     let remembered = (None, Instant::now());
@@ -52,7 +52,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     let (has_come_back, forgotten, written) = (false, false, String::new());
     let mut runner =
         Runner { app, session, tasks, places, ticked, has_come_back, remembered, forgotten, written, showing };
-    let end = runner.until_the_end(&news);
+    let end = runner.until_the_end(&events);
     runner.showing.end();
     runner.remember(true);
     let unkept = runner.keep_draft();
@@ -71,10 +71,10 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     }
 }
 
-/// Whether news may be drawn with the next picture: those of runs, and every better shot of a coach that still thinks.
-const fn can_come_later(news: &Event) -> bool {
+/// Whether an event may be drawn with the next picture: news of runs, and every better shot of a coach that still thinks.
+const fn can_come_later(event: &Event) -> bool {
     matches!(
-        news,
+        event,
         Event::Training(TrainingReport::Followed(..) | TrainingReport::HasPolicy(..))
             | Event::Answer(CoachAnswer { news: CoachNews::Better(_), .. })
     )
@@ -101,7 +101,7 @@ struct Runner {
 
 impl Runner {
     /// The signal that ended the program, or `None` where the player did.
-    fn until_the_end(&mut self, news: &Receiver<Event>) -> io::Result<Option<i32>> {
+    fn until_the_end(&mut self, events: &Receiver<Event>) -> io::Result<Option<i32>> {
         self.draw()?;
         let mut pace = Pace::new(Instant::now());
         loop {
@@ -112,8 +112,8 @@ impl Runner {
             let writing = self.forgets().into_iter().chain(self.showing.due(&self.app));
             let first = match pace.wake(interval).into_iter().chain(toast).chain(writing).min() {
                 // Nothing moves: no timer, no processor time, no bytes.
-                None => news.recv().map_err(|_| RecvTimeoutError::Disconnected),
-                Some(due) => news.recv_timeout(due.saturating_duration_since(Instant::now())),
+                None => events.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                Some(due) => events.recv_timeout(due.saturating_duration_since(Instant::now())),
             };
             let first = match first {
                 Ok(first) => Some(first),
@@ -130,9 +130,9 @@ impl Runner {
                 self.app.tick(passed.as_secs_f64());
             }
             let mut can_wait = first.is_some();
-            for news in first.into_iter().chain(news.try_iter()) {
-                can_wait &= can_come_later(&news);
-                match self.take(news)? {
+            for event in first.into_iter().chain(events.try_iter()) {
+                can_wait &= can_come_later(&event);
+                match self.take(event)? {
                     Next::GoOn => {}
                     Next::Quit => return Ok(None),
                     Next::Die(signal) => return Ok(Some(signal)),
@@ -212,9 +212,9 @@ impl Runner {
         })
     }
 
-    fn take(&mut self, news: Event) -> io::Result<Next> {
-        self.tasks.taken(&news);
-        let effect = match news {
+    fn take(&mut self, event: Event) -> io::Result<Next> {
+        self.tasks.taken(&event);
+        let effect = match event {
             Event::Input(TerminalEvent::Key(key)) => self.app.handle(&key),
             Event::Input(TerminalEvent::Paste(text)) => {
                 self.app.paste(&text);

@@ -1,4 +1,4 @@
-//! What the calibration's page wants done outside, and what comes of it.
+//! Background tasks of the calibration's page, and their reports.
 
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},

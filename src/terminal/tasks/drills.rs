@@ -1,4 +1,4 @@
-//! What the drill screens want done outside, in this order, and what comes of it.
+//! Background tasks of the drill screens, done in order, and their reports.
 
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -46,7 +46,7 @@ impl DrillTask {
     }
 }
 
-/// Where a stroke is asked for.
+/// A request for the model shot.
 #[derive(Clone, Debug)]
 pub struct AdviceTask {
     /// Tells this question's answer from those to earlier ones.
@@ -80,8 +80,8 @@ pub struct PlayTask {
     pub meant: CueInputs,
     /// Whether the player has seen a shot that makes the point.
     pub with_hint: bool,
-    /// The number of the position, see [`AdviceTask::id`].
-    pub position: u64,
+    /// The number of the question for its model shot, see [`AdviceTask::id`].
+    pub advice_id: u64,
 }
 
 /// A stroke that is not played, only judged.

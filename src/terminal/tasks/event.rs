@@ -18,7 +18,7 @@ pub enum Event {
     Signal(Signal),
     /// The coach has answered.
     Answer(CoachAnswer),
-    /// Something has come of what the training screen wanted.
+    /// A report from the training page's background tasks.
     Training(TrainingReport),
     /// Something else is seen of somebody else's table.
     Shown(Seen),

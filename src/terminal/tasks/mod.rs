@@ -1,4 +1,4 @@
-//! What the training screen and the drill screens want done outside: each on a thread of its own, so that the screen never waits.
+//! Background tasks of the pages, each kind on a thread of its own: the screen never waits.
 
 pub mod advice;
 pub mod calibration;
@@ -134,8 +134,8 @@ impl Tasks {
             if subscriptions.followed[n] != self.subscriptions.followed[n] {
                 self.followed[n] = None;
                 if let Some(folder) = subscriptions.followed[n].clone() {
-                    let caps = follow(slot, folder, self.to_screen.clone())?;
-                    self.followed[n] = Some(Poll::start("follower", FOLLOW_INTERVAL, self.to_screen.clone(), caps)?);
+                    let look = follow(slot, folder, self.to_screen.clone())?;
+                    self.followed[n] = Some(Poll::start("follower", FOLLOW_INTERVAL, self.to_screen.clone(), look)?);
                 }
             }
         }
@@ -143,9 +143,9 @@ impl Tasks {
         Ok(())
     }
 
-    /// The screen has taken news: their sender may look again. Events never pile up before a slow screen.
-    pub fn taken(&self, news: &Event) {
-        let poll = match news {
+    /// The screen has taken an event: its sender may look again. Events never pile up before a slow screen.
+    pub fn taken(&self, event: &Event) {
+        let poll = match event {
             Event::Shown(_) => &self.shown,
             Event::Training(TrainingReport::Runs(_)) => &self.list,
             Event::Training(TrainingReport::Followed(FollowSlot::Main, ..)) => &self.followed[0],

@@ -22,7 +22,7 @@ const PATIENT_INTERVAL: Duration = Duration::from_millis(500);
 #[derive(Debug)]
 pub struct Poll {
     stop: Arc<AtomicBool>,
-    /// Whether the last news wait for the screen still.
+    /// Whether the last event waits for the screen still.
     waiting: Arc<AtomicBool>,
 }
 
@@ -44,10 +44,10 @@ impl Poll {
             while !stop.load(Ordering::Relaxed) {
                 if !waiting.load(Ordering::Acquire) {
                     without += 1;
-                    if let Some(news) = look() {
+                    if let Some(event) = look() {
                         without = 0;
                         waiting.store(true, Ordering::Release);
-                        if to_screen.send(news).is_err() {
+                        if to_screen.send(event).is_err() {
                             break;
                         }
                     }
@@ -58,7 +58,7 @@ impl Poll {
         Ok(poll)
     }
 
-    /// The last news have arrived.
+    /// The last event has arrived.
     pub fn taken(&self) {
         self.waiting.store(false, Ordering::Release);
     }

@@ -29,7 +29,7 @@ const BUDGET: Duration = Duration::from_millis(300);
 pub struct PracticeWorker {
     store: Option<Store>,
     coach: Option<Coach>,
-    /// The model shot, and in which position.
+    /// The advice on the model shot, and the number of the question.
     model_shot: Option<(u64, Advice)>,
     /// The session that was played last: it knows of strokes that were judged meanwhile.
     last: Option<Session>,
@@ -46,15 +46,15 @@ impl PracticeWorker {
                 let store = self.store.insert(Store::new(&places));
                 reply(DrillReport::Loaded(Box::new(load(store))));
             }
-            DrillTask::Advise(position) => {
-                if !position.cancel.load(Ordering::Relaxed) {
-                    let found = catch_unwind(AssertUnwindSafe(|| self.find_model_shot(&position)));
-                    reply(DrillReport::ModelShot(position.id, found.unwrap_or_else(|_| Err(failed.to_owned()))));
+            DrillTask::Advise(task) => {
+                if !task.cancel.load(Ordering::Relaxed) {
+                    let found = catch_unwind(AssertUnwindSafe(|| self.find_model_shot(&task)));
+                    reply(DrillReport::ModelShot(task.id, found.unwrap_or_else(|_| Err(failed.to_owned()))));
                 }
             }
-            DrillTask::Play(stroke) => {
-                let id = stroke.session.id.clone();
-                if catch_unwind(AssertUnwindSafe(|| self.play(*stroke, reply))).is_err() {
+            DrillTask::Play(task) => {
+                let id = task.session.id.clone();
+                if catch_unwind(AssertUnwindSafe(|| self.play(*task, reply))).is_err() {
                     reply(DrillReport::Played(id, Err(failed.to_owned()), Ok(())));
                 }
             }
@@ -134,32 +134,32 @@ impl PracticeWorker {
         }
     }
 
-    fn find_model_shot(&mut self, position: &AdviceTask) -> Result<Option<ModelShot>, String> {
+    fn find_model_shot(&mut self, task: &AdviceTask) -> Result<Option<ModelShot>, String> {
         self.model_shot = None;
-        let AdviceTask { table, layout, rule, shooter, .. } = position;
-        let advice = if let Some(cue) = position.own {
+        let AdviceTask { table, layout, rule, shooter, .. } = task;
+        let advice = if let Some(cue) = task.own {
             Some(Advice { cue, solved: true, chance: chance(*shooter, *rule, table, layout, &cue) })
         } else {
-            let cancel = Arc::clone(&position.cancel);
+            let cancel = Arc::clone(&task.cancel);
             let request = Request {
                 rule: *rule,
                 skill: shooter.skill,
                 doubt: shooter.doubt,
-                plan: position.plan,
-                jumps: position.jumps,
+                plan: task.plan,
+                jumps: task.jumps,
                 budget: BUDGET,
                 cancel,
                 ..Request::default()
             };
             let coach = self.coach(table);
-            advise(coach, layout, &request, position.is_coachs).map_err(|error| error.to_string())?
+            advise(coach, layout, &request, task.is_coachs).map_err(|error| error.to_string())?
         };
-        self.model_shot = advice.map(|advice| (position.id, advice));
+        self.model_shot = advice.map(|advice| (task.id, advice));
         let model_shot = advice.map(|advice| {
-            let source = if position.own.is_some() { "exercise" } else { "coach" };
+            let source = if task.own.is_some() { "exercise" } else { "coach" };
             let shot =
                 Shot::new(table, layout, advice.cue, advice.solved, source).map_err(|error| error.to_string())?;
-            Ok(ModelShot { advice, is_own: position.own.is_some(), shot: Arc::new(shot) })
+            Ok(ModelShot { advice, is_own: task.own.is_some(), shot: Arc::new(shot) })
         });
         model_shot.transpose()
     }
@@ -171,8 +171,8 @@ impl PracticeWorker {
     }
 
     /// Plays a stroke. The attempt is on the disk before its result is reported; how good the stroke was comes after that.
-    fn play(&mut self, stroke: PlayTask, reply: &mut dyn FnMut(DrillReport)) {
-        let PlayTask { mut session, meant, with_hint, position } = stroke;
+    fn play(&mut self, task: PlayTask, reply: &mut dyn FnMut(DrillReport)) {
+        let PlayTask { mut session, meant, with_hint, advice_id } = task;
         self.remember(&mut session);
         let place = session.position().ok().flatten();
         let rule = session.exercise().map(|exercise| exercise.rule);
@@ -184,7 +184,7 @@ impl PracticeWorker {
         let number = session.attempts.len() - 1;
         // With the cue raised where it had to be.
         let meant = session.attempts[number].meant.unwrap_or(meant);
-        if let Some((_, advice)) = self.model_shot.as_ref().filter(|(id, _)| *id == position) {
+        if let Some((_, advice)) = self.model_shot.as_ref().filter(|(id, _)| *id == advice_id) {
             session.attempts[number].advised = Some(advice.cue);
             session.attempts[number].advised_chance = Some(advice.chance.rate);
         }

@@ -1,4 +1,4 @@
-//! What the training screen wants done outside, and what comes of it.
+//! Background tasks of the training page, and their reports.
 
 use std::{
     ffi::OsString,
@@ -91,7 +91,7 @@ pub enum KeepOutcome {
     Taken,
 }
 
-/// Something has come of what the training screen wanted. Where it failed, a sentence says why.
+/// A report from the training page's background tasks. Where it failed, a sentence says why.
 #[derive(Debug)]
 pub enum TrainingReport {
     /// The runs there are.

@@ -17,9 +17,8 @@ use carom::{
     storage::Places,
     table::{Layout, Table},
     terminal::{
-        Advice, AdviceTask, App, Capabilities, CoachAnswer, CoachJob, CoachNews, CoachWorker, Depth, DrillReport,
-        DrillTask, Effect, FollowSlot, Glyphs, ModelShot, PracticeWorker, Proposal, Reel, Settings, SettingsFile, Shot,
-        TrainingReport,
+        Advice, AdviceTask, App, Capabilities, CoachAnswer, CoachJob, CoachNews, CoachWorker, DrillReport, DrillTask,
+        Effect, FollowSlot, ModelShot, PracticeWorker, Proposal, Reel, Settings, SettingsFile, Shot, TrainingReport,
     },
 };
 use crossterm::event::KeyEvent;
@@ -32,9 +31,9 @@ use super::{
     runs::{NAME, OTHER, RUNS, known, listing, status},
 };
 
-pub const TRUE_COLOUR: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
-pub const NO_COLOUR: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
-pub const ASCII: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+pub const TRUE_COLOUR: Capabilities = Capabilities::TRUE_COLOUR;
+pub const NO_COLOUR: Capabilities = Capabilities::NO_COLOUR;
+pub const ASCII: Capabilities = Capabilities::ASCII;
 
 /// The sizes of terminals at which most is looked at.
 pub const SIZES: [(u16, u16); 2] = [(80, 24), (120, 40)];
@@ -52,7 +51,7 @@ pub struct Player {
     pub study: Option<Box<CoachJob>>,
     /// The question how often a stroke of the player's own is made.
     pub judged: Option<Box<CoachJob>>,
-    /// The shot that the coach teaches in the drills; none by itself, since what it finds depends on how fast the machine is.
+    /// The model shot that the coach finds in the drills; none by itself, since what it finds depends on how fast the machine is.
     pub model_shot: Option<&'static str>,
     pub copied: Vec<String>,
     /// What is asked of processes and of the terminal.
@@ -87,9 +86,9 @@ pub fn advice(job: &CoachJob) -> Advice {
     Advice { proposals: std::iter::once(best).chain(others).collect(), seed: 1, effort: None, found: None }
 }
 
-/// A shot that the coach teaches in the drills.
-fn model_shot(position: &AdviceTask, cue: &str) -> ModelShot {
-    let Proposal { shot, made, .. } = proposal(&position.table, &position.layout, cue, 400);
+/// A model shot of the coach's.
+fn model_shot(task: &AdviceTask, cue: &str) -> ModelShot {
+    let Proposal { shot, made, .. } = proposal(&task.table, &task.layout, cue, 400);
     let advice = carom::drills::Advice { cue: shot.cue, solved: true, chance: made.expect("it was judged") };
     ModelShot { advice, is_own: false, shot }
 }
@@ -248,9 +247,9 @@ impl Player {
         for task in tasks {
             let mut reports = Vec::new();
             match task {
-                DrillTask::Advise(position) if position.own.is_none() => {
-                    let model_shot = self.model_shot.map(|cue| model_shot(&position, cue));
-                    reports.push(DrillReport::ModelShot(position.id, Ok(model_shot)));
+                DrillTask::Advise(task) if task.own.is_none() => {
+                    let model_shot = self.model_shot.map(|cue| model_shot(&task, cue));
+                    reports.push(DrillReport::ModelShot(task.id, Ok(model_shot)));
                 }
                 task => self.practice.run(task, &mut |report| reports.push(report)),
             }

@@ -86,7 +86,7 @@ pub struct Turn {
     pub(super) stroke: OwnStroke,
     /// The stroke beside the model shot, once that was taken over.
     pub(super) what_if: Option<WhatIf>,
-    position: u64,
+    advice_id: u64,
     cancel: Arc<AtomicBool>,
 }
 
@@ -117,7 +117,7 @@ impl Turn {
             is_from_side: false,
             text_page: 0,
             ahead: None,
-            position: 0,
+            advice_id: 0,
             cancel: Arc::default(),
         }))
     }
@@ -291,10 +291,10 @@ impl Turn {
         self.stop_asking();
         self.what_if = None;
         self.model_shot = ModelShotState::Pending;
-        self.position = QUESTIONS.fetch_add(1, Ordering::Relaxed);
+        self.advice_id = QUESTIONS.fetch_add(1, Ordering::Relaxed);
         let is_exact = self.layout == self.exercise.layout;
         vec![DrillTask::Advise(Box::new(AdviceTask {
-            id: self.position,
+            id: self.advice_id,
             table: self.table.clone(),
             layout: self.layout,
             rule: self.exercise.rule,
@@ -315,7 +315,7 @@ impl Turn {
 
     /// The answer to question `id`; late ones are dropped.
     pub(super) fn advised(&mut self, id: u64, model_shot: Option<ModelShot>) {
-        if id == self.position {
+        if id == self.advice_id {
             if let Some(model_shot) = model_shot.as_ref().filter(|_| self.is_coachs_turn()) {
                 self.stroke = OwnStroke::new(model_shot.advice.cue);
             }
@@ -335,7 +335,7 @@ impl Turn {
             session: self.session.clone(),
             meant: *self.stroke(),
             with_hint: self.with_hint,
-            position: self.position,
+            advice_id: self.advice_id,
         }))
     }
 

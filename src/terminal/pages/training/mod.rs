@@ -241,7 +241,7 @@ impl TrainingPage {
                 let call = shell_word(&name);
                 self.message = Some(Message::good(format!("kept; use them by: carom recommend --policy {call}")));
             }
-            // A player who has left the run meanwhile, or is asked something else, is not asked any more, but told.
+            // Asked only while the run is still watched and nothing else is asked; otherwise told.
             Ok(KeepOutcome::Taken) if self.page() == TrainingContext::Watch && self.question.is_none() => {
                 self.question = Some(Question::Replace(name));
             }

@@ -94,7 +94,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let shots = watch.own.run.shots();
     let seconds = status.map(|status| status.seconds).or(last.map(|record| record.seconds));
     let updates = status.map(|status| status.updates).or(last.map(|record| record.updates));
-    // Speeds are of a run training alone.
+    // Only a run that is training has a speed.
     let working = status.filter(|_| watch.is_at_work());
     let speed = |value: Option<f64>| known(value.filter(|value| value.is_finite()), |value| count(value as u64));
     let is_going_on = matches!(watch.condition(), Condition::Is(Phase::Training | Phase::Measuring));
