@@ -127,9 +127,12 @@ fn with_what_was_left(app: App, places: &Places) -> App {
     let own = Store::new(places).own_skill().unwrap_or_default();
     let last = SavedSession::load_or_put_aside(&places.last);
     let draft = StrokeDraft::read_or_put_aside(&places.draft);
-    let notices = [last.as_ref().err().cloned(), draft.as_ref().err().cloned()];
-    let app = app.with_saved_session(last.unwrap_or_default()).with_draft(draft.unwrap_or_default());
-    notices.iter().fold(app.with_own_skill(own.map(|own| own.skill)), |app, notice| app.with_notice(notice.as_deref()))
+    let [of_session, of_draft] = [last.as_ref().err().cloned(), draft.as_ref().err().cloned()];
+    app.with_saved_session(last.unwrap_or_default())
+        .with_draft(draft.unwrap_or_default())
+        .with_own_skill(own.map(|own| own.skill))
+        .with_notice(of_session.as_deref())
+        .with_notice(of_draft.as_deref())
 }
 
 /// The coach as a conversation in lines, on the standard input and output, for the player whose files are at `places`. Returns how many

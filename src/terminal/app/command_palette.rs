@@ -1,4 +1,4 @@
-//! The command palette: everything that the keys do at a place, narrowed by typed words.
+//! The command palette: everything that the keys do at a place, narrowed by typed words, and what its own keys do.
 
 use crate::terminal::{
     Action, App, Capabilities, Condition, Effect, KeyContext, Keys, PaletteAction,
@@ -119,7 +119,7 @@ impl CommandPalette {
 
 impl App {
     /// Does what an action of the command palette asks for.
-    pub(super) fn find(&mut self, action: PaletteAction) -> Option<Effect> {
+    pub(super) fn update_palette(&mut self, action: PaletteAction) -> Option<Effect> {
         let found = self
             .command_palette
             .as_ref()

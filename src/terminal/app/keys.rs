@@ -52,13 +52,13 @@ impl App {
             return None;
         }
         // Where a key is asked for, each is an answer that means nothing else.
-        let is_answer = self.is_asked_for_a_key();
+        let is_asked_for_a_key = self.is_asked_for_a_key();
         let find = |key: &KeyEvent| bindings::find(key, self.place(), |when| self.disabled_reason(when));
         // The letters that a question asks for are its answers, even where the user gave them other work.
-        let is_named = matches!(find(key), Some(Ok(Action::Answer(_))));
-        let meant = if is_answer || is_named { *key } else { self.keys().translate(key) };
+        let is_answer = matches!(find(key), Some(Ok(Action::Answer(_))));
+        let meant = if is_asked_for_a_key || is_answer { *key } else { self.keys().translate(key) };
         let found = find(&meant);
-        if is_answer && !matches!(found, Some(Ok(Action::Quit | Action::Suspend | Action::Settings(_)))) {
+        if is_asked_for_a_key && !matches!(found, Some(Ok(Action::Quit | Action::Suspend | Action::Settings(_)))) {
             self.toasts.go_on();
             let effect = self.settings.pressed(key);
             self.take_changes();

@@ -72,7 +72,7 @@ pub struct App {
     /// The calibration's page.
     pub calibration: CalibrationPage,
     /// The file of a table that is to be played on as soon as the settings' file was read.
-    wanted_table: Option<PathBuf>,
+    pending_table: Option<PathBuf>,
     /// The settings that hold.
     in_force: Settings,
     /// The screen before the settings.
@@ -89,8 +89,8 @@ pub struct App {
     pub mouse: bool,
     /// What the terminal can show.
     pub caps: Capabilities,
-    /// The look with any theme that has colours.
-    full_look: Capabilities,
+    /// What it can show with any theme that has colours.
+    full_caps: Capabilities,
     /// The finest characters to draw with: octants only where they were asked for.
     finest: Glyphs,
     theme: Theme,
@@ -116,7 +116,7 @@ impl App {
             drills: DrillsPage::new(Places::of_this_user(), seed),
             settings: SettingsPage::new(Settings::path(), Places::of_this_user(), bindings::key_pages()),
             calibration: CalibrationPage::new(Places::of_this_user()),
-            wanted_table: None,
+            pending_table: None,
             in_force: Settings::default(),
             before: PageId::Coach,
             help: None,
@@ -125,7 +125,7 @@ impl App {
             area: Rect::default(),
             mouse: true,
             caps,
-            full_look: caps,
+            full_caps: caps,
             finest: caps.finest(),
             theme: Theme::new(caps.depth),
             theme_name: ThemeName::default(),
@@ -293,7 +293,7 @@ impl App {
                 self.drills.open_films();
                 return effect;
             }
-            Action::CommandPalette(action) => return self.find(action),
+            Action::CommandPalette(action) => return self.update_palette(action),
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;
                 self.turn_to(PageId::Drills);
@@ -352,7 +352,7 @@ impl App {
         None
     }
 
-    /// What the program around has to find out as long as it is wanted; it goes to [`App::receive_training`] and `CoachPage::see`.
+    /// What is polled for the page that is open; reports go to [`App::receive_training`] and `CoachPage::see`.
     pub fn subscriptions(&self) -> Subscriptions {
         if let Some(followed) = self.coach.followed() {
             return Subscriptions { shown: Some(followed.folder.clone()), ..Subscriptions::default() };

@@ -97,7 +97,7 @@ impl App {
     fn move_mark(&mut self, lines: isize) -> Option<Effect> {
         let arrow = KeyEvent::from(if lines < 0 { KeyCode::Up } else { KeyCode::Down });
         let found = bindings::find(&arrow, self.place(), |when| self.disabled_reason(when))?;
-        // A refusal is told once. Of the places on the way nothing is wanted: what the last one asks for is done.
+        // A refusal is told once; of the steps, only the last one's effect counts.
         let times = if found.is_ok() { lines.unsigned_abs() } else { 1 };
         (0..times).fold(None, |effect, _| self.perform(found).or(effect))
     }

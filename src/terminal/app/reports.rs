@@ -21,7 +21,7 @@ impl App {
         self.collect_toasts(false);
     }
 
-    /// Something has come of what the training screen wanted.
+    /// A report from the training page's background tasks.
     pub fn receive_training(&mut self, report: TrainingReport) {
         if let Some((table, query)) = self.training.receive(report) {
             self.coach.take_query(&table, query);

@@ -1,4 +1,4 @@
-//! What is set holds at once; what keys change for the session alone is shown among the settings.
+//! Changed settings take effect at once; what keys change for the session alone is shown among them.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ impl App {
         let troubles = self.settings.receive(report);
         self.toasts.push_first(&troubles);
         self.take_changes();
-        let path = self.wanted_table.take()?;
+        let path = self.pending_table.take()?;
         let effect = self.settings.choose("table", &path.to_string_lossy());
         self.take_changes();
         if effect.is_some()
@@ -25,8 +25,8 @@ impl App {
             // It may be another one of the same name, so that no setting has changed.
             self.coach.take_table(&table);
             self.calibration.play_on(&table);
-            let long = if self.settings.is_writable { ", at every start too" } else { " until the program ends" };
-            let said = format!("you now play on {}{long}", table.name);
+            let how_long = if self.settings.is_writable { ", at every start too" } else { " until the program ends" };
+            let said = format!("you now play on {}{how_long}", table.name);
             self.calibration.message = Some(Message::good(said));
         }
         self.collect_toasts(false);
@@ -35,7 +35,7 @@ impl App {
 
     /// Plays on the table of this file from now on, once the settings' file was read again.
     pub(super) fn use_table(&mut self, path: PathBuf) -> Effect {
-        self.wanted_table = Some(path);
+        self.pending_table = Some(path);
         self.show_session();
         self.settings.open()
     }
@@ -53,10 +53,10 @@ impl App {
         self.drills.take_settings(&settings);
         self.calibration.units = settings.units;
         self.mouse = settings.mouse;
-        let looks = |settings: &Settings| (settings.depth, settings.glyphs);
-        if looks(&before) != looks(&settings) {
-            self.full_look = self.detect.map_or(self.full_look, |detect| detect(&settings));
-            self.finest = self.full_look.finest();
+        let display = |settings: &Settings| (settings.depth, settings.glyphs);
+        if display(&before) != display(&settings) {
+            self.full_caps = self.detect.map_or(self.full_caps, |detect| detect(&settings));
+            self.finest = self.full_caps.finest();
         }
         self.choose_theme(settings.theme);
     }
@@ -81,7 +81,7 @@ impl App {
     pub(super) fn next_theme(&mut self) {
         let message = if self.in_force.depth == Some(Depth::Mono) {
             "no colours here: colours = \"none\" among the settings, F5".to_owned()
-        } else if self.full_look.depth == Depth::Mono {
+        } else if self.full_caps.depth == Depth::Mono {
             "no colours here: NO_COLOR is set or the terminal has none".to_owned()
         } else {
             self.choose_theme(self.theme_name.next());
@@ -99,7 +99,7 @@ impl App {
         } else if caps == self.caps {
             "letters are all that this terminal shows: TERM or the locale says so"
         } else {
-            (self.caps, self.full_look) = (caps, caps);
+            (self.caps, self.full_caps) = (caps, caps);
             self.in_force.glyphs = Some(caps.glyphs);
             return self.show_session();
         };
@@ -109,8 +109,8 @@ impl App {
     /// Draws with these colours from now on.
     pub(super) fn choose_theme(&mut self, name: ThemeName) {
         self.theme_name = name;
-        let mono = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, ..self.full_look };
-        self.caps = if name == ThemeName::Mono { mono } else { self.full_look };
+        let mono = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, ..self.full_caps };
+        self.caps = if name == ThemeName::Mono { mono } else { self.full_caps };
         self.theme = Theme::of(name, self.caps.depth);
     }
 }

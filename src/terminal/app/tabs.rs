@@ -52,8 +52,7 @@ impl App {
         if self.training.alone {
             return Some(Effect::Quit);
         }
-        self.turn_to(PageId::Coach);
-        None
+        self.open(PageId::Coach)
     }
 
     /// Whether there is no other screen to go to.

@@ -3,11 +3,11 @@
 mod advice;
 mod calibration;
 mod coach;
+mod command_palette;
 mod drills;
 mod edges;
 mod faults;
 mod film;
-mod finder;
 mod follow;
 mod heights;
 mod keys;

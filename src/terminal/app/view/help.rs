@@ -24,7 +24,7 @@ const KEYS: usize = 22;
 const COACH_NOTES: [&str; 6] = [
     "Places are measured from the middle of the table, x to the right, y up; diamonds from the lower left corner, 0 to 8 along \
      the long rails and 0 to 4 up the short ones, as the corners say. 1, 2, 3 on the rails are the cue ball's cushions. A kiss is \
-     an unwanted collision; the number says how many strokes it spoils. The dots are the predicted paths; rings are \
+     an unwanted collision; its percentage says in how many strokes it spoils the point. The dots are the predicted paths; rings are \
      where the cue ball first meets each ball and where the balls stop. While a shot plays, a ball trails bright dots for 0.4 s; \
      those before them are pale. On a small screen the balls are drawn larger than they are; they roll \
      and touch at their true size.",
@@ -49,7 +49,7 @@ const SETTINGS_NOTES: [&str; 3] = [
     "Changes take effect at once and are saved in the file named above; its comments, order and unknown keys stay. What another \
      program changes there is read and never overwritten.",
     "A setting without a mark is as it is by default. carom config prints all of them, with what each means and accepts.",
-    "A key of your own does what the key you give it does, on every page. Only the answers to a question, y and n, stay what they are.",
+    "A key of your own works like the key that you choose for it, on every page. Only y and n always answer questions.",
 ];
 
 const TRAINING_NOTES: [&str; 4] = [
@@ -63,7 +63,7 @@ const TRAINING_NOTES: [&str; 4] = [
 
 const DRILL_NOTES: [&str; 5] = [
     "The line of aim is straight and ends where the cue ball meets the first ball or cushion, at the ring. It ignores \
-     swerve and everything after that. A ball is hit 100 % full head-on, 0 % where it is only grazed.",
+     swerve and everything after that contact. A ball is hit 100 % full head-on, 0 % where it is only grazed.",
     "Strokes are played with the errors of the player who is named above. How often a stroke makes the point is from 1000 \
      simulated strokes of that player.",
     "An attempt for which the hint was shown counts like any other; the score tells how many there were.",

@@ -9,7 +9,7 @@ use crate::terminal::{
     Action, App, Condition, KeyContext, PaletteAction, SettingsContext,
     app::bindings::{Bound, bindings},
     keymap::{Chord, Section, keys_text},
-    ui::Ui,
+    ui::{Theme, Ui},
 };
 
 /// Columns between two hints, and where that makes room for all of them.
@@ -22,7 +22,7 @@ pub fn draw_hints(app: &App, area: Rect, ui: &mut Ui) {
     let mut hints: Vec<(&Bound, Line)> = all
         .iter()
         .filter(|binding| app.disabled_reason(binding.when).is_none())
-        .filter_map(|binding| Some((binding, hint(app, binding)?)))
+        .filter_map(|binding| Some((binding, hint(app, binding, ui.theme)?)))
         .collect();
     // A blank at either end.
     let room = usize::from(area.width.saturating_sub(2));
@@ -51,16 +51,13 @@ pub fn draw_hints(app: &App, area: Rect, ui: &mut Ui) {
     }
 }
 
-fn hint(app: &App, binding: &Bound) -> Option<Line<'static>> {
+fn hint(app: &App, binding: &Bound, theme: &Theme) -> Option<Line<'static>> {
     let (words, keys) = binding.hint?;
     let keys = keys_text(binding.keys.iter().take(keys).filter_map(|(chord, ..)| working(app, *chord)), app.caps);
     if keys.is_empty() {
         return None;
     }
-    Some(Line::from(vec![
-        Span::styled(keys, app.theme().accent()),
-        Span::styled(format!(" {words}"), app.theme().faint()),
-    ]))
+    Some(Line::from(vec![Span::styled(keys, theme.accent()), Span::styled(format!(" {words}"), theme.faint())]))
 }
 
 /// A key that does the work of `chord` here: where letters are typed, none of the user's own; where a key or an answer is asked

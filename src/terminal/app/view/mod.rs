@@ -1,8 +1,8 @@
 //! The screen as a whole: the open page between tabs and keys, and what lies over it.
 
+mod command_palette;
 mod help;
 mod hints;
-mod palette;
 mod tabs;
 mod target;
 mod toasts;
@@ -61,7 +61,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         None => draw_page(app.page(), &parts, ui),
     };
     if let Some(command_palette) = &app.command_palette {
-        foot = palette::draw(app, command_palette, area, ui);
+        foot = command_palette::draw(app, command_palette, area, ui);
     }
     // The page of messages begins with what would be told over it.
     if app.help == Some((Overlay::Messages, 0)) {

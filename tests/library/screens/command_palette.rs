@@ -10,7 +10,7 @@ fn opened(caps: Capabilities) -> Player {
 
 #[test]
 fn it_lists_what_the_keys_do_and_what_they_may_not_do_now() {
-    check_at(&[(80, 24)], "finder", &opened(TRUE_COLOUR));
+    check_at(&[(80, 24)], "command_palette", &opened(TRUE_COLOUR));
     opened(NO_COLOUR).is_plain().shows(&["▸ Enter            ask the coach", "Enter do it"]);
     let text = opened(ASCII).press("s h o t").text(80, 24);
     assert!(text.is_ascii(), "{text}");
