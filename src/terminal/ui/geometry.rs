@@ -1,4 +1,4 @@
-//! Where the table lies on the screen: one object turns metres into cells and back.
+//! Where the table lies on the screen: the mapping between metres and cells, and the room beside the table.
 
 use glam::DVec2;
 use ratatui::layout::Rect;
@@ -93,9 +93,8 @@ impl Mapping {
     }
 }
 
-/// Divides `area` for `table` with a column of panels to its right and so many rows of others `below` both: what the table does
-/// not need goes to the column, up to a width that is still good to read. Gives the table's room, and the column, which ends with
-/// the table; `widths` are its least and most, with the blank before it.
+/// Divides `area` into the table's room, a column to its right as high as the table, and `below` rows under both. The column gets
+/// the columns that the table does not need, within `widths` (least and most, with the blank before it).
 pub fn with_column(table: &Table, area: Rect, below: u16, widths: (u16, u16)) -> (Rect, Rect) {
     let room = Rect { width: area.width.saturating_sub(widths.0), height: area.height.saturating_sub(below), ..area };
     let outer = Mapping::fit(table, room).outer();

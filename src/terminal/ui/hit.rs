@@ -1,4 +1,4 @@
-//! The shooter's view of the first object ball: how much of it the cue ball covers where they meet.
+//! The shooter's view of the first object ball: how much of it the cue ball covers where they meet; while a shot plays, the spin instead.
 
 use ratatui::{layout::Rect, style::Modifier, text::Span};
 

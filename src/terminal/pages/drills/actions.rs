@@ -25,8 +25,7 @@ impl DrillsPage {
                 refuse(!self.catalogue.is_own(), "bundled exercises stay; only my positions go")
             }
             DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
-            DrillCondition::OfExercise => refuse(self.turn.is_none(), "no exercise is open")
-                .or(refuse(!self.records.has_exercise(), "this record is of all exercises")),
+            DrillCondition::OfExercise => refuse(!self.records.has_exercise(), "this record is of all exercises"),
             DrillCondition::Filmed => refuse(self.film.played().is_none(), "there is no filmed shot on the table yet"),
             DrillCondition::Estimated => {
                 refuse(self.records.skill().is_none(), "there is no estimate of your skill yet")

@@ -16,9 +16,8 @@ use crate::{
 pub struct FilmsScreen {
     /// Place of the marked shot in the list.
     pub mark: usize,
-    played: Option<Box<FilmReplay>>,
-    /// Why the marked shot could not be played, where it was tried.
-    failure: Option<String>,
+    /// What came of fitting the marked shot, once that is known.
+    played: Option<Result<Box<FilmReplay>, String>>,
     /// The clock of the shot that is watched.
     pub playback: Playback,
 }
@@ -37,7 +36,7 @@ impl FilmsScreen {
     /// Marks the shot so many after the marked one; gives what is to be played. It is watched when it is received.
     pub fn begin(&mut self, shots: isize) -> Option<FilmedShot> {
         self.move_mark(shots);
-        (self.played, self.failure) = (None, None);
+        self.played = None;
         self.playback.jump(0.0);
         self.marked().map(|listed| listed.filmed.clone())
     }
@@ -48,8 +47,7 @@ impl FilmsScreen {
     /// Why it could not be played.
     pub fn receive(&mut self, number: u32, played: Result<Box<FilmReplay>, String>) -> Result<(), String> {
         if self.played.is_none() && self.marked().is_some_and(|listed| listed.filmed.number == number) {
-            let played = played.inspect_err(|sentence| self.failure = Some(sentence.clone()));
-            let played = self.played.insert(played?);
+            let played = self.played.insert(played).as_ref().map_err(String::clone)?;
             self.playback.toggle(played.replay.duration());
         }
         Ok(())
@@ -57,17 +55,17 @@ impl FilmsScreen {
 
     /// Why nothing is watched, where that is known.
     pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
+        self.played.as_ref()?.as_ref().err().map(String::as_str)
     }
 
     /// What is watched; `None` while the stroke is being fitted, and where that has failed.
     pub fn played(&self) -> Option<&FilmReplay> {
-        self.played.as_deref()
+        self.played.as_ref()?.as_ref().ok().map(Box::as_ref)
     }
 
     /// Does what a key asks of the shot that is watched.
     pub fn watch(&mut self, action: DrillAction) {
-        let Some(played) = &self.played else { return };
+        let Some(Ok(played)) = &self.played else { return };
         let (events, duration) = (played.shot.recording.events(), played.replay.duration());
         match action {
             DrillAction::Event(steps) => self.playback.step(steps, events, duration),
@@ -78,7 +76,7 @@ impl FilmsScreen {
 
     /// Lets `seconds` pass for the shot.
     pub fn tick(&mut self, seconds: f64) {
-        if let Some(played) = &self.played {
+        if let Some(Ok(played)) = &self.played {
             self.playback.tick(seconds, played.replay.duration());
         }
     }

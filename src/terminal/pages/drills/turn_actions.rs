@@ -16,7 +16,7 @@ use crate::{
 const FIRST_RUN: u32 = 5;
 const FIRST_GAME: u32 = 10;
 /// Why a key does nothing before the result of a stroke was seen.
-const ON_ITS_WAY: &str = "the shot is running; Enter skips to its end";
+pub(super) const IS_RUNNING: &str = "the shot is running; Enter skips to its end";
 /// Longest run and game that can be asked for.
 const LONGEST: u32 = 100;
 
@@ -40,12 +40,7 @@ impl Turn {
             ) => Some("the stroke is being played"),
             (
                 Stage::Aiming,
-                Condition::Playable
-                | Condition::Set
-                | Condition::Aiming
-                | Condition::Watching
-                | Condition::ModelShot
-                | Condition::Adoptable,
+                Condition::Playable | Condition::Set | Condition::Aiming | Condition::Watching | Condition::Adoptable,
             ) if self.is_coach_thinking() => Some("the coach is still thinking"),
             (Stage::Aiming, Condition::Playable | Condition::Set) if self.is_coachs_turn() => None,
             (Stage::Aiming, Condition::ModelShot) if self.is_coachs_turn() && self.hint().is_some() => {
@@ -68,13 +63,13 @@ impl Turn {
             (_, Condition::Running | Condition::Ended) => match self.watched() {
                 None => Some("no shot is being watched"),
                 Some(watched) if watched.is_settled => refuse(when == Condition::Running, "the shot is at its end"),
-                Some(_) => refuse(when == Condition::Ended, ON_ITS_WAY),
+                Some(_) => refuse(when == Condition::Ended, IS_RUNNING),
             },
             (_, Condition::Free | Condition::Restart | Condition::Counted) if self.is_exam() => {
                 Some("an exam is under way; Esc leaves it")
             }
             // Another session would take the stroke off the table with its result; a run asks first and shows it then.
-            (_, Condition::Restart | Condition::Counted) if self.is_open() && !self.is_under_way() => Some(ON_ITS_WAY),
+            (_, Condition::Restart | Condition::Counted) if self.is_open() && !self.is_under_way() => Some(IS_RUNNING),
             (_, Condition::Counted) => {
                 refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
             }

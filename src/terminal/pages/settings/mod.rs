@@ -27,7 +27,7 @@ const TABLE: &str = "table";
 /// Longest value that is typed, bytes: the path of a table is one.
 const LONGEST: usize = 1000;
 
-/// What is being put in.
+/// What is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Question {
     /// A value, as far as it is typed.
@@ -55,7 +55,7 @@ pub struct SettingsPage {
     pub is_writable: bool,
     /// The page that is open: the settings, or the keys.
     pub page: SettingsContext,
-    /// What is being put in.
+    /// What is asked.
     pub question: Option<Question>,
     /// The page of keys.
     pub keys: OwnKeys,

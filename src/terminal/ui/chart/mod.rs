@@ -15,7 +15,7 @@ use crate::{
     terminal::{
         Capabilities,
         ui::{
-            Theme, Ui,
+            Theme, Ui, below_title,
             chart::{
                 grid::{Grid, Layer},
                 scale::{LABEL_WIDTH, Scale, shot_ticks},
@@ -151,7 +151,7 @@ pub fn draw_chart(chart: &Chart, area: Rect, ui: &mut Ui) {
     ui.buffer.set_style(area, ui.theme.text());
     let chart = &Chart { shots: sound(chart.shots), ..*chart };
     title::draw_chart_title(chart, area, ui);
-    let below = Rect { y: area.y + 1, height: area.height - 1, ..area };
+    let below = below_title(area);
     let labelled = below.width >= LEFT + LEAST_PLOT;
     let left = if labelled { LEFT } else { 0 };
     let with_shots = chart.with_shots && labelled && below.height > 1;

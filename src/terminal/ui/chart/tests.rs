@@ -38,9 +38,6 @@ fn stretch(shots: (u64, u64), values: &[f64]) -> Point {
     Point { shots, finite: (!finite.is_empty()).then(span), non_finite }
 }
 
-const BRAILLE: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
-const ASCII: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
-
 fn chart<'a>(title: &'a str, curves: &'a [Curve<'a>]) -> Chart<'a> {
     let shots = (0.0, 1000.0);
     Chart {
@@ -90,7 +87,7 @@ fn a_falling_loss_beside_another_run() {
     let own: Vec<_> = (1..=80).map(|n| line(10 * n, (-(n as f64) / 20.0).exp())).collect();
     let other: Vec<_> = (1..=40).map(|n| line(25 * n, 0.5 + 0.1 * (n as f64 / 3.0).sin())).collect();
     let curves = [curve(&own, SeriesId::Own), curve(&other, SeriesId::Other)];
-    insta::assert_snapshot!(picture(&chart("3 critic loss", &curves), (44, 9), ASCII), @r"
+    insta::assert_snapshot!(picture(&chart("3 critic loss", &curves), (44, 9), Capabilities::ASCII), @r"
     - 3 critic loss -------------------- 0.0183
        1.0+**
           | **
@@ -103,7 +100,7 @@ fn a_falling_loss_beside_another_run() {
     ");
     let log =
         Chart { log: true, smoothing: 0.03, note: Some("a note without room"), ..chart("3 critic loss", &curves) };
-    insta::assert_snapshot!(picture(&log, (44, 9), BRAILLE), @r"
+    insta::assert_snapshot!(picture(&log, (44, 9), Capabilities::TRUE_COLOUR), @r"
     ─ 3 critic loss · log · smooth 3 % ─ 0.0183
          1┤⠈⠓⠲⠤⣄⣀⣀⣀⠁ ⠁ ⠁ ⠁ ⠁ ⢀⢀⣀⣀⣀⣀⣀⡀⠁ ⠁ ⠁ ⠁ ⠁ ⣀
           │ ⠉  ⠈⠈⠙⠒⠦⣄⣀⠒⠒⠒⠒⠒⠒⠋⠉⠉    ⠈⠉⠉⠙⠒⠒⠒⠒⠒⠒⠋⠉⠉
@@ -123,7 +120,7 @@ fn gaps_are_named_and_interrupt_the_curve() {
     points[70] = stretch((700, 709), &[f64::INFINITY, 0.9]);
     points[99] = line(990, f64::NEG_INFINITY);
     let curves = [curve(&points, SeriesId::Own)];
-    insta::assert_snapshot!(picture(&chart("1 mean reward", &curves), (50, 8), ASCII), @r"
+    insta::assert_snapshot!(picture(&chart("1 mean reward", &curves), (50, 8), Capabilities::ASCII), @r"
     - 1 mean reward ---- NaN x10 inf x1 -inf x1  -inf
          1+    *****                  ******
           |  ***   ***              ***    ***
@@ -134,7 +131,7 @@ fn gaps_are_named_and_interrupt_the_curve() {
      shots 0      0.2k     0.4k    0.6k     0.8k  1.0k
     ");
     let log = Chart { log: true, ..chart("1 mean reward", &curves) };
-    insta::assert_snapshot!(picture(&log, (60, 7), BRAILLE), @r"
+    insta::assert_snapshot!(picture(&log, (60, 7), Capabilities::TRUE_COLOUR), @r"
     ─ 1 mean reward · log ────── ≤0 ×33  NaN ×10 ∞ ×1 -∞ ×1  -∞
          1┤⠁ ⢀⡤⠖⠚⠉⠉⠉⠙⠒⠦⣄ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⣠⠴⠒⠋⠙⠋⠉⠓⠲⢤⡀ ⠁ ⠁ ⠁ ⠁ ⠁
           │ ⣰⠋         ⠈⢳⡀               ⢀⡼⠁         ⠙⣆
@@ -143,8 +140,8 @@ fn gaps_are_named_and_interrupt_the_curve() {
       0.02┤⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⠘ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀
      shots 0        0.2k       0.4k      0.6k       0.8k    1.0k
     ");
-    let title = drawn(&log, (60, 7), BRAILLE);
-    let warning = Theme::new(BRAILLE.depth).warning;
+    let title = drawn(&log, (60, 7), Capabilities::TRUE_COLOUR);
+    let warning = Theme::new(Capabilities::TRUE_COLOUR.depth).warning;
     assert!((0..60).any(|x| title[(x, 0)].symbol() == "∞" && title[(x, 0)].fg == warning));
 }
 
@@ -153,7 +150,7 @@ fn a_run_without_data_and_one_with_a_single_point() {
     let point = [line(300, -0.4)];
     let mut one = chart("4 held-out success", &[]);
     one.note = Some("measured every 5k shots");
-    insta::assert_snapshot!(picture(&one, (40, 5), BRAILLE), @r"
+    insta::assert_snapshot!(picture(&one, (40, 5), Capabilities::TRUE_COLOUR), @r"
     ─ 4 held-out success ───────────────────
           │
           │     measured every 5k shots
@@ -161,7 +158,7 @@ fn a_run_without_data_and_one_with_a_single_point() {
      shots 0              0.5k          1.0k
     ");
     let curves = [curve(&point, SeriesId::Own)];
-    insta::assert_snapshot!(picture(&chart("4 held-out success", &curves), (26, 5), BRAILLE), @r"
+    insta::assert_snapshot!(picture(&chart("4 held-out success", &curves), (26, 5), Capabilities::TRUE_COLOUR), @r"
     ─ 4 held-out success ─────
          0┤⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁
           │     ⢠⡄
@@ -182,7 +179,7 @@ fn the_whole_run_is_shown_by_a_range_that_grows_in_steps() {
 
 /// Rows in which a column of cells shows the run's own curve.
 fn rows_in(buffer: &Buffer, column: u16) -> Vec<u16> {
-    let own = Theme::new(BRAILLE.depth).curves[0];
+    let own = Theme::new(Capabilities::TRUE_COLOUR.depth).curves[0];
     (1..buffer.area.height).filter(|row| buffer[(column, *row)].fg == own).collect()
 }
 
@@ -193,7 +190,7 @@ fn a_peak_of_one_line_in_millions_is_seen_from_top_to_bottom_at_every_look() {
     let curves = [curve(&points, SeriesId::Own)];
     let chart = Chart { shots: whole(2_000_000, None), ..chart("spike", &curves) };
     for glyphs in [Glyphs::Sextant, Glyphs::Half, Glyphs::Letters] {
-        let buffer = drawn(&chart, (107, 12), Capabilities { glyphs, ..BRAILLE });
+        let buffer = drawn(&chart, (107, 12), Capabilities { glyphs, ..Capabilities::TRUE_COLOUR });
         let column = LEFT + (0.617 * 99.5) as u16;
         assert_eq!(rows_in(&buffer, column), (1..11).collect::<Vec<_>>(), "{}", text(&buffer));
         assert_eq!(rows_in(&buffer, column + 2), [10], "{}", text(&buffer));
@@ -204,7 +201,11 @@ fn a_peak_of_one_line_in_millions_is_seen_from_top_to_bottom_at_every_look() {
 fn neighbours_are_joined_however_far_apart() {
     let points = [line(0, 0.0), line(10, 1.0), line(500, 0.0), line(1000, 1.0)];
     let curves = [curve(&points, SeriesId::Own)];
-    let buffer = drawn(&chart("zigzag", &curves), (67, 22), Capabilities { glyphs: Glyphs::Letters, ..BRAILLE });
+    let buffer = drawn(
+        &chart("zigzag", &curves),
+        (67, 22),
+        Capabilities { glyphs: Glyphs::Letters, ..Capabilities::TRUE_COLOUR },
+    );
     let rows: Vec<_> = (LEFT..67).map(|column| rows_in(&buffer, column)).collect();
     for pair in rows.windows(2) {
         let below = |one: &[u16], other: &[u16]| one[0] > other[other.len() - 1] + 1;
@@ -217,7 +218,7 @@ fn a_part_of_a_curve_is_the_same_curve_cut_off() {
     let all: Vec<_> = (0..400).map(|n| line(25 * n, (n as f64 / 30.0).sin())).collect();
     let frame = |points: &[Point]| {
         let curves = [curve(points, SeriesId::Own)];
-        picture(&Chart { shots: (3000.0, 5000.0), ..chart("", &curves) }, (60, 12), BRAILLE)
+        picture(&Chart { shots: (3000.0, 5000.0), ..chart("", &curves) }, (60, 12), Capabilities::TRUE_COLOUR)
     };
     // One point beyond either end, as the history gives them.
     let plot = |text: &str| text.lines().skip(1).collect::<Vec<_>>().join("\n");
@@ -277,7 +278,7 @@ fn record(n: u64, random: &mut Xoshiro256PlusPlus) -> Record {
 fn bytes_of_frames() -> Vec<usize> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(1);
     let mut terminal = ratatui::Terminal::new(AnsiBackend::new(|| Ok((120, 40)))).unwrap();
-    let (theme, mut history, mut bytes) = (Theme::new(BRAILLE.depth), History::default(), Vec::new());
+    let (theme, mut history, mut bytes) = (Theme::new(Capabilities::TRUE_COLOUR.depth), History::default(), Vec::new());
     for n in 0..5000 {
         history.push(&record(n, &mut random));
         let shots = whole(400 * (n + 1), Some(3_000_000));
@@ -288,7 +289,7 @@ fn bytes_of_frames() -> Vec<usize> {
                 let area = Rect::new(60 * (n as u16 % 2), 11 * (n as u16 / 2), 60, 11);
                 let smoothing = if n % 2 == 0 { 0.0 } else { 0.03 };
                 let chart = Chart { shots, smoothing, with_shots: n > 1, ..chart(quantity.name(), &curves) };
-                draw(&chart, area, &theme, BRAILLE, frame.buffer_mut());
+                draw(&chart, area, &theme, Capabilities::TRUE_COLOUR, frame.buffer_mut());
             }
         };
         terminal.draw(draw).unwrap();

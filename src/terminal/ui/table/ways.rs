@@ -31,7 +31,7 @@ fn name_ways(picture: &TablePicture, ui: &mut Ui) {
     }
     let [own, other] = [&own.paths[0], &other.paths[0]];
     let mut taken: Cells = own.iter().chain(other).map(|dot| picture.mapping.to_cell(dot.place)).collect();
-    taken.extend(pictures(picture));
+    taken.extend(ball_cells(picture));
     let theme = ui.theme;
     for (text, way, from, color) in
         [("you", own, other, theme.paths[0]), (picture.view.other_name, other, own, theme.way)]
@@ -51,18 +51,18 @@ fn draw_note(picture: &TablePicture, ui: &mut Ui) {
     let Some((place, text)) = picture.view.note.filter(|(place, _)| picture.mapping.is_on_bed(*place)) else { return };
     let mark = beside_balls(picture, place);
     let (cell, color) = (picture.mapping.to_cell(mark.unwrap_or(place)), ui.theme.mark);
-    let pictures: Cells = pictures(picture).collect();
+    let balls: Cells = ball_cells(picture).collect();
     if mark.is_some() {
         // The letters of ways are others.
         write(if ui.caps.glyphs == Glyphs::Letters { "*" } else { "\u{d7}" }, &[cell], color, ui);
     }
-    let mut taken = pictures.clone();
+    let mut taken = balls.clone();
     picture.each_dot(|_, dot, _| {
         taken.insert(picture.mapping.to_cell(dot.place));
     });
     let width = columns(text) as u16;
     // Rather over a way than far off.
-    let tries = [(&taken, 1), (&pictures, 1), (&pictures, 3)];
+    let tries = [(&taken, 1), (&balls, 1), (&balls, 3)];
     let found = tries.into_iter().find_map(|(taken, rows)| free(picture, width, beside(cell, width, rows), taken));
     if let Some(cells) = found {
         write(text, &cells, color, ui);
@@ -89,10 +89,10 @@ fn beside_balls(picture: &TablePicture, place: DVec2) -> Option<DVec2> {
 
 type Cells = HashSet<(u16, u16)>;
 
-/// The cells of the balls and of those that are not there.
-fn pictures(picture: &TablePicture) -> impl Iterator<Item = (u16, u16)> {
+/// The cells of the balls and of the ghosts.
+fn ball_cells(picture: &TablePicture) -> impl Iterator<Item = (u16, u16)> {
     let balls = picture.balls.into_iter().chain(picture.ghosts().into_iter().map(|ghost| ghost.place));
-    // A picture may reach into the rows and columns beside its middle.
+    // A ball may reach into the rows and columns beside its middle.
     balls.map(|place| picture.mapping.to_cell(place)).flat_map(|(x, y)| {
         (x.saturating_sub(2)..=x + 2).flat_map(move |x| (y.saturating_sub(1)..=y + 1).map(move |y| (x, y)))
     })

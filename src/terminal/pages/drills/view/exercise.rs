@@ -9,6 +9,7 @@ use crate::{
         Capabilities, Shot,
         pages::drills::{
             AimLine, AimTarget, DrillsPage, ModelShotState, Turn,
+            turn_actions::IS_RUNNING,
             view::{draw_header, panels, panes::Panes, score},
         },
         shot::Meeting,
@@ -136,7 +137,7 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
         return verdict;
     }
     Message::plain(match (turn.watched().is_some(), &turn.model_shot) {
-        (true, _) => "the shot is running; Enter skips to its end",
+        (true, _) => IS_RUNNING,
         (false, ModelShotState::Pending) if turn.is_coachs_turn() => "the coach is thinking about its stroke",
         (false, ModelShotState::Missing) if turn.is_coachs_turn() => {
             "the coach knows no stroke here; Space plays full at a ball"

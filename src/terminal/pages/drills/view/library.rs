@@ -126,7 +126,7 @@ fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rec
     }
 }
 
-/// A number in three columns, from 1000 on in thousands; beside the list it stands whole.
+/// A number in at most three columns: thousands from 1000 on. The preview shows it in full.
 fn in_three(number: usize) -> String {
     if number < 1000 { number.to_string() } else { format!("{}k", number / 1000) }
 }

@@ -20,8 +20,8 @@ const SCORE: u16 = 34;
 pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let session = &turn.session;
     draw_header(drills, "exam", "", header, ui);
-    let score = SCORE.max(area.width * 2 / 5);
-    let [list, score] = split(area.width - score - 1, area);
+    let width = SCORE.max(area.width * 2 / 5);
+    let [list, panel] = split(area.width - width - 1, area);
     let inner = draw_title("Exercises", list, ui);
     let signs = ui.caps.pick(["●", "○"], ["x", "o"]);
     for (n, (attempt, y)) in session.attempts.iter().zip(inner.y..inner.bottom()).enumerate() {
@@ -35,32 +35,35 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         ui.buffer.set_stringn(inner.x + 6, y, title, room, ui.theme.text());
         write_right(ui.buffer, inner.x, inner.right(), y, &chance, ui.theme.faint());
     }
-    write_right(ui.buffer, list.x, score.x, list.y, " your stroke makes ", ui.theme.faint());
-    let inner = draw_title("Score", score, ui);
+    write_right(ui.buffer, list.x, panel.x, list.y, " your stroke makes ", ui.theme.faint());
+    let inner = draw_title("Score", panel, ui);
     let text = Rect { x: inner.x + 1, y: inner.y + 1, width: inner.width - 2, height: inner.height.saturating_sub(1) };
-    let Some(mark) = exam::score(session) else { return Message::plain("nothing was played") };
-    let expected = |name: &str, points: f64| format!("{name:<12}{points:>5.1} of {}", mark.tried);
+    let Some(score) = exam::score(session) else { return Message::plain("nothing was played") };
+    let expected = |name: &str, points: f64| format!("{name:<12}{points:>5.1} of {}", score.tried);
     let paragraphs = [
-        (format!("{} of {} made", mark.made, mark.tried), ui.theme.accent()),
+        (format!("{} of {} made", score.made, score.tried), ui.theme.accent()),
         (String::new(), ui.theme.text()),
         ("With the model shots, on average, players make:".to_owned(), ui.theme.text()),
     ];
     let top = write_paragraphs(&paragraphs, text, ui) + 1;
     let players = [
-        ("beginner", mark.expected.beginner),
-        ("club", mark.expected.club),
-        ("world-class", mark.expected.world_class),
+        ("beginner", score.expected.beginner),
+        ("club", score.expected.club),
+        ("world-class", score.expected.world_class),
     ];
     for ((name, points), y) in players.into_iter().zip(top..text.bottom()) {
-        let style = if name == mark.nearest { ui.theme.good() } else { ui.theme.text() };
+        let style = if name == score.nearest { ui.theme.good() } else { ui.theme.text() };
         ui.buffer.set_stringn(text.x, y, expected(name, points), usize::from(text.width), style);
     }
     let rest = Rect { y: (top + 4).min(text.bottom()), height: text.bottom().saturating_sub(top + 4), ..text };
     let helped = session.record().helped;
-    let mut paragraphs = vec![(format!("Grade: {}", mark.nearest), ui.theme.good())];
+    let mut paragraphs = vec![(format!("Grade: {}", score.nearest), ui.theme.good())];
     if helped > 0 {
         paragraphs.push((format!("{helped} with a hint"), ui.theme.faint()));
     }
     write_paragraphs(&paragraphs, rest, ui);
-    Message::good(format!("the exam is over: {} of {}, nearest to the {} player", mark.made, mark.tried, mark.nearest))
+    Message::good(format!(
+        "the exam is over: {} of {}, nearest to the {} player",
+        score.made, score.tried, score.nearest
+    ))
 }

@@ -52,7 +52,7 @@ impl PageView for SettingsPage {
     }
 }
 
-/// What is being put in, as it stands on the status line, without what is typed.
+/// What is asked, as it stands on the status line, without what is typed.
 fn question(settings: &SettingsPage, caps: Capabilities) -> Option<String> {
     match settings.question.as_ref()? {
         Question::Value(typed) => {
