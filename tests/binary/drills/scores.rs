@@ -45,7 +45,7 @@ fn results_at_a_table_are_scored_as_by_hand() {
 }
 
 #[test]
-fn a_seed_plays_the_same_again_and_is_compared_with_what_is_taught_or_the_coach() {
+fn a_seed_plays_the_same_again_and_is_compared_with_the_model_shot_or_the_coach() {
     let folder = folder();
     let play = || {
         let args =
@@ -66,7 +66,7 @@ fn a_seed_plays_the_same_again_and_is_compared_with_what_is_taught_or_the_coach(
     }
     let own = drill(folder.path(), &["try", "mine", "--shot", "0,0.3,3,1,4", "--json"]).json();
     let own = kinds(&own, "attempt")[0];
-    assert_eq!([&own["changes"], &own["advised_chance"]], [&json!([]), &own["chance"]], "as it is taught");
+    assert_eq!([&own["changes"], &own["advised_chance"]], [&json!([]), &own["chance"]], "as the model shot");
     assert_ne!(attempts[0]["played"], attempts[1]["played"], "every attempt has its own errors");
     assert_eq!(drill(folder.path(), &["history", "--json"]).json()[0]["tried"], 11);
     let shifted = ["try", "mine", "--shot", "0,0.3,3,1,4", "--repeat", "3", "--shifted", "--budget-ms", "20", "--json"];

@@ -340,7 +340,7 @@ fn monochrome_pictures_hold_no_colour_at_all() {
 }
 
 #[test]
-fn half_blocks_draw_the_same_scene() {
+fn half_blocks_draw_the_same_table() {
     let player = Player::new().press("Enter").answer().press("g .");
     check_at(&[(120, 40)], "half_blocks", &player);
     player.shows(&["▀", "Contacts 1/"]);

@@ -141,8 +141,8 @@ fn the_hint_shows_the_shot_and_the_attempt_is_counted_as_helped() {
     assert_eq!((attempts.len(), attempts[1].helped), (2, false));
 }
 
-/// The player aims as the exercise teaches it.
-fn taught(player: Player) -> Player {
+/// The player aims as in the model shot.
+fn aimed_as_the_model_shot(player: Player) -> Player {
     let turn = player.app.drills.turn.as_ref().unwrap();
     let degrees = turn.stroke().phi.to_degrees();
     let fine = ((-72.0 - degrees) * 5.0).round() as usize;
@@ -152,7 +152,7 @@ fn taught(player: Player) -> Player {
 
 #[test]
 fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
-    let player = taught(Player::practising(TRUE_COLOUR)).press("Space");
+    let player = aimed_as_the_model_shot(Player::practising(TRUE_COLOUR)).press("Space");
     let attempt = player.store().sessions().items[0].attempts[0].clone();
     assert!(attempt.meant != attempt.played && attempt.chance.is_some() && attempt.advised.is_some());
     let half = player.wait(0.4);

@@ -89,7 +89,7 @@ fn balls_of_the_drills_keep_their_colours_on_the_coachs_table() {
     assert_eq!((*coach.app.coach.layout(), coach.app.coach.cue_ball().name()), (layout, "yellow"));
 }
 
-/// At a match against the coach, which teaches `model_shot`, after a miss.
+/// At a match against the coach, whose model shot is given, after a miss.
 fn against_the_coach(model_shot: Option<&'static str>, shorter: &str) -> Player {
     let mut player = Player::practising(NO_COLOUR).press("o o o o");
     if !shorter.is_empty() {

@@ -20,7 +20,7 @@ fn advised(player: Player, balls: &str, words: &str) -> Player {
 }
 
 /// The same with the shot of a bundled exercise on its own balls.
-fn taught(player: Player, name: &str) -> Player {
+fn with_model_shot(player: Player, name: &str) -> Player {
     let library = Library::bundled();
     let exercise = library.get(name).unwrap();
     let [white, yellow, red] = exercise.layout.balls;
@@ -54,7 +54,7 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
     for (name, system) in
         [("corner-5-from-the-corner", "Corner-5"), ("plus-from-three", "Plus"), ("seven-from-four", "Seven")]
     {
-        let player = taught(Player::with(ASCII), name).press("Esc");
+        let player = with_model_shot(Player::with(ASCII), name).press("Esc");
         let player = player.press("y");
         player.shows(&[&format!("System - {system} for this shot")]);
         // Where the shot is gone, its numbers go too.
@@ -69,7 +69,7 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
 
 #[test]
 fn beside_another_systems_example_the_line_below_names_no_system_of_the_shot() {
-    let player = taught(Player::with(ASCII), "corner-5-from-the-corner").press("y");
+    let player = with_model_shot(Player::with(ASCII), "corner-5-from-the-corner").press("y");
     player.shows(&["System - Corner-5 for this shot", " Corner-5: ", " on the wood"]);
     let player = player.press("y");
     player.shows(&["System - Plus example", "Cue from "]);
