@@ -31,7 +31,7 @@ fn draw_panel(meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     let title = match meeting.filter(|_| is_low) {
         // A share by itself looks like a chance.
         Some(Meeting::Ball(hit)) => Span::styled(format!("{} % full", percent(&hit)), ui.theme.accent()),
-        _ => Span::styled("Sight", ui.theme.text()),
+        _ => Span::styled("Hit", ui.theme.text()),
     };
     let inner = draw_title(title, area, ui);
     let Some(Meeting::Ball(hit)) = meeting else {

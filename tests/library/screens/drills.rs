@@ -103,7 +103,7 @@ fn a_stroke_is_set_with_keys() {
     check_at(&[(80, 24)], "aiming_ascii", &plain);
     plain.is_plain();
     let large = Player::practising(TRUE_COLOUR).text(200, 60);
-    for part in ["Your stroke", "Tip", "Sight", "Task", "yellow 100 % full", "The first shot of every match."] {
+    for part in ["Your stroke", "Tip", "Hit", "Task", "yellow 100 % full", "The first shot of every match."] {
         assert!(large.contains(part), "{part}\n{large}");
     }
     let far = Player::practising(TRUE_COLOUR).press("H H H H H H H H H");

@@ -1,4 +1,4 @@
-//! The table, the sight and the spin: what they show of a shot.
+//! The table, the hit and the spin: what they show of a shot.
 
 use std::sync::Arc;
 
@@ -56,7 +56,7 @@ fn the_way_that_a_ball_has_run_fades_behind_its_trail() {
 }
 
 #[test]
-fn the_sight_gives_way_to_the_spin_while_the_shot_plays() {
+fn the_hit_gives_way_to_the_spin_while_the_shot_plays() {
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
         let player = shown(caps, "0.3,-0.3,0,90,3").press("Space").wait(0.15);
         if caps == TRUE_COLOUR {
@@ -66,10 +66,10 @@ fn the_sight_gives_way_to_the_spin_while_the_shot_plays() {
         }
         for (width, height) in SIZES {
             let text = player.text(width, height);
-            assert!(text.contains("Spin") && text.contains("left") && !text.contains("Sight"), "{text}");
+            assert!(text.contains("Spin") && text.contains("left") && !text.contains("Hit"), "{text}");
         }
         let text = player.press("End").text(80, 24);
-        assert!(text.contains("Sight") && !text.contains("Spin"), "{text}");
+        assert!(text.contains("Hit") && !text.contains("Spin"), "{text}");
     }
 }
 

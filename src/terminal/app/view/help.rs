@@ -38,7 +38,7 @@ const COACH_NOTES: [&str; 6] = [
     "Tip: the cue ball from behind the cue; in its grey part the tip would slip off. Side and height are counted in tips, a tenth \
      of the ball's radius each, 3 mm: three tips of left at 10 o'clock is 9 mm left of the middle and somewhat above it. Running side \
      makes the way off the first cushion longer, reverse side shorter. Table lengths: how far a ball would run that is struck so in the \
-     middle; once up the table and back is two. Sight: the first object ball as the cue \
+     middle; once up the table and back is two. Hit: the first object ball as the cue \
      ball comes on, and how much of it that covers. Spin, while a shot plays: the cue ball from behind along its way, with the \
      place where a level cue would have to meet it to give it the spin that it has at its speed; a rolling ball has it two \
      fifths above the middle.",
