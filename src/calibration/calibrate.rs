@@ -244,11 +244,11 @@ impl Calibration {
         trials
     }
 
-    /// Whether so many trials look misread that they contradict each other.
+    /// Whether so many trials look misread that they contradict each other, or nothing of the only one counts.
     pub fn is_contradictory(&self) -> bool {
         let mut trials: Vec<usize> = self.verdicts.iter().map(|one| one.trial).collect();
         trials.dedup();
         let misread = self.misread().len();
-        misread > 0 && misread == trials.len() || misread > 1 && 3 * misread >= trials.len()
+        self.left_out.len() == trials.len() || misread > 1 && 3 * misread >= trials.len()
     }
 }

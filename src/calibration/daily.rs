@@ -1,6 +1,7 @@
 //! From day to day: what changes with the weather, and whether the table plays shorter or longer than yesterday.
 
 use super::{
+    entries::Entries,
     forward::{Hand, STROKE},
     protocol::Test,
 };
@@ -13,6 +14,12 @@ const DAY: [(&str, f64); 5] =
 
 /// The tests of a daily check: the first mark that is told of each.
 pub const DAILY: [&str; 2] = ["lag", "corner-five"];
+
+/// The tests of a check of the day that are still to be played, a stroke of each.
+pub fn missing_today(entries: &Entries) -> Vec<(&'static Test, usize)> {
+    let is_open = |name: &&str| entries.trials.iter().all(|entry| entry.test != **name);
+    DAILY.iter().filter(|name| is_open(name)).filter_map(|name| Some((Test::named(name)?, 1))).collect()
+}
 
 /// What changes together, and by how much: each constant of [`DAY`] that the table has, and those of its single rails.
 fn changing(table: &Table) -> [(f64, Vec<String>); DAY.len()] {
@@ -81,7 +88,8 @@ impl Play {
 
     /// The same in words, against an earlier day.
     pub fn against(&self, before: &Self) -> String {
-        let further = 100.0 * (self.lag / before.lag - 1.0);
+        // Without a sign where it rounds to nought.
+        let further = (100.0 * (self.lag / before.lag - 1.0)).round() + 0.0;
         let longer = before.third_rail - self.third_rail;
         let compare = |value: f64, least: f64, [less, more]: [&'static str; 2]| {
             if value.abs() < least {

@@ -30,7 +30,7 @@ mod words;
 mod tests;
 
 pub use calibrate::{Calibration, CalibrationError, Change, Next, Strange, Verdict, calibrate, prior, prospects};
-pub use daily::{DAILY, Play, overnight};
+pub use daily::{DAILY, Play, missing_today, overnight};
 pub use entries::{Entries, Entry, Oddity, Written};
 pub use estimate::{Reading, Trial};
 pub use kept::{Edit, KeptError, beside, edit_entries, entries_of, kept_entries, put_aside_unread};

@@ -385,7 +385,23 @@ fn a_single_stroke_of_which_nothing_counts_makes_no_table() {
     for reading in &mut trial.1.readings {
         reading.value *= 6.0;
     }
-    assert!(calibrate("club", &table, &doubt, &[trial]).unwrap().is_contradictory());
+    let found = calibrate("club", &table, &doubt, &[trial]).unwrap();
+    assert!(found.is_contradictory());
+    assert_eq!(
+        found.agreement(|_, test| test.to_owned()),
+        "most marks of lag look misread, and no other stroke tells which: play it again, or delete it"
+    );
+}
+
+#[test]
+fn one_odd_mark_of_a_single_stroke_leaves_the_others_to_count() {
+    let (table, doubt) = base();
+    let mut trial = exact(&table).into_iter().find(|(_, trial)| trial.test.name == "slow-roll").unwrap();
+    let drift = trial.1.test.marks.iter().position(|mark| mark.name == "drift").unwrap();
+    trial.1.readings.iter_mut().find(|reading| reading.mark == drift).unwrap().value += 0.3;
+    let found = calibrate("club", &table, &doubt, &[trial]).unwrap();
+    assert_eq!((found.misread().len(), found.left_out.len()), (1, 0), "{:?}", found.verdicts);
+    assert!(!found.is_contradictory());
 }
 
 /// Every test from both ends.

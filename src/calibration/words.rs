@@ -203,6 +203,11 @@ impl Calibration {
             let mut strokes: Vec<String> =
                 self.verdicts.iter().filter(|one| one.misread).map(|one| called(one.trial, one.test)).collect();
             strokes.dedup();
+            if let [only] = &strokes[..] {
+                return format!(
+                    "most marks of {only} look misread, and no other stroke tells which: play it again, or delete it"
+                );
+            }
             return format!(
                 "so many strokes contradict the others that no value can be relied on: {}; play them again, or delete those that are wrong",
                 strokes.join(", ")

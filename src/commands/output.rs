@@ -34,18 +34,19 @@ pub fn check_place(folder: &Path, path: &Path) -> Result<(), Failure> {
 }
 
 /// The next line of the standard input, without blanks at its ends; none where the input has ended. A user at the terminal is asked for it.
-pub fn ask(words: &str) -> Result<Option<String>, Failure> {
+/// The inner failure is that of a line that is too long: others may follow it.
+pub fn ask(words: &str) -> Result<Option<Result<String, Failure>>, Failure> {
     if io::stdin().is_terminal() {
         // Nobody reads a prompt that cannot be written.
         let _ = printing::stderr().write_all(words.as_bytes());
     }
     let mut line = Vec::new();
     match next_line(&mut io::stdin().lock(), &mut line) {
-        Ok(NextLine::Line) => Ok(Some(String::from_utf8_lossy(line.trim_ascii()).into_owned())),
+        Ok(NextLine::Line) => Ok(Some(Ok(String::from_utf8_lossy(line.trim_ascii()).into_owned()))),
         Ok(NextLine::End) => Ok(None),
-        Ok(NextLine::TooLong) => {
-            Err(Failure::wrong_input(format_args!("a line is too long; accepted are up to {LONGEST_LINE} bytes")))
-        }
+        Ok(NextLine::TooLong) => Ok(Some(Err(Failure::wrong_input(format_args!(
+            "a line is too long; accepted are up to {LONGEST_LINE} bytes"
+        ))))),
         Err(error) => Err(Failure::failed(format_args!("the input cannot be read: {error}"))),
     }
 }

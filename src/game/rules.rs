@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// What the cue ball must do for a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Rule {
     /// Straight rail: it meets both object balls (r3 of the thesis).
     #[default]

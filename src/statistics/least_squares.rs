@@ -18,7 +18,8 @@ pub struct Minimum {
     pub parameters: Vec<f64>,
     /// Half the sum of squares is what the method minimizes; this is the whole.
     pub squares: f64,
-    /// The normal matrix `JᵀJ` by rows, whose inverse times the residuals' variance is the parameters' covariance.
+    /// The normal matrix `JᵀJ` by rows before the last step, which is small; its inverse times the residuals' variance is the
+    /// parameters' covariance.
     pub normal: Vec<Vec<f64>>,
 }
 

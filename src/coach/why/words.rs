@@ -9,8 +9,8 @@ use crate::{
     table::CueBall,
 };
 
-/// Difference of make probabilities from which on attempts tell which shot is the better one: the standard error of it where half of a
-/// thousand and of four hundred attempts make the point.
+/// Shots whose make probabilities differ by no more are called made about as often: one standard error of the difference where half of
+/// a thousand and of four hundred attempts make the point.
 const TOLD_APART: f64 = 0.03;
 
 /// Differences of fullness and of table lengths that are told.

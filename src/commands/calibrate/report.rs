@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::{
-    calibration::{Calibration, Change, Entries, Next, Oddity, Play, Strange, Verdict},
+    calibration::{Calibration, Change, Entries, Next, Oddity, Play, Strange, Verdict, missing_today},
     commands::{
         Failure,
         output::{json_line, line, print_table},
@@ -43,7 +43,7 @@ struct Missing {
 impl<'a> Report<'a> {
     /// What is told of a calibration.
     pub fn new(found: &'a Calibration, entries: &Entries, odd: &[Oddity], play: Option<[Play; 2]>) -> Self {
-        let missing = entries.missing().into_iter().map(|(test, strokes)| Missing { test: test.name, strokes });
+        let missing = if play.is_some() { missing_today(entries) } else { entries.missing() };
         Self {
             table: &found.table,
             constants: &found.constants,
@@ -51,7 +51,7 @@ impl<'a> Report<'a> {
             left_out: &found.left_out,
             strange: &found.strange,
             next: &found.next,
-            missing: if play.is_some() { Vec::new() } else { missing.collect() },
+            missing: missing.into_iter().map(|(test, strokes)| Missing { test: test.name, strokes }).collect(),
             odd: odd.iter().map(Oddity::to_string).collect(),
             contradictory: found.is_contradictory(),
             play,
@@ -80,13 +80,14 @@ impl<'a> Report<'a> {
         self.found.rails_apart().iter().try_for_each(line)?;
         line(self.found.agreement(in_file))?;
         self.found.meanings().iter().try_for_each(line)?;
-        if let Some([before, now]) = &self.play {
-            return line(format_args!("today {}", now.against(before)));
-        }
         if !self.missing.is_empty() {
             let strokes = |one: &Missing| format!("{} ({})", one.test, one.strokes);
             let all: Vec<String> = self.missing.iter().map(strokes).collect();
             line(format_args!("not entered yet: {}", all.join(", ")))?;
+        }
+        if let Some([before, now]) = &self.play {
+            // What one of the two tests would say is not known without it.
+            return if self.missing.is_empty() { line(format_args!("today {}", now.against(before))) } else { Ok(()) };
         }
         let told: Vec<String> =
             self.next.iter().take(NEXT).map(|next| format!("{} ({:.1} bits)", next.test, next.bits)).collect();

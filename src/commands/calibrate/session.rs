@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::{Args, failure, listing::words, tell_of};
 use crate::{
-    calibration::{DAILY, Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, kept_entries},
+    calibration::{Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, kept_entries, missing_today},
     commands::{
         Failure,
         output::{ask, of_refused_lines, tell},
@@ -34,6 +34,14 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
         }
         let names: Vec<&str> = test.asked().collect();
         let Some(text) = ask(&format!("{}: ", names.join(" ")))? else { break };
+        let text = match text {
+            Ok(text) => text,
+            Err(failure) => {
+                refused += 1;
+                tell(failure);
+                continue;
+            }
+        };
         match text.as_str() {
             "" => {}
             "done" => break,
@@ -54,7 +62,7 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             },
         }
     }
-    if session.entries.trials.is_empty() {
+    if session.entries.trials.is_empty() && args.out.is_none() {
         tell("nothing is entered yet");
     } else {
         tell_of(args, table, doubt, &session.entries)?;
@@ -144,18 +152,8 @@ impl Session {
     /// What is asked for next.
     fn next(&self) -> Option<&'static Test> {
         let is_wanted = |test: &Test| !self.skipped.contains(&test.name);
-        let missing = || {
-            if self.is_daily {
-                let is_open = |name: &&str| self.entries.trials.iter().all(|entry| entry.test != **name);
-                return DAILY
-                    .iter()
-                    .filter(|name| is_open(name))
-                    .filter_map(|name| Test::named(name))
-                    .find(|test| is_wanted(test));
-            }
-            self.entries.missing().into_iter().map(|(test, _)| test).find(|test| is_wanted(test))
-        };
-        self.repeated.or_else(missing)
+        let missing = if self.is_daily { missing_today(&self.entries) } else { self.entries.missing() };
+        self.repeated.or_else(|| missing.into_iter().map(|(test, _)| test).find(|test| is_wanted(test)))
     }
 
     fn add(&mut self, entry: Entry) -> Result<(), Failure> {

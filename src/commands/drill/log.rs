@@ -87,8 +87,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return log.read();
     }
     let words: Vec<Word> = args.results.iter().map(|text| Word::read(text)).collect::<Result<_, _>>()?;
-    for word in &words {
+    for (taken, word) in words.iter().enumerate() {
         if !log.take(word)? {
+            if taken > 0 {
+                log.keep()?;
+            }
             return Err(Failure::failed(log.nothing_to_undo()));
         }
     }
@@ -198,10 +201,10 @@ impl Log {
     fn read(&mut self) -> Result<(), Failure> {
         let (mut refused, mut lacked_undo) = (0, false);
         while let Some(text) = ask("make, miss or undo: ")? {
-            if text.is_empty() {
+            if matches!(&text, Ok(text) if text.is_empty()) {
                 continue;
             }
-            match Word::read(&text) {
+            match text.and_then(|text| Word::read(&text)) {
                 Err(failure) => {
                     refused += 1;
                     tell(failure);

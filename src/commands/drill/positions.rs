@@ -7,7 +7,9 @@ use crate::{
         input::{bundled_table, shot_typed},
         output::{line, tell},
     },
-    drills::{Exercise, LONGEST_POINT, LONGEST_TITLE, bare_tag, check, decode, encode, store::StoreError},
+    drills::{
+        Exercise, LONGEST_POINT, LONGEST_TITLE, LibraryError, bare_tag, check, decode, encode, store::StoreError,
+    },
     game::{Rule, scores},
     physics::has_room,
     table::Layout,
@@ -130,22 +132,30 @@ pub fn add(args: &AddArgs) -> Result<(), Failure> {
 pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
     let workspace = Workspace::open();
     // One that cannot be read is not in the library; its file is removed by its name.
-    let name = workspace.library.titled(&args.name).map_or(&args.name, |exercise| &exercise.name);
+    let name = match workspace.library.titled(&args.name) {
+        Ok(exercise) => &exercise.name,
+        Err(error @ LibraryError::Ambiguous { .. }) => return Err(Failure::failed(error)),
+        Err(_) => &args.name,
+    };
     if workspace.library.is_bundled(name) {
         return Err(Failure::failed(format_args!("\"{name}\" is bundled and cannot be removed")));
     }
-    workspace.store.remove_position(name).map_err(Failure::failed)?;
+    workspace.store.remove_position(name).map_err(failure)?;
     line(format_args!("removed {name}"))
 }
 
 fn keep(position: &Exercise, replaces: bool) -> Result<(), Failure> {
     let workspace = Workspace::open();
-    workspace.store.save_position(position, replaces).map_err(|error| match error {
+    workspace.store.save_position(position, replaces).map_err(failure)?;
+    line(format_args!("saved {}", position.name))
+}
+
+fn failure(error: StoreError) -> Failure {
+    match error {
         StoreError::Exercise(error) => Failure::wrong_input(error),
         StoreError::Taken(name) => Failure::failed(format_args!(
             "there is a position \"{name}\" already; --replace saves over it, another name beside it"
         )),
         error => Failure::failed(error),
-    })?;
-    line(format_args!("saved {}", position.name))
+    }
 }

@@ -46,10 +46,10 @@ pub fn play(
             _ => {
                 let Some(text) = ask("shot a,b,theta,phi,V or coach: ")? else { break };
                 lines += 1;
-                if text.is_empty() {
+                if matches!(&text, Ok(text) if text.is_empty()) {
                     continue;
                 }
-                text.parse()
+                text.and_then(|text| text.parse())
             }
         };
         let (failure, is_refused) = match stroke.and_then(|stroke| game.stroke(&table, &layout, stroke)) {

@@ -10,6 +10,7 @@ use crate::{
     commands::output::plural,
     game::Rule,
     physics::{CueInputs, has_room},
+    statistics::SuccessRate,
     table::{Layout, Table},
 };
 
@@ -19,6 +20,9 @@ const ATTEMPTS: usize = 1000;
 /// Two-sided 95 % of the normal distribution.
 const Z: f64 = 1.96;
 
+/// Fewest layouts from which something is said of all others.
+const FEWEST: usize = 10;
+
 /// The make probability over all layouts.
 #[derive(Debug, Serialize)]
 pub struct Robustness {
@@ -26,10 +30,10 @@ pub struct Robustness {
     doubt: Doubt,
     /// Mean make probability.
     make_probability: f64,
-    /// Its 95 % interval, from the spread between layouts.
-    make_interval: [f64; 2],
-    /// Make probability that a tenth of the layouts stay below.
-    worst_tenth: f64,
+    /// Its 95 % interval, from the spread between layouts; none of fewer than [`FEWEST`].
+    make_interval: Option<[f64; 2]>,
+    /// Make probability that a tenth of the layouts stay below; none of fewer than [`FEWEST`].
+    worst_tenth: Option<f64>,
     /// What was said beforehand, where anything was.
     #[serde(flatten)]
     said: Option<Said>,
@@ -109,12 +113,20 @@ impl Robustness {
         let spread = Z * (variance / count).sqrt();
         let mut sorted = chances.clone();
         sorted.sort_by(f64::total_cmp);
+        // Where every shot is made, or missed, each layout says no more than one attempt.
+        let interval = if variance > 0.0 {
+            [(mean - spread).max(0.0), (mean + spread).min(1.0)]
+        } else {
+            let alike = SuccessRate::new((mean * count).round() as usize, chances.len());
+            [alike.low, alike.high]
+        };
+        let is_enough = chances.len() >= FEWEST;
         Self {
             skill,
             doubt,
             make_probability: mean,
-            make_interval: [(mean - spread).max(0.0), (mean + spread).min(1.0)],
-            worst_tenth: sorted.get(sorted.len() / 10).copied().unwrap_or(0.0),
+            make_interval: is_enough.then_some(interval),
+            worst_tenth: is_enough.then(|| sorted[sorted.len() / 10]),
             said: None,
             chances,
         }
@@ -128,16 +140,22 @@ impl Robustness {
 
 impl fmt::Display for Robustness {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [low, high] = self.make_interval.map(|end| 100.0 * end);
+        let made = 100.0 * self.make_probability;
         write!(
             formatter,
-            "a player of skill \"{}\" (doubt \"{}\") makes them {:.2} % of the time (95 % interval {low:.2} to {high:.2} %), on a tenth of \
-             the layouts less than {:.1} %",
-            self.skill,
-            self.doubt,
-            100.0 * self.make_probability,
-            100.0 * self.worst_tenth
+            "a player of skill \"{}\" (doubt \"{}\") makes them {made:.2} % of the time",
+            self.skill, self.doubt
         )?;
+        match (self.make_interval, self.worst_tenth) {
+            (Some([low, high]), Some(worst)) => write!(
+                formatter,
+                " (95 % interval {:.2} to {:.2} %), on a tenth of the layouts less than {:.1} %",
+                100.0 * low,
+                100.0 * high,
+                100.0 * worst
+            )?,
+            _ => write!(formatter, "; fewer than {FEWEST} layouts say nothing of others")?,
+        }
         self.said.as_ref().map_or(Ok(()), |said| write!(formatter, "\n{said}"))
     }
 }
@@ -145,6 +163,20 @@ impl fmt::Display for Robustness {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn few_layouts_have_no_interval_and_equal_ones_one_that_is_not_empty() {
+        let of = |chances: &[f64]| Robustness::new(Skill::CLUB, Doubt::FULL, chances.to_vec());
+        let few = of(&[0.737; 9]);
+        assert_eq!((few.make_interval, few.worst_tenth), (None, None));
+        assert!(few.to_string().ends_with("73.70 % of the time; fewer than 10 layouts say nothing of others"), "{few}");
+        let [low, high] = of(&[1.0; 20]).make_interval.unwrap();
+        assert!(low < 0.9 && high == 1.0, "20 of 20 can be luck: {low}");
+        let spread = of(&[0.2, 0.8].repeat(50));
+        let [low, high] = spread.make_interval.unwrap();
+        assert!((low - 0.441).abs() < 1e-3 && (high - 0.559).abs() < 1e-3, "{low} to {high}");
+        assert_eq!(spread.worst_tenth, Some(0.2));
+    }
 
     #[test]
     fn what_was_said_is_set_against_what_was_made_by_tenths() {

@@ -163,7 +163,7 @@ impl Part {
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// A file cannot be read.
-    #[error("{} cannot be read: {error}, as carom evaluate --shard prints it", path.display())]
+    #[error("{} cannot be read: {error}", path.display())]
     File { path: PathBuf, error: std::io::Error },
     /// Its contents are no part.
     #[error("{} is no part of an evaluation, as carom evaluate --shard prints it: {}", path.display(), what_is_wrong(error))]

@@ -5,6 +5,7 @@ mod margins;
 mod told;
 
 use std::{
+    collections::HashSet,
     io::{self, Write},
     time::{Duration, Instant},
 };
@@ -200,12 +201,18 @@ impl RecommendAnswer {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(file) = &args.batch {
         let mut coaches = ByTable::new(|table| coach_for(table, &args.policy));
-        return answer_lines(file, |question: BatchLine| {
-            answer(args, coaches.get(&question.preset)?, &question.layout, question.rule)
+        let mut noted = HashSet::new();
+        return answer_lines(file, |BatchLine { preset, layout, rule }: BatchLine| {
+            let coach = coaches.get(&preset)?;
+            if noted.insert((preset, rule)) {
+                note(args, coach, rule);
+            }
+            answer(args, coach, &layout, rule)
         });
     }
     let (table, layout) = args.position.read()?;
     let coach = coach_for(table, &args.policy)?;
+    note(args, &coach, args.rule);
     let answer = answer(args, &coach, &layout, args.rule)?;
     let mut out = printing::stdout().exact(args.json);
     if args.json {
@@ -234,6 +241,13 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
     Ok(coach.with_policy(policy_called(policy)?))
 }
 
+/// Says what speaks against the networks' own shots, where these are asked for.
+fn note(args: &Args, coach: &Coach, rule: Rule) {
+    if let Some(policy) = coach.policy(rule, &args.skill).filter(|_| args.policy_only) {
+        note_doubts(policy, coach.table(), Some(rule));
+    }
+}
+
 fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<RecommendAnswer, Failure> {
     let mut answer = shot(args, coach, layout, rule)?;
     if args.margins {
@@ -256,7 +270,6 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         layout.validate(coach.table()).map_err(Failure::wrong_input)?;
         let start = Instant::now();
         let policy = coach.policy(rule, &args.skill).ok_or_else(|| no_policy(coach.table()))?;
-        note_doubts(policy, coach.table(), Some(rule));
         let Proposal { cue, success } = policy.proposals(coach.table(), layout, &args.skill)[0];
         // Others speak of the shot as it is meant, whoever plays it.
         let told = policy.speaks_of(&args.skill).then_some(success);

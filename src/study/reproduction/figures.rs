@@ -204,7 +204,7 @@ const NOISES: [Reading; 4] = [
     changed("0.03", CRIMSON, Change::None),
     changed("0.1", AZURE, Change::StrongNoise),
     changed("0.1 falling to 0.005", FOREST, Change::FallingNoise),
-    changed("0.03, canonical frame", VIOLET, Change::Canonical),
+    changed("0.03 in the canonical frame", VIOLET, Change::Canonical),
 ];
 
 /// The thesis' future work: neither, nor the canonical frame that the others have; neither; each alone; both.

@@ -50,7 +50,7 @@ pub enum SessionError {
 }
 
 impl Session {
-    /// Every training, the longest first so that threads end together.
+    /// Every training, each once.
     fn trainings(&self) -> Vec<Training> {
         let mut trainings: Vec<Training> = Vec::new();
         for figure in &self.figures {
