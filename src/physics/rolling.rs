@@ -63,14 +63,6 @@ impl Rolling {
         mean + second * (1.0 / (24.0 * middle) - growth / (12.0 * mean))
     }
 
-    /// A length that no roll which begins with `speed` exceeds, m.
-    pub fn longest(&self, speed: f64) -> f64 {
-        // The exact length is 2 (x - ln(1 + x)) / x² of the first factor, x = c1 v / c0, and ln(1 + x) exceeds its Padé
-        // approximant 3x (2 + x) / (6 + 6x + x²). Bands are right to five thousandths.
-        let x = self.growth * speed / self.least;
-        0.5 * speed * speed / self.least * (6.0 + 2.0 * x) / (6.0 + x * (6.0 + x)) * (1.0 + 1e-2)
-    }
-
     /// Whether a roll that begins with `speed` comes to rest in its first band.
     #[inline]
     pub fn is_last(&self, speed: f64) -> bool {
@@ -108,7 +100,6 @@ mod tests {
                 for (exact, bands) in exact.into_iter().zip(bands) {
                     assert!((bands / exact - 1.0).abs() < 5e-3, "{least} + {growth} v from {speed}: {bands}, {exact}");
                 }
-                assert!(rolling.longest(speed) > bands[0] && rolling.longest(speed) > exact[0]);
                 assert!(count <= 12, "{count} bands from {speed} m/s");
             }
         }

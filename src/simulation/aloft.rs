@@ -11,7 +11,7 @@ use super::{
     contacts::cushion_gap,
     hops::{Arc, Hops},
     predict::{Ahead, lesser, polynomial_closes, shifted, travel},
-    roots::{MAX_DEGREE, first_crossing_of_quartic},
+    roots::{MAX_DEGREE, first_crossing},
     savings::Savings,
 };
 use crate::physics::{Cushion, Cushions, Motion};
@@ -253,7 +253,7 @@ fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Ahead {
         }
         let slope = [c[0], 2.0 * c[1], 3.0 * c[2], 4.0 * c[3]];
         let value = |t: f64| (d + t * (v + t * k)).length_squared() - diameter * diameter;
-        return first_crossing_of_quartic(value, &slope, horizon).map_or(Ahead::Nothing, Ahead::Meeting);
+        return first_crossing(value, &slope, horizon).map_or(Ahead::Nothing, Ahead::Meeting);
     }
     let mut gap = [0.0; MAX_DEGREE + 1];
     for i in 0..6 {

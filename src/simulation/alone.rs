@@ -13,6 +13,7 @@ use super::{
     contacts::{PAIRS_OF, is_in_corner, put_at_cushion},
     cushions::cushion_ahead,
     engine::{Ball, ContactMode, Engine},
+    guards::MOST_TURNS,
     predict::Ahead,
     savings::Savings,
 };
@@ -35,6 +36,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let constants = &{ self.constants };
         let mut ball = self.balls[index].alone();
         loop {
+            self.turns += 1;
+            if self.turns > MOST_TURNS {
+                break;
+            }
             let Ball { segment, lasts, rail_after, rail, .. } = &ball;
             let next = ball.ends();
             let (mut after, lasts_after, kind);
@@ -53,10 +58,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 (after, lasts_after) = Segment::free(constants, next, &state);
                 kind = Some(EventKind::BallRail(index, *rail));
             } else {
-                if segment.motion == Motion::Rolling
-                    && (segment.rolls_to_rest(constants)
-                        || (S::LAST_ROLLS && !self.observer.wants_ends() && self.rolls_out(index, segment)))
-                {
+                if segment.motion == Motion::Rolling && segment.rolls_to_rest(constants) {
                     break;
                 }
                 (after, lasts_after) = segment.successor(constants, *lasts);

@@ -6,14 +6,11 @@ use super::{
     Constants, Segment,
     aloft::balls_ahead_in_space,
     predict::{Ahead, curved_balls_ahead, lesser, polynomial_closes},
-    roots::{first_crossing, first_crossing_of_quartic, horner},
+    roots::{first_crossing, horner},
     savings::Savings,
     tolerance::Tolerance,
 };
 use crate::physics::Motion;
-
-/// A sum above this share of its terms' sizes is positive, however it is rounded: a few times 1e-16 would do.
-const SURELY_POSITIVE: f64 = 1e-9;
 
 /// When two balls meet within `horizon` seconds of time `now`. If they `may_rest` against each other, [`Ahead::Pressed`]
 /// says so; if that has been tried and nothing holds them, they meet again as soon as they overlap.
@@ -47,12 +44,12 @@ pub fn balls_ahead<S: Savings>(
             (first.motion, second.motion),
             (Motion::Rolling, Motion::Stationary) | (Motion::Stationary, Motion::Rolling)
         );
-    approach::<S>(constants, [d, dv, dk], horizon, may_rest, rolls_straight)
+    approach(constants, [d, dv, dk], horizon, may_rest, rolls_straight)
 }
 
 /// The same for balls whose courses no line was found to part: `d + t dv + t² dk` from one to the other.
 #[inline(never)]
-fn approach<S: Savings>(
+fn approach(
     constants: &Constants,
     [d, dv, dk]: [DVec2; 3],
     horizon: f64,
@@ -62,7 +59,7 @@ fn approach<S: Savings>(
     let (diameter, tolerance) = (constants.diameter, &constants.tolerance);
     let gap = d.length_squared() - diameter * diameter;
     if gap <= 2.0 * diameter * tolerance.touching {
-        return touching_balls_ahead::<S>(tolerance, d, dv, dk, diameter, horizon, may_rest);
+        return touching_balls_ahead(tolerance, d, dv, dk, diameter, horizon, may_rest);
     }
     if rolls_straight {
         return straight_ahead(d, dv, dk, gap, diameter, horizon);
@@ -73,7 +70,7 @@ fn approach<S: Savings>(
     let c4 = dk.length_squared();
     let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
     let value = |t: f64| (d + t * (dv + t * dk)).length_squared() - diameter * diameter;
-    first_crossing_of_quartic(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
+    first_crossing(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
 /// A triangle that contains a stretch of a course: the control points of a parabola, or how far a ball gets with any velocity
@@ -116,7 +113,7 @@ impl Triangle {
 }
 
 /// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
-fn touching_balls_ahead<S: Savings>(
+fn touching_balls_ahead(
     tolerance: &Tolerance,
     d: DVec2,
     dv: DVec2,
@@ -137,13 +134,6 @@ fn touching_balls_ahead<S: Savings>(
     // Coefficients of rounding's size would close and open the gap without end.
     let clean = |c: f64| if c.abs() < tolerance.pressing { 0.0 } else { c };
     let (c2, c3, c4) = (clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared());
-    let square = horizon * horizon;
-    if S::BALLS_THAT_PART
-        && separation > tolerance.opening
-        && stays_positive(c1, c2 * horizon, c3 * square, c4 * (square * horizon))
-    {
-        return Ahead::Nothing;
-    }
     let gap = [0.0, c1, c2, c3, c4];
     let falls = polynomial_closes(tolerance, &gap, true, 2.0 * diameter, horizon);
     if separation > tolerance.opening {
@@ -158,13 +148,6 @@ fn touching_balls_ahead<S: Savings>(
         Some(time) if horner(&gap, time) <= 2.0 * diameter * tolerance.touching => Ahead::Meeting(time),
         _ => falls,
     }
-}
-
-/// Whether `a + b s + c s² + d s³` is surely positive for all `s` from 0 to 1: its Bernstein coefficients, which bound it,
-/// are so by far more than rounding can change.
-fn stays_positive(a: f64, b: f64, c: f64, d: f64) -> bool {
-    let least = lesser(lesser(a, a + b / 3.0), lesser(a + (2.0 * b + c) / 3.0, a + b + c + d));
-    least > SURELY_POSITIVE * (a.abs() + b.abs() + c.abs() + d.abs())
 }
 
 /// A ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.
@@ -226,7 +209,7 @@ mod tests {
         let constants = Constants::of(&Table::preset("thesis").unwrap());
         let (tolerance, diameter) = (&constants.tolerance, constants.diameter);
         let meets = |dv: DVec2, dk: DVec2| {
-            touching_balls_ahead::<All>(tolerance, DVec2::new(diameter, 0.0), dv, dk, diameter, 1.0, false)
+            touching_balls_ahead(tolerance, DVec2::new(diameter, 0.0), dv, dk, diameter, 1.0, false)
         };
         let Ahead::Meeting(time) = meets(DVec2::ZERO, DVec2::new(-0.9, 0.0)) else { panic!("no meeting") };
         assert!((time * 1.8 - 2.0 * tolerance.opening).abs() < 1e-3 * tolerance.opening, "{time}");

@@ -6,9 +6,7 @@ use glam::DVec2;
 
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
-    ball_ball::Triangle,
     chatter::Chatters,
-    contacts::PAIRS_OF,
     guards::{MOST_IN_THE_AIR, MOST_RESTING, MOST_TURNS, MOST_TURNS_WITHOUT_REST, MOST_WITHOUT_REST},
     resting::Resting,
     savings::{All, Savings},
@@ -18,10 +16,8 @@ use crate::{
     table::{BALLS, Layout, PAIRS, Table},
 };
 
-/// Impacts that follow each other within this time are at the same moment, s: two roundings of a time of two seconds. Which of them
-/// collide together their gaps tell: in this time a ball of up to 10 m/s on `match` moves less than the gap that counts as closed.
-/// What a faster ball meets may be found later, and then collides in turn.
-pub(super) const MOMENT: f64 = 1e-15;
+/// Impacts that follow each other within this time have the same time, s: two roundings of a time of two seconds.
+pub(super) const SAME_TIME: f64 = 1e-15;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,6 +133,8 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) next_step: f64,
     /// Whether a prediction has found balls pressed together that are not yet in `resting`.
     pub(super) pressed: bool,
+    /// Events and steps so far.
+    pub(super) turns: u32,
     /// Time of the last impact, s, and how many there have been at that moment.
     pub(super) last_impact: f64,
     pub(super) rounds: u32,
@@ -168,6 +166,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             ended: None,
             next_step: f64::INFINITY,
             pressed: false,
+            turns: 0,
             last_impact: f64::NEG_INFINITY,
             rounds: 0,
             effort: Effort::default(),
@@ -201,10 +200,9 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         if S::ALONE && S::KEPT_PREDICTIONS && flow.is_continue() && self.moves_alone(0) {
             flow = self.play_alone(0, &mut now);
         }
-        let mut turns = 0;
         let mut most_turns = MOST_TURNS;
-        while flow.is_continue() && turns < most_turns {
-            turns += 1;
+        while flow.is_continue() && self.turns < most_turns {
+            self.turns += 1;
             if self.resting_budget_spent() {
                 flow = self.begin_micro_collisions(now);
                 most_turns = MOST_TURNS_WITHOUT_REST;
@@ -251,28 +249,8 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         source < BALLS
             && self.balls[source].segment.motion == Motion::Rolling
             && self.balls[source].rail_after == f64::INFINITY
-            && (self.balls[source].segment.rolls_to_rest(&self.constants)
-                || self.rolls_out(source, &self.balls[source].segment))
+            && self.balls[source].segment.rolls_to_rest(&self.constants)
             && (0..self.times.len()).all(|other| other == source || self.times[other] == f64::INFINITY)
-    }
-
-    /// Whether a ball that rolls on through the bands of its deceleration surely meets nothing on its way: all others lie
-    /// still, off its line.
-    #[inline(never)]
-    pub(super) fn rolls_out(&self, index: usize, segment: &Segment) -> bool {
-        if !self.constants.level {
-            return false;
-        }
-        let speed = segment.velocity.length();
-        let way = segment.velocity * (self.constants.rolling.longest(speed) / speed);
-        let end = segment.position + way;
-        let line = Triangle::new(segment.position, way, DVec2::ZERO, 1.0);
-        let apart = self.constants.diameter + self.constants.tolerance.surely_apart;
-        end.abs().cmplt(self.constants.reach).all()
-            && PAIRS_OF[index].iter().all(|&(_, other)| {
-                let other = &self.balls[other].segment;
-                other.motion == Motion::Stationary && line.clears(other.position, apart)
-            })
     }
 
     /// The end of sliding or rolling.

@@ -30,7 +30,7 @@ pub const BOUNCE: u64 = 1600;
 /// Multiplications in an impact in the air.
 pub const IMPACT_IN_THE_AIR: u64 = 3300;
 
-/// Turns of the general loop after which a shot ends where it is: ends of motions, impacts, and bounces and steps of resting contacts that
+/// Turns of the loops after which a shot ends where it is: ends of motions, impacts, and bounces and steps of resting contacts that
 /// are not told as events. This is a guard, not physics, for what repeats in the air without end; a shot takes some ten turns, and one
 /// with a chatter some hundred.
 pub const MOST_TURNS: u32 = 50_000;

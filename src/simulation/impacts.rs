@@ -6,7 +6,7 @@ use super::{
     Event, EventKind, Observer, Rail,
     chatter::{Chatters, chatter_end},
     contacts::{close_gaps, is_in_corner, put_at_cushion, touching},
-    engine::{Ball, Engine, MOMENT, Meeting, only},
+    engine::{Ball, Engine, Meeting, SAME_TIME, only},
     guards::BOUNCE,
     savings::Savings,
 };
@@ -134,14 +134,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }
 
-    /// Whether other impacts happen at this very moment, or too many have.
+    /// Whether other impacts may happen at this very moment, or too many have.
     #[inline(always)]
     pub(super) fn is_crowded(&mut self, now: f64) -> bool {
-        self.rounds = if now - self.last_impact <= MOMENT { self.rounds + 1 } else { 0 };
+        self.rounds = if now - self.last_impact <= SAME_TIME { self.rounds + 1 } else { 0 };
         self.last_impact = now;
         let mut at_once = 0;
         for time in self.times {
-            at_once += u32::from(time <= now + MOMENT);
+            at_once += u32::from(time <= now + self.constants.tolerance.moment);
         }
         at_once > 1 || self.inelastic || self.rounds > MOST_ROUNDS
     }

@@ -26,49 +26,6 @@ pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64) 
     None
 }
 
-/// The same for a gap of degree four, which is what two balls on free courses have: the same operations in the same order,
-/// so that it finds the same bits, but the compiler knows how many there are.
-pub fn first_crossing_of_quartic(value: impl Fn(f64) -> f64, derivative: &[f64; 4], end: f64) -> Option<f64> {
-    let [c0, c1, c2, c3] = *derivative;
-    if c3 == 0.0 {
-        return first_crossing(value, derivative, end);
-    }
-    let slope = |t: f64| ((c3 * t + c2) * t + c1) * t + c0;
-    let mut low = 0.0;
-    if !cubic_shares_sign(derivative, end) {
-        let bend = [c1, 2.0 * c2, 3.0 * c3];
-        let steepness = |t: f64| (bend[2] * t + bend[1]) * t + bend[0];
-        let (mut from, mut falls) = (0.0, c0 < 0.0);
-        let bends = quadratic(bend[2], bend[1], bend[0]).unwrap_or([f64::NAN; 2]);
-        for to in [bends[0], bends[1], end] {
-            if (to > 0.0 && to < end) || to == end {
-                let falls_then = slope(to) < 0.0;
-                if falls != falls_then {
-                    let sign = if falls_then { 1.0 } else { -1.0 };
-                    let turn = bisect_newton(|t| sign * slope(t), |t| sign * steepness(t), from, to);
-                    if value(turn) < 0.0 {
-                        return Some(bisect_newton(&value, slope, low, turn));
-                    }
-                    low = turn;
-                }
-                (from, falls) = (to, falls_then);
-            }
-        }
-    }
-    if value(end) < 0.0 { Some(bisect_newton(&value, slope, low, end)) } else { None }
-}
-
-/// [`bernstein_shares_sign`] for degree three.
-#[inline(always)]
-fn cubic_shares_sign(c: &[f64; 4], end: f64) -> bool {
-    let square = end * end;
-    let b = [c[0], c[1] * end / 3.0, c[2] * square / 3.0, c[3] * (square * end)];
-    let first = [b[0] + b[1], b[1] + b[2], b[2] + b[3]];
-    let second = [first[0] + first[1], first[1] + first[2]];
-    let b = [b[0], first[0], second[0], second[0] + second[1]];
-    b.iter().all(|x| *x > 0.0) || b.iter().all(|x| *x < 0.0)
-}
-
 /// Value of a polynomial with coefficients lowest first.
 #[inline]
 pub fn horner(coefficients: &[f64], t: f64) -> f64 {
@@ -241,24 +198,6 @@ mod tests {
             let polynomial = from_roots(&roots);
             let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 4.0).unwrap();
             prop_assert!((t - roots[0]).abs() < 1e-8, "{t} {roots:?}");
-        }
-
-        #[test]
-        fn a_quartic_has_the_same_root_by_either_way(
-            roots in prop::collection::vec(-0.5..1.5f64, 4),
-            lift in -0.05..0.05f64,
-            end in 0.1..2.0f64,
-        ) {
-            let mut polynomial = from_roots(&roots);
-            polynomial[0] += lift;
-            let derivative = derivative(&polynomial);
-            let value = |t| horner(&polynomial, t);
-            let known = [derivative[0], derivative[1], derivative[2], derivative[3]];
-            let bits = |root: Option<f64>| root.map(f64::to_bits);
-            prop_assert_eq!(
-                bits(first_crossing_of_quartic(value, &known, end)),
-                bits(first_crossing(value, &derivative, end))
-            );
         }
 
         #[test]

@@ -14,8 +14,6 @@ pub trait Savings {
     const CUSHIONS_IN_REACH: bool = true;
     /// No root is sought for two balls between whose courses there is a line that neither crosses.
     const COURSES_APART: bool = true;
-    /// No root is sought for two balls that touch and part, if bounds on their gap show that it stays open.
-    const BALLS_THAT_PART: bool = true;
     /// While the cue ball alone moves, a loop of its own follows it, which neither looks for what comes next nor keeps its
     /// course in memory. It keeps predictions, and so is off where [`Savings::KEPT_PREDICTIONS`] is.
     const ALONE: bool = true;

@@ -154,7 +154,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.resting.as_ref().is_some_and(|resting| resting.holds_together((first, second))) {
             return;
         }
-        let horizon = (self.times[first].min(self.times[second]) - now).min(LONGEST);
+        // What is met together with something else may be met a rounding after it.
+        let moment = self.constants.tolerance.moment;
+        let horizon = (self.times[first].min(self.times[second]) - now + moment).min(LONGEST);
         match balls_ahead::<S>(&self.constants, a, b, now, horizon, may_rest) {
             Ahead::Nothing => {}
             Ahead::Meeting(after) => {

@@ -13,6 +13,10 @@ pub struct Tolerance {
     /// Gaps below this are contact, m. Coordinates are rounded to `ε L / 4`, gaps to a few times that. Larger: real gaps
     /// are closed too early. Smaller: contacts are lost.
     pub touching: f64,
+    /// Impacts that follow each other within this time may be at one moment, s: the gaps then tell which of them are. The slowest bounce
+    /// that is followed closes a gap that counts as none meanwhile. Smaller: rounding decides whether balls are struck together or in turn.
+    /// Larger: the gaps are asked in vain.
+    pub moment: f64,
     /// A gap that stays above this is not closed by any rounding, m. Smaller: a prediction that is rounded otherwise than
     /// the test could be missed. Larger: roots are sought in vain.
     pub surely_apart: f64,
@@ -99,6 +103,7 @@ impl Tolerance {
         let friction = table.sliding_friction.max(table.spinning_friction) * table.gravity;
         Self {
             touching: 16.0 * f64::EPSILON * table.length.max(table.width),
+            moment: 800.0 * f64::EPSILON * table.length.max(table.width) / speed,
             surely_apart: 1.6e5 * f64::EPSILON * table.length.max(table.width),
             coupled_gap: 1.6e4 * f64::EPSILON * table.length.max(table.width),
             opening: 2e-11 * speed,

@@ -65,133 +65,87 @@ const LEAN: (f64, f64) = (-1.0, 1.0);
 /// All of them. A constant that a table's model does not have is left out there. Draws take them in this order: new ones come
 /// last.
 pub(super) const CONSTANTS: [Constant; 22] = [
-    Constant {
-        name: "e_rail",
-        get: |table| Some(table.rail_restitution),
-        set: |table, value| table.rail_restitution = value,
-        limits: (0.0, 1.0),
-    },
-    Constant {
-        name: "mu_rail",
-        get: |table| Some(table.rail_friction),
-        set: |table, value| table.rail_friction = value,
-        limits: (0.0, 0.99),
-    },
-    Constant {
-        name: "rail.height",
-        get: |table| table.rail.height.filter(|_| table.rail.model != RailModel::Equator),
-        set: |table, value| table.rail.height = Some(value.clamp(table.radius, 1.6 * table.radius)),
-        limits: (0.0, f64::MAX),
-    },
-    Constant {
-        name: "rail.kappa",
-        get: |table| table.rail.kappa,
-        set: |table, value| table.rail.kappa = Some(value),
-        limits: (0.05, 2.0),
-    },
-    Constant {
-        name: "rail.fade.slope",
-        get: |table| table.rail.fade.map(|fade| fade.slope),
-        set: |table, value| {
+    constant("e_rail", |table| Some(table.rail_restitution), |table, value| table.rail_restitution = value, (0.0, 1.0)),
+    constant("mu_rail", |table| Some(table.rail_friction), |table, value| table.rail_friction = value, (0.0, 0.99)),
+    constant(
+        "rail.height",
+        |table| table.rail.height.filter(|_| table.rail.model != RailModel::Equator),
+        |table, value| table.rail.height = Some(value.clamp(table.radius, 1.6 * table.radius)),
+        (0.0, f64::MAX),
+    ),
+    constant("rail.kappa", |table| table.rail.kappa, |table, value| table.rail.kappa = Some(value), (0.05, 2.0)),
+    constant(
+        "rail.fade.slope",
+        |table| table.rail.fade.map(|fade| fade.slope),
+        |table, value| {
             if let Some(fade) = &mut table.rail.fade {
                 fade.slope = value;
             }
         },
-        limits: (0.0, 10.0),
-    },
-    Constant {
-        name: "mu_s",
-        get: |table| Some(table.sliding_friction),
-        set: |table, value| table.sliding_friction = value,
-        limits: (0.01, 1e3),
-    },
-    Constant {
-        name: "mu_r",
-        get: |table| Some(table.rolling_friction),
-        set: |table, value| table.rolling_friction = value,
-        limits: (1e-3, 1e3),
-    },
-    Constant {
-        name: "c1",
-        get: |table| Some(table.rolling_growth),
-        set: |table, value| table.rolling_growth = value,
-        limits: (0.0, 1.0),
-    },
-    Constant {
-        name: "mu_sp",
-        get: |table| Some(table.spinning_friction),
-        set: |table, value| table.spinning_friction = value,
-        limits: (0.0, 1e3),
-    },
-    Constant {
-        name: "tilt.x",
-        get: |table| Some(table.tilt.x),
-        set: |table, value| table.tilt.x = value,
-        limits: LEAN,
-    },
-    Constant {
-        name: "tilt.y",
-        get: |table| Some(table.tilt.y),
-        set: |table, value| table.tilt.y = value,
-        limits: LEAN,
-    },
-    Constant {
-        name: "e_ball",
-        get: |table| Some(table.ball_restitution),
-        set: |table, value| table.ball_restitution = value,
-        limits: (0.0, 1.0),
-    },
-    Constant {
-        name: "mu_b",
-        get: |table| table.ball_slip_friction.map(|law| law.least + law.rise).or(table.ball_friction),
-        set: |table, value| {
+        (0.0, 10.0),
+    ),
+    constant("mu_s", |table| Some(table.sliding_friction), |table, value| table.sliding_friction = value, (0.01, 1e3)),
+    constant("mu_r", |table| Some(table.rolling_friction), |table, value| table.rolling_friction = value, (1e-3, 1e3)),
+    constant("c1", |table| Some(table.rolling_growth), |table, value| table.rolling_growth = value, (0.0, 1.0)),
+    constant(
+        "mu_sp",
+        |table| Some(table.spinning_friction),
+        |table, value| table.spinning_friction = value,
+        (0.0, 1e3),
+    ),
+    constant("tilt.x", |table| Some(table.tilt.x), |table, value| table.tilt.x = value, LEAN),
+    constant("tilt.y", |table| Some(table.tilt.y), |table, value| table.tilt.y = value, LEAN),
+    constant("e_ball", |table| Some(table.ball_restitution), |table, value| table.ball_restitution = value, (0.0, 1.0)),
+    constant(
+        "mu_b",
+        |table| table.ball_slip_friction.map(|law| law.least + law.rise).or(table.ball_friction),
+        |table, value| {
             table.ball_friction = Some(value);
             if let Some(law) = &mut table.ball_slip_friction {
                 law.rise = (value - law.least).max(0.0);
             }
         },
-        limits: (0.0, 0.99),
-    },
-    Constant {
-        name: "m_end",
-        get: |table| table.cue_end_mass,
-        set: |table, value| table.cue_end_mass = Some(value.min(table.cue_mass)),
-        limits: (1e-4, f64::MAX),
-    },
-    own_restitution::<0>("rail.left.e"),
-    own_restitution::<1>("rail.right.e"),
-    own_restitution::<2>("rail.bottom.e"),
-    own_restitution::<3>("rail.top.e"),
-    own_friction::<0>("rail.left.mu"),
-    own_friction::<1>("rail.right.mu"),
-    own_friction::<2>("rail.bottom.mu"),
-    own_friction::<3>("rail.top.mu"),
+        (0.0, 0.99),
+    ),
+    constant(
+        "m_end",
+        |table| table.cue_end_mass,
+        |table, value| table.cue_end_mass = Some(value.min(table.cue_mass)),
+        (1e-4, f64::MAX),
+    ),
+    own::<0, false>("rail.left.e"),
+    own::<1, false>("rail.right.e"),
+    own::<2, false>("rail.bottom.e"),
+    own::<3, false>("rail.top.e"),
+    own::<0, true>("rail.left.mu"),
+    own::<1, true>("rail.right.mu"),
+    own::<2, true>("rail.bottom.mu"),
+    own::<3, true>("rail.top.mu"),
 ];
 
-/// What a rail gives back that has a value of its own, by its place in [`Rail::ALL`].
-const fn own_restitution<const RAIL: usize>(name: &'static str) -> Constant {
-    Constant {
-        name,
-        get: |table| table.rail.own(Rail::ALL[RAIL]).e,
-        set: |table, value| {
-            let own = table.rail.own_mut(Rail::ALL[RAIL]);
-            *own = Some(OneRail { e: Some(value), ..own.unwrap_or_default() });
-        },
-        limits: (0.0, 1.0),
-    }
+const fn constant(
+    name: &'static str,
+    get: fn(&Table) -> Option<f64>,
+    set: fn(&mut Table, f64),
+    limits: (f64, f64),
+) -> Constant {
+    Constant { name, get, set, limits }
 }
 
-/// The same of its friction.
-const fn own_friction<const RAIL: usize>(name: &'static str) -> Constant {
-    Constant {
-        name,
-        get: |table| table.rail.own(Rail::ALL[RAIL]).mu,
-        set: |table, value| {
-            let own = table.rail.own_mut(Rail::ALL[RAIL]);
-            *own = Some(OneRail { mu: Some(value), ..own.unwrap_or_default() });
-        },
-        limits: (0.0, 0.99),
+/// What a rail has of its own, by its place in [`Rail::ALL`]: its friction, or how much it gives back.
+const fn own<const RAIL: usize, const FRICTION: bool>(name: &'static str) -> Constant {
+    const fn field<const FRICTION: bool>(own: &mut OneRail) -> &mut Option<f64> {
+        if FRICTION { &mut own.mu } else { &mut own.e }
     }
+    constant(
+        name,
+        |table| *field::<FRICTION>(&mut table.rail.own(Rail::ALL[RAIL])),
+        |table, value| {
+            let own = table.rail.own_mut(Rail::ALL[RAIL]).get_or_insert_default();
+            *field::<FRICTION>(own) = Some(value);
+        },
+        (0.0, if FRICTION { 0.99 } else { 1.0 }),
+    )
 }
 
 /// Why a doubt is refused.

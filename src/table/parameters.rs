@@ -208,7 +208,8 @@ impl Table {
         let cloth: fn(f64) -> bool = |x| (1e-4..=1e3).contains(&x);
         let restitution: fn(f64) -> bool = |x| (0.0..=1.0).contains(&x);
         let checks: [Check; 14] = [
-            ("R", self.radius, positive, "a positive number of metres"),
+            // Below, a layout's allowance for rounding would be more than a ball.
+            ("R", self.radius, |r| (1e-4..f64::INFINITY).contains(&r), "0.0001 m or more; a carom ball has 0.03075"),
             // From a light ball of a toy table to more than any ball of stone, and from a stick to an iron bar.
             ("m", self.ball_mass, |m| (0.001..=1.0).contains(&m), "0.001 to 1 kg; a carom ball has 0.21"),
             ("M", self.cue_mass, |m| (0.05..=5.0).contains(&m), "0.05 to 5 kg; a carom cue has 0.5"),

@@ -46,7 +46,6 @@ without!(predicting_for_balls_at_rest_changes_no_bit, BALLS_AT_REST);
 without!(predicting_everything_anew_changes_no_bit, KEPT_PREDICTIONS);
 without!(solving_for_every_cushion_changes_no_bit, CUSHIONS_IN_REACH);
 without!(seeking_roots_for_courses_apart_changes_no_bit, COURSES_APART);
-without!(seeking_roots_for_balls_that_part_changes_no_bit, BALLS_THAT_PART);
 without!(following_a_lone_ball_like_any_other_changes_no_bit, ALONE);
 without!(ignoring_a_decided_outcome_changes_no_bit, EARLY_END);
 
@@ -58,7 +57,6 @@ fn no_saving_at_all_changes_no_bit() {
         const KEPT_PREDICTIONS: bool = false;
         const CUSHIONS_IN_REACH: bool = false;
         const COURSES_APART: bool = false;
-        const BALLS_THAT_PART: bool = false;
         const ALONE: bool = false;
         const LAST_ROLLS: bool = false;
         const EARLY_END: bool = false;

@@ -55,12 +55,14 @@ impl Law {
     /// directions that they have at `at`.
     fn rate(&self, from: &Motion, at: &Motion, impulse: f64) -> Motion {
         let Self { nose, cloth, sine, cosine } = *self;
-        let below = DVec2::new(at.velocity.x - at.spin.y, at.velocity.y + at.spin.x);
-        // The cloth's friction for each unit by which the ball is pressed down.
-        let drag = -cloth * below.normalize_or_zero();
+        let below = |Motion { velocity: v, spin: w }: &Motion| DVec2::new(v.x - w.y, v.y + w.x);
+        // The cloth's friction for each unit by which the ball is pressed down, and the friction that ends the slip: more would drive the ball.
+        let drag = -cloth * below(at).normalize_or_zero();
+        let ending = -below(from) / (3.5 * impulse);
         let rate = |friction: DVec2| {
             // Upwards the nose lifts with its friction and presses down with its normal force.
             let drag = (sine - friction.y * cosine).max(0.0) * drag;
+            let drag = if drag.length_squared() > ending.length_squared() { ending } else { drag };
             Motion {
                 velocity: DVec2::new(cosine + friction.y * sine + drag.x, friction.x + drag.y),
                 spin: 2.5 * DVec3::new(drag.y - friction.x * sine, friction.y - drag.x, -friction.x * cosine),
@@ -255,13 +257,19 @@ mod tests {
     }
 
     #[test]
-    fn whatever_the_cloth_no_ball_goes_on_into_the_rail() {
-        for cloth in [0.2, 3.0, 10.0, 1000.0] {
+    fn whatever_the_cloth_no_ball_goes_on_into_the_rail_or_gains_energy() {
+        let energy = |motion: &Motion| motion.velocity.length_squared() + 0.4 * motion.spin.length_squared();
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
+        for cloth in [0.2, 2.0, 5.0, 24.0, 200.0, 1000.0] {
             let held = Law { cloth, ..law() };
-            for spin in [DVec3::ZERO, DVec3::new(0.0, -6.0, 0.0), DVec3::new(0.0, 6.0, 2.0)] {
-                let mut motion = Motion { velocity: DVec2::new(-1.0, 0.4), spin };
+            for _ in 0..500 {
+                let mut number = |wide: f64| wide * (2.0 * rng.random::<f64>() - 1.0);
+                let spin = DVec3::new(number(6.0), number(6.0), number(6.0));
+                let mut motion = Motion { velocity: DVec2::new(-1.0, number(2.0)), spin };
+                let before = energy(&motion);
                 integrate(&held, 0.9, &mut motion, STEPS);
                 assert!(motion.velocity.x >= 0.0, "{cloth}: {}", motion.velocity);
+                assert!(energy(&motion) <= 1.01 * before, "{cloth}: {} of {before}", energy(&motion));
             }
         }
     }
