@@ -185,7 +185,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Lets a ball that comes down on the cloth in the very moment of an impact land before it: which side of the landing its state
     /// is taken from is rounding's choice. One that would be thrown up too slowly to fly lies there.
     fn land_first(&self, state: &mut SpatialState) {
-        if state.position.z <= self.constants.tolerance.touching {
+        let comes_down = state.velocity.z < 0.0 && state.position.z <= self.constants.tolerance.touching;
+        if state.position.z <= 0.0 || comes_down {
             state.position.z = 0.0;
             self.answer(state);
             if state.velocity.z <= self.constants.tolerance.slowest_in_air {

@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, presets};
 use crate::{
-    physics::CueDegrees,
+    physics::{CueDegrees, Motion},
     simulation::{EventKind, Rail},
     study::stability::{Shot, Trace, draw},
     table::{Layout, Table},
@@ -14,27 +14,53 @@ use crate::{
 
 pub const CASES: &[Case] = &[
     Case::new("two object balls hit at the same moment", presets, fork)
-        .checked("both are hit, at the same moment", hits_both),
+        .checked("both are hit, at the same moment, and leave alike", hits_both),
     Case::new("ball and cushion hit at the same moment", presets, ball_at_cushion)
-        .checked("both are hit, at the same moment", hits_ball_and_cushion),
+        .checked("both are hit, at the same moment, alike wherever along the cushion", hits_ball_and_cushion),
 ];
 
 /// Times that differ by less are the same moment, s: a ball moves 1e-12 m meanwhile.
 const MOMENT: f64 = 1e-13;
 
-/// Along x into the gap between two balls that stand alike on both sides.
+/// Velocities that differ by less are the same, m/s.
+const ALIKE: f64 = 1e-9;
+
+/// Along any line into the gap between two balls that stand alike on both sides.
 fn fork(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let beside = table.radius * if rng.random_bool(0.3) { 1.0 } else { rng.random_range(1.0..1.6) };
-    let from = DVec2::new(-rng.random_range(0.2..0.8), 0.0);
+    let along = if rng.random_bool(0.3) { DVec2::X } else { DVec2::from_angle(rng.random_range(-3.1..3.1)) };
+    let middle = DVec2::new(rng.random_range(-0.2..0.2), 0.0);
+    let room = table.half_width() - beside - table.radius;
+    let from = middle - rng.random_range(0.2..room.min(0.8)) * along;
     let b = draw::one_of(rng, &[-0.3, 0.0, 0.4]);
+    let speed = if rng.random_bool(0.5) { rng.random_range(0.3..1.0) } else { rng.random_range(2.0..8.0) };
     Shot {
-        layout: Layout::new([from, DVec2::new(0.0, beside), DVec2::new(0.0, -beside)]),
-        cue: CueDegrees { b, ..CueDegrees::centre(0.0, rng.random_range(2.0..8.0)) },
+        layout: Layout::new([from, middle + beside * along.perp(), middle - beside * along.perp()]),
+        cue: CueDegrees { b, ..CueDegrees::centre(along.to_angle().to_degrees(), speed) },
     }
 }
 
-fn hits_both(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
-    happen_together(trace, EventKind::BallBall(0, 2))
+/// Both are hit at the same moment and leave as each other's mirror image, or the cue ball stops before.
+fn hits_both(_: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
+    let is_hit = |ball: usize| trace.events.iter().any(|event| event.kind == EventKind::BallBall(0, ball));
+    if !is_hit(1) && !is_hit(2) {
+        return Ok(());
+    }
+    happen_together(trace, EventKind::BallBall(0, 2))?;
+    let [_, one, other] = shot.layout.balls;
+    let across = (one - other).normalize();
+    let [left, right] = [1, 2].map(|ball| leaves_with(trace, ball));
+    let mirrored = right - 2.0 * right.dot(across) * across;
+    if left.distance(mirrored) > ALIKE {
+        return Err(format!("the balls leave with {left} and {right} m/s, which are not alike"));
+    }
+    Ok(())
+}
+
+/// The velocity with which a ball that lay still has begun to move, m/s.
+fn leaves_with(trace: &Trace, ball: usize) -> DVec2 {
+    let first = trace.pieces[ball].iter().find(|piece| piece.segment.motion != Motion::Stationary);
+    first.map_or(DVec2::ZERO, |piece| piece.segment.velocity)
 }
 
 /// Whether the ball 1 is hit just when `other` happens: whichever comes first leaves the cue ball on its way to the other.
@@ -62,6 +88,15 @@ fn ball_at_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     }
 }
 
-fn hits_ball_and_cushion(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
-    happen_together(trace, EventKind::BallRail(0, Rail::Top))
+/// Both are hit at the same moment, and the ball leaves as it does elsewhere along the cushion, where all is rounded otherwise.
+fn hits_ball_and_cushion(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
+    happen_together(trace, EventKind::BallRail(0, Rail::Top))?;
+    let elsewhere = Layout::new(shot.layout.balls.map(|ball| ball + DVec2::new(0.012_345_678_9, 0.0)));
+    let mut again = Trace::new(table);
+    again.play(table, &Shot { layout: elsewhere, ..*shot });
+    let [here, there] = [trace, &again].map(|trace| leaves_with(trace, 1));
+    if here.distance(there) > ALIKE {
+        return Err(format!("ball 1 leaves with {here} m/s, and with {there} m/s a little farther along the cushion"));
+    }
+    Ok(())
 }
