@@ -230,7 +230,7 @@ pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Library, W::Always, &[letter('a', A::Add)], Some(("add", 1)), "add a position from a code that is typed or pasted")
         .known_as("import"),
     bind(Library, W::MarkedOwn, &[letter('x', A::Remove), key(Delete, A::Remove)], None, "remove one of my positions; asks first"),
-    bind(Library, W::Sought, &[key(Esc, A::ClearSearch)], Some(("end search", 1)), "list what the search has left out again"),
+    bind(Program, W::Sought, &[key(Esc, A::ClearSearch)], Some(("end search", 1)), "list what the search has left out again"),
     bind(Program, W::NotSought, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
 ];
 
