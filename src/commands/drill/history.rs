@@ -126,7 +126,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
         if record.tried == 0 {
             continue;
         }
-        for (venue, record) in apart(&subject, sessions) {
+        for (venue, record) in Record::apart(sessions, |sessions| subject.record(sessions)) {
             rows.push([
                 subject.name(),
                 venue.word().to_owned(),
@@ -149,12 +149,6 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
         print_table(heads, rows, &[2, 3, 4, 5, 6])?;
     }
     Ok(())
-}
-
-/// A subject's records at a real table and here, where it was tried.
-fn apart(subject: &Subject, sessions: &[Session]) -> Vec<(Venue, Record)> {
-    let at = |venue| subject.record(sessions.iter().filter(|session| session.venue == venue));
-    Venue::ALL.map(|venue| (venue, at(venue))).into_iter().filter(|(_, record)| record.tried > 0).collect()
 }
 
 fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failure> {
@@ -190,7 +184,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
     }
     print_table(["started (UTC)", "where", "goal or score", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;
     line(format_args!("rate   {}", bars(&tried)))?;
-    for (venue, record) in apart(subject, sessions) {
+    for (venue, record) in Record::apart(sessions, |sessions| subject.record(sessions)) {
         line(format_args!("{:<6} {}", venue.word(), words(&record)))?;
     }
     Ok(())

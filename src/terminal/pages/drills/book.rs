@@ -12,8 +12,8 @@ use crate::drills::{Record, Session, Venue};
 pub struct Book {
     /// All of them, the oldest first.
     pub sessions: Vec<Session>,
-    /// By where the strokes were played, in the order of [`Venue::ALL`]: results of the one say little of the other.
-    scores: HashMap<String, [Record; 2]>,
+    /// By where the strokes were played.
+    scores: HashMap<String, Vec<(Venue, Record)>>,
     /// What could not be read, a sentence each.
     pub troubles: Vec<String>,
     /// Whether the disk has been read.
@@ -46,9 +46,8 @@ impl Book {
     }
 
     /// The scores of the exercise called `name` where it was tried.
-    pub fn scores_of(&self, name: &str) -> impl Iterator<Item = (Venue, &Record)> {
-        let scores = self.scores.get(name).into_iter().flatten();
-        Venue::ALL.into_iter().zip(scores).filter(|(_, record)| record.tried > 0)
+    pub fn scores_of(&self, name: &str) -> &[(Venue, Record)] {
+        self.scores.get(name).map_or(&[], Vec::as_slice)
     }
 
     /// Takes a session in, in place of what was known of it. One without attempts is none.
@@ -65,9 +64,8 @@ impl Book {
 
     fn score(&mut self, names: impl IntoIterator<Item = String>) {
         for name in names {
-            let at = |venue| self.sessions.iter().filter(move |session| session.venue == venue);
-            let records = Venue::ALL.map(|venue| Record::of_exercise(at(venue), &name));
-            self.scores.insert(name, records);
+            let scores = Record::apart(&self.sessions, |sessions| Record::of_exercise(sessions, &name));
+            self.scores.insert(name, scores);
         }
     }
 }
@@ -102,9 +100,8 @@ mod tests {
         let first = session("1", Goal::Free, "x-");
         let name = first.exercises[0].name.clone();
         let mut book = Book::new(vec![first, session("2", Goal::Free, "")], Vec::new());
-        let score = |book: &Book| {
-            let scores: Vec<_> = book.scores_of(&name).map(|(_, record)| (record.made, record.tried)).collect();
-            scores
+        let score = |book: &Book| -> Vec<_> {
+            book.scores_of(&name).iter().map(|(_, record)| (record.made, record.tried)).collect()
         };
         assert_eq!((book.sessions.len(), score(&book)), (1, vec![(1, 2)]));
         book.put(&session("1", Goal::Free, "x-xx"));
@@ -115,16 +112,5 @@ mod tests {
         assert_eq!((book.sessions_of(Some(&name)).len(), book.sessions_of(None).len()), (1, 2));
         book.put(&session("1", Goal::Free, ""));
         assert_eq!((book.sessions.len(), score(&book)), (1, vec![]));
-    }
-
-    #[test]
-    fn results_of_a_real_table_and_strokes_that_are_played_here_count_apart() {
-        let noted = session("1", Goal::Free, "xx-");
-        let here = Session { venue: Venue::Program, ..session("2", Goal::Free, "x---") };
-        let name = noted.exercises[0].name.clone();
-        let mut book = Book::new(vec![noted], Vec::new());
-        book.put(&here);
-        let scores: Vec<_> = book.scores_of(&name).map(|(venue, record)| (venue, record.made, record.tried)).collect();
-        assert_eq!(scores, [(Venue::Table, 2, 3), (Venue::Program, 1, 4)]);
     }
 }

@@ -1,4 +1,4 @@
-//! The page of an exercise: the table with the line of aim or the shot, the stroke, and what counts.
+//! The page of an exercise: the table with the way to the first contact or the shot, the stroke, and what counts.
 
 use glam::DVec2;
 use ratatui::layout::Rect;
@@ -19,7 +19,7 @@ use crate::{
     },
 };
 
-/// Distance of two dots of the line of aim, m: half of that of the dots of a path, since it is to be a line.
+/// Distance of two dots of the way to the first contact, m: half of that of the dots of a path, since it is to be a line.
 const DOT: f64 = 0.04;
 /// The cue behind the ball, m: from where to where, and the distance of its dots.
 const CUE: (f64, f64) = (0.09, 0.5);

@@ -121,7 +121,7 @@ fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rec
     let grade = if exercise.grade == 0 { "-".to_owned() } else { exercise.grade.to_string() };
     write_right(ui.buffer, area.x, area.right() - GRADE_END, area.y, &grade, ui.theme.faint());
     for (venue, score) in drills.book.scores_of(&exercise.name) {
-        let end = if venue == Venue::Table { TABLE_END } else { HERE_END };
+        let end = if *venue == Venue::Table { TABLE_END } else { HERE_END };
         let made = format!("{}/{}", in_three(score.made), in_three(score.tried));
         write_right(ui.buffer, area.x, area.right() - end, area.y, &made, style);
     }
@@ -183,7 +183,7 @@ fn about(drills: &DrillsPage, exercise: &Exercise, table: &Table, theme: &Theme)
         let [beginner, club, best] = [par.beginner, par.club, par.world_class].map(words::percent);
         add(format!("typical: beginner {beginner}, club {club}, world-class {best} %"), theme.text(), false);
     }
-    let scores: Vec<_> = drills.book.scores_of(&exercise.name).collect();
+    let scores = drills.book.scores_of(&exercise.name);
     if scores.is_empty() {
         add("you: not tried yet".to_owned(), theme.faint(), false);
     }

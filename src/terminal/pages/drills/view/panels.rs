@@ -49,6 +49,8 @@ pub fn draw_stroke(turn: &Turn, units: Units, in_numbers: bool, area: Rect, ui: 
 fn told_rows(turn: &Turn, cue: &CueInputs, units: Units, all: bool, caps: Capabilities) -> Vec<(&'static str, String)> {
     let [(_, degrees), side, height, (_, speed), elevation] = stroke_rows(cue, units, turn.table.radius, caps);
     let aim = aim_words(turn, cue, units);
+    // The narrowest panel has no column for the blank.
+    let aim = if all { aim } else { aim.replace(" mm", "mm") };
     let lengths = table_lengths(&turn.table, cue.speed).map_or_else(|| speed.clone(), lengths_words);
     let mut rows = vec![("aim", aim), ("", degrees), side, height, ("speed", lengths), ("", speed), elevation];
     rows.retain(|(name, _)| all || !name.is_empty());
@@ -162,7 +164,7 @@ fn lines_of(paragraphs: &[(String, Style)], width: impl Fn(usize) -> usize) -> V
     lines
 }
 
-/// What the line of aim meets.
+/// What the stroke meets first, and how far away.
 fn aim_line_words(aim_line: &AimLine, cue_ball: CueBall, diamond: f64, units: Units) -> String {
     let (in_a_metre, symbol) = units.length.small();
     let way = format!("{} {symbol}", fixed(in_a_metre * aim_line.length(), 0));

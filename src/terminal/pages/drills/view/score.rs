@@ -28,7 +28,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) -> u16 {
     let text = Rect { y: top, height: text.bottom() - top, ..text };
     let mut paragraphs: Vec<(String, Style)> =
         lines(&session, &turn.exercise.name).into_iter().map(|words| (words, ui.theme.text())).collect();
-    let ever: Vec<_> = drills.book.scores_of(&turn.exercise.name).collect();
+    let ever = drills.book.scores_of(&turn.exercise.name);
     let tried: usize = ever.iter().map(|(_, record)| record.tried).sum();
     // What is still being watched is not counted here either.
     if tried > session.attempts.len() && session.goal != Goal::Exam && !turn.is_open() {
