@@ -5,7 +5,10 @@ use std::io::{self, Write};
 use serde::{Deserialize, Serialize};
 use serde_json::ser::Formatter;
 
-use super::Exercise;
+use super::{
+    Exercise,
+    marked::{self, MarkError, NEWEST},
+};
 use crate::{printing::VERSION, storage::json_flaw};
 
 /// Exercises in a file.
@@ -32,15 +35,9 @@ pub enum LibraryFileError {
     /// It is JSON, and does not say what it holds.
     #[error("this is no file of exercises: it does not begin with a \"format\" and a \"version\"; {ACCEPTED}")]
     NoHeader,
-    /// It is something else.
-    #[error("the file says that its format is \"{0}\"; accepted is \"{format}\"", format = LibraryFile::FORMAT)]
-    Format(String),
-    /// Another program wrote it, most likely a newer one.
-    #[error(
-        "the file is of version {0}; versions 1 to {newest} are understood, a newer carom may have written it",
-        newest = LibraryFile::VERSION
-    )]
-    Version(u32),
+    /// It is something else, or of a version that is not understood.
+    #[error(transparent)]
+    Mark(MarkError),
 }
 
 /// What would be accepted.
@@ -50,13 +47,10 @@ impl LibraryFile {
     /// What stands in `format`.
     pub const FORMAT: &str = "carom-library";
 
-    /// The newest version that is understood, and the one that is written.
-    pub const VERSION: u32 = 1;
-
     /// A file of this version.
     pub fn new(exercises: Vec<Exercise>) -> Self {
         let carom = Some(VERSION.to_owned());
-        Self { format: Self::FORMAT.to_owned(), version: Self::VERSION, carom, exercises }
+        Self { format: Self::FORMAT.to_owned(), version: NEWEST, carom, exercises }
     }
 
     /// Reads a file's text. Fields that are not known are skipped; the exercises are not checked: see
@@ -65,19 +59,11 @@ impl LibraryFile {
     /// # Errors
     /// Where it is something else, or of a version that is not understood, whatever else it holds.
     pub fn parse(text: &str) -> Result<Self, LibraryFileError> {
-        #[derive(Deserialize)]
-        struct Header {
-            format: String,
-            version: u32,
-        }
-        let header: Header = serde_json::from_str(text)
-            .map_err(|error| if error.is_data() { LibraryFileError::NoHeader } else { error.into() })?;
-        if header.format != Self::FORMAT {
-            return Err(LibraryFileError::Format(header.format));
-        }
-        if !(1..=Self::VERSION).contains(&header.version) {
-            return Err(LibraryFileError::Version(header.version));
-        }
+        marked::check(Self::FORMAT, text.as_bytes()).map_err(|error| match error {
+            MarkError::Syntax(error) if error.is_data() => LibraryFileError::NoHeader,
+            MarkError::Syntax(error) => error.into(),
+            mark => LibraryFileError::Mark(mark),
+        })?;
         Ok(serde_json::from_str(text)?)
     }
 

@@ -8,6 +8,7 @@ mod exercise;
 mod file;
 mod flaws;
 mod library;
+mod marked;
 pub mod par;
 mod play;
 mod record;
@@ -23,6 +24,7 @@ pub use exercise::{Category, Exercise, ExerciseError, LONGEST_POINT, LONGEST_TIT
 pub use file::{LibraryFile, LibraryFileError};
 pub use flaws::{GATHERED, flaws};
 pub use library::{Filter, Library, LibraryError};
+pub use marked::MarkError;
 pub use play::{PlayError, Played, check};
 pub use record::Record;
 pub use session::{Attempt, Goal, Session, Venue};

@@ -1,6 +1,6 @@
 //! The score of a list of attempts: how many, how often, how many in a row.
 
-use super::session::{Attempt, Session};
+use super::session::{Attempt, Session, Venue};
 use crate::statistics::SuccessRate;
 
 /// The score of a list of attempts.
@@ -93,6 +93,15 @@ impl Record {
         }
     }
 
+    /// The same `record` at a real table and here, where anything was tried: results of the one say little of the other.
+    pub fn apart<'a>(
+        sessions: &'a [Session],
+        record: impl Fn(&mut dyn Iterator<Item = &'a Session>) -> Self,
+    ) -> Vec<(Venue, Self)> {
+        let at = |venue| record(&mut sessions.iter().filter(move |session| session.venue == venue));
+        Venue::ALL.into_iter().map(|venue| (venue, at(venue))).filter(|(_, record)| record.tried > 0).collect()
+    }
+
     /// Of all repetitions of the exercise called `name`; games are none.
     pub fn of_exercise<'a>(sessions: impl IntoIterator<Item = &'a Session>, name: &str) -> Self {
         Self::of(sessions, |session, attempt| !session.is_game() && attempt.exercise == name)
@@ -157,6 +166,19 @@ mod tests {
         sessions[0].attempts[1].by_coach = true;
         let record = Record::of_exercise(&sessions, "first");
         assert_eq!((record.made, record.innings, record.high_run), (2, 2, 1));
+    }
+
+    #[test]
+    fn results_of_a_real_table_and_strokes_that_are_played_here_count_apart() {
+        let here = Session { venue: Venue::Program, ..session(Goal::Free, "x---") };
+        let all = |sessions: &[Session]| -> Vec<_> {
+            let apart = Record::apart(sessions, |sessions| Record::of_exercise(sessions, "first"));
+            apart.into_iter().map(|(venue, record)| (venue, record.made, record.tried)).collect()
+        };
+        let sessions = [here, session(Goal::Free, "xx-")];
+        assert_eq!(all(&sessions), [(Venue::Table, 2, 3), (Venue::Program, 1, 4)]);
+        assert_eq!(all(&sessions[..1]), [(Venue::Program, 1, 4)]);
+        assert!(all(&[]).is_empty());
     }
 
     #[test]

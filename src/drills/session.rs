@@ -39,6 +39,22 @@ pub enum Goal {
 }
 
 impl Goal {
+    /// Whether it is a game: then its attempts are no repetitions of an exercise.
+    pub const fn is_game(self) -> bool {
+        matches!(self, Self::Game { .. } | Self::Match { .. })
+    }
+
+    /// What a session of it is called.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Free => "practice",
+            Self::Run(_) => "run",
+            Self::Exam => "exam",
+            Self::Game { .. } => "game",
+            Self::Match { .. } => "match",
+        }
+    }
+
     /// What it is, in a few words.
     pub fn words(self) -> String {
         match self {
@@ -68,6 +84,19 @@ pub enum Venue {
     Program,
     /// At a real table: the player tells what was made.
     Table,
+}
+
+impl Venue {
+    /// Both, a real table first.
+    pub const ALL: [Self; 2] = [Self::Table, Self::Program];
+
+    /// In a word, as records tell it.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Program => "here",
+            Self::Table => "table",
+        }
+    }
 }
 
 /// One attempt. What is not known of it, as most is of one at a real table, is left out.
@@ -196,7 +225,7 @@ impl Session {
 
     /// Whether it is a game: then its attempts are no repetitions of an exercise.
     pub const fn is_game(&self) -> bool {
-        matches!(self.goal, Goal::Game { .. } | Goal::Match { .. })
+        self.goal.is_game()
     }
 
     /// Whether two sides take turns.

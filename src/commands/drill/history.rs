@@ -123,25 +123,30 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
     let mut rows = Vec::new();
     for subject in subjects {
         let record = subject.record(sessions);
-        let Some(last) = record.last else { continue };
+        if record.tried == 0 {
+            continue;
+        }
+        for (venue, record) in Record::apart(sessions, |sessions| subject.record(sessions)) {
+            rows.push([
+                subject.name(),
+                venue.word().to_owned(),
+                record.made.to_string(),
+                record.tried.to_string(),
+                share(&record),
+                average(&record),
+                high_run(&record),
+                record.last.map_or_else(String::new, time),
+            ]);
+        }
         if json {
             json_line(&ExerciseRow { name: subject.name(), score: record.into() })?;
         }
-        rows.push([
-            subject.name(),
-            record.made.to_string(),
-            record.tried.to_string(),
-            share(&record),
-            average(&record),
-            high_run(&record),
-            time(last),
-        ]);
     }
     if rows.is_empty() {
         tell("nothing was practised yet; carom drill list shows the exercises");
     } else if !json {
-        let heads = ["name", "made", "tried", "rate", "average", "high run", "last (UTC)"];
-        print_table(heads, rows, &[1, 2, 3, 4, 5])?;
+        let heads = ["name", "where", "made", "tried", "rate", "average", "high run", "last (UTC)"];
+        print_table(heads, rows, &[2, 3, 4, 5, 6])?;
     }
     Ok(())
 }
@@ -162,10 +167,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
         }
         rows.push([
             time(session.started),
-            match session.venue {
-                Venue::Program => "here".to_owned(),
-                Venue::Table => "table".to_owned(),
-            },
+            session.venue.word().to_owned(),
             session.score_words().unwrap_or_else(|| session.goal.words()),
             record.made.to_string(),
             record.tried.to_string(),
@@ -182,7 +184,10 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
     }
     print_table(["started (UTC)", "where", "goal or score", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;
     line(format_args!("rate   {}", bars(&tried)))?;
-    line(format_args!("in all {}", words(&subject.record(sessions))))
+    for (venue, record) in Record::apart(sessions, |sessions| subject.record(sessions)) {
+        line(format_args!("{:<6} {}", venue.word(), words(&record)))?;
+    }
+    Ok(())
 }
 
 /// Sessions that the chart shows, the last ones.

@@ -103,7 +103,8 @@ pub fn show(args: &ShowArgs) -> Result<(), Failure> {
     let exercise = workspace.exercise(&args.name)?;
     let table = exercise.table().map_err(Failure::failed)?;
     let code = encode(exercise).map_err(Failure::failed)?;
-    let record = Record::of_exercise(&workspace.sessions(), &exercise.name);
+    let sessions = workspace.sessions();
+    let record = Record::of_exercise(&sessions, &exercise.name);
     let corner = 0.5 * glam::DVec2::new(table.length, table.width);
     let diamonds = exercise.layout.balls.map(|ball| ((ball + corner) / table.diamond()).to_array());
     if args.json {
@@ -133,6 +134,11 @@ pub fn show(args: &ShowArgs) -> Result<(), Failure> {
         let [beginner, club, best] = [par.beginner, par.club, par.world_class].map(|share| 100.0 * share);
         line(format_args!("typical beginner {beginner:.0} %, club {club:.0} %, world-class {best:.0} %"))?;
     }
-    line(format_args!("record  {}", words(&record)))?;
+    if record.tried == 0 {
+        line(format_args!("record  {}", words(&record)))?;
+    }
+    for (venue, record) in Record::apart(&sessions, |sessions| Record::of_exercise(sessions, name)) {
+        line(format_args!("{:<7} {}", venue.word(), words(&record)))?;
+    }
     line(format_args!("code    {code}"))
 }

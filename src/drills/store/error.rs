@@ -5,10 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{
-    super::{CodeError, ExerciseError, LibraryFileError, Session, SessionError},
-    MarkError,
-};
+use super::super::{CodeError, ExerciseError, LibraryFileError, Session, SessionError, marked::MarkError};
 
 /// Why something cannot be kept or read. Whatever is on the disk is what it was.
 #[derive(Debug, thiserror::Error)]

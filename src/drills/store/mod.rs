@@ -3,7 +3,6 @@
 //! what one has noted meanwhile, the other does not write over. What cannot be read is named in a sentence and left as it is.
 
 mod error;
-mod marked;
 mod player;
 #[cfg(test)]
 mod tests;
@@ -18,11 +17,13 @@ use serde::{Deserialize, de::DeserializeOwned};
 
 pub use self::{
     error::StoreError,
-    marked::MarkError,
     player::OwnSkill,
     transfer::{Imported, Practice},
 };
-use super::{Attempt, Category, Exercise, ExerciseError, Library, LibraryFile, LibraryFileError, Session};
+use super::{
+    Attempt, Category, Exercise, ExerciseError, Library, LibraryFile, LibraryFileError, Session,
+    marked::{self, MarkError},
+};
 use crate::storage::{self, Lock, Places, create_atomic, is_name, remove_abandoned_files, write_atomic};
 
 /// What a session's file says that it is.
@@ -177,8 +178,9 @@ impl Store {
     pub fn remove_position(&self, name: &str) -> Result<(), StoreError> {
         let path = file(&self.positions, name)?;
         // What a newer program wrote is not ours to remove.
-        if let Err(error @ StoreError::Library { error: LibraryFileError::Version(_), .. }) = read_position(&path) {
-            return Err(error);
+        let read = read_position(&path);
+        if let Err(StoreError::Library { error: LibraryFileError::Mark(MarkError::Version(_)), .. }) = read {
+            return read.map(drop);
         }
         fs::remove_file(&path).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => StoreError::Unknown(name.to_owned()),

@@ -4,10 +4,10 @@ use std::io;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Store, StoreError, marked};
+use super::{Store, StoreError};
 use crate::{
     coach::Skill,
-    drills::session::now,
+    drills::{marked, session::now},
     storage::{self, write_atomic},
 };
 

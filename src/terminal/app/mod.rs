@@ -236,9 +236,9 @@ impl App {
 
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
     pub fn saved_session(&self) -> Option<SavedSession<'_>> {
-        // An exam is gone on with whatever was done after it.
+        // An exam, a game and a match are gone on with whatever was done after them.
         let is_open = |session: &&Session| self.screen == PageId::Drills || session.is_exam();
-        self.coach.saved_session(self.drills.unfinished().filter(is_open))
+        self.coach.saved_session(self.drills.unfinished().filter(is_open), self.drills.open_game())
     }
 
     /// Says what has changed since the user was here before.

@@ -79,6 +79,22 @@ pub enum Meeting {
     Nothing,
 }
 
+impl Meeting {
+    /// What the cue ball meets first in a recorded shot that meets its first object ball so.
+    pub fn of(recording: &Recording, first: Option<Hit>) -> Self {
+        let met = recording.events().iter().find_map(|event| match event.kind {
+            EventKind::BallRail(0, rail) => Some(Some(rail)),
+            EventKind::BallBall(0, _) => Some(None),
+            _ => None,
+        });
+        match (met.flatten(), first) {
+            (Some(rail), hit) => Self::Rail(rail, hit),
+            (None, Some(hit)) => Self::Ball(hit),
+            (None, None) => Self::Nothing,
+        }
+    }
+}
+
 /// A shot ready to be shown and played.
 #[derive(Debug)]
 pub struct Shot {
@@ -159,16 +175,7 @@ impl Shot {
 
     /// What the cue ball meets first.
     pub fn meeting(&self) -> Meeting {
-        let first = self.recording.events().iter().find_map(|event| match event.kind {
-            EventKind::BallRail(0, rail) => Some(Some(rail)),
-            EventKind::BallBall(0, _) => Some(None),
-            _ => None,
-        });
-        match (first.flatten(), self.words.first) {
-            (Some(rail), hit) => Meeting::Rail(rail, hit),
-            (None, Some(hit)) => Meeting::Ball(hit),
-            (None, None) => Meeting::Nothing,
-        }
+        Meeting::of(&self.recording, self.words.first)
     }
 
     /// How the cue ball meets the first object ball, in words, for who plays with `cue_ball`.

@@ -3,7 +3,7 @@
 use ratatui::{layout::Rect, style::Modifier, text::Span};
 
 use crate::{
-    coach::Hit,
+    coach::{Hit, words::capital},
     terminal::{
         shot::{Meeting, Spin},
         ui::{Ink, Theme, Ui, draw_field, draw_title, field::Mark, spin::draw_spin},
@@ -21,17 +21,18 @@ const BEHIND: char = '#';
 pub fn draw_spin_or_hit(spin: Option<Spin>, meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     match spin {
         Some(spin) => draw_spin(&spin, area, ui),
-        None => draw_panel(meeting, area, ui),
+        None => draw_hit_panel(None, meeting, area, ui),
     }
 }
 
-/// Draws the panel: how the object ball is met, or what is met before it.
-fn draw_panel(meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
+/// Draws the panel: how the object ball is met, or what is met before it. Where two strokes may be meant, the title says `whose` it is.
+pub fn draw_hit_panel(whose: Option<&str>, meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     let is_low = area.height <= LOW + 1;
+    let title = |words: &str| whose.map_or_else(|| capital(words), |whose| format!("{whose} {words}"));
     let title = match meeting.filter(|_| is_low) {
         // A share by itself looks like a chance.
-        Some(Meeting::Ball(hit)) => Span::styled(format!("{} % full", percent(&hit)), ui.theme.accent()),
-        _ => Span::styled("Hit", ui.theme.text()),
+        Some(Meeting::Ball(hit)) => Span::styled(title(&format!("{} % full", percent(&hit))), ui.theme.accent()),
+        _ => Span::styled(title("hit"), ui.theme.text()),
     };
     let inner = draw_title(title, area, ui);
     let Some(Meeting::Ball(hit)) = meeting else {

@@ -28,7 +28,7 @@ pub use self::{
     canvas::{Canvas, Ink},
     events::{ListedEvents, draw_events},
     field::{Dot, draw_field, face_in, spot_mark},
-    hit::draw_spin_or_hit,
+    hit::{draw_hit_panel, draw_spin_or_hit},
     input::{TextField, Typed, is_typed},
     message::{Message, Tone},
     panel::{
@@ -41,7 +41,7 @@ pub use self::{
     table::{Spot, TableView, ball_at, cue_sign, draw_table},
     text::{columns, cut, end_of, ending, shorten, spell, wrap, wrap_by, write_right},
     theme::Theme,
-    tip::{draw_face, draw_tip, tip_rows},
+    tip::{draw_face, draw_tip, draw_titled_tip, tip_rows},
     what_if::{Beside, draw_what_if},
 };
 use crate::terminal::{

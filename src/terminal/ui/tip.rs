@@ -31,6 +31,11 @@ pub fn draw_tip(cue: Option<&CueInputs>, how_long: bool, table: &Table, area: Re
         width if width > 14 => format!("1 tip = {tip}"),
         _ => format!("Tip = {tip}"),
     };
+    draw_titled_tip(title, cue, table, area, ui);
+}
+
+/// The same with a title that says whose stroke it is.
+pub fn draw_titled_tip(title: String, cue: Option<&CueInputs>, table: &Table, area: Rect, ui: &mut Ui) {
     let inner = draw_title(title, area, ui);
     // In radii, right and up as the shooter sees it: positive `a` is on the left.
     let tip = cue.map(|cue| DVec2::new(-cue.a, cue.b));

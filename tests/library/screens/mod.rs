@@ -5,6 +5,7 @@ mod calibration;
 mod coach;
 mod command_palette;
 mod drills;
+mod drills_told;
 mod edges;
 mod faults;
 mod film;

@@ -25,7 +25,7 @@ fn the_coach_can_be_drawn_at_every_size() {
 #[test]
 fn the_drills_can_be_drawn_at_every_size() {
     let library = |keys: &str| Player::at_library(TRUE_COLOUR, &[exercise("opening", "x")], &[]).press(keys);
-    draw(["Left", "Left Enter", "Left Enter Space", "r", "a", "f", "f Enter"].map(library));
+    draw(["Left", "Left Enter", "Left Enter Space Space", "r", "a", "f", "f Enter"].map(library));
 }
 
 #[test]

@@ -60,7 +60,7 @@ fn a_coach_that_thinks_goes_on_and_its_shot_is_there_when_one_comes_back() {
 
 #[test]
 fn a_shot_is_paused_on_every_way_to_another_screen_and_on_no_way_to_its_own() {
-    let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter Esc y F2");
+    let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc y F2");
     let playing = left.press("Enter").answer().press("Space").wait(0.5);
     let resumed = playing.press("c");
     assert_eq!(resumed.app.place(), KeyContext::Drill(DrillContext::Exercise));
@@ -79,7 +79,7 @@ fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
     let player = player.press("F2 F5 F3");
     assert_eq!((player.app.place(), time(&player)), (KeyContext::Drill(DrillContext::Exercise), before));
     player.wait(60.0).says("your hand: ");
-    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter F2 s");
+    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter F2 s");
     exam.says("save the balls as");
     let exam = exam.type_in("mine").press("Enter");
     exam.says("saved as mine");

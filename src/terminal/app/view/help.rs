@@ -62,8 +62,8 @@ const TRAINING_NOTES: [&str; 4] = [
 ];
 
 const DRILL_NOTES: [&str; 5] = [
-    "The line of aim is straight and ends where the cue ball meets the first ball or cushion, at the ring. It ignores \
-     swerve and everything after that contact. A ball is hit 100 % full head-on, 0 % where it is only grazed.",
+    "The line is the cue ball's way, with what side and a raised cue do to it, to the first ball or cushion, at the ring. \
+     It tells nothing of what comes after. A ball is hit 100 % full head-on, 0 % where it is only grazed.",
     "Strokes are played with the errors of the player who is named above. How often a stroke makes the point is from 1000 \
      simulated strokes of that player.",
     "An attempt for which the hint was shown counts like any other; the score tells how many there were.",

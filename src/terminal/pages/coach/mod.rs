@@ -230,30 +230,35 @@ impl CoachPage {
         self.before = before;
         let words = match self.before.first() {
             None => return,
-            Some(SavedSession { practice: Some(practice), .. }) if practice.is_exam() => {
-                "c goes on with the exam of the last session"
+            Some(SavedSession { practice: Some(practice), .. }) if practice.is_exam() || practice.is_game() => {
+                format!("c goes on with the {} of the last session", practice.goal.name())
             }
-            Some(_) => "c goes on from where the last session ended",
+            Some(_) => "c goes on from where the last session ended".to_owned(),
         };
         self.message = Some(Message::plain(words));
     }
 
-    /// What the next session may go on from, with what is practised or the exam that waits to be gone on with; `None` while
+    /// What the next session may go on from, with what is practised, or the exam or `game` that waits to be gone on with; `None` while
     /// nothing is and the balls lie as at the start.
-    pub fn saved_session<'a>(&'a self, practised: Option<&'a Session>) -> Option<SavedSession<'a>> {
+    pub fn saved_session<'a>(
+        &'a self,
+        practised: Option<&'a Session>,
+        game: Option<&'a Session>,
+    ) -> Option<SavedSession<'a>> {
         let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
-        let is_begun = self.is_begun() || practised.is_some() || !self.left_exams.is_empty();
+        let is_begun = self.is_begun() || practised.or(game).is_some() || !self.left_exams.is_empty();
         if self.followed().is_some() || !is_begun {
             return None;
         }
         let of_before = self.before.first().and_then(|before| before.practice.as_deref());
         let mut exams = practised.into_iter().chain(self.left_exams.iter().rev()).chain(of_before);
-        let practice = exams.find(|session| session.is_exam()).or(practised);
+        let practice = exams.find(|session| session.is_exam()).or(practised).or(game);
         let ended =
             |practice| SavedSession::new(table, layout, cue_ball, self.query.terms(), practice).under(self.of_settings);
-        // One a session: any other exam that was left is as if one before had ended there.
-        let others = self.left_exams.iter().rev().filter(|exam| practice.is_none_or(|practice| practice.id != exam.id));
-        let others: Vec<_> = others.map(|exam| ended(Some(exam)).into_owned()).collect();
+        // One a session: any other exam or game that was left is as if one before had ended there.
+        let others = self.left_exams.iter().rev().chain(game);
+        let others = others.filter(|other| practice.is_none_or(|practice| practice.id != other.id));
+        let others: Vec<_> = others.map(|other| ended(Some(other)).into_owned()).collect();
         let former = if others.is_empty() {
             Cow::Borrowed(&self.before[..])
         } else {

@@ -25,6 +25,8 @@ impl DrillsPage {
                 refuse(!self.catalogue.is_own(), "bundled exercises stay; only my positions go")
             }
             DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
+            DrillCondition::Sought => refuse(!self.catalogue.is_sought(), "no words are looked for"),
+            DrillCondition::NotSought => refuse(self.catalogue.is_sought(), "Esc ends the search first"),
             DrillCondition::OfExercise => refuse(!self.records.has_exercise(), "this record is of all exercises"),
             DrillCondition::Filmed => refuse(self.film.played().is_none(), "there is no filmed shot on the table yet"),
             DrillCondition::Estimated => {
@@ -52,7 +54,9 @@ impl DrillsPage {
             }
             Action::Category(step) => self.catalogue.choose_category(step),
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
+            Action::All if self.catalogue.elsewhere() > 0 => self.catalogue.look_everywhere(),
             Action::All => self.catalogue.show_all(),
+            Action::ClearSearch => self.catalogue.find_text(""),
             Action::Search => {
                 let marked = self.catalogue.marked().map(|exercise| exercise.name.clone()).unwrap_or_default();
                 let before = self.catalogue.sought();
@@ -98,11 +102,12 @@ impl DrillsPage {
         self.pages.pop();
         self.film.playback.pause();
         if self.page() == DrillContext::Library {
-            let is_kept = self.turn.as_ref().is_some_and(Turn::is_under_way);
+            let kept = self.turn.as_ref().filter(|turn| turn.is_under_way()).map(|turn| turn.session.goal);
             self.leave_page();
-            if is_kept {
-                self.message =
-                    Some(Message::plain("what you have begun is kept; Enter on the exercise goes on with it"));
+            if let Some(goal) = kept {
+                let later = if goal.is_game() { ", c on the coach's page at the next start" } else { "" };
+                let words = format!("the {} is kept; Enter on the exercise goes on with it{later}", goal.name());
+                self.message = Some(Message::plain(words));
             }
         }
     }
@@ -174,7 +179,11 @@ impl DrillsPage {
 
     /// Opens the page of a filmed shot, so many after the marked one, and has its stroke fitted.
     fn open_film(&mut self, shots: isize) -> Option<Effect> {
-        let filmed = self.film.begin(shots)?;
+        let Some(filmed) = self.film.begin(shots) else {
+            let end = if shots > 0 { "last" } else { "first" };
+            self.message = Some(Message::plain(format!("this is the {end} filmed shot")));
+            return None;
+        };
         if self.page() != DrillContext::Film {
             self.pages.push(DrillContext::Film);
         }
@@ -242,7 +251,12 @@ impl DrillsPage {
             |exercise: Box<Exercise>, replace| Some(Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)]));
         let question = self.question.take()?;
         let answer = match &question {
-            Question::Search { .. } => return None,
+            Question::Search { .. } => {
+                if self.catalogue.elsewhere() > 0 {
+                    self.catalogue.look_everywhere();
+                }
+                return None;
+            }
             Question::Code(typed) => self.decoded(typed.text()),
             Question::Replace(exercise) => return save(exercise.clone(), true),
             Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),

@@ -1,107 +1,131 @@
-//! Where the line of aim leads: the straight line to the first ball or cushion, and nothing beyond it.
+//! Where a stroke leads: the cue ball's way to the first ball or cushion that it meets, and nothing beyond it.
 
 use glam::DVec2;
 
 use crate::{
-    coach::{Hit, RailPoint, line_of_aim},
-    simulation::Rail,
-    table::{BALLS, Layout, Table},
+    coach::{RailPoint, first_hit},
+    physics::CueInputs,
+    simulation::{EventKind, Recording},
+    table::{Layout, Table},
+    terminal::shot::Meeting,
 };
 
-/// What the line meets first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AimTarget {
-    /// An object ball, and how.
-    Ball(Hit),
-    /// A cushion, where the line goes on to its nose: the mark by which players aim.
-    Cushion(RailPoint),
-}
+/// Seconds between two places on the way: at 6 m/s a ball moves 12 mm meanwhile.
+const STEP: f64 = 0.002;
 
-/// The line of aim.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The cue ball's way to what it meets first.
+#[derive(Clone, Debug, PartialEq)]
 pub struct AimLine {
-    /// The cue ball's centre where it meets something, m.
-    pub end: DVec2,
-    /// How far it goes to there, m.
-    pub way: f64,
-    /// What it meets.
-    pub target: AimTarget,
+    /// Places of its centre, m, from where it lies to where it meets something or stops.
+    pub places: Vec<DVec2>,
+    /// What it meets. Of a cushion, not which ball comes after it.
+    pub meeting: Meeting,
+    /// The place of the cushion that is met, if one is.
+    pub cushion: Option<RailPoint>,
 }
 
-/// The line of aim in the direction `phi`, rad. A cue ball that is struck with side and a raised cue swerves off it.
-pub fn aim_line(table: &Table, layout: &Layout, phi: f64) -> AimLine {
-    let (start, direction) = (layout.balls[0], DVec2::from_angle(phi));
-    let diameter = 2.0 * table.radius;
-    let ball = (1..BALLS).filter_map(|ball| {
-        let towards = layout.balls[ball] - start;
-        let (along, aside) = (direction.dot(towards), direction.perp_dot(towards));
-        let is_met = along > 0.0 && aside.abs() < diameter;
-        is_met.then(|| (ball, (along - (diameter * diameter - aside * aside).sqrt()).max(0.0), aside))
-    });
-    let ball = ball.min_by(|one, other| one.1.total_cmp(&other.1));
-    let room = Rail::ALL.map(|rail| {
-        let approach = -direction.dot(rail.normal());
-        let room = start.dot(rail.normal()) + table.reach().dot(rail.normal().abs());
-        // A line along a cushion never meets it.
-        if approach > 1e-12 { room.max(0.0) / approach } else { f64::INFINITY }
-    });
-    let room = room.into_iter().fold(f64::INFINITY, f64::min);
-    if let Some((ball, way, aside)) = ball.filter(|ball| ball.1 <= room) {
-        let end = start + way * direction;
-        let hit = Hit { ball, place: end, fullness: 1.0 - aside.abs() / diameter, left: aside < 0.0 };
-        return AimLine { end, way, target: AimTarget::Ball(hit) };
+impl AimLine {
+    /// The way of the stroke `cue`, with all that side and a raised cue do to it; `None` where it cannot be simulated.
+    pub fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Self> {
+        let recording = Recording::new(table, layout, cue).ok()?;
+        let meeting = match Meeting::of(&recording, first_hit(table, &recording)) {
+            Meeting::Rail(rail, _) => Meeting::Rail(rail, None),
+            meeting => meeting,
+        };
+        let is_first =
+            |kind| matches!(kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _) | EventKind::LeavesTable(0));
+        let first = recording.events().iter().find(|event| is_first(event.kind));
+        let end = first.map_or(recording.duration(), |event| event.time);
+        let place = |time: f64| recording.state(0, time).position;
+        let steps = (end / STEP).ceil() as u32;
+        let times = (0..steps).map(|step| STEP * f64::from(step)).chain([end]);
+        let cushion = match meeting {
+            Meeting::Rail(rail, _) => Some(RailPoint::on(table, rail, place(end))),
+            _ => None,
+        };
+        Some(Self { places: times.map(place).collect(), meeting, cushion })
     }
-    let [mark, _] = line_of_aim(table, layout, phi);
-    AimLine { end: start + room * direction, way: room, target: AimTarget::Cushion(mark) }
+
+    /// How long it is, m.
+    pub fn length(&self) -> f64 {
+        self.places.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
+    }
+
+    /// Places on it, so far apart, that leave its last `free` m clear.
+    pub fn dots(&self, spacing: f64, free: f64) -> Vec<DVec2> {
+        let (mut dots, mut way, end) = (Vec::new(), 0.0, self.length() - free);
+        for pair in self.places.windows(2) {
+            let (before, step) = (way, pair[0].distance(pair[1]));
+            way += step;
+            let next = spacing * (dots.len() + 1) as f64;
+            if next <= way.min(end) {
+                dots.push(pair[0].lerp(pair[1], (next - before) / step));
+            }
+        }
+        dots
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        coach::{aim, first_hit},
-        physics::CueInputs,
-        simulation::{EventKind, Recording},
-    };
+    use crate::{simulation::Rail, terminal::Shot};
     use proptest::prelude::*;
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     proptest! {
         #[test]
-        fn a_plain_stroke_meets_what_the_line_says(seed in any::<u64>(), degrees in -180.0..180.0_f64) {
+        fn what_is_met_first_is_what_the_coach_tells_of_the_same_stroke(
+            seed in any::<u64>(), degrees in -180.0..180.0_f64, side in -0.4..0.4_f64, raised in 0.0..30.0_f64,
+        ) {
             let table = Table::default();
             let layout = Layout::random(&table, &mut Xoshiro256PlusPlus::seed_from_u64(seed));
-            // Level, in the middle: the simulated ball runs straight.
-            let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: degrees.to_radians(), speed: 5.0 };
-            let recording = Recording::new(&table, &layout, &cue).unwrap();
-            let aim_line = aim_line(&table, &layout, cue.phi);
-            let first = recording.events().iter()
-                .find(|event| matches!(event.kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _)));
-            let first = first.expect("5 m/s reach the other end of the table");
-            prop_assert!(recording.state(0, first.time).position.distance(aim_line.end) < 1e-6);
-            match (first.kind, aim_line.target) {
-                (EventKind::BallBall(_, ball), AimTarget::Ball(hit)) => {
-                    let real = first_hit(&table, &recording).unwrap();
-                    prop_assert_eq!((ball, real.left), (hit.ball, hit.left));
-                    prop_assert!((real.fullness - hit.fullness).abs() < 1e-3, "{:?} {:?}", real, hit);
+            let (theta, phi) = (raised.to_radians(), degrees.to_radians());
+            let cue = CueInputs { a: side, b: 0.1, theta, phi, speed: 3.0 };
+            let line = AimLine::of(&table, &layout, &cue).unwrap();
+            let shot = Shot::new(&table, &layout, cue, false, "yours").unwrap();
+            match (line.meeting, shot.meeting()) {
+                (Meeting::Rail(one, None), Meeting::Rail(other, _)) => {
+                    let cushion = shot.words.before.first().or(shot.words.between.first()).unwrap();
+                    let mark = line.cushion.unwrap();
+                    prop_assert_eq!((one, mark.rail), (other, cushion.rail));
+                    prop_assert!((mark.diamond - cushion.diamond).abs() < 0.01, "{:?} {:?}", mark, cushion);
                 }
-                // A stroke is given by the same number everywhere.
-                (EventKind::BallRail(..), AimTarget::Cushion(mark)) =>
-                    prop_assert_eq!(mark, aim(&table, &layout, &cue).unwrap().ahead),
-                other => prop_assert!(false, "{:?}", other),
+                (one, other) => prop_assert_eq!(one, other),
             }
         }
     }
 
     #[test]
-    fn a_cushion_is_marked_where_the_line_meets_its_nose_not_where_the_ball_stops() {
+    fn side_changes_how_full_a_ball_is_hit() {
+        let table = Table::default();
+        let layout = Layout::parse("-0.7,0 0.5,-0.03 0.9,0.5", &table).unwrap();
+        let fullness = |a: f64| {
+            let cue = CueInputs { a, b: 0.0, theta: 0.0, phi: 0.0, speed: 3.0 };
+            match AimLine::of(&table, &layout, &cue).unwrap().meeting {
+                Meeting::Ball(hit) if hit.ball == 1 && hit.left => hit.fullness,
+                met => panic!("{met:?}"),
+            }
+        };
+        // The ball lies to the right of the line. Left side pushes the cue ball to the right, towards it.
+        assert!(fullness(0.2) > fullness(0.0) + 0.02 && fullness(0.0) > fullness(-0.2) + 0.02);
+    }
+
+    #[test]
+    fn the_way_ends_where_something_is_met_and_its_dots_before() {
         let table = Table::default();
         let layout = Layout::parse("2d,2d 7d,3.5d 1d,0.5d", &table).unwrap();
-        let aim_line = aim_line(&table, &layout, 45_f64.to_radians());
-        let AimTarget::Cushion(mark) = aim_line.target else { panic!("a ball is met") };
-        // Two diamonds up are two to the right; the ball's centre stops a radius short of the cushion.
-        assert!(mark.rail == Rail::Top && (mark.diamond - 4.0).abs() < 1e-9, "{mark:?}");
-        assert!((aim_line.end.y - table.reach().y).abs() < 1e-9 && aim_line.end.x < -0.5 * table.radius);
+        let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 90_f64.to_radians(), speed: 3.0 };
+        let line = AimLine::of(&table, &layout, &cue).unwrap();
+        let mark = line.cushion.unwrap();
+        assert!(mark.rail == Rail::Top && (mark.diamond - 2.0).abs() < 1e-6, "{mark:?}");
+        let way = table.reach().y - layout.balls[0].y;
+        assert!((line.length() - way).abs() < 1e-6, "{}", line.length());
+        let dots = line.dots(0.04, 0.05);
+        assert_eq!(dots.len(), ((way - 0.05) / 0.04) as usize);
+        assert!(dots.windows(2).all(|pair| (pair[0].distance(pair[1]) - 0.04).abs() < 1e-6));
+        let soft = AimLine::of(&table, &layout, &CueInputs { speed: 0.1, ..cue }).unwrap();
+        assert!(soft.meeting == Meeting::Nothing && soft.cushion.is_none() && soft.length() > 0.01);
     }
 }

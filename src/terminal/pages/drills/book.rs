@@ -1,18 +1,19 @@
-//! What has been played: the sessions, and the score of every exercise in them.
+//! What has been played: the sessions, and the score of every exercise in them, at a real table and here.
 
 use std::{
     collections::{BTreeSet, HashMap},
     sync::Arc,
 };
 
-use crate::drills::{Record, Session};
+use crate::drills::{Record, Session, Venue};
 
 /// The sessions that are known.
 #[derive(Debug, Default)]
 pub struct Book {
     /// All of them, the oldest first.
     pub sessions: Vec<Session>,
-    scores: HashMap<String, Record>,
+    /// By where the strokes were played.
+    scores: HashMap<String, Vec<(Venue, Record)>>,
     /// What could not be read, a sentence each.
     pub troubles: Vec<String>,
     /// Whether the disk has been read.
@@ -44,9 +45,9 @@ impl Book {
         self.sessions.iter().filter(is_of).collect()
     }
 
-    /// The score of the exercise called `name`.
-    pub fn score_of(&self, name: &str) -> Option<&Record> {
-        self.scores.get(name)
+    /// The scores of the exercise called `name` where it was tried.
+    pub fn scores_of(&self, name: &str) -> &[(Venue, Record)] {
+        self.scores.get(name).map_or(&[], Vec::as_slice)
     }
 
     /// Takes a session in, in place of what was known of it. One without attempts is none.
@@ -63,8 +64,8 @@ impl Book {
 
     fn score(&mut self, names: impl IntoIterator<Item = String>) {
         for name in names {
-            let record = Record::of_exercise(&self.sessions, &name);
-            self.scores.insert(name, record);
+            let scores = Record::apart(&self.sessions, |sessions| Record::of_exercise(sessions, &name));
+            self.scores.insert(name, scores);
         }
     }
 }
@@ -83,7 +84,7 @@ mod tests {
     use super::*;
     use crate::{
         coach::Skill,
-        drills::{Goal, Library, Venue},
+        drills::{Goal, Library},
     };
 
     fn session(id: &str, goal: Goal, results: &str) -> Session {
@@ -99,15 +100,17 @@ mod tests {
         let first = session("1", Goal::Free, "x-");
         let name = first.exercises[0].name.clone();
         let mut book = Book::new(vec![first, session("2", Goal::Free, "")], Vec::new());
-        let score = |book: &Book| book.score_of(&name).map(|record| (record.made, record.tried));
-        assert_eq!((book.sessions.len(), score(&book)), (1, Some((1, 2))));
+        let score = |book: &Book| -> Vec<_> {
+            book.scores_of(&name).iter().map(|(_, record)| (record.made, record.tried)).collect()
+        };
+        assert_eq!((book.sessions.len(), score(&book)), (1, vec![(1, 2)]));
         book.put(&session("1", Goal::Free, "x-xx"));
-        assert_eq!((book.sessions.len(), score(&book)), (1, Some((3, 4))));
+        assert_eq!((book.sessions.len(), score(&book)), (1, vec![(3, 4)]));
         // Strokes of a game are no repetitions of the exercise.
         book.put(&session("3", Goal::Game { innings: 9 }, "xxx"));
-        assert_eq!((book.sessions.len(), score(&book)), (2, Some((3, 4))));
+        assert_eq!((book.sessions.len(), score(&book)), (2, vec![(3, 4)]));
         assert_eq!((book.sessions_of(Some(&name)).len(), book.sessions_of(None).len()), (1, 2));
         book.put(&session("1", Goal::Free, ""));
-        assert_eq!((book.sessions.len(), score(&book)), (1, Some((0, 0))));
+        assert_eq!((book.sessions.len(), score(&book)), (1, vec![]));
     }
 }

@@ -96,6 +96,24 @@ impl Catalogue {
         self.refilter(|filter| filter.grade = if filter.grade == Some(grade) { None } else { Some(grade) });
     }
 
+    /// How many exercises a search finds in other categories and grades, where it finds none here.
+    pub fn elsewhere(&self) -> usize {
+        let wider = Filter { text: self.filter.text.clone(), ..Filter::default() };
+        if self.is_sought() && self.marked().is_none() { self.library.find(&wider).count() } else { 0 }
+    }
+
+    /// Shows what the search finds in all categories and grades.
+    pub fn look_everywhere(&mut self) {
+        let sought = self.sought();
+        self.filter = Filter::default();
+        self.find_text(&sought);
+    }
+
+    /// Whether words are looked for.
+    pub const fn is_sought(&self) -> bool {
+        self.filter.text.is_some()
+    }
+
     /// The words that are looked for; empty where none are.
     pub fn sought(&self) -> String {
         self.filter.text.clone().unwrap_or_default()
@@ -139,6 +157,22 @@ mod tests {
         let mut catalogue = Catalogue::new(Library::bundled().clone());
         catalogue.find_text("natural");
         assert!(catalogue.marked().unwrap().title.to_lowercase().contains("natural"), "{:?}", catalogue.marked());
+    }
+
+    #[test]
+    fn a_search_that_finds_nothing_in_a_category_tells_what_is_elsewhere() {
+        let mut catalogue = Catalogue::new(Library::bundled().clone());
+        catalogue.find_text("natural");
+        let all = catalogue.found().len();
+        assert_eq!(catalogue.elsewhere(), 0, "what is found is listed");
+        while catalogue.filter.category != Some(Category::Own) {
+            catalogue.choose_category(1);
+        }
+        assert!(catalogue.found().is_empty() && catalogue.elsewhere() == all && all > 1);
+        catalogue.look_everywhere();
+        assert_eq!((catalogue.found().len(), catalogue.filter.category, catalogue.elsewhere()), (all, None, 0));
+        catalogue.find_text("");
+        assert!(!catalogue.is_sought() && !catalogue.is_part());
     }
 
     #[test]

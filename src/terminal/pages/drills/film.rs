@@ -33,9 +33,14 @@ impl FilmsScreen {
         self.mark = self.mark.saturating_add_signed(lines).min(listed().len().saturating_sub(1));
     }
 
-    /// Marks the shot so many after the marked one; gives what is to be played. It is watched when it is received.
+    /// Marks the shot so many after the marked one; gives what is to be played, `None` where there is no such shot. It is watched when
+    /// it is received.
     pub fn begin(&mut self, shots: isize) -> Option<FilmedShot> {
+        let before = self.mark;
         self.move_mark(shots);
+        if shots != 0 && self.mark == before {
+            return None;
+        }
         self.played = None;
         self.playback.jump(0.0);
         self.marked().map(|listed| listed.filmed.clone())
@@ -79,5 +84,18 @@ impl FilmsScreen {
         if let Some(Ok(played)) = &self.played {
             self.playback.tick(seconds, played.replay.duration());
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn beyond_the_last_shot_and_the_first_nothing_is_fitted_again() {
+        let mut films = FilmsScreen::default();
+        assert!(films.begin(0).is_some() && films.begin(-1).is_none());
+        films.move_mark(isize::MAX);
+        assert!(films.begin(1).is_none() && films.begin(0).is_some() && films.begin(-1).is_some());
     }
 }

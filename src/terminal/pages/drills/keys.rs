@@ -27,8 +27,10 @@ pub enum DrillAction {
     Grade(u8),
     /// Begins to type words to look for.
     Search,
-    /// Lists everything again.
+    /// Lists everything again; where a search has found nothing here, what it finds elsewhere.
     All,
+    /// Lists what a search has left out again.
+    ClearSearch,
     /// Opens the marked exercise.
     Open,
     /// Chooses another player, whose errors are played.
@@ -71,6 +73,8 @@ pub enum DrillAction {
     Hint,
     /// Shows the jump from the side too, or the table alone.
     TurnSideView,
+    /// Tells the stroke in degrees and by its speed, or as advice is told again.
+    TurnNumbers,
     /// Turns to another page of a text that has no room, the next where positive.
     TurnText(isize),
     /// Shifts the balls by half a ball at each repetition, or not.
@@ -106,6 +110,10 @@ pub enum DrillCondition {
     MarkedOwn,
     /// Where the list is a part of all.
     Filtered,
+    /// Where words are looked for that not every exercise has.
+    Sought,
+    /// Where none are.
+    NotSought,
     /// While the player sets the stroke.
     Aiming,
     /// While a stroke can be played, the player's or the coach's.
@@ -198,7 +206,8 @@ pub const LIBRARY: &[Binding<A, W>] = &[
         .each(&["list the category before", "list the next category"]),
     bind(Library, W::Always, &[letter('/', A::Search)], Some(("find", 1)), "find words in titles, points and tags")
         .known_as("diamonds systems banks"),
-    bind(Library, W::Filtered, &[letter('0', A::All)], Some(("all", 1)), "list everything again"),
+    bind(Library, W::Filtered, &[letter('0', A::All)], Some(("all", 1)),
+        "list everything again; where a search has found nothing in a category, what it finds in the others"),
     bind(Library, W::Always, &[letter('e', A::Exam(1)), letter('E', A::Exam(2)), letter('X', A::Exam(3))], Some(("exam", 1)),
         "an exam of 20 exercises, one attempt each: of grade 1 to 3, 2 to 4, 3 to 5").each(&[
         "an exam of grade 1 to 3: 20 exercises, one attempt each", "an exam of grade 2 to 4: 20 exercises, one attempt each",
@@ -221,13 +230,15 @@ pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Library, W::Always, &[letter('a', A::Add)], Some(("add", 1)), "add a position from a code that is typed or pasted")
         .known_as("import"),
     bind(Library, W::MarkedOwn, &[letter('x', A::Remove), key(Delete, A::Remove)], None, "remove one of my positions; asks first"),
-    BACK,
+    bind(Program, W::Sought, &[key(Esc, A::ClearSearch)], Some(("end search", 1)), "list what the search has left out again"),
+    bind(Program, W::NotSought, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
 ];
 
 /// Words that are looked for.
 #[rustfmt::skip]
 pub const SEARCH: &[Binding<A, W>] = &[
-    bind(Library, W::Always, &[key(Enter, A::Answer(true))], Some(("choose from these", 1)), "choose from what is found"),
+    bind(Library, W::Always, &[key(Enter, A::Answer(true))], Some(("choose from these", 1)),
+        "choose from what is found, in all categories where this one has nothing"),
     bind(Library, W::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "list what was listed before"),
     bind(Library, W::Marked, &[key(Down, A::Line(1)), key(Up, A::Line(-1))], None, "mark another exercise")
         .each(&["mark the next exercise", "mark the exercise before"]),
@@ -258,6 +269,9 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
         "take the model shot over into your stroke, to change it and see what comes of it; the attempt then counts as one \
          with a hint").known_as("adopt compare try hint"),
     bind(Stroke, W::Always, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
+    bind(Stroke, W::Always, &[letter('N', A::TurnNumbers)], None,
+        "your stroke in degrees and by its speed, or by the diamond and in table lengths again")
+        .known_as("angle speed diamonds lengths"),
     bind(Stroke, W::Always, &[key(PageDown, A::TurnText(1)), key(PageUp, A::TurnText(-1))], None,
         "turn the pages of a text that is longer than its room").each(&[
         "the next page of a text that is longer than its room", "the page before of a text that is longer than its room",

@@ -18,6 +18,8 @@ mod view;
 mod watched;
 mod what_if;
 
+use std::path::Path;
+
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -26,7 +28,7 @@ use crate::{
     drills::{Goal, Library, Session},
     game::Rule,
     storage::Places,
-    table::{CueBall, Layout, Table},
+    table::{CueBall, Layout, PRESETS, Table},
     terminal::{
         DrillContext, DrillTask, Effect, Settings,
         pages::{Page, drills::film::FilmsScreen, next_skill},
@@ -34,7 +36,7 @@ use crate::{
     },
 };
 
-pub use aim_line::{AimLine, AimTarget};
+pub use aim_line::AimLine;
 pub use book::{Book, record_of};
 pub use catalogue::Catalogue;
 pub use question::Question;
@@ -112,6 +114,10 @@ pub struct DrillsPage {
     pub jumps: bool,
     /// The units in which the player is told lengths.
     pub units: Units,
+    /// Whether the stroke is told in degrees and by its speed, instead of as advice is.
+    pub is_in_numbers: bool,
+    /// The table that the settings say: a bundled one or a file.
+    of_settings: String,
     options: RepetitionOptions,
     for_coach: Option<Balls>,
     /// The coach's rule when the library was opened last.
@@ -142,6 +148,8 @@ impl DrillsPage {
             message: None,
             jumps: true,
             units: Units::default(),
+            is_in_numbers: false,
+            of_settings: String::new(),
             options: RepetitionOptions { goal: Goal::Free, shifted: false },
             for_coach: None,
             opened_for: None,
@@ -156,6 +164,7 @@ impl DrillsPage {
     /// Takes what is set for all pages.
     pub fn take_settings(&mut self, settings: &Settings) {
         (self.units, self.jumps, self.player.of_settings) = (settings.units, settings.jumps, settings.skill);
+        self.of_settings.clone_from(&settings.table);
         if let Some(turn) = &mut self.turn {
             turn.jumps = settings.jumps;
         }
@@ -177,6 +186,11 @@ impl DrillsPage {
             self.pages.push(DrillContext::Library);
         }
         Effect::Drill(tasks)
+    }
+
+    /// Says that an exercise is on `table`, where the settings say another one.
+    fn other_table_words(&self, table: &str) -> Option<String> {
+        other_table_words(table, &self.of_settings)
     }
 
     /// Reads what is on the disk.
@@ -205,6 +219,13 @@ impl DrillsPage {
         let Some(turn) = &self.turn else { return self.left.last() };
         let has_begun = !turn.is_exam() || !turn.session.attempts.is_empty();
         Some(&turn.session).filter(|session| has_begun && !session.is_over())
+    }
+
+    /// The game or match that is open or was left last, as long as it is not over: like an exam it is gone on with at the next start,
+    /// whatever was done after it.
+    pub fn open_game(&self) -> Option<&Session> {
+        let open = self.turn.as_ref().filter(|turn| turn.is_under_way()).map(|turn| &turn.session);
+        open.into_iter().chain(self.left.iter().rev()).find(|session| session.is_game())
     }
 
     /// Whether one has gone back to the coach from the first page.
@@ -274,6 +295,13 @@ impl DrillsPage {
     }
 }
 
+/// Says that an exercise is on `table`, where the settings say another one: a bundled one or a file.
+fn other_table_words(table: &str, set: &str) -> Option<String> {
+    let whose = if PRESETS.contains(&set) { "" } else { "your " };
+    let name = Path::new(set).file_stem()?.to_string_lossy();
+    (set != table).then(|| format!("on {table}, not on {whose}{name}"))
+}
+
 impl Page for DrillsPage {
     fn message_mut(&mut self) -> &mut Option<Message> {
         &mut self.message
@@ -319,5 +347,19 @@ impl Page for DrillsPage {
             (DrillContext::Films | DrillContext::Film, _) | (_, None) => CueBall::White,
             (_, Some(turn)) => turn.cue_ball,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_exercise_says_so_where_the_settings_have_another_table() {
+        let said = |set| other_table_words("match", set);
+        assert_eq!(said(""), None, "no settings were read");
+        assert_eq!(said("match"), None);
+        assert_eq!(said("textbook").as_deref(), Some("on match, not on textbook"));
+        assert_eq!(said("/tables/Tisch 2.toml").as_deref(), Some("on match, not on your Tisch 2"));
     }
 }

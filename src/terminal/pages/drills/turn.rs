@@ -18,10 +18,7 @@ use crate::{
     table::{CueBall, Layout, Table},
     terminal::{
         AdviceTask, AttemptOutcome, DrillTask, ModelShot, PlayTask, Shot,
-        pages::drills::{
-            Watched,
-            aim_line::{AimLine, aim_line},
-        },
+        pages::drills::{Watched, aim_line::AimLine},
         shot::{OwnStroke, Playback, Profile, StrokeChange, WhatIf, aiming, stroke::TipSlips},
         ui::Message,
     },
@@ -86,6 +83,8 @@ pub struct Turn {
     pub(super) stroke: OwnStroke,
     /// The stroke beside the model shot, once that was taken over.
     pub(super) what_if: Option<WhatIf>,
+    /// Whether it was said that nobody has set the stroke yet: then it is played all the same.
+    is_warned: bool,
     advice_id: u64,
     cancel: Arc<AtomicBool>,
 }
@@ -104,6 +103,7 @@ impl Turn {
         Ok(Some(Self {
             stroke: OwnStroke::new(aiming::first_stroke(Point::of(exercise.rule, &table, &layout), &layout)),
             what_if: None,
+            is_warned: false,
             cue_ball: session.cue_ball_now(),
             jumps: true,
             session,
@@ -155,6 +155,12 @@ impl Turn {
     /// Whether the stroke can be set as it was before its last change, and after it again.
     pub(super) const fn can_travel(&self) -> (bool, bool) {
         self.stroke.can_travel()
+    }
+
+    /// Whether the stroke is the one that the page began with, of the player's own, which nobody was warned of: once.
+    pub(super) fn takes_warning(&mut self) -> bool {
+        let warns = self.is_aiming() && !self.is_coachs_turn() && !self.can_travel().0;
+        warns && !std::mem::replace(&mut self.is_warned, true)
     }
 
     /// Whose strokes are played.
@@ -214,10 +220,10 @@ impl Turn {
         self.is_coachs_turn() && matches!(self.model_shot, ModelShotState::Pending)
     }
 
-    /// The line of aim, while the stroke is set.
+    /// Where the stroke leads, while it is set.
     pub fn aim_line(&self) -> Option<AimLine> {
         let is_there = self.is_aiming() && !self.is_coach_thinking();
-        is_there.then(|| aim_line(&self.table, &self.layout, self.stroke().phi))
+        is_there.then(|| AimLine::of(&self.table, &self.layout, &self.raised_stroke())).flatten()
     }
 
     /// The model shot, if it is known and there is one.
@@ -433,6 +439,7 @@ impl Turn {
         if is_other || is_moved && self.session.is_game() {
             let point = Point::of(exercise.rule, &table, &layout);
             self.stroke = OwnStroke::new(aiming::first_stroke(point, &layout));
+            self.is_warned = false;
         }
         (self.exercise, self.table, self.layout) = (exercise, table, layout);
         self.cue_ball = self.session.cue_ball_now();

@@ -17,6 +17,8 @@ const FIRST_RUN: u32 = 5;
 const FIRST_GAME: u32 = 10;
 /// Why a key does nothing before the result of a stroke was seen.
 pub(super) const IS_RUNNING: &str = "the shot is running; Enter skips to its end";
+/// What is said before a stroke is played that nobody has set.
+const UNCHANGED: &str = "the stroke is unchanged; Space again plays it all the same";
 /// Longest run and game that can be asked for.
 const LONGEST: u32 = 100;
 
@@ -84,7 +86,7 @@ impl Turn {
             (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not beside your stroke"),
             (Stage::Aiming, Condition::StrokeChanged) => refuse(!self.can_travel().0, "the stroke is unchanged"),
             (Stage::Aiming, Condition::Set) => {
-                refuse(!self.can_travel().0, "the stroke is unchanged; Space plays it all the same")
+                refuse(!self.can_travel().0, "the stroke is unchanged; Space twice plays it all the same")
             }
             (Stage::Aiming, Condition::StrokeUndone) => {
                 refuse(!self.can_travel().1, "no change of the stroke was taken back")
@@ -121,17 +123,16 @@ impl DrillsPage {
     /// asked whether that is meant.
     pub(super) fn update_turn(&mut self, action: Action) -> Option<Effect> {
         let turn = self.turn.as_mut()?;
+        if action == Action::Play && turn.takes_warning() {
+            self.message = Some(Message::warning(UNCHANGED));
+            return None;
+        }
         if turn.is_under_way() && turn.is_ended_by(action) {
             // The question counts a stroke that is still being watched, and so must the score beside it.
             turn.finish_watching();
             let Session { goal, attempts, .. } = turn.newest();
             let own = attempts.iter().filter(|attempt| !attempt.by_coach).count();
-            let what = match goal {
-                Goal::Run(_) => "run",
-                Goal::Match { .. } => "match",
-                _ => "game",
-            };
-            self.question = Some(Question::GiveUp(action, what, own));
+            self.question = Some(Question::GiveUp(action, goal.name(), own));
             return None;
         }
         self.act(action)
@@ -159,6 +160,7 @@ impl DrillsPage {
                 turn.with_hint |= turn.shows_hint && turn.is_aiming();
             }
             Action::TurnSideView => self.message = Some(Message::plain(turn.turn_side_view(self.units.length))),
+            Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
             Action::TurnText(pages) => turn.text_page += pages,
             Action::Shift => {
                 self.options.shifted = !turn.session.shifted;

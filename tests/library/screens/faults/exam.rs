@@ -16,7 +16,7 @@ fn an_exam_begins_with_a_page_that_tells_what_comes() {
     assert_eq!((begun.app.place(), begun.kept()), (EXERCISE, 0), "the first Enter plays nothing");
     begun.says("exercise 1 of 20").says("set the stroke and play it");
     let once_more = begun.press("Enter");
-    once_more.says("the stroke is unchanged; Space plays it all the same");
+    once_more.says("the stroke is unchanged; Space twice plays it all the same");
     assert_eq!((once_more.kept(), once_more.press("Left Enter").kept()), (0, 1));
     let back = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Esc");
     assert_eq!(back.app.place(), LIBRARY, "nothing has begun: nothing is asked");
@@ -24,7 +24,7 @@ fn an_exam_begins_with_a_page_that_tells_what_comes() {
 
 #[test]
 fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
-    let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter Esc");
+    let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc");
     player.says("leave the exam after 1 of 20 exercises? c on the coach's page goes on with it.");
     let left = player.press("y");
     assert_eq!(left.app.place(), LIBRARY);
@@ -32,7 +32,7 @@ fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
     let on = left.press("F2 c");
     assert_eq!(on.app.place(), EXERCISE);
     on.says("exercise 2 of 20");
-    let over = (2..=20).fold(on, |player, _| player.press("Space Enter Enter"));
+    let over = (2..=20).fold(on, |player, _| player.press("Space Space Enter Enter"));
     over.says("Grade: ");
     assert_eq!((over.kept(), over.store().sessions().items.len()), (20, 1), "one exam");
     over.press("Enter F2 c").says("no unfinished exam or earlier session");
@@ -40,7 +40,7 @@ fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
 
 #[test]
 fn an_exam_that_was_left_is_there_at_the_next_start_too() {
-    let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter Esc y F2 Right");
+    let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc y F2 Right");
     let practice = left.app.saved_session().and_then(|last| last.practice.map(|session| session.attempts.len()));
     assert_eq!(practice, Some(1));
 }
@@ -48,7 +48,7 @@ fn an_exam_that_was_left_is_there_at_the_next_start_too() {
 #[test]
 fn exams_that_were_left_or_are_open_are_all_gone_on_with() {
     let played = |player: Player, exercises: usize| {
-        (0..exercises).fold(player.press("e Enter"), |player, _| player.press("Space Enter Enter"))
+        (0..exercises).fold(player.press("e Enter"), |player, _| player.press("Space Space Enter Enter"))
     };
     let attempts = |player: &Player| {
         let sessions = player.app.saved_session().unwrap().into_owned().with_former();
@@ -85,7 +85,7 @@ fn an_exam_of_which_only_the_first_page_was_seen_has_not_begun() {
 
 #[test]
 fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
-    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter");
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter");
     let elsewhere = |player: &Player, notes: usize| {
         let mut exam = player.store().sessions().items.remove(0);
         let before = exam.attempts.clone();
@@ -95,19 +95,19 @@ fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
     for notes in [2, 1] {
         elsewhere(&player, notes);
         let kept = player.kept();
-        player = player.press("Space");
+        player = player.press("Space Space");
         player.warns("another program has changed this session");
         assert_eq!(player.kept(), kept);
         player.says(&format!("exercise {} of 20", kept + 1));
     }
-    let on = player.press("Space Enter Enter");
+    let on = player.press("Space Space Enter Enter");
     assert_eq!(on.kept(), 5);
     // Who opens the drills again sees it before the next stroke.
     elsewhere(&on, 3);
     let seen = on.press("F2 F3");
     seen.says("another program has continued this session").says("exercise 9 of 20");
     elsewhere(&seen, 12);
-    seen.press("Space").says("Grade: ");
+    seen.press("Space Space").says("Grade: ");
     // Notes from a real table, and those that are taken back.
     let mut noted = Player::practising(TRUE_COLOUR).press("m m");
     elsewhere(&noted, 2);
@@ -146,24 +146,24 @@ fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
 #[test]
 fn an_open_run_is_given_up_only_on_demand_and_gone_on_with_where_it_was_left() {
     let sessions = |player: &Player| player.store().sessions().items.len();
-    let run = Player::practising(TRUE_COLOUR).press("o Space Enter Enter");
+    let run = Player::practising(TRUE_COLOUR).press("o Space Space Enter Enter");
     for key in ["x", "o", "<", "p", "m"] {
-        let asked = Player::practising(TRUE_COLOUR).press("o Space Enter Enter").press(key);
+        let asked = Player::practising(TRUE_COLOUR).press("o Space Space Enter Enter").press(key);
         asked.says("give up the run after 1 attempt? It stays in the record.");
         let stays = asked.press("n Space");
         assert_eq!((stays.kept(), sessions(&stays)), (2, 1), "{key}");
     }
     // The score tells what the question counts.
-    let watched = Player::practising(TRUE_COLOUR).press("o Space").wait(0.1);
+    let watched = Player::practising(TRUE_COLOUR).press("o Space Space").wait(0.1);
     watched.says("no attempt yet");
     watched.press("x").says("give up the run after 1 attempt?").says(" of 1 made").is_silent_on("no attempt yet");
     let left = run.press("Esc");
     assert_eq!(left.app.place(), LIBRARY);
-    left.says("what you have begun is kept; Enter on the exercise goes on with it");
+    left.says("the run is kept; Enter on the exercise goes on with it");
     assert_eq!(left.app.saved_session().and_then(|last| last.practice.map(|run| run.attempts.len())), Some(1));
     let on = left.press("Enter");
     on.says("run of 5: it goes on here after 1 played");
-    let played = on.press("Space Enter Enter");
+    let played = on.press("Space Space Enter Enter");
     assert_eq!((played.kept(), sessions(&played)), (2, 1), "one run");
     let other = played.press("x y Space");
     assert_eq!((other.kept(), sessions(&other)), (3, 2), "another one");

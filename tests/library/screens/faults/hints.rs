@@ -16,7 +16,7 @@ fn notes_goals_and_shifts_are_told_where_they_apply() {
     // There is no room in the last row: the one above it tells.
     let small = aiming.text(80, 24);
     assert!(small.contains("m made, n missed"), "{small}");
-    let ended = aiming.press("Space").wait(60.0);
+    let ended = aiming.press("Space Space").wait(60.0);
     for (width, height) in [(80, 24), (120, 40)] {
         let line = hints(&ended, width, height);
         assert!(line.contains("Enter next") && line.contains("m n made/miss"), "{line}");

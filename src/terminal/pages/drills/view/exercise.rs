@@ -1,4 +1,4 @@
-//! The page of an exercise: the table with the line of aim or the shot, the stroke, and what counts.
+//! The page of an exercise: the table with the way to the first contact or the shot, the stroke, and what counts.
 
 use glam::DVec2;
 use ratatui::layout::Rect;
@@ -6,21 +6,20 @@ use ratatui::layout::Rect;
 use crate::{
     coach::words::{LengthUnit, TipUnit},
     terminal::{
-        Capabilities, Shot,
+        Capabilities, ModelShot, Shot,
         pages::drills::{
-            AimLine, AimTarget, DrillsPage, ModelShotState, Turn,
+            AimLine, DrillsPage, ModelShotState, Turn,
             turn_actions::IS_RUNNING,
             view::{draw_header, panels, panes::Panes, score},
         },
-        shot::Meeting,
         ui::{
-            Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_profile, draw_spin_or_hit, draw_table,
-            draw_tip, draw_what_if, separator,
+            Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_hit_panel, draw_profile, draw_spin_or_hit,
+            draw_table, draw_tip, draw_titled_tip, draw_what_if, separator,
         },
     },
 };
 
-/// Distance of two dots of the line of aim, m: half of that of the dots of a path, since it is to be a line.
+/// Distance of two dots of the way to the first contact, m: half of that of the dots of a path, since it is to be a line.
 const DOT: f64 = 0.04;
 /// The cue behind the ball, m: from where to where, and the distance of its dots.
 const CUE: (f64, f64) = (0.09, 0.5);
@@ -33,11 +32,16 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let panes = Panes::new(&turn.table, area);
     let (panes, side) = if profile.is_some() { panes.with_side_view() } else { (panes, Rect::ZERO) };
     let what_if = turn.what_if();
-    // The whole way is drawn then.
-    let spots = turn
-        .aim_line()
-        .filter(|_| what_if.is_none())
-        .map_or_else(Vec::new, |aim_line| spots(turn, &aim_line, ui.theme, ui.caps));
+    let aim_line = turn.aim_line();
+    let spots = match (what_if, shown_model(turn), &aim_line) {
+        // Beside the model shot the whole way is drawn, and while it is shown its own.
+        (Some(_), ..) | (None, None, None) => Vec::new(),
+        (None, Some(model_shot), _) => cue_spots(turn, model_shot.advice.cue.phi, ui.theme, ui.caps),
+        (None, None, Some(aim_line)) => {
+            let cue = cue_spots(turn, turn.stroke().phi, ui.theme, ui.caps);
+            cue.into_iter().chain(way_spots(turn, aim_line, ui.theme, ui.caps)).collect()
+        }
+    };
     let time = turn.watched().filter(|_| !turn.shows_hint).map_or(0.0, |watched| watched.playback.time);
     let view = TableView {
         shot: turn.shot(),
@@ -53,7 +57,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         draw_profile(profile, playing, drills.units.length, side, ui);
     }
     if side.intersection(panes.stroke).is_empty() {
-        draw_precision(drills, turn, &panes, ui);
+        draw_precision(drills, turn, aim_line.as_ref(), &panes, ui);
     }
     let beside = score::draw(drills, turn, panes.score, ui);
     match what_if.zip(turn.model_shot()) {
@@ -66,14 +70,27 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
             };
             draw_what_if(what_if, &beside, panes.aim, ui);
         }
-        None => panels::draw_task(turn, drills.units, panes.aim, (beside, panes.score.right()), ui),
+        None => panels::draw_task(drills, turn, aim_line.as_ref(), panes.aim, (beside, panes.score.right()), ui),
     }
     status_line(turn, drills.units.length)
 }
 
-/// Draws the stroke's numbers, where the tip meets the ball, and what is seen behind it or how it spins.
-fn draw_precision(drills: &DrillsPage, turn: &Turn, panes: &Panes, ui: &mut Ui) {
-    panels::draw_stroke(turn, drills.units, panes.stroke, ui);
+/// The model shot while it is shown, except where it is the coach's own turn: then its stroke is the one that is set.
+fn shown_model(turn: &Turn) -> Option<&ModelShot> {
+    turn.hint().filter(|_| !turn.is_with_coach())
+}
+
+/// Draws the stroke's numbers, where the tip meets the ball, and what is seen behind it or how it spins; while the model shot is shown
+/// its own tip and hit.
+fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, panes: &Panes, ui: &mut Ui) {
+    panels::draw_stroke(turn, drills.units, drills.is_in_numbers, panes.stroke, ui);
+    if let Some(model_shot) = shown_model(turn) {
+        let whose = if model_shot.is_own { "Model" } else { "Coach" };
+        let cue = Some(&model_shot.advice.cue);
+        draw_titled_tip(format!("{whose} tip"), cue, &turn.table, panes.tip, ui);
+        draw_hit_panel(Some(whose), Some(model_shot.shot.meeting()), panes.hit, ui);
+        return;
+    }
     let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
     draw_tip(
         Some(meant).filter(|_| !turn.is_coach_thinking()),
@@ -84,7 +101,8 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, panes: &Panes, ui: &mut Ui) 
     );
     let watched = turn.watched().filter(|_| !turn.shows_hint);
     let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
-    draw_spin_or_hit(spin, meeting(turn), panes.hit, ui);
+    let meeting = aim_line.map(|line| line.meeting).or_else(|| turn.shot().map(Shot::meeting));
+    draw_spin_or_hit(spin, meeting, panes.hit, ui);
 }
 
 /// How hard it is, and how it is repeated.
@@ -97,36 +115,29 @@ fn about(turn: &Turn, caps: Capabilities) -> String {
     parts.join(separator(caps))
 }
 
-/// What the cue ball meets first along the line of aim, or in the shot that was played.
-fn meeting(turn: &Turn) -> Option<Meeting> {
-    let Some(aim_line) = turn.aim_line() else { return turn.shot().map(Shot::meeting) };
-    Some(match aim_line.target {
-        AimTarget::Ball(hit) => Meeting::Ball(hit),
-        AimTarget::Cushion(mark) => Meeting::Rail(mark.rail, None),
-    })
+/// Whether a spot is on the cloth.
+fn is_on_cloth(turn: &Turn, spot: &Spot) -> bool {
+    spot.place.abs().cmple(turn.table.reach() + DVec2::splat(turn.table.radius)).all()
 }
 
-/// The line of aim with the ball at its end, and the cue.
-fn spots(turn: &Turn, aim_line: &AimLine, theme: &Theme, caps: Capabilities) -> Vec<Spot> {
-    let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(turn.stroke().phi));
-    let dot = caps.pick('·', '.');
-    let sign = cue_sign(ahead, caps);
-    let spot = |place, color, letter| Spot { place, is_ball: false, color, letter };
-    let steps =
-        |from: f64, to: f64, by: f64| (0..).map(move |n| from + by * f64::from(n)).take_while(move |at| *at <= to);
-    let cue = steps(CUE.0, CUE.1, CUE_DOT).map(|back| spot(start - back * ahead, theme.cue, sign));
-    let reach = turn.table.reach() + DVec2::splat(turn.table.radius);
-    let on_table = |spot: &Spot| spot.place.abs().cmple(reach).all();
+/// The cue behind the ball, as far as it lies over the cloth.
+fn cue_spots(turn: &Turn, phi: f64, theme: &Theme, caps: Capabilities) -> Vec<Spot> {
+    let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(phi));
+    let letter = cue_sign(ahead, caps);
+    let back = (0..).map(|n| CUE.0 + CUE_DOT * f64::from(n)).take_while(|back| *back <= CUE.1);
+    let spot = |back: f64| Spot { place: start - back * ahead, is_ball: false, color: theme.cue, letter };
+    back.map(spot).filter(|spot| is_on_cloth(turn, spot)).collect()
+}
+
+/// The cue ball's way to what it meets first, with the ball at its end.
+fn way_spots(turn: &Turn, aim_line: &AimLine, theme: &Theme, caps: Capabilities) -> Vec<Spot> {
+    let (color, letter) = (theme.paths[0], caps.pick('·', '.'));
     // The ball at the end of the line is drawn over it.
-    let line = steps(DOT, aim_line.way - 1.5 * turn.table.radius, DOT);
-    let line = line.map(|way| spot(start + way * ahead, theme.paths[0], dot));
-    let ghost = Spot {
-        place: aim_line.end,
-        is_ball: true,
-        color: theme.paths[0],
-        letter: theme.letters()[0].to_ascii_lowercase(),
-    };
-    cue.filter(on_table).chain(line).chain([ghost]).collect()
+    let dots = aim_line.dots(DOT, 1.5 * turn.table.radius).into_iter();
+    let ghost = theme.letters()[0].to_ascii_lowercase();
+    let ghost = aim_line.places.last().map(|place| Spot { place: *place, is_ball: true, color, letter: ghost });
+    let dots = dots.map(|place| Spot { place, is_ball: false, color, letter });
+    dots.chain(ghost).filter(|spot| is_on_cloth(turn, spot)).collect()
 }
 
 fn status_line(turn: &Turn, unit: LengthUnit) -> Message {

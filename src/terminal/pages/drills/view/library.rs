@@ -6,14 +6,15 @@ use ratatui::{
 };
 
 use crate::{
-    drills::{Category, Exercise, bare_tag},
+    drills::{Category, Exercise, Venue, bare_tag},
+    table::{CueBall, Table},
     terminal::{
         Mapping,
         pages::{
             Target,
             drills::{
                 DrillsPage,
-                view::{READABLE, best_run, draw_header, high_run, percent_words},
+                view::{READABLE, best_run, draw_header, percent_words, places_words},
             },
         },
         ui::{
@@ -27,12 +28,12 @@ use crate::{
 /// Columns of the list, of a hundred: on narrow screens, and on wide ones, where the titles of the bundled exercises need no
 /// more than so many columns.
 const LIST: (u16, u16) = (58, 33);
-const LIST_ENOUGH: u16 = 54;
-/// Columns at which grade, points and best run end, from the list's right edge: three for each number, a sign between the
-/// points, and a blank at either side of them.
-const GRADE_END: u16 = 13;
-const MADE_END: u16 = 5;
-const RUN_END: u16 = 1;
+const LIST_ENOUGH: u16 = 58;
+/// Columns at which the grade and the points at a real table and here end, from the list's right edge: three for each number, a sign
+/// between the points, and a blank at either side of them.
+const GRADE_END: u16 = 17;
+const TABLE_END: u16 = 9;
+const HERE_END: u16 = 1;
 /// Rows of the small table, at least.
 const TABLE_ROWS: u16 = 9;
 
@@ -90,7 +91,8 @@ fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     if count == 0 {
         return;
     }
-    for (end, label) in [(GRADE_END, " grade "), (MADE_END, " made "), (RUN_END, " run ")] {
+    let [table, here] = Venue::ALL.map(|venue| format!(" {} ", venue.word()));
+    for (end, label) in [(GRADE_END, " grade "), (TABLE_END, &*table), (HERE_END, &*here)] {
         let end = (area.right() + 1).saturating_sub(end);
         if area.x + 2 + columns(&title) as u16 + 11 < end {
             write_right(ui.buffer, area.x, end, area.y, label, ui.theme.faint());
@@ -118,11 +120,10 @@ fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rec
     ui.buffer.set_string(area.x, area.y, shorten(&exercise.title, room, ui.caps), style);
     let grade = if exercise.grade == 0 { "-".to_owned() } else { exercise.grade.to_string() };
     write_right(ui.buffer, area.x, area.right() - GRADE_END, area.y, &grade, ui.theme.faint());
-    if let Some(score) = drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
+    for (venue, score) in drills.book.scores_of(&exercise.name) {
+        let end = if *venue == Venue::Table { TABLE_END } else { HERE_END };
         let made = format!("{}/{}", in_three(score.made), in_three(score.tried));
-        write_right(ui.buffer, area.x, area.right() - MADE_END, area.y, &made, style);
-        let run = high_run(score).map_or_else(|| "-".to_owned(), |run| in_three(run as usize));
-        write_right(ui.buffer, area.x, area.right() - RUN_END, area.y, &run, style);
+        write_right(ui.buffer, area.x, area.right() - end, area.y, &made, style);
     }
 }
 
@@ -136,7 +137,7 @@ fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut 
     let inner = draw_title(shorten(&exercise.title, room, ui.caps), area, ui);
     let Ok(table) = exercise.table() else { return };
     // The text has the rows that it needs, and the table the others.
-    let mut paragraphs = about(drills, exercise, ui.theme);
+    let mut paragraphs = about(drills, exercise, &table, ui.theme);
     let width = inner.width.saturating_sub(2).min(READABLE);
     let rows = |paragraphs: &[Paragraph]| {
         let rows: usize = paragraphs.iter().map(|one| wrap(&one.text, usize::from(width)).len()).sum();
@@ -168,7 +169,7 @@ struct Paragraph {
 }
 
 /// What is to be learnt from an exercise, and how often it is made.
-fn about(drills: &DrillsPage, exercise: &Exercise, theme: &Theme) -> Vec<Paragraph> {
+fn about(drills: &DrillsPage, exercise: &Exercise, table: &Table, theme: &Theme) -> Vec<Paragraph> {
     let mut all = Vec::new();
     let mut add = |text: String, style, is_extra| all.push(Paragraph { text, style, is_extra });
     if !exercise.point.is_empty() {
@@ -182,14 +183,16 @@ fn about(drills: &DrillsPage, exercise: &Exercise, theme: &Theme) -> Vec<Paragra
         let [beginner, club, best] = [par.beginner, par.club, par.world_class].map(words::percent);
         add(format!("typical: beginner {beginner}, club {club}, world-class {best} %"), theme.text(), false);
     }
-    match drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
-        Some(score) => {
-            let rate = percent_words(score.rate.rate);
-            let words = format!("you: {} of {}, {rate}{}", score.made, score.tried, best_run(score));
-            add(words, theme.good(), false);
-        }
-        None => add("you: not tried yet".to_owned(), theme.faint(), false),
+    let scores = drills.book.scores_of(&exercise.name);
+    if scores.is_empty() {
+        add("you: not tried yet".to_owned(), theme.faint(), false);
     }
+    for (venue, score) in scores {
+        let (place, rate) = (venue.word(), percent_words(score.rate.rate));
+        let words = format!("{place}: {} of {}, {rate}{}", score.made, score.tried, best_run(score));
+        add(words, theme.good(), false);
+    }
+    add(places_words(table, &exercise.layout, CueBall::White, drills.units.place), theme.faint(), true);
     if !exercise.tags.is_empty() {
         let tags: Vec<String> = exercise.tags.iter().map(|tag| format!("#{}", bare_tag(tag))).collect();
         add(tags.join(" "), theme.faint(), true);
@@ -202,9 +205,18 @@ fn draw_nothing(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     let words = if filter.category == Some(Category::Own) && filter.text.is_none() && filter.grade.is_none() {
         "You have saved no position yet. On the coach's table, s saves the balls as they lie; here, a adds a position from \
          a code that somebody has sent you."
+            .to_owned()
     } else {
-        "No exercise matches. 0 lists all."
+        match (drills.catalogue.elsewhere(), &drills.question) {
+            (0, _) => "No exercise matches. 0 lists all.".to_owned(),
+            (elsewhere, question) => {
+                let place =
+                    filter.category.map_or_else(|| "this grade".to_owned(), |category| category.title().to_owned());
+                let key = if question.is_some() { "Enter" } else { "0" };
+                format!("None in {place}; {elsewhere} elsewhere: {key} lists them.")
+            }
+        }
     };
     let text = Rect { x: area.x + 2, y: area.y + 2, width: area.width - 3, height: area.height.saturating_sub(2) };
-    write_paragraphs(&[(words.to_owned(), ui.theme.faint())], text, ui);
+    write_paragraphs(&[(words, ui.theme.faint())], text, ui);
 }

@@ -17,7 +17,9 @@ use ratatui::{
 };
 
 use crate::{
+    coach::words::{PlaceUnit, short},
     drills::Record,
+    table::{BALLS, CueBall, Layout, Table},
     terminal::{
         Capabilities, DrillContext,
         pages::{
@@ -25,7 +27,7 @@ use crate::{
             drills::{DrillsPage, Question},
         },
         ui::{self, Message, Ui},
-        words::{self, skill_word},
+        words::{self, in_diamonds, skill_word},
     },
 };
 
@@ -57,6 +59,8 @@ impl PageView for DrillsPage {
         match self.place() {
             DrillContext::Library | DrillContext::Search => library::target(self, area.body, at),
             DrillContext::Films => films::target(self, area.body, at),
+            // The wheel scrolls it, and there is nothing to be marked.
+            DrillContext::Record => area.body.contains(at).then_some(Target::List(None)),
             _ => None,
         }
     }
@@ -76,6 +80,21 @@ fn high_run(record: &Record) -> Option<u32> {
 /// The same behind other words.
 fn best_run(record: &Record) -> String {
     high_run(record).map_or_else(String::new, |run| format!(", best run {run}"))
+}
+
+/// Where the balls lie, the cue ball first, from the lower left corner of the noses: diamonds as layouts are typed, or millimetres.
+fn places_words(table: &Table, layout: &Layout, cue_ball: CueBall, unit: PlaceUnit) -> String {
+    let place = |ball: usize| {
+        let at = in_diamonds(table, layout.balls[ball]);
+        let along = |diamonds: f64| match unit {
+            PlaceUnit::Diamonds => short(diamonds, 2) + "d",
+            PlaceUnit::Mm => short(1e3 * table.diamond() * diamonds, 0),
+        };
+        format!("{} {},{}", cue_ball.names()[ball], along(at.x), along(at.y))
+    };
+    let places: Vec<String> = (0..BALLS).map(place).collect();
+    let what = if unit == PlaceUnit::Mm { "balls, mm from the lower left corner" } else { "balls" };
+    format!("{what}: {}", places.join("; "))
 }
 
 /// A share as people say it, like `55 %`.

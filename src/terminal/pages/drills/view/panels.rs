@@ -1,22 +1,33 @@
-//! The panels of the stroke: its numbers, where it is aimed, and how it compares with the model shot.
+//! The panels of the stroke: how it is set, what it meets first, and how it compares with the model shot.
 
 use ratatui::{layout::Rect, style::Style};
 
 use crate::{
-    coach::{ShotWords, Units},
+    coach::{
+        ShotWords, Units, line_of_aim,
+        words::{lengths_words, table_lengths},
+    },
     drills::changes,
     physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
     table::CueBall,
     terminal::{
         Capabilities, DrillAction, ModelShot,
-        pages::drills::{AimLine, AimTarget, ModelShotState, Turn, Watched, keys::EXERCISE, view::percent_words},
-        ui::{Ui, draw_lines, draw_title, pair, separator, spell, stroke_rows, wrap_by},
+        pages::drills::{
+            AimLine, DrillsPage, ModelShotState, Turn, Watched,
+            keys::EXERCISE,
+            view::{percent_words, places_words},
+        },
+        shot::Meeting,
+        ui::{Ui, columns, draw_lines, draw_title, pair, separator, spell, stroke_rows, wrap_by},
         words::{fixed, rail_name},
     },
 };
 
-/// Draws the numbers of the stroke that is set, or was meant.
-pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
+/// Rows in which the stroke is told in both ways.
+const ALL_ROWS: u16 = 7;
+
+/// Draws how the stroke is set, or was meant: as advice is told, or `in_numbers` as the keys change it.
+pub fn draw_stroke(turn: &Turn, units: Units, in_numbers: bool, area: Rect, ui: &mut Ui) {
     let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
     // In a match there are two sides.
     let title = if turn.session.is_match() { format!("Stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
@@ -24,14 +35,45 @@ pub fn draw_stroke(turn: &Turn, units: Units, area: Rect, ui: &mut Ui) {
     if turn.is_coach_thinking() {
         return;
     }
-    let numbers = stroke_rows(&cue, units, turn.table.radius, ui.caps);
+    let rows = if in_numbers {
+        stroke_rows(&cue, units, turn.table.radius, ui.caps).to_vec()
+    } else {
+        told_rows(turn, &cue, units, inner.height >= ALL_ROWS, ui.caps)
+    };
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
-    draw_lines(numbers.map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
+    draw_lines(rows.into_iter().map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
 }
 
-/// Draws where the stroke is aimed and what is to be learnt; once it was played, how it compares. Below `beside`, the row from which
+/// The aim as the place of the cushion's nose to which the cue points, and the speed in table lengths, as advice tells both; where
+/// there is room for `all` with the numbers below each.
+fn told_rows(turn: &Turn, cue: &CueInputs, units: Units, all: bool, caps: Capabilities) -> Vec<(&'static str, String)> {
+    let [(_, degrees), side, height, (_, speed), elevation] = stroke_rows(cue, units, turn.table.radius, caps);
+    let aim = aim_words(turn, cue, units);
+    // The narrowest panel has no column for the blank.
+    let aim = if all { aim } else { aim.replace(" mm", "mm") };
+    let lengths = table_lengths(&turn.table, cue.speed).map_or_else(|| speed.clone(), lengths_words);
+    let mut rows = vec![("aim", aim), ("", degrees), side, height, ("speed", lengths), ("", speed), elevation];
+    rows.retain(|(name, _)| all || !name.is_empty());
+    rows
+}
+
+/// The place of the cushion's nose to which the cue points.
+fn aim_words(turn: &Turn, cue: &CueInputs, units: Units) -> String {
+    let [ahead, _] = line_of_aim(&turn.table, &turn.layout, cue.phi);
+    format!("{} {}", ahead.rail.name(), units.place.words(ahead.diamond, turn.table.diamond(), 2))
+}
+
+/// Draws what the stroke meets first and what is to be learnt; once it was played, how it compares. Below `beside`, the row from which
 /// on the panel to the right is empty, the words run under it to the column `end`.
-pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16), ui: &mut Ui) {
+pub fn draw_task(
+    drills: &DrillsPage,
+    turn: &Turn,
+    aim_line: Option<&AimLine>,
+    area: Rect,
+    (beside, end): (u16, u16),
+    ui: &mut Ui,
+) {
+    let units = drills.units;
     let settled = turn.watched().filter(|watched| watched.is_settled);
     let rule = turn.exercise.rule;
     let task = if turn.is_with_coach() { "The coach's turn" } else { "Task" };
@@ -43,8 +85,11 @@ pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16
     } else {
         // The stroke's numbers tell it too: it comes last.
         let mut least = None;
-        if let Some(aim_line) = turn.aim_line() {
-            paragraphs.push((aim_line_words(&aim_line, turn.cue_ball, turn.table.diamond(), units), ui.theme.accent()));
+        if let Some(aim_line) = aim_line {
+            let met = aim_line_words(aim_line, turn.cue_ball, turn.table.diamond(), units);
+            // What the model shot meets stands beside it.
+            let met = if turn.hint().is_some() && !turn.is_with_coach() { format!("yours: {met}") } else { met };
+            paragraphs.push((met, ui.theme.accent()));
             match turn.least_elevation() {
                 Ok(LeastElevation { theta, over: Some(over) }) => {
                     least = Some((least_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
@@ -58,11 +103,20 @@ pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16
         // In a game the balls have gone elsewhere, and what was to be learnt with them.
         let is_elsewhere = turn.session.is_game() && turn.layout != turn.exercise.layout;
         match turn.hint() {
-            Some(model_shot) => paragraphs.push((hint(turn, model_shot, units, ui.caps), ui.theme.text())),
+            Some(model_shot) => {
+                let hint = hint(turn, model_shot, units, ui.caps);
+                paragraphs.extend(hint.into_iter().map(|words| (words, ui.theme.text())));
+            }
             _ if is_elsewhere || turn.exercise.point.is_empty() => {}
             _ => paragraphs.push((turn.exercise.point.clone(), ui.theme.text())),
         }
         paragraphs.extend(least);
+        paragraphs.extend(drills.other_table_words(&turn.exercise.table).map(|words| (words, ui.theme.faint())));
+        // The room is the hint's while that is shown.
+        if turn.hint().is_none() {
+            let places = places_words(&turn.table, &turn.layout, turn.cue_ball, units.place);
+            paragraphs.push((places, ui.theme.faint()));
+        }
     }
     let narrow = usize::from(area.width.saturating_sub(2));
     let wide = usize::from(end.saturating_sub(area.x + 2)).max(narrow);
@@ -70,8 +124,8 @@ pub fn draw_task(turn: &Turn, units: Units, area: Rect, (beside, end): (u16, u16
     write_pages(title, &paragraphs, turn.text_page, area, |row| if row < full { narrow } else { wide }, ui);
 }
 
-/// Writes `paragraphs` below a title, each row as wide as `width` says; where they have no room, one page of them, and the title says
-/// which and how to turn it.
+/// Writes `paragraphs` below a title, each row as wide as `width` says; where they have no room, one page of them: the title says
+/// which and how to turn it, and the last row that it goes on.
 fn write_pages(
     title: String,
     paragraphs: &[(String, Style)],
@@ -81,7 +135,14 @@ fn write_pages(
     ui: &mut Ui,
 ) {
     let rows = usize::from(area.height.saturating_sub(1)).max(1);
-    let lines = lines_of(paragraphs, |row| width(row % rows));
+    let goes_on = ui.caps.pick(" …", " ...");
+    let mut lines = lines_of(paragraphs, |row| width(row % rows));
+    if lines.len() > rows {
+        let sign = |row: usize| if row % rows == rows - 1 { columns(goes_on) } else { 0 };
+        lines = lines_of(paragraphs, |row| width(row % rows).saturating_sub(sign(row)));
+        let last = lines.len() - 1;
+        lines[..last].iter_mut().skip(rows - 1).step_by(rows).for_each(|(line, _)| line.push_str(goes_on));
+    }
     let pages = lines.len().div_ceil(rows).max(1);
     let page = page.rem_euclid(pages.cast_signed()).cast_unsigned();
     let key = ui.key_of(EXERCISE, &DrillAction::TurnText(1));
@@ -103,18 +164,19 @@ fn lines_of(paragraphs: &[(String, Style)], width: impl Fn(usize) -> usize) -> V
     lines
 }
 
-/// What the line of aim meets.
+/// What the stroke meets first, and how far away.
 fn aim_line_words(aim_line: &AimLine, cue_ball: CueBall, diamond: f64, units: Units) -> String {
     let (in_a_metre, symbol) = units.length.small();
-    let way = format!("{} {symbol}", fixed(in_a_metre * aim_line.way, 0));
-    match aim_line.target {
-        AimTarget::Ball(hit) => {
+    let way = format!("{} {symbol}", fixed(in_a_metre * aim_line.length(), 0));
+    match (aim_line.meeting, aim_line.cushion) {
+        (Meeting::Ball(hit), _) => {
             let side = hit.side().map_or_else(String::new, |side| format!(", {side} side"));
             format!("{} {:.0} % full{side}, {way}", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
         }
-        AimTarget::Cushion(mark) => {
+        (_, Some(mark)) => {
             format!("{} at {}, {way}", rail_name(mark.rail), units.place.exact(mark.diamond, diamond, 1))
         }
+        (_, None) => format!("meets nothing, {way}"),
     }
 }
 
@@ -152,15 +214,18 @@ fn told(turn: &Turn, stroke: &CueInputs, other: &CueInputs, units: Units) -> Opt
 }
 
 /// How often the advised stroke is made, how to strike it, and how the stroke that is set differs.
-fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -> String {
+fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -> Vec<String> {
     let advice = &model_shot.advice;
-    let sentence = model_shot.shot.words.sentence(turn.cue_ball, units);
-    let words = format!("{} makes {}: {sentence}", advisor(model_shot), percent_words(advice.chance.rate));
-    if turn.is_with_coach() {
-        return spell(&words, caps);
-    }
-    let yours = told(turn, &turn.raised_stroke(), &advice.cue, units).unwrap_or_else(|| "the same".to_owned());
-    spell(&format!("{words} Yours: {yours}"), caps)
+    let words = &model_shot.shot.words;
+    let (sentence, aim) = (words.sentence(turn.cue_ball, units), aim_words(turn, &advice.cue, units));
+    let words =
+        format!("{} makes {}: {sentence} Cue to {aim}.", advisor(model_shot), percent_words(advice.chance.rate));
+    let differs = || {
+        let yours = told(turn, &turn.raised_stroke(), &advice.cue, units).unwrap_or_else(|| "the same".to_owned());
+        format!("Yours: {yours}")
+    };
+    let yours = (!turn.is_with_coach()).then(differs);
+    std::iter::once(words).chain(yours).map(|words| spell(&words, caps)).collect()
 }
 
 /// How often the stroke is made, and the advised one.
@@ -205,12 +270,14 @@ mod tests {
         table::Table,
         terminal::{Depth, Glyphs},
     };
+    use glam::DVec2;
 
     #[test]
     fn places_the_tip_and_the_speed_are_told_in_the_units_of_the_settings() {
         let table = Table::default();
         let mark = RailPoint { rail: Rail::Left, diamond: 2.04 };
-        let aim_line = AimLine { end: glam::DVec2::ZERO, way: 0.5, target: AimTarget::Cushion(mark) };
+        let places = vec![DVec2::ZERO, DVec2::new(0.5, 0.0)];
+        let aim_line = AimLine { places, meeting: Meeting::Rail(mark.rail, None), cushion: Some(mark) };
         let other = Units { tip: TipUnit::Mm, place: PlaceUnit::Mm, length: LengthUnit::Feet };
         let said = |units| aim_line_words(&aim_line, CueBall::White, table.diamond(), units);
         assert_eq!(said(Units::default()), "left rail at 2.0 diamonds, 50 cm");

@@ -1,11 +1,17 @@
-//! The page of records: the score of an exercise or of all, over time, by sessions, and the skill that it shows.
+//! The page of records: the score of an exercise or of all, at a real table and here, over time, by sessions, and the skill that it
+//! shows.
 
 use std::time::{Duration, UNIX_EPOCH};
 
-use ratatui::{buffer::Buffer, layout::Rect, style::Style, text::Span};
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::Style,
+    text::{Line, Span},
+};
 
 use crate::{
-    drills::{Goal, Record, Session, Venue},
+    drills::{Attempt, Goal, Record, Session, Venue},
     learning::run::history::{NonFinite, Point, Span as Values},
     printing::moment,
     terminal::{
@@ -15,7 +21,7 @@ use crate::{
         },
         ui::{
             Message, Ui,
-            chart::{Chart, Curve, SeriesId, draw_chart},
+            chart::{Chart, Curve, SeriesId, curve_mark, draw_chart},
             draw_lines, draw_title, pair, shorten, split, wrap, write_paragraphs, write_right,
         },
         words::chance_words,
@@ -24,6 +30,8 @@ use crate::{
 
 /// Columns of the numbers beside the chart, of a hundred, at least and at most.
 const NUMBERS: (u16, u16, u16) = (40, 38, 56);
+/// Columns of what they are called.
+const NAMES: usize = 10;
 
 /// Draws the page; gives what the status line says while there is no news.
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
@@ -35,16 +43,19 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     let sessions = drills.book.sessions_of(scope);
     let (share, least, most) = NUMBERS;
     let width = (area.width * share / 100).clamp(least, most);
-    let rows = number_rows(&sessions, scope);
+    let parts = parts(&sessions, scope);
+    let rows = number_rows(&parts, ui);
     let skill = skill_words(&drills.records.estimate, ui);
     // The title, the numbers, a blank row, and what is known of the skill.
     let needed = skill.as_ref().map_or(0, |(words, _)| 2 + rows.len() + wrap(words, usize::from(width) - 1).len());
     let top = Rect { height: (area.height / 2).max(11).max(needed as u16), ..area };
     let [numbers, chart] = split(width, top);
     draw_numbers(rows, skill.as_ref(), scope, numbers, ui);
-    let points = points(&sessions, scope);
-    let curves = [Curve { points: &points, non_finite: NonFinite::default(), whose: SeriesId::Own }];
-    let tried = points.last().map_or(0, |point| point.shots.1);
+    let curves: Vec<Curve> = parts
+        .iter()
+        .map(|part| Curve { points: &part.points, non_finite: NonFinite::default(), whose: part.whose })
+        .collect();
+    let tried = parts.iter().map(|part| part.record.tried).max().unwrap_or(0);
     let chart_of = Chart {
         title: "made of 100, session by session",
         curves: &curves,
@@ -55,7 +66,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
         selected: false,
         with_shots: true,
         unit: "tries",
-        note: points.is_empty().then_some("nothing is played yet"),
+        note: parts.is_empty().then_some("nothing is played yet"),
     };
     draw_chart(&chart_of, chart, ui);
     let list = Rect { y: top.bottom(), height: area.bottom() - top.bottom(), ..area };
@@ -70,22 +81,52 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     })
 }
 
-/// The score in numbers, and what they are called.
-fn number_rows(sessions: &[&Session], scope: Option<&str>) -> Vec<(&'static str, String)> {
-    let record = Record::of(sessions.iter().copied(), |session, attempt| match scope {
-        Some(name) => attempt.exercise == name,
-        None => !session.attempts.is_empty(),
-    });
-    let mut rows = vec![("attempts", record.tried.to_string())];
-    if record.tried > 0 {
-        rows.push(("made", format!("{}, {}", record.made, chance_words(&record.rate))));
+/// What was done at a real table, or here.
+struct Part {
+    venue: Venue,
+    record: Record,
+    points: Vec<Point>,
+    whose: SeriesId,
+}
+
+/// The parts with attempts; the first has the upper curve.
+fn parts(sessions: &[&Session], scope: Option<&str>) -> Vec<Part> {
+    let part = |venue| {
+        let sessions: Vec<&Session> = sessions.iter().copied().filter(|session| session.venue == venue).collect();
+        let counts = |_: &Session, attempt: &Attempt| scope.is_none_or(|name| attempt.exercise == name);
+        let record = Record::of(sessions.iter().copied(), counts);
+        let points = points(&sessions, scope);
+        (record.tried > 0).then_some(Part { venue, record, points, whose: SeriesId::Own })
+    };
+    let mut parts: Vec<Part> = Venue::ALL.into_iter().filter_map(part).collect();
+    parts.iter_mut().skip(1).for_each(|part| part.whose = SeriesId::Other);
+    parts
+}
+
+/// The score in numbers, and what they are called; where there are two curves, which of them it is.
+fn number_rows(parts: &[Part], ui: &Ui) -> Vec<Line<'static>> {
+    let row = |name: &str, value: String| pair(name, NAMES, value, ui.theme);
+    if parts.is_empty() {
+        return vec![row("attempts", "0".to_owned())];
+    }
+    let mut rows = Vec::new();
+    for Part { venue, record, whose, .. } in parts {
+        let made = format!("{} of {}, {}", record.made, record.tried, chance_words(&record.rate));
+        if parts.len() > 1 {
+            let mark = curve_mark(*whose, ui.theme, ui.caps);
+            let width = NAMES.saturating_sub(mark.width() + 1);
+            let name = Span::styled(format!(" {:<width$}", venue.word()), mark.style);
+            rows.push(Line::from(vec![mark, name, Span::styled(made, ui.theme.text())]));
+        } else {
+            rows.push(row(venue.word(), made));
+        }
         let of = if record.has_unordered { ", one by one" } else { "" };
         let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2} an inning{of}"));
-        rows.push(("average", average));
-        rows.push(("high run", high_run(&record).map_or("-".to_owned(), |run| run.to_string())));
-    }
-    if record.helped > 0 {
-        rows.push(("hints", format!("{} of the attempts", record.helped)));
+        rows.push(row("average", average));
+        rows.push(row("high run", high_run(record).map_or("-".to_owned(), |run| run.to_string())));
+        if record.helped > 0 {
+            rows.push(row("hints", format!("{} of the attempts", record.helped)));
+        }
     }
     rows
 }
@@ -101,7 +142,7 @@ fn skill_words(estimate: &Estimate, ui: &Ui) -> Option<(String, Style)> {
 }
 
 fn draw_numbers(
-    rows: Vec<(&'static str, String)>,
+    rows: Vec<Line<'static>>,
     skill: Option<&(String, Style)>,
     scope: Option<&str>,
     area: Rect,
@@ -111,7 +152,7 @@ fn draw_numbers(
     let inner = draw_title(title, area, ui);
     let y = inner.y + rows.len() as u16;
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
-    draw_lines(rows.into_iter().map(|(name, value)| pair(name, 10, value, ui.theme)), text, ui);
+    draw_lines(rows, text, ui);
     let rest = Rect { x: inner.x + 1, y: y + 1, width: inner.width - 1, height: inner.bottom().saturating_sub(y + 1) };
     write_paragraphs(skill.map_or(&[], std::slice::from_ref), rest, ui);
 }
@@ -140,7 +181,9 @@ const EMPTY: &str = "A session begins with the first stroke that you play at an 
 
 /// Columns at which the numbers of a session end.
 const ENDS: [(u16, &str); 4] = [(26, "made"), (33, "rate"), (38, "run"), (46, "average")];
-const WHAT: u16 = 48;
+/// Columns at which begins where it was, and what was practised.
+const WHERE: u16 = 48;
+const WHAT: u16 = 54;
 
 fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>, area: Rect, ui: &mut Ui) {
     let title = vec![Span::styled("Sessions", ui.theme.text()), Span::styled(" UTC", ui.theme.faint())];
@@ -165,6 +208,7 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
         put(ui.buffer, ENDS[2].0, &high_run(&record).map_or("-".to_owned(), |run| run.to_string()), ui.theme.text());
         let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2}"));
         put(ui.buffer, ENDS[3].0, &average, ui.theme.text());
+        ui.buffer.set_string(inner.x + WHERE, y, session.venue.word(), ui.theme.text());
         let room = usize::from(inner.width.saturating_sub(WHAT));
         ui.buffer.set_string(inner.x + WHAT, y, shorten(&what(session, scope), room, ui.caps), ui.theme.faint());
     }
@@ -176,14 +220,9 @@ fn started(session: &Session) -> String {
     time.map_or(String::new(), |time| moment(time).replace('T', " ").chars().take(16).collect())
 }
 
-/// What was practised, and where.
+/// What was practised.
 fn what(session: &Session, scope: Option<&str>) -> String {
     let title = session.exercises.first().map_or("", |exercise| exercise.title.as_str());
     let goal = session.score_words().unwrap_or_else(|| session.goal.words());
-    let place = if session.venue == Venue::Table { ", real table" } else { "" };
-    if scope.is_some() || session.goal == Goal::Exam {
-        format!("{goal}{place}")
-    } else {
-        format!("{title}: {goal}{place}")
-    }
+    if scope.is_some() || session.goal == Goal::Exam { goal } else { format!("{title}: {goal}") }
 }

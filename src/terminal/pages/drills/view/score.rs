@@ -9,10 +9,7 @@ use ratatui::{
 use crate::{
     drills::{Attempt, Goal, Record, Session, Venue, exam},
     terminal::{
-        pages::drills::{
-            DrillsPage, Turn,
-            view::{best_run, percent_words},
-        },
+        pages::drills::{DrillsPage, Turn, view::percent_words},
         ui::{Ui, draw_title, write_paragraphs},
         words::chance_words,
     },
@@ -31,14 +28,13 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) -> u16 {
     let text = Rect { y: top, height: text.bottom() - top, ..text };
     let mut paragraphs: Vec<(String, Style)> =
         lines(&session, &turn.exercise.name).into_iter().map(|words| (words, ui.theme.text())).collect();
-    let ever = drills.book.score_of(&turn.exercise.name);
-    if let Some(ever) = ever.filter(|ever| ever.tried > session.attempts.len() && session.goal != Goal::Exam) {
-        // What is still being watched is not counted here either.
-        let hidden = turn.session.attempts.len() - session.attempts.len();
-        if hidden == 0 {
-            let words = format!("in all: {} of {}{}", ever.made, ever.tried, best_run(ever));
-            paragraphs.push((words, ui.theme.faint()));
-        }
+    let ever = drills.book.scores_of(&turn.exercise.name);
+    let tried: usize = ever.iter().map(|(_, record)| record.tried).sum();
+    // What is still being watched is not counted here either.
+    if tried > session.attempts.len() && session.goal != Goal::Exam && !turn.is_open() {
+        let scores = ever.iter().map(|(venue, record)| format!("{} {}/{}", venue.word(), record.made, record.tried));
+        let words = format!("in all: {}", scores.collect::<Vec<_>>().join(", "));
+        paragraphs.push((words, ui.theme.faint()));
     }
     write_paragraphs(&paragraphs, text, ui)
 }

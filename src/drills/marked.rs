@@ -52,11 +52,11 @@ pub fn write<T: Serialize>(format: &'static str, content: &T) -> Result<Vec<u8>,
     Ok(bytes)
 }
 
-/// What a file's text holds besides its marks.
+/// Whether a file's text is of this format and of a version that is understood, whatever else it holds.
 ///
 /// # Errors
 /// [`MarkError`].
-pub fn read<T: DeserializeOwned>(format: &'static str, text: &[u8]) -> Result<T, MarkError> {
+pub fn check(format: &'static str, text: &[u8]) -> Result<(), MarkError> {
     let header: Header = serde_json::from_slice(text)?;
     if header.format != format {
         return Err(MarkError::Format { found: header.format, accepted: format });
@@ -64,5 +64,14 @@ pub fn read<T: DeserializeOwned>(format: &'static str, text: &[u8]) -> Result<T,
     if !(1..=NEWEST).contains(&header.version) {
         return Err(MarkError::Version(header.version));
     }
+    Ok(())
+}
+
+/// What a file's text holds besides its marks.
+///
+/// # Errors
+/// [`MarkError`].
+pub fn read<T: DeserializeOwned>(format: &'static str, text: &[u8]) -> Result<T, MarkError> {
+    check(format, text)?;
     Ok(serde_json::from_slice(text)?)
 }
