@@ -27,12 +27,11 @@ impl Workspace {
 
     /// The exercise that is meant by `text`: a name, a title, or the beginning of one.
     pub fn exercise(&self, text: &str) -> Result<&Exercise, Failure> {
-        self.library.called(text).map_err(|error| match error {
-            LibraryError::Unknown(_) => {
-                let meant = self.library.like(text).map_or_else(String::new, |name| format!("; did you mean {name}?"));
-                Failure::failed(format_args!("{error}{meant}"))
-            }
-            error => Failure::failed(error),
+        self.library.called(text).map_err(|error| match (&error, self.library.like(text)) {
+            (LibraryError::Unknown(_), Some(name)) => Failure::failed(format_args!(
+                "there is no exercise \"{text}\"; did you mean {name}? carom drill list shows all names"
+            )),
+            _ => Failure::failed(error),
         })
     }
 
