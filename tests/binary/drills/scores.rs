@@ -57,7 +57,7 @@ fn what_has_gone_is_told_where_one_more_undo_finds_nothing() {
 #[test]
 fn a_stroke_on_a_line_that_is_too_long_is_refused_and_the_rest_go_on() {
     let folder = folder();
-    let args = ["drill", "run", "mine", "--skill", "perfect", "--seed", "1", "--json"];
+    let args = ["drill", "run", "mine", "--goal", "2", "--skill", "perfect", "--seed", "1", "--json"];
     let long = "0".repeat((1 << 20) + 1);
     let run = fed(command(folder.path(), &args), &format!("0,0,0,90,1\n{long}\n0,0,0,90,1\n"));
     let lines = run.json();
