@@ -48,10 +48,10 @@ impl Wrapping {
     }
 
     fn end_word(&mut self, out: &mut String) {
-        let columns = Span::raw(&*self.word).width();
-        if columns == 0 {
+        if self.word.is_empty() {
             return;
         }
+        let columns = Span::raw(&*self.word).width();
         if self.column > 0 && self.column + self.blanks.len() + columns > self.width {
             out.push('\n');
             self.column = 0;
