@@ -9,6 +9,7 @@ use super::{
     protocol::{Mark, PROTOCOL, Quantity, Test, Unit},
 };
 use crate::{
+    printing::typed_number,
     storage::{json_flaw, toml_flaw},
     table::Table,
 };
@@ -81,7 +82,7 @@ impl Written {
             Self::Text(text) => text.trim(),
         };
         let digits = text.trim_end_matches(|letter: char| letter.is_alphabetic());
-        let number: f64 = digits.trim().replace(',', ".").parse().ok()?;
+        let number = typed_number(digits)?;
         match (unit, &text[digits.len()..]) {
             (_, "") | (Unit::Diamonds, "d" | "diamonds") | (Unit::Seconds, "s") => Some((number, false)),
             (Unit::Diamonds, "mm") => Some((1e-3 * number / table.diamond(), true)),

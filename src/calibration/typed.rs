@@ -4,6 +4,7 @@ use super::{
     entries::{Entry, MOST_RAILS, Written},
     protocol::{Quantity, Test},
 };
+use crate::printing::typed_number;
 
 /// How many short rails a ball has met, among the names of a test's marks.
 pub const RAILS: &str = "rails";
@@ -71,8 +72,7 @@ impl Test {
 
 /// What is no number is kept as it was typed, to be named.
 fn written(typed: &str) -> Written {
-    let typed = typed.trim();
-    typed.replace(',', ".").parse().map_or_else(|_| Written::Text(typed.to_owned()), Written::Number)
+    typed_number(typed).map_or_else(|| Written::Text(typed.trim().to_owned()), Written::Number)
 }
 
 fn plain(written: &Written) -> String {

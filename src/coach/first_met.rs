@@ -17,7 +17,7 @@ pub enum FirstMet {
     OtherCueBall,
     /// The red ball, with no cushion before it.
     Red,
-    /// A cushion, whichever ball comes then: a bank shot.
+    /// A cushion, whichever ball comes then, after as many cushions as it may be.
     Cushion,
 }
 

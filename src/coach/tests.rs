@@ -378,30 +378,6 @@ fn a_frozen_cue_ball_gets_advice_all_the_same_and_a_table_without_limits_gets_wh
     assert!(named.any(|cue| !has_room(&table, &layout, &cue)), "something kept these cues up: {level:?}");
 }
 
-/// The same searches on a table with the limits and on the same without, in pairs: how many times as long the former take.
-#[test]
-#[ignore = "a measurement: cargo test --profile quick --lib what_the_cues_room_costs -- --ignored --nocapture"]
-fn what_the_cues_room_costs() {
-    let free = Table { room: None, ..Table::default() };
-    let coaches = [Some(Room::default()), None].map(|room| Coach::new(Table { room, ..free.clone() }));
-    for rule in Rule::ALL {
-        let mut ratios: Vec<f64> = held_out_layouts(&free, 40, 3)
-            .iter()
-            .map(|layout| {
-                let request = Request { threads: 1, ..request(rule, 20_000) };
-                let [one, other] = [0, 1].map(|coach: usize| {
-                    let advice = coaches[coach].recommend(layout, &request).unwrap();
-                    advice.elapsed.as_secs_f64() / advice.simulations as f64
-                });
-                one / other
-            })
-            .collect();
-        ratios.sort_by(f64::total_cmp);
-        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
-        println!("{rule}: time a simulation {:.3} times as long (median), {mean:.3} (mean)", ratios[ratios.len() / 2]);
-    }
-}
-
 #[test]
 fn an_impossible_layout_is_refused() {
     let layout = Layout::new([DVec2::ZERO; 3]);

@@ -12,7 +12,8 @@ use serde::Serialize;
 
 use super::Failure;
 use crate::{
-    coach::{Units, words::LengthUnit},
+    coach::{Skill, Units, words::LengthUnit},
+    game::Rule,
     physics::Impulse,
     printing::{self, OneLine},
     storage::{LONGEST_LINE, NextLine, folder_state, next_line},
@@ -85,6 +86,13 @@ pub fn need_folder(file: &Path) -> Result<(), Failure> {
 /// A number of things.
 pub fn plural(count: usize, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
+/// For whom and by which rule is answered or played where the command line alone decides.
+pub fn whom_words(skill: Skill, rule: Rule) -> String {
+    format!(
+        "For a player of skill \"{skill}\" under the rule {rule}; --skill and --rule choose others. The screen's skill and rule are not used."
+    )
 }
 
 /// The units that the user has chosen; a file with mistakes is the business of `carom config --check`.

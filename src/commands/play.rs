@@ -71,6 +71,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let goal = if is_match { Goal::Match { innings, against_coach } } else { Goal::Game { innings } };
     let mut session = args.options.session(goal, vec![game]);
     session.cue_ball = args.ball;
+    args.options.tell_whom(&session, args.rule);
     let workspace = Workspace::open();
     play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
 }

@@ -8,7 +8,7 @@ use super::{Category, Exercise, ExerciseError};
 use crate::{
     coach::{
         PATTERNS, Pattern, Technique,
-        systems::{Guide, guide},
+        systems::{Applied, Guide, System, guide},
     },
     game::{Point, scores},
     physics::{CueInputs, has_room, with_room},
@@ -82,10 +82,15 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
                 ("between the balls there are no more than five cushions", technique.between.len() <= 5),
             ]
         }
-        Category::Systems => vec![
-            ("the rule is three-cushion", exercise.rule.cushions() == 3),
-            ("the first tag names the system that describes it", exercise.tags.first() == system(exercise)?.as_ref()),
-        ],
+        Category::Systems => {
+            let applied = applied(exercise, &table, &cue)?;
+            let name = applied.as_ref().map(|applied| applied.system.name().to_lowercase());
+            vec![
+                ("the rule is three-cushion", exercise.rule.cushions() == 3),
+                ("the first tag names the system that describes it", exercise.tags.first() == name.as_ref()),
+                ("it goes through the number that the point tells", applied.is_some_and(|one| is_told(exercise, &one))),
+            ]
+        }
         Category::JumpAndMasse => raised(exercise, &table, &technique, &cue)?,
         Category::Own => Vec::new(),
     });
@@ -143,14 +148,21 @@ fn raised(
     ])
 }
 
-/// The tag of the diamond system that describes the shot.
-fn system(exercise: &Exercise) -> Result<Option<String>, ExerciseError> {
-    let Some(cue) = &exercise.shot else { return Ok(None) };
-    let table = exercise.table()?;
-    Ok(match guide(&table, &Recording::new(&table, &exercise.layout, cue)?) {
-        Some(Guide::System(applied)) => Some(applied.system.name().to_lowercase()),
+/// The diamond system that describes the shot, with its numbers.
+fn applied(exercise: &Exercise, table: &Table, cue: &CueInputs) -> Result<Option<Applied>, ExerciseError> {
+    Ok(match guide(table, &Recording::new(table, &exercise.layout, cue)?) {
+        Some(Guide::System(applied)) => Some(applied),
         _ => None,
     })
+}
+
+/// Whether the shot itself goes through what the sum in the point comes to, to a twentieth of a diamond.
+fn is_told(exercise: &Exercise, applied: &Applied) -> bool {
+    let sum =
+        exercise.point.split_once("= ").map(|(_, sum)| sum.split([',', ':', ';', ' ']).next().unwrap_or_default());
+    let told: Option<f64> = sum.and_then(|sum| sum.trim_end_matches('.').parse().ok());
+    let twentieth = if applied.system == System::Plus { 0.05 } else { 0.5 };
+    told.zip(applied.shot_first).is_some_and(|(told, shot)| (told - shot).abs() <= twentieth)
 }
 
 /// What the tags promise of the stroke and of its course, each with whether it holds.

@@ -2,6 +2,8 @@
 
 use std::sync::LazyLock;
 
+use strsim::jaro_winkler;
+
 use super::{Category, Exercise, LibraryFile, exercise::bare_tag};
 
 /// The bundled files, one a category.
@@ -35,6 +37,9 @@ pub enum LibraryError {
     #[error("there is an exercise \"{0}\" already; give this one another name")]
     Taken(String),
 }
+
+/// How alike, from 0 to 1, two words are of which one may be meant by the other.
+const ALIKE: f64 = 0.8;
 
 /// Most exercises that are listed in a sentence.
 const MOST_LISTED: usize = 8;
@@ -112,16 +117,29 @@ impl Library {
         self.get(text).or_else(|_| self.only(text, |words, wanted| words == wanted))
     }
 
-    /// The only one whose name or title `is_so` for `text`, both in small letters.
+    /// The only one whose name or title `is_so` for `text`, both in small letters and with a blank for a hyphen.
     fn only(&self, text: &str, is_so: impl Fn(&str, &str) -> bool) -> Result<&Exercise, LibraryError> {
-        let wanted = text.to_lowercase();
-        let is_wanted = |words: &&String| is_so(&words.to_lowercase(), &wanted);
+        let plain = |words: &str| words.to_lowercase().replace('-', " ");
+        let wanted = plain(text);
+        let is_wanted = |words: &&String| is_so(&plain(words), &wanted);
         let either = |exercise: &&Exercise| [&exercise.name, &exercise.title].iter().any(is_wanted);
         match self.exercises.iter().filter(either).collect::<Vec<_>>()[..] {
             [] => Err(LibraryError::Unknown(text.to_owned())),
             [exercise] => Ok(exercise),
             ref several => Err(ambiguous(text, several)),
         }
+    }
+
+    /// The name of the exercise whose name or title is most like `text`, if one is much like it.
+    pub fn like(&self, text: &str) -> Option<&str> {
+        let wanted = text.to_lowercase();
+        let alike = |exercise: &Exercise| {
+            let of = |words: &str| jaro_winkler(&words.to_lowercase(), &wanted);
+            of(&exercise.name).max(of(&exercise.title))
+        };
+        let rated = self.exercises.iter().map(|exercise| (alike(exercise), exercise));
+        let (alike, nearest) = rated.max_by(|one, other| one.0.total_cmp(&other.0))?;
+        (alike > ALIKE).then_some(nearest.name.as_str())
     }
 
     /// All of them.
@@ -194,6 +212,13 @@ mod tests {
     }
 
     #[test]
+    fn what_is_nearly_a_name_or_a_title_is_known_and_what_is_far_from_all_is_not() {
+        let like = |text| Library::bundled().like(text);
+        assert_eq!(["naturel", "The-opning"].map(like), [Some("natural"), Some("opening-break")]);
+        assert_eq!(["xyzzy", ""].map(like), [None, None]);
+    }
+
+    #[test]
     fn an_exercise_is_found_by_name_title_and_the_beginning_of_either() {
         let exercise = |name: &str, title: &str| Exercise {
             name: name.to_owned(),
@@ -219,6 +244,7 @@ mod tests {
         );
         assert!(name("TWO").unwrap_err().contains("two (twice) and twice (Two)"));
         assert!(name("three").unwrap_err().contains("carom drill list") && name("").unwrap_err().contains("\"\""));
+        assert_eq!(name("back-from-afar"), Ok("draw-long"), "a title with hyphens");
         assert!(library.titled("BACK").is_ok() && library.titled("bac").is_err(), "a beginning is no title");
     }
 

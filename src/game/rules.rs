@@ -64,7 +64,12 @@ impl FromStr for Rule {
     type Err = UnknownRule;
 
     fn from_str(text: &str) -> Result<Self, UnknownRule> {
-        Self::ALL.into_iter().find(|rule| rule.name() == text).ok_or_else(|| UnknownRule(text.to_owned()))
+        let name = match text {
+            "1" | "1c" | "one" => Self::OneCushion.name(),
+            "3" | "3c" | "three" => Self::ThreeCushion.name(),
+            name => name,
+        };
+        Self::ALL.into_iter().find(|rule| rule.name() == name).ok_or_else(|| UnknownRule(text.to_owned()))
     }
 }
 
@@ -301,6 +306,14 @@ mod tests {
     fn names_are_read_back_and_an_unknown_one_is_named() {
         for rule in Rule::ALL {
             assert_eq!(rule.name().parse(), Ok(rule));
+        }
+        for (short, rule) in [
+            ("3", Rule::ThreeCushion),
+            ("3c", Rule::ThreeCushion),
+            ("three", Rule::ThreeCushion),
+            ("one", Rule::OneCushion),
+        ] {
+            assert_eq!(short.parse(), Ok(rule));
         }
         assert!("snooker".parse::<Rule>().unwrap_err().to_string().contains("snooker"));
     }

@@ -14,11 +14,12 @@ mod shown;
 mod spelling;
 mod version;
 mod visible;
+mod wrapping;
 
 pub use self::{
     calendar::{moment, now, timestamp, timestamp_of},
     json::{json_line, json_text},
-    number::{fixed, number},
+    number::{fixed, number, typed_number},
     progress::ProgressLine,
     shell::shell_word,
     shown::{Shown, clear_line, is_watched, redraw_line, stderr, stdout},

@@ -5,9 +5,12 @@ use std::{
     io::{self, IsTerminal, StderrLock, StdoutLock, Write},
 };
 
+use crossterm::terminal::size;
+
 use super::{
     spelling::{is_wanted, spelt},
     visible::{is_hidden, parts},
+    wrapping::Wrapping,
 };
 
 /// Takes an output's text in, and gives it on with everything shown that a terminal would obey. New lines and tabs
@@ -19,18 +22,20 @@ pub struct Shown<W: Write> {
     begun: Vec<u8>,
     /// Whether text is spelt in ASCII.
     spells: bool,
+    /// Where lines are to break between words.
+    wrapping: Option<Wrapping>,
 }
 
 /// The standard output.
 #[expect(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
 pub fn stdout() -> Shown<StdoutLock<'static>> {
-    Shown { inner: io::stdout().lock(), begun: Vec::new(), spells: is_wanted() }
+    Shown::at_terminal(io::stdout().lock())
 }
 
 /// The standard error.
 #[expect(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
 pub fn stderr() -> Shown<StderrLock<'static>> {
-    Shown { inner: io::stderr().lock(), begun: Vec::new(), spells: is_wanted() }
+    Shown::at_terminal(io::stderr().lock())
 }
 
 /// Whether somebody watches the standard error.
@@ -56,26 +61,49 @@ pub fn clear_line() -> io::Result<()> {
     stderr().inner.write_all(b"\r\x1b[K")
 }
 
+impl<W: Write + IsTerminal> Shown<W> {
+    /// Spelt as the locale asks for, and where somebody reads it at a terminal, as wide as that.
+    fn at_terminal(inner: W) -> Self {
+        let size = inner.is_terminal().then(size).and_then(Result::ok);
+        let wrapping = size.filter(|(columns, _)| *columns > 0).map(|(columns, _)| Wrapping::new(usize::from(columns)));
+        Self { inner, begun: Vec::new(), spells: is_wanted(), wrapping }
+    }
+}
+
 impl<W: Write> Shown<W> {
     /// Gives the text on to `inner`.
     pub const fn new(inner: W) -> Self {
-        Self { inner, begun: Vec::new(), spells: false }
+        Self { inner, begun: Vec::new(), spells: false, wrapping: None }
     }
 
-    /// The same, where `is_exact` for what must not be spelt: JSON, and what is meant for a file.
+    /// The same, where `is_exact` for what must be neither spelt nor broken: JSON, and what is meant for a file.
     #[must_use]
     pub fn exact(mut self, is_exact: bool) -> Self {
-        self.spells &= !is_exact;
+        if is_exact {
+            (self.spells, self.wrapping) = (false, None);
+        }
         self
+    }
+
+    fn put(&mut self, text: &str) -> io::Result<()> {
+        match &mut self.wrapping {
+            Some(wrapping) => self.inner.write_all(wrapping.take(text).as_bytes()),
+            None => self.inner.write_all(text.as_bytes()),
+        }
+    }
+
+    fn put_rest(&mut self) -> io::Result<()> {
+        let rest = self.wrapping.as_mut().map(Wrapping::rest).unwrap_or_default();
+        self.inner.write_all(rest.as_bytes())
     }
 
     fn show(&mut self, text: &str) -> io::Result<()> {
         let is_obeyed = |character: char| is_hidden(character) && !matches!(character, '\n' | '\t');
         let spelling = if self.spells { spelt(text) } else { text.into() };
         for (plain, hidden) in parts(&spelling, is_obeyed) {
-            self.inner.write_all(plain.as_bytes())?;
+            self.put(plain)?;
             if let Some(hidden) = hidden {
-                write!(self.inner, "{}", hidden.escape_default())?;
+                self.put(&hidden.escape_default().to_string())?;
             }
         }
         Ok(())
@@ -114,16 +142,16 @@ impl<W: Write> Write for Shown<W> {
     }
 
     fn flush(&mut self) -> io::Result<()> {
+        self.put_rest()?;
         self.inner.flush()
     }
 }
 
 impl<W: Write> Drop for Shown<W> {
     fn drop(&mut self) {
-        if !self.begun.is_empty() {
-            // Nobody is left to tell.
-            let _ = self.inner.write_all("\u{fffd}".as_bytes());
-        }
+        // Nobody is left to tell.
+        let _ = if self.begun.is_empty() { Ok(()) } else { self.put("\u{fffd}") };
+        let _ = self.put_rest();
     }
 }
 
@@ -144,15 +172,17 @@ mod tests {
     }
 
     #[test]
-    fn what_must_not_be_spelt_is_not() {
+    fn what_must_be_neither_spelt_nor_broken_is_not() {
         let said = |is_exact| {
             let mut bytes = Vec::new();
-            let mut out = Shown { inner: &mut bytes, begun: Vec::new(), spells: true }.exact(is_exact);
+            let mut out =
+                Shown { inner: &mut bytes, begun: Vec::new(), spells: true, wrapping: Some(Wrapping::new(9)) }
+                    .exact(is_exact);
             write!(out, "3\u{b0} \u{b1} 1").unwrap();
             drop(out);
             String::from_utf8(bytes).unwrap()
         };
-        assert_eq!([said(false), said(true)], ["3 degrees +- 1", "3\u{b0} \u{b1} 1"]);
+        assert_eq!([said(false), said(true)], ["3 degrees\n+- 1", "3\u{b0} \u{b1} 1"]);
     }
 
     #[test]

@@ -38,10 +38,25 @@ fn a_file_of_entries_becomes_a_table_that_every_command_plays_on() {
     let roll = answer["constants"].as_array().unwrap().iter().find(|one| one["name"] == "mu_r").unwrap();
     assert!(roll["before_deviation"].as_f64().unwrap() < 0.0006, "{roll}");
     assert_ne!(fs::read_to_string(home.path().join("mine.toml")).unwrap(), text);
-    // A day later.
-    let daily = run(&["calibrate", "--daily", "--table", "mine.toml", "entries.toml"]).assert().success();
-    let daily = String::from_utf8_lossy(&daily.get_output().stdout).into_owned();
-    assert!(daily.contains("today a lag rolls") && daily.contains("three rails play"), "{daily}");
+    // A day later: what three rails do is not known before both tests are played.
+    let daily = || {
+        let daily = run(&["calibrate", "--daily", "--table", "mine.toml", "entries.toml"]).assert().success();
+        String::from_utf8_lossy(&daily.get_output().stdout).into_owned()
+    };
+    let lag = daily();
+    assert!(lag.contains("not entered yet: corner-five (1)\n") && !lag.contains("three rails"), "{lag}");
+    let corner = "[[trial]]\ntest = \"corner-five\"\nfirst = 5.9\nthird = 5.2\n";
+    fs::write(home.path().join("entries.toml"), ENTRIES.to_owned() + corner).unwrap();
+    let both = daily();
+    assert!(both.contains("today a lag rolls") && both.contains("three rails play"), "{both}");
+}
+
+#[test]
+fn a_session_without_an_entry_writes_no_table_and_says_so() {
+    let home = tempfile::tempdir().unwrap();
+    let told = at_home(home.path(), &["calibrate", "--out", "mine.toml"]).write_stdin("").assert().code(2);
+    let told = String::from_utf8_lossy(&told.get_output().stderr).into_owned();
+    assert!(told.contains("there is no mark that can be used") && !home.path().join("mine.toml").exists(), "{told}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::{collections::HashSet, fs, path::Path};
 use carom::{
     coach::{
         PATTERNS, Pattern, Skill, Technique,
-        systems::{Guide, System, guide},
+        systems::{Guide, Line, System, diamonds, guide, metres},
     },
     drills::{Category, Exercise, GATHERED, Library, LibraryFile, Par, decode, encode, flaws, shifted},
     game::scores,
@@ -94,11 +94,32 @@ fn the_numbers_in_the_words_of_a_systems_exercise_are_those_of_its_shot() {
             let equals = words.iter().position(|word| *word == "=").unwrap();
             [3, 1].map(|back| words[equals - back]).map(|word| word.parse::<f64>().unwrap())
         });
-        // Three tenths of a diamond.
-        let near = if applied.system == System::Corner5 { 3.0 } else { 0.3 };
+        // A tenth of a diamond, or three tenths where a number is a diamond or less.
+        let near = if applied.system == System::Corner5 { 1.0 } else { 0.3 };
         for (told, counted) in told.into_iter().zip(counted) {
             assert!((told - counted).abs() <= near, "{}: {}", exercise.name, applied.arithmetic());
         }
+    }
+}
+
+/// [`flaws`] has the ball's own line; whoever sights the cue through the diamond that is told, and leaves the squirt alone, has
+/// to make the point too.
+#[test]
+fn a_cue_that_is_sighted_through_the_number_of_a_systems_exercise_makes_the_point() {
+    for exercise in bundled().into_iter().filter(|exercise| exercise.category == Category::Systems) {
+        let (table, shot) = (exercise.table().unwrap(), exercise.shot.unwrap());
+        let system = System::ALL.into_iter().find(|system| exercise.tags[0] == system.name().to_lowercase()).unwrap();
+        let told = exercise.point.split_once("= ").unwrap().1.split([' ', ',', ':']).next().unwrap();
+        let told: f64 = told.parse().unwrap();
+        let from = diamonds(&table, exercise.layout.balls[0]);
+        let [low, high] = system.first_ends();
+        let lines = (0..=8000).map(|step| low + (high - low) * f64::from(step) / 8000.0);
+        let off = |line: &Line| system.numbers(line).map_or(f64::INFINITY, |numbers| (numbers.first - told).abs());
+        let lines = lines.map(|along| Line::between(from, system.first_at(along)));
+        let line = lines.min_by(|one, other| off(one).total_cmp(&off(other))).unwrap();
+        assert!(off(&line) < 0.02, "{}: {line:?}", exercise.name);
+        let phi = (metres(&table, from + line.way) - metres(&table, from)).to_angle();
+        assert!(scores(exercise.rule, &table, &exercise.layout, &CueInputs { phi, ..shot }), "{}", exercise.name);
     }
 }
 

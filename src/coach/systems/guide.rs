@@ -254,6 +254,22 @@ mod tests {
     }
 
     #[test]
+    fn the_number_at_which_the_shot_itself_is_aimed_is_said_where_it_is_another() {
+        let example = Applied::example(System::Corner5, &Table::default()).unwrap();
+        let numbers = Numbers { start: 50.0, first: 20.0, third: 30.0 };
+        let said = |table_first, shot_first| {
+            Guide::System(Applied { numbers, table_first, table_third: None, shot_first, ..example.clone() })
+                .shot_words()
+        };
+        let aim = "Corner-5: 50 - 30 = 20, aim at 20 on the wood";
+        assert_eq!(said(Some(19.0), Some(17.2)), format!("{aim}; on this table 19, this shot at 17"));
+        assert_eq!(said(Some(20.1), Some(17.2)), format!("{aim}; the same on this table, this shot at 17"));
+        assert_eq!(said(None, Some(17.2)), format!("{aim}, this shot at 17"));
+        assert_eq!(said(Some(19.0), Some(19.2)), format!("{aim}; on this table 19"));
+        assert_eq!(said(Some(19.0), None), format!("{aim}; on this table 19"));
+    }
+
+    #[test]
     fn without_running_side_or_three_cushions_no_system_is_named() {
         assert_eq!(guided("6d,1d 7d,3.5d 0.5d,0.5d", "0,0,0,133,0.6"), None);
         let reverse = guided("6d,1d 7d,3.5d 0.5d,0.5d", "-0.4,0.3,0,133,4");

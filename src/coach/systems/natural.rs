@@ -1,15 +1,13 @@
 //! A natural stroke: the side, the roll and the speed that a system supposes, and where a ball that is played so goes.
 
-use std::ops::ControlFlow;
-
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
 use super::lines::{Line, diamonds, metres};
 use crate::{
     physics::{Impulse, rolling_spin},
-    simulation::{Event, EventKind, Observer, Rail, Segment, watch},
-    table::{Layout, Table},
+    simulation::{Follower, Rail, alone},
+    table::Table,
 };
 
 /// How a cue ball moves that is played in a system's way.
@@ -40,9 +38,8 @@ impl Natural {
 
 /// The first five cushions that a ball alone meets, with its centre in diamonds.
 pub fn hits(table: &Table, from: DVec2, impulse: &Impulse) -> Vec<(Rail, DVec2)> {
-    let mut follower = Follower { end: from, hits: Vec::with_capacity(MOST) };
-    watch(table, &Layout::new([from, DVec2::splat(1e3), DVec2::new(-1e3, 1e3)]), impulse, &mut follower);
-    follower.hits.into_iter().map(|(rail, place)| (rail, diamonds(table, place))).collect()
+    let followed = Follower::new(&[], MOST).of(table, &alone(from), impulse);
+    followed.hits.into_iter().map(|(_, rail, place)| (rail, diamonds(table, place))).collect()
 }
 
 /// The way that a cushion sends a ball back without spin.
@@ -52,32 +49,3 @@ pub fn reflected(way: DVec2, rail: Rail) -> DVec2 {
 
 /// Cushions that are followed: systems look at three, and a corner may take one more.
 const MOST: usize = 5;
-
-/// Follows the cue ball from cushion to cushion.
-struct Follower {
-    end: DVec2,
-    hits: Vec<(Rail, DVec2)>,
-}
-
-impl Observer for Follower {
-    fn wants_segments(&self) -> bool {
-        true
-    }
-
-    fn wants_ends(&self) -> bool {
-        false
-    }
-
-    fn event(&mut self, event: Event) -> ControlFlow<()> {
-        if let EventKind::BallRail(0, rail) = event.kind {
-            self.hits.push((rail, self.end));
-        }
-        if self.hits.len() < MOST { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    }
-
-    fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
-        if ball == 0 {
-            self.end = segment.position_after(end - segment.start);
-        }
-    }
-}

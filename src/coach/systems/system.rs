@@ -311,57 +311,7 @@ impl Serialize for System {
 
 #[cfg(test)]
 mod tests {
-    use serde::Deserialize;
-
     use super::*;
-
-    const FILE: &str = include_str!("../../../tests/data/filmed/systems.json");
-
-    #[derive(Deserialize)]
-    struct File {
-        systems: Vec<Told>,
-    }
-
-    #[derive(Deserialize)]
-    struct Told {
-        id: String,
-        cases: Vec<Case>,
-    }
-
-    #[derive(Deserialize)]
-    struct Case {
-        start: Option<f64>,
-        first: Option<f64>,
-        third: Option<f64>,
-        cue_line: [[f64; 2]; 2],
-        arrival_nose_x: Option<f64>,
-        arrival_frame_x: Option<f64>,
-        arrival_frame_right_y: Option<f64>,
-    }
-
-    #[test]
-    fn every_number_of_the_file_agrees_to_a_tenth() {
-        let mut counts = Vec::new();
-        for told in serde_json::from_str::<File>(FILE).unwrap().systems {
-            let system = System::ALL.into_iter().find(|system| system.id() == told.id).unwrap();
-            for case in &told.cases {
-                let [from, to] = case.cue_line.map(DVec2::from_array);
-                let line = Line::between(from, to);
-                let numbers = system.numbers(&line).unwrap_or_else(|| panic!("{system} {:?}", case.cue_line));
-                for (ours, theirs) in
-                    [(numbers.start, case.start), (numbers.first, case.first), (numbers.third, case.third)]
-                {
-                    assert!(theirs.is_none_or(|theirs| (ours - theirs).abs() <= 0.1), "{system} {line:?}: {numbers:?}");
-                }
-                let arrival = system.third_along(numbers.third).unwrap();
-                let wanted = case.arrival_nose_x.or(case.arrival_frame_x).or(case.arrival_frame_right_y).unwrap();
-                assert!((arrival - wanted).abs() <= 0.1, "{system} {line:?}: {arrival} for {wanted}");
-                assert!((system.third_number(arrival).unwrap() - numbers.third).abs() < 1e-9);
-            }
-            counts.push((told.id, told.cases.len()));
-        }
-        assert_eq!(counts, [("corner5".to_owned(), 42), ("plus".to_owned(), 23), ("seven".to_owned(), 35)]);
-    }
 
     #[test]
     fn a_line_that_no_system_has_has_no_numbers() {

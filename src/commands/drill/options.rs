@@ -1,5 +1,7 @@
 //! Who plays a session, and what stroke is wanted.
 
+use std::io::{self, IsTerminal};
+
 use super::workspace::player;
 use crate::{
     coach::Skill,
@@ -7,8 +9,10 @@ use crate::{
         Failure,
         input::{seed, shot_typed, whole},
         lookup::skill_called,
+        output::{tell, whom_words},
     },
     drills::{Exercise, Goal, Session, Venue},
+    game::Rule,
     physics::CueInputs,
 };
 
@@ -42,6 +46,13 @@ impl PlayOptions {
     pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Session {
         let seed = self.seed.unwrap_or_else(rand::random);
         Session::new(goal, Venue::Program, exercises, player(self.skill), seed)
+    }
+
+    /// Tells a user at the terminal who plays and by which rule. Who knows the screen expects what is set there.
+    pub fn tell_whom(&self, session: &Session, rule: Rule) {
+        if !self.json && io::stdin().is_terminal() {
+            tell(whom_words(session.skill, rule));
+        }
     }
 }
 

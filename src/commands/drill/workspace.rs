@@ -3,7 +3,7 @@
 use crate::{
     coach::Skill,
     commands::{Failure, lookup::own_skill, output::tell},
-    drills::{Exercise, Library, Session, Store},
+    drills::{Exercise, Library, LibraryError, Session, Store},
     printing::OneLine,
     storage::{self, Places},
 };
@@ -27,7 +27,12 @@ impl Workspace {
 
     /// The exercise that is meant by `text`: a name, a title, or the beginning of one.
     pub fn exercise(&self, text: &str) -> Result<&Exercise, Failure> {
-        self.library.called(text).map_err(Failure::failed)
+        self.library.called(text).map_err(|error| match (&error, self.library.like(text)) {
+            (LibraryError::Unknown(_), Some(name)) => Failure::failed(format_args!(
+                "there is no exercise \"{text}\"; did you mean {name}? carom drill list shows all names"
+            )),
+            _ => Failure::failed(error),
+        })
     }
 
     /// All sessions; files that cannot be read are named on the standard error.

@@ -22,7 +22,7 @@ use super::{
     Failure,
     input::{ByTable, PositionArgs, answer_lines, note_doubts, seed, whole, whole_from},
     lookup::{policy_called, skill_called},
-    output::{impulse_words, units},
+    output::{impulse_words, units, whom_words},
     question::{Key, Keys},
 };
 use crate::{
@@ -343,11 +343,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     if let Some(why) = &answer.why {
         why.describe(out, units())?;
     }
-    writeln!(
-        out,
-        "For a player of skill \"{}\" under the rule {}; --skill and --rule choose others. The screen's skill and rule are not used.",
-        args.skill, args.rule
-    )?;
+    writeln!(out, "{}", whom_words(args.skill, args.rule))?;
     if shot.told.is_some() {
         writeln!(out)?;
     }
@@ -374,7 +370,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         }
     }
     if let Some(system) = &answer.system {
-        writeln!(out, "{system}")?;
+        writeln!(out, "{}", system.shot_words())?;
     }
     if let Some(risk) = &answer.risk {
         writeln!(out, "{}", risk.words(shot.make_probability.map(|made| 1.0 - made)))?;

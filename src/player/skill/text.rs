@@ -3,7 +3,7 @@
 use std::{fmt, str::FromStr};
 
 use super::{Growth, Skill};
-use crate::printing::number;
+use crate::printing::{number, typed_number};
 
 /// Why a skill is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
@@ -90,7 +90,7 @@ impl FromStr for Skill {
         if let Some((_, skill)) = Self::NAMED.iter().find(|(name, _)| *name == text) {
             return Ok(*skill);
         }
-        if let Ok(average) = text.strip_prefix(AVERAGE).unwrap_or(text).trim().parse() {
+        if let Some(average) = typed_number(text.strip_prefix(AVERAGE).unwrap_or(text)) {
             return Self::of_average(average).ok_or(SkillError::Average(average));
         }
         let unknown = || SkillError::Unknown(text.to_owned());
@@ -168,6 +168,7 @@ mod tests {
             assert_eq!(skill.to_string().parse(), Ok(skill), "{text}");
             assert_eq!(skill.to_string(), format!("average={text}"));
         }
+        assert_eq!("0,6".parse(), Ok(skill), "a decimal comma");
         assert!(Skill::NAMED.iter().all(|(_, named)| named.as_average().is_none()));
         for bad in ["0.05", "3", "-1", "0", "NaN", "inf"] {
             let said = bad.parse::<Skill>().unwrap_err().to_string();

@@ -8,10 +8,14 @@ use glam::DVec2;
 
 use super::{
     film::{FilmedShot, Sample},
-    lone::{Follower, Motion, alone},
+    motion::Motion,
     rail_hits::{RailHit, chains, stretches},
 };
-use crate::{statistics::fit, table::Table};
+use crate::{
+    simulation::{Follower, alone},
+    statistics::fit,
+    table::Table,
+};
 
 /// A filmed ball from one rail to some others, with no other ball near.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::{
     chains::{self, Chain},
     film::FilmedShot,
-    lone::Motion,
+    motion::Motion,
 };
 use crate::{
     statistics::{fit, inverse},

@@ -5,8 +5,9 @@ use std::io;
 use glam::DVec2;
 use plotters::prelude::*;
 
-use super::{film::FilmedShot, lone::Follower, whole};
+use super::{film::FilmedShot, whole};
 use crate::{
+    simulation::Follower,
     study::chart::{AZURE, Area, CRIMSON, Drawn, GREY, INK, svg, text},
     table::Table,
 };

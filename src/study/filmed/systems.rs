@@ -23,6 +23,13 @@ pub struct System {
 
 #[derive(Clone, Debug, Deserialize)]
 struct Case {
+    /// Its numbers, where the source has them: start, first and third.
+    #[cfg(test)]
+    start: Option<f64>,
+    #[cfg(test)]
+    first: Option<f64>,
+    #[cfg(test)]
+    third: Option<f64>,
     /// From the diamond behind which the line begins to that through which it is aimed.
     cue_line: [[f64; 2]; 2],
     arrival_nose_x: Option<f64>,
@@ -100,7 +107,12 @@ impl Case {
         let inside = |place: DVec2| place.x > 0.4 && place.x < 7.6 && place.y > 0.4 && place.y < 3.6;
         let start = (0..200).map(|step| from + 0.02 * f64::from(step) * line).find(|place| inside(*place))?;
         let arrival = system.played(table, Mirror::default(), &Line { from: start, way: line }, stroke)?;
-        Some(arrival - self.arrival_nose_x.or(self.arrival_frame_x).or(self.arrival_frame_right_y)?)
+        Some(arrival - self.arrival()?)
+    }
+
+    /// Where the ball arrives by the system, in diamonds along the third cushion.
+    fn arrival(&self) -> Option<f64> {
+        self.arrival_nose_x.or(self.arrival_frame_x).or(self.arrival_frame_right_y)
     }
 }
 
@@ -109,7 +121,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_bundled_systems_have_the_cases_that_their_readme_tells() {
+    fn every_number_of_the_file_agrees_to_a_tenth() {
+        for system in bundled() {
+            let counted = system.counted().unwrap();
+            for case in &system.cases {
+                let [from, to] = case.cue_line.map(DVec2::from_array);
+                let line = Line::between(from, to);
+                let numbers = counted.numbers(&line).unwrap_or_else(|| panic!("{counted} {:?}", case.cue_line));
+                for (ours, theirs) in
+                    [(numbers.start, case.start), (numbers.first, case.first), (numbers.third, case.third)]
+                {
+                    assert!(
+                        theirs.is_none_or(|theirs| (ours - theirs).abs() <= 0.1),
+                        "{counted} {line:?}: {numbers:?}"
+                    );
+                }
+                let (arrival, wanted) = (counted.third_along(numbers.third).unwrap(), case.arrival().unwrap());
+                assert!((arrival - wanted).abs() <= 0.1, "{counted} {line:?}: {arrival} for {wanted}");
+                assert!((counted.third_number(arrival).unwrap() - numbers.third).abs() < 1e-9);
+            }
+        }
         let sizes: Vec<_> = bundled().iter().map(|system| (system.id.clone(), system.cases.len())).collect();
         assert_eq!(sizes, [("corner5".to_owned(), 42), ("plus".to_owned(), 23), ("seven".to_owned(), 35)]);
     }

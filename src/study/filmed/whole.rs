@@ -6,9 +6,10 @@ use glam::DVec2;
 use super::{
     chains::soften,
     film::{FilmedShot, Sample},
-    lone::{Follower, Motion},
+    motion::Motion,
 };
 use crate::{
+    simulation::Follower,
     statistics::fit,
     table::{Layout, PAIRS, Table},
 };

@@ -7,6 +7,7 @@ use glam::DVec2;
 use crate::{
     coach::Skill,
     game::Rule,
+    printing::typed_number,
     table::{BALL_NAMES, CueBall, Side},
 };
 
@@ -94,7 +95,7 @@ const HELP: &[(&str, &str)] = &[
     ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
     (
         "skill club",
-        "who plays: perfect, expert, world-class, national, club, beginner, own (your own skill, once it is kept), an average at three-cushion like 0.6, or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
+        "who plays: perfect, expert, world-class, national, club, beginner, own (your own: by your notes once that is kept, else the average that is set), an average at three-cushion like 0.6, or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
     ),
     ("plan", "whether the coach has the next point in mind, and what the shot leaves"),
     ("plan off", "whether the coach has the next point in mind from now on: on or off"),
@@ -176,7 +177,7 @@ fn step(direction: &str, distance: &str) -> Result<DVec2, String> {
         "down" => DVec2::NEG_Y,
         _ => return Err(format!("\"{direction}\" is not a direction; use left, right, up or down")),
     };
-    let millimetres: Option<f64> = distance.parse().ok().filter(|distance| (0.0..=10_000.0).contains(distance));
+    let millimetres = typed_number(distance).filter(|distance| (0.0..=10_000.0).contains(distance));
     let millimetres = millimetres.ok_or_else(|| format!("\"{distance}\" is not a distance; use 0 to 10000 mm"))?;
     Ok(unit * (1e-3 * millimetres))
 }
@@ -201,7 +202,11 @@ mod tests {
             assert_eq!(rule.parse(), Ok(Command::Rule(Rule::OneCushion)));
         }
         assert_eq!("skill world class".parse(), Ok(Command::Skill(Skill::WORLD_CLASS)));
-        assert_eq!("skill 0.6".parse(), Ok(Command::Skill(Skill::of_average(0.6).unwrap())));
+        for average in ["skill 0.6", "skill 0,6"] {
+            assert_eq!(average.parse(), Ok(Command::Skill(Skill::of_average(0.6).unwrap())));
+        }
+        assert_eq!("move red left 2,5".parse(), Ok(Command::Move(2, DVec2::new(-0.0025, -0.0))));
+        assert_eq!("rule 3".parse(), Ok(Command::Rule(Rule::ThreeCushion)));
     }
 
     #[test]

@@ -47,8 +47,8 @@ struct Found {
 struct Conversation {
     coach: Coach,
     request: Request,
-    /// The player's own skill, where one is kept.
-    own: Option<Skill>,
+    /// The player's own skill, where there is one, and where it comes from.
+    own: Option<(Skill, &'static str)>,
     balls: History<(Layout, CueBall)>,
     /// The shots that were found for the balls as they lie, and which of them is spoken of.
     shots: Vec<Found>,
@@ -99,7 +99,9 @@ pub fn converse(
     let mut talk = Conversation {
         coach,
         request,
-        own: own.or_else(|| settings.skill.as_average().map(|_| settings.skill)),
+        own: own
+            .map(|skill| (skill, "by your notes"))
+            .or_else(|| settings.skill.as_average().map(|_| (settings.skill, "as set"))),
         balls: History::new((layout, CueBall::White)),
         shots: Vec::new(),
         chosen: 0,
@@ -182,11 +184,11 @@ impl Conversation {
                 self.forget(speech::now_plays(skill))
             }
             Command::OwnSkill => {
-                let skill = self
+                let (skill, from) = self
                     .own
                     .ok_or("No skill of your own is kept yet; carom drill skill --keep estimates and keeps it.")?;
                 self.request.skill = skill;
-                self.forget(format!("The player is you: {skill}."))
+                self.forget(format!("You average {}, {from}.", speech::average(skill)))
             }
             Command::Plan(plan) => {
                 self.request.plan = plan;
@@ -315,7 +317,7 @@ impl Conversation {
             let why = talk.why.as_ref().filter(|_| talk.chosen == 0);
             lines.extend(why.map(|why| why.words(cue_ball, units)));
             let system = recording.filter(|_| shot.kind.is_some()).and_then(|shot| guide(talk.table(), &shot));
-            lines.extend(system.map(|system| format!("{system}.")));
+            lines.extend(system.map(|system| format!("{}.", system.shot_words())));
             Ok(lines.join("\n"))
         })
     }

@@ -2,11 +2,12 @@
 
 use crate::{
     coach::{
-        Aim, Input, Kind, Margin, Skill, jump_words,
+        Aim, Growth, Input, Kind, Margin, Skill, jump_words,
         systems::Guide,
         words::{LengthUnit, TIP, TipUnit, Units},
     },
     physics::CueInputs,
+    printing::number,
     simulation::{Event, EventKind, Recording},
     statistics::SuccessRate,
     table::{CueBall, Layout, Table},
@@ -95,11 +96,12 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBa
 pub fn system(guide: Option<&Guide>) -> String {
     match guide {
         None => "No diamond system describes this shot.".to_owned(),
-        Some(Guide::System(applied)) => {
+        Some(guide @ Guide::System(applied)) => {
             let system = applied.system;
             let side = if system.is_running() { "running side" } else { "no side" };
             format!(
-                "{applied}.\nIn words: {}, with {side}: {}. Aim through the diamond on the wood.",
+                "{}.\nIn words: {}, with {side}: {}. Aim through the diamond on the wood.",
+                guide.shot_words(),
                 system.track(),
                 system.rule()
             )
@@ -132,6 +134,11 @@ pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill) -> Ve
     none.into_iter().chain(rate).collect()
 }
 
+/// What a player of this skill averages at three-cushion, to two digits behind the point.
+pub fn average(skill: Skill) -> String {
+    number((100.0 * Skill::average(skill.scale())).round() / 100.0)
+}
+
 /// Who plays, at the beginning of a sentence.
 pub fn player(skill: Skill) -> String {
     if let Some(average) = skill.as_average() {
@@ -141,6 +148,8 @@ pub fn player(skill: Skill) -> String {
         Some((name @ "expert", _)) => format!("An {name}"),
         Some((name @ "beginner", _)) => format!("A {name}"),
         Some((name, _)) => format!("A {name} player"),
+        // As a skill of one's own is that was estimated.
+        None if skill.growth == Growth::USUAL => format!("A player who averages {}", average(skill)),
         None => format!("Player {skill}"),
     }
 }

@@ -135,13 +135,29 @@ fn the_skill_that_is_kept_plays_and_where_none_is_that_is_said() {
     let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
     let said = talk_of(own.parse().ok(), "skill own\nskill 0.6\nshot\nskill 7\n");
     for words in [
-        &format!("The player is you: {own}."),
+        "You average 2.02, by your notes.",
         "The player averages 0.6 points an inning at three-cushion.",
         "\nA player who averages 0.6 makes it ",
         "accepted are 0.1 to 2.5 points an inning at three-cushion, or world-class",
     ] {
         assert!(said.contains(words), "{words}: {said}");
     }
+}
+
+#[test]
+fn the_players_two_skills_are_told_apart_by_where_they_come_from() {
+    let table = Table::default();
+    let of = |own| {
+        let settings = Settings { think_ms: 300, skill: "0.6".parse().unwrap(), ..Settings::default() };
+        let beginning = Beginning { layout: Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap(), own, seed: 1 };
+        let mut output = Vec::new();
+        converse(Coach::new(table.clone()), beginning, &settings, &b"skill own\nshot\n"[..], &mut output, "").unwrap();
+        String::from_utf8(output).unwrap()
+    };
+    assert!(of(None).contains("You average 0.6, as set.\n"));
+    let said = of(Some(Skill::level(7.83)));
+    assert!(said.contains("You average 0.18, by your notes.\n"), "{said}");
+    assert!(said.contains("\nA player who averages 0.18 makes it ") && !said.contains("theta="), "{said}");
 }
 
 #[test]

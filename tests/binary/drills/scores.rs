@@ -45,6 +45,29 @@ fn results_at_a_table_are_scored_as_by_hand() {
 }
 
 #[test]
+fn what_has_gone_is_told_where_one_more_undo_finds_nothing() {
+    let folder = folder();
+    drill(folder.path(), &["log", "mine", "make", "miss"]);
+    let undone = drill(folder.path(), &["log", "mine", "undo", "undo", "undo"]);
+    assert_eq!(undone.code, Some(1));
+    assert!(undone.out.contains("taken back; nothing else is noted"), "{}", undone.out);
+    assert!(undone.err.contains("there is no attempt at mine to take back"), "{}", undone.err);
+}
+
+#[test]
+fn a_stroke_on_a_line_that_is_too_long_is_refused_and_the_rest_go_on() {
+    let folder = folder();
+    let args = ["drill", "run", "mine", "--goal", "2", "--skill", "perfect", "--seed", "1", "--json"];
+    let long = "0".repeat((1 << 20) + 1);
+    let run = fed(command(folder.path(), &args), &format!("0,0,0,90,1\n{long}\n0,0,0,90,1\n"));
+    let lines = run.json();
+    assert_eq!((run.code, kinds(&lines, "attempt").len()), (Some(2), 2));
+    let refused = kinds(&lines, "refused");
+    let error = refused[0]["error"].as_str().unwrap();
+    assert!(refused.len() == 1 && refused[0]["line"] == 2 && error.contains("a line is too long"), "{refused:?}");
+}
+
+#[test]
 fn a_seed_plays_the_same_again_and_is_compared_with_the_model_shot_or_the_coach() {
     let folder = folder();
     let play = || {

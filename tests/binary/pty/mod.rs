@@ -5,6 +5,7 @@ mod follow;
 mod guests;
 mod leaving;
 mod line;
+mod lines;
 
 mod training;
 mod using;

@@ -1,13 +1,13 @@
-//! Where the simulation's balls are at the moments of a film, and the rails that they meet.
+//! Where the cue ball is at some times, and the rails that it meets.
 
 use std::ops::ControlFlow;
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
+use super::{Event, EventKind, Observer, Segment, watch};
 use crate::{
     physics::Impulse,
-    simulation::{Event, EventKind, Observer, Rail, Segment, watch},
-    table::{Layout, Table},
+    table::{Layout, Rail, Table},
 };
 
 /// A layout whose object balls are out of the way.
@@ -15,44 +15,8 @@ pub fn alone(place: DVec2) -> Layout {
     Layout::new([place, DVec2::new(1e3, 1e3), DVec2::new(-1e3, 1e3)])
 }
 
-/// Angular velocity about horizontal axes of a ball that moves with `velocity` and slips with `slip`, rad/s.
-pub fn spin_of_slip(radius: f64, velocity: DVec2, slip: DVec2) -> DVec2 {
-    DVec2::new((slip.y - velocity.y) / radius, (velocity.x - slip.x) / radius)
-}
-
-/// The motion of a ball at one moment: what a filmed course is fitted with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
-    /// Centre, m.
-    pub place: DVec2,
-    /// Velocity, m/s.
-    pub velocity: DVec2,
-    /// Slip on the cloth, m/s.
-    pub slip: DVec2,
-    /// Speed of the side spin at the equator, `R w_z`, m/s.
-    pub side: f64,
-}
-
-impl Motion {
-    /// As seven numbers, in the order of the fields.
-    pub fn numbers(&self) -> [f64; 7] {
-        let Self { place, velocity, slip, side } = *self;
-        [place.x, place.y, velocity.x, velocity.y, slip.x, slip.y, side]
-    }
-
-    /// From seven numbers.
-    pub fn of([x, y, vx, vy, ux, uy, side]: [f64; 7]) -> Self {
-        Self { place: DVec2::new(x, y), velocity: DVec2::new(vx, vy), slip: DVec2::new(ux, uy), side }
-    }
-
-    /// What a stroke would have to give a ball for this motion.
-    pub fn impulse(&self, radius: f64) -> Impulse {
-        let spin: DVec3 = spin_of_slip(radius, self.velocity, self.slip).extend(self.side / radius);
-        Impulse::on_cloth(self.velocity, spin)
-    }
-}
-
-/// Follows the cue ball: its places at some times, and the rails that it meets.
+/// Follows the cue ball.
+#[derive(Debug)]
 pub struct Follower<'a> {
     times: &'a [f64],
     end: DVec2,
@@ -82,6 +46,11 @@ impl<'a> Follower<'a> {
 impl Observer for Follower<'_> {
     fn wants_segments(&self) -> bool {
         true
+    }
+
+    fn wants_ends(&self) -> bool {
+        // Which rails are met is known before the ball rests.
+        !self.times.is_empty()
     }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {

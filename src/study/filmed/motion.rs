@@ -1,0 +1,42 @@
+//! The motion of a ball at one moment of a film.
+
+use glam::{DVec2, DVec3};
+
+use crate::physics::Impulse;
+
+/// Angular velocity about horizontal axes of a ball that moves with `velocity` and slips with `slip`, rad/s.
+pub fn spin_of_slip(radius: f64, velocity: DVec2, slip: DVec2) -> DVec2 {
+    DVec2::new((slip.y - velocity.y) / radius, (velocity.x - slip.x) / radius)
+}
+
+/// The motion of a ball at one moment: what a filmed course is fitted with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Centre, m.
+    pub place: DVec2,
+    /// Velocity, m/s.
+    pub velocity: DVec2,
+    /// Slip on the cloth, m/s.
+    pub slip: DVec2,
+    /// Speed of the side spin at the equator, `R w_z`, m/s.
+    pub side: f64,
+}
+
+impl Motion {
+    /// As seven numbers, in the order of the fields.
+    pub fn numbers(&self) -> [f64; 7] {
+        let Self { place, velocity, slip, side } = *self;
+        [place.x, place.y, velocity.x, velocity.y, slip.x, slip.y, side]
+    }
+
+    /// From seven numbers.
+    pub fn of([x, y, vx, vy, ux, uy, side]: [f64; 7]) -> Self {
+        Self { place: DVec2::new(x, y), velocity: DVec2::new(vx, vy), slip: DVec2::new(ux, uy), side }
+    }
+
+    /// What a stroke would have to give a ball for this motion.
+    pub fn impulse(&self, radius: f64) -> Impulse {
+        let spin: DVec3 = spin_of_slip(radius, self.velocity, self.slip).extend(self.side / radius);
+        Impulse::on_cloth(self.velocity, spin)
+    }
+}
