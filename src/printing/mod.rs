@@ -18,7 +18,7 @@ mod visible;
 pub use self::{
     calendar::{moment, now, timestamp, timestamp_of},
     json::{json_line, json_text},
-    number::{fixed, number},
+    number::{fixed, number, typed_number},
     progress::ProgressLine,
     shell::shell_word,
     shown::{Shown, clear_line, is_watched, redraw_line, stderr, stdout},

@@ -6,6 +6,11 @@ pub fn number(value: f64) -> String {
     text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
 }
 
+/// The number that somebody has typed, with a decimal point or, as half of the world writes, a comma.
+pub fn typed_number(text: &str) -> Option<f64> {
+    text.trim().replace(',', ".").parse().ok()
+}
+
 /// The number with `decimals` digits, never as minus zero.
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
@@ -25,6 +30,14 @@ mod tests {
         assert_eq!(fixed(-0.000_4, 3), "0.000");
         assert_eq!(fixed(-0.000_6, 3), "-0.001");
         assert_eq!(fixed(f64::NAN, 1), "NaN");
+    }
+
+    #[test]
+    fn a_decimal_comma_is_a_point() {
+        assert_eq!(
+            ["0,6", " 9.1 ", "-3", "1,2,3", "much"].map(typed_number),
+            [Some(0.6), Some(9.1), Some(-3.0), None, None]
+        );
     }
 
     #[test]
