@@ -68,6 +68,13 @@ impl Applied {
             (None, None) => String::new(),
         }
     }
+
+    /// Where the shot itself is aimed, with its own side and speed; `None` where that is said already.
+    fn shot_number(&self) -> Option<String> {
+        let said = |value: f64| number(self.system, value);
+        let last = self.table_first.map_or_else(|| self.aim(), said);
+        self.shot_first.map(said).filter(|shot| *shot != last)
+    }
 }
 
 impl fmt::Display for Applied {
@@ -122,6 +129,18 @@ impl fmt::Display for Shift {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "Parallel shift: {}", self.counted())?;
         self.correction().map_or(Ok(()), |correction| write!(formatter, "; {correction}"))
+    }
+}
+
+impl Guide {
+    /// All that is counted for a shot, in a line: the numbers, what the table says to them, and the number at which the shot itself is
+    /// aimed: `Corner-5: 50 - 30 = 20, aim at 20 on the wood; on this table 19, this shot at 17`. A shift says that in any case.
+    pub fn shot_words(&self) -> String {
+        let at = match self {
+            Self::System(applied) => applied.shot_number(),
+            Self::Shift(_) => None,
+        };
+        at.map_or_else(|| self.to_string(), |at| format!("{self}, this shot at {at}"))
     }
 }
 
