@@ -8,7 +8,6 @@ pub mod document;
 pub mod key_context;
 mod keys;
 mod mouse;
-pub mod palette_keys;
 mod reports;
 mod settings;
 mod tabs;
@@ -78,7 +77,7 @@ pub struct App {
     /// The screen before the settings.
     before: PageId,
     /// The page that lies over the screen, and its first line.
-    pub help: Option<(Overlay, u16)>,
+    pub overlay: Option<(Overlay, u16)>,
     /// The command palette while it is open.
     pub command_palette: Option<CommandPalette>,
     /// Refusals and failures, for as long as they are shown, and those before.
@@ -119,7 +118,7 @@ impl App {
             pending_table: None,
             in_force: Settings::default(),
             before: PageId::Coach,
-            help: None,
+            overlay: None,
             command_palette: None,
             toasts: Toasts::default(),
             area: Rect::default(),
@@ -262,14 +261,14 @@ impl App {
             Action::Suspend => return Some(Effect::Suspend),
             Action::OpenHelp => self.lay_over(Overlay::Help),
             Action::OpenMessages => self.lay_over(Overlay::Messages),
-            Action::CloseHelp => {
-                if self.help.take() == Some((Overlay::Messages, 0)) {
+            Action::CloseOverlay => {
+                if self.overlay.take() == Some((Overlay::Messages, 0)) {
                     // What has come meanwhile was the first line there.
                     self.toasts.clear();
                 }
             }
-            Action::ScrollHelp(lines) => {
-                self.help = self.help.map(|(page, top)| {
+            Action::ScrollOverlay(lines) => {
+                self.overlay = self.overlay.map(|(page, top)| {
                     let end = view::help_end(self, page, self.area);
                     (page, top.min(end).saturating_add_signed(lines).min(end))
                 });
@@ -293,7 +292,15 @@ impl App {
                 self.drills.open_films();
                 return effect;
             }
-            Action::CommandPalette(action) => return self.update_palette(action),
+            Action::OpenPalette => self.command_palette = Some(CommandPalette::default()),
+            Action::ClosePalette => self.command_palette = None,
+            Action::ChooseCommand => return self.choose_command(),
+            Action::PaletteLine(lines) => {
+                let count = self.found_commands().len();
+                if let Some(palette) = &mut self.command_palette {
+                    palette.move_mark(lines, count);
+                }
+            }
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;
                 self.turn_to(PageId::Drills);
@@ -374,12 +381,19 @@ impl App {
     /// Lets `seconds` pass for whatever moves on the screen.
     pub fn tick(&mut self, seconds: f64) {
         self.toasts.tick(seconds);
-        self.page_mut().tick(seconds);
+        if !self.is_covered() {
+            self.page_mut().tick(seconds);
+        }
     }
 
     /// Seconds until the next picture; `None` while nothing moves by itself.
     pub fn frame_interval(&self) -> Option<f64> {
-        self.page().frame_interval()
+        self.page().frame_interval().filter(|_| !self.is_covered())
+    }
+
+    /// Whether something lies over the page, which then stands still: what moves is to be seen.
+    pub(super) const fn is_covered(&self) -> bool {
+        self.overlay.is_some() || self.command_palette.is_some()
     }
 
     /// The terminal has this size from now on.

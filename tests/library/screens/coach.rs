@@ -10,7 +10,7 @@ use super::{
     player::{ASCII, NO_COLOUR, Player, SHOT, TRUE_COLOUR, advice, check, check_at, proposal},
 };
 use carom::{
-    coach::{Difference, Kiss, Why},
+    coach::{Difference, Kiss, Skill, Why},
     physics::CueInputs,
     table::CueBall,
     terminal::{Advice, CoachNews, Effect, Effort, PageId, Proposal, Shot},
@@ -73,6 +73,15 @@ fn the_rail_stops_a_ball_and_says_where_it_is() {
 }
 
 #[test]
+fn without_a_shot_the_panel_tells_where_the_balls_lie_wherever_it_was_left() {
+    let placing = Player::new().press("Enter").answer().press("v Esc Left");
+    let text = placing.text(80, 24);
+    assert!(text.contains("Balls") && !text.contains("Chances"), "{text}");
+    let text = placing.press("v").text(80, 24);
+    assert!(text.contains("without a shot the panel tells"), "{text}");
+}
+
+#[test]
 fn the_coach_thinks_and_can_be_stopped() {
     let player = Player::new().press("Enter").wait(0.35);
     player.shows(&["thinking ", "⠸ the coach is thinking; Esc stops it", "Esc cancel", "no shot yet"]);
@@ -100,7 +109,7 @@ fn a_shot_is_recommended() {
     {
         assert!(text.contains(part), "{part}\n{text}");
     }
-    assert!(["aim top 1.52 → bottom 2.82, at noses", "Cue from 1.5"].iter().any(|aim| text.contains(aim)), "{text}");
+    assert!(["noses top 1.52 → bottom 2.82", "nose to nose"].iter().any(|aim| text.contains(aim)), "{text}");
     // The thesis' numbers are one key away.
     let text = player.press("N").text(120, 40);
     for part in ["0.200 R, 6.2 mm left", "288.00° ", "V0", "ω0"] {
@@ -273,15 +282,13 @@ fn undo_and_redo_walk_through_all_changes() {
 
 #[test]
 fn a_key_that_does_nothing_now_says_why() {
-    for (keys, reason) in [
-        ("Space", "there is no shot yet; Enter asks the coach"),
-        ("Esc", "there is no shot yet; Enter asks the coach"),
-        ("U", "nothing was taken back"),
-    ] {
+    for (keys, reason) in [("Space", "there is no shot yet; Enter asks the coach"), ("U", "nothing was taken back")] {
         Player::new().press(keys).warns(reason);
     }
     let watching = Player::new().press("Enter").answer().press("h");
     watching.warns("a shot is being watched; Esc goes back to the balls");
+    // Whoever wants to get out of something and is out is not told so.
+    Player::new().press("Esc").warns_nothing();
 }
 
 #[test]
@@ -433,6 +440,29 @@ fn nothing_moves_by_itself_while_nothing_plays() {
     let player = player.press("Space");
     assert!(player.app.frame_interval().is_some());
     assert_eq!(player.wait(1e3).app.frame_interval(), None, "playback ends at the end");
+}
+
+#[test]
+fn what_lies_over_the_page_stops_it_until_it_is_closed() {
+    for over in ["?", "F6", ":"] {
+        let player = Player::new().press("Enter").answer().press("Space").wait(0.1).press(over);
+        let time = player.app.coach.playback.time;
+        assert_eq!(player.app.frame_interval(), None, "{over}");
+        let player = player.wait(1.0).press("Esc");
+        assert!(player.app.coach.playback.time == time && player.app.coach.playback.playing, "{over}");
+    }
+}
+
+#[test]
+fn a_shot_that_is_asked_for_again_elsewhere_is_looked_at_when_one_comes_back() {
+    let mut player = Player::new().press("Enter").answer();
+    let skill = player.app.coach.query.skill;
+    player.app.coach.take_skill(Skill::CLUB);
+    // The coach's news come meanwhile, and end the closer look at a shot that is not shown.
+    let mut player = player.tell(0, CoachNews::Refused(String::new()));
+    player.app.coach.take_skill(skill);
+    player.study = None;
+    assert!(player.press("F5 F2").study.is_some());
 }
 
 #[test]

@@ -26,6 +26,7 @@ fn words_narrow_it_and_enter_does_what_is_marked() {
     assert_eq!(player.app.command_palette.as_ref().map(|_| ()), None);
     let player = player.press("C-p r e c o m m Esc u");
     player.warns("there is nothing to take back");
+    assert!(player.press("C-p C-p").app.command_palette.is_none(), "what opens it closes it");
 }
 
 #[test]

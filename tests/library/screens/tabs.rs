@@ -68,7 +68,7 @@ fn a_shot_is_paused_on_every_way_to_another_screen_and_on_no_way_to_its_own() {
     let playing = Player::new().press("Enter").answer().press("Space").wait(0.5).press("F2");
     assert!(playing.app.coach.playback.playing);
     let closed = playing.press("? F2");
-    assert!(closed.app.coach.playback.playing && closed.app.help.is_none());
+    assert!(closed.app.coach.playback.playing && closed.app.overlay.is_none());
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
 fn palette_and_help_close_on_the_way() {
     for keys in [": x F3", "? F3", "F6 F3"] {
         let player = Player::new().press(keys);
-        assert_eq!((player.app.screen, player.app.help), (PageId::Drills, None), "{keys}");
+        assert_eq!((player.app.screen, player.app.overlay), (PageId::Drills, None), "{keys}");
         assert!(player.app.command_palette.is_none());
     }
 }
