@@ -49,6 +49,10 @@ pub enum Action {
     Answer(bool),
     /// Shows what was refused or has failed so far.
     OpenMessages,
+    /// Shows what the words of players mean.
+    OpenGlossary,
+    /// Begins a match against the coach, or goes on with it.
+    OpenMatch,
     /// Something on the coach's screen.
     Coach(CoachAction),
     /// Something on the training screen.
@@ -103,15 +107,15 @@ pub struct Bound {
 
 impl Bound {
     /// What its keys do, one thing after the other: the words for it, and its keys.
-    pub fn works(&self) -> Vec<(Action, &'static str, Vec<Chord>)> {
-        let mut works: Vec<(Action, &'static str, Vec<Chord>)> = Vec::new();
+    pub fn commands(&self) -> Vec<(Action, &'static str, Vec<Chord>)> {
+        let mut commands: Vec<(Action, &'static str, Vec<Chord>)> = Vec::new();
         for (chord, action, words) in &self.keys {
-            match works.iter_mut().find(|(known, ..)| known == action) {
+            match commands.iter_mut().find(|(known, ..)| known == action) {
                 Some((.., chords)) => chords.push(*chord),
-                None => works.push((*action, words, vec![*chord])),
+                None => commands.push((*action, words, vec![*chord])),
             }
         }
-        works
+        commands
     }
 }
 
@@ -186,13 +190,26 @@ const TABS: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Tabs, &[key(F(5), A::Open(PageId::Settings))], None, "the settings, and keys of your own"),
     bind(Program, Condition::Tabs, &[key(F(7), A::Open(PageId::Calibration))], None, "measure the table that you play on")
         .known_as("calibration calibrate tests"),
+    bind(Program, Condition::Tabs, &[key(F(9), A::OpenMatch)], None, "a match against the coach, at three-cushion from the opening")
+        .known_as("game opponent play"),
 ];
+
+/// What opens the glossary.
+const GLOSSARY: Binding<Action, Condition> = bind(
+    Program,
+    Condition::Always,
+    &[key(F(8), A::OpenGlossary)],
+    None,
+    "the glossary: what the words of players mean",
+)
+.known_as("words terms average tip clock fullness ticky plus natural running reverse lag");
 
 /// The keys that all screens have.
 #[rustfmt::skip]
 const PROGRAM: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[letter('?', A::OpenHelp), key(F(1), A::OpenHelp)], Some(("help", 1)), "open this help"),
     bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: refusals and failures so far"),
+    GLOSSARY,
     bind(Program, Condition::Always, &[letter(':', A::OpenPalette), ctrl('p', A::OpenPalette)], Some(("commands", 1)),
         "open the command palette: find and run a command"),
     bind(Program, Condition::Always, &[letter('g', A::NextGlyphs)], None, "draw with sextants, half blocks or letters"),
@@ -206,6 +223,7 @@ const PROGRAM: &[Binding<Action, Condition>] = &[
 const LEAVE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[key(F(1), A::OpenHelp)], None, "open this help"),
     bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: refusals and failures so far"),
+    GLOSSARY,
     bind(Program, Condition::Shell, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
     bind(Program, Condition::Always, &[ctrl('c', A::Quit)], None, "quit"),
 ];
@@ -247,7 +265,11 @@ pub fn key_pages() -> Vec<KeyPage> {
 
 fn entries(place: KeyContext) -> Vec<KeyEntry> {
     let entries = |binding: Bound| {
-        binding.works().into_iter().map(move |(_, words, chords)| KeyEntry { chords, words, section: binding.section })
+        binding.commands().into_iter().map(move |(_, words, chords)| KeyEntry {
+            chords,
+            words,
+            section: binding.section,
+        })
     };
     listed(place).flat_map(entries).collect()
 }
@@ -283,7 +305,7 @@ mod tests {
     use crossterm::event::KeyCode::Char;
 
     use super::*;
-    use crate::terminal::{CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::works_of};
+    use crate::terminal::{CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::commands_of};
 
     fn places() -> impl Iterator<Item = KeyContext> {
         let over = [
@@ -375,10 +397,11 @@ mod tests {
     #[test]
     fn what_a_key_does_is_told_for_every_page_and_what_all_have_once() {
         let all = key_pages();
-        let pages = |letter| works_of(&all, Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
+        let pages =
+            |letter| commands_of(&all, Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
         // Beside a stroke of one's own it goes back by the stroke's changes, then by the balls'.
         assert_eq!(pages('u'), ["Coach", "Coach: your stroke", "Coach: your stroke", "Drills: exercise"]);
-        assert_eq!(works_of(&all, Chord::char('q')).len(), 1, "quitting");
+        assert_eq!(commands_of(&all, Chord::char('q')).len(), 1, "quitting");
         assert!(pages('%').is_empty());
     }
 

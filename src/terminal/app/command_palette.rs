@@ -55,9 +55,9 @@ fn has(text: &str, words: &[String]) -> bool {
 /// The commands at `place`, one for each thing that a binding does.
 pub fn commands(place: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Command> {
     let commands = |binding: Bound| {
-        let works = binding.works().into_iter().filter(|(action, ..)| *action != Action::OpenPalette);
-        works.map(move |(action, description, chords)| Command {
-            keys: keys_text(chords.iter().flat_map(|chord| keys.for_work_of(*chord)), caps),
+        let all = binding.commands().into_iter().filter(|(action, ..)| *action != Action::OpenPalette);
+        all.map(move |(action, description, chords)| Command {
+            keys: keys_text(chords.iter().flat_map(|chord| keys.keys_for(*chord)), caps),
             chords,
             description,
             group: binding.description,

@@ -53,6 +53,8 @@ pub enum Overlay {
     Help,
     /// What was refused or has failed so far.
     Messages,
+    /// What the words of players mean.
+    Glossary,
 }
 
 /// The whole state of the terminal program.
@@ -94,8 +96,8 @@ pub struct App {
     finest: Glyphs,
     theme: Theme,
     theme_name: ThemeName,
-    /// Whether the last session has left a stroke that was typed in part.
-    pub(super) had_draft: bool,
+    /// The stroke that was typed in part when the last session ended.
+    pub(super) draft_at_start: Option<StrokeDraft>,
     /// Whether the player is a guest of this machine.
     is_guest: bool,
     /// Finds out what the terminal can show under some settings; without it that stays as at the start.
@@ -128,7 +130,7 @@ impl App {
             finest: caps.finest(),
             theme: Theme::new(caps.depth),
             theme_name: ThemeName::default(),
-            had_draft: false,
+            draft_at_start: None,
             is_guest: false,
             detect: None,
         })
@@ -217,13 +219,25 @@ impl App {
     /// The same program with the stroke of a calibration that was typed in part when the last session ended.
     #[must_use]
     pub fn with_draft(mut self, draft: Option<StrokeDraft>) -> Self {
-        if let Some(test) = draft.and_then(|draft| self.calibration.go_on_with(draft)) {
-            self.had_draft = true;
-            let sentence = format!("a stroke of {test} that was typed in part is kept: F7 goes on with it");
-            // It goes with the next key, as an answer does: it would lie on the form that it offers.
-            self.toasts.push(sentence, true);
+        let Some(draft) = draft else { return self };
+        let left = StrokeDraft { is_told: false, ..draft.clone() };
+        let is_told = draft.is_told;
+        if let Some(test) = self.calibration.go_on_with(draft) {
+            self.draft_at_start = Some(left);
+            if !is_told {
+                let sentence = format!("a stroke of {test} that was typed in part is kept: F7 goes on with it");
+                // It goes with the next key, as an answer does: it would lie on the form that it offers.
+                self.toasts.push(sentence, true);
+            }
         }
         self
+    }
+
+    /// The stroke that is typed in part, for the next session; it is told of again where anything has been typed since the last start.
+    pub fn draft(&self) -> Option<StrokeDraft> {
+        let draft = self.calibration.draft()?;
+        let is_told = self.draft_at_start.as_ref() == Some(&draft);
+        Some(StrokeDraft { is_told, ..draft })
     }
 
     /// The same program for a player whose own skill is known.
@@ -261,6 +275,11 @@ impl App {
             Action::Suspend => return Some(Effect::Suspend),
             Action::OpenHelp => self.lay_over(Overlay::Help),
             Action::OpenMessages => self.lay_over(Overlay::Messages),
+            Action::OpenGlossary => self.lay_over(Overlay::Glossary),
+            Action::OpenMatch => {
+                let opened = self.open(PageId::Drills);
+                return Effect::both(opened, self.drills.open_match());
+            }
             Action::CloseOverlay => {
                 if self.overlay.take() == Some((Overlay::Messages, 0)) {
                     // What has come meanwhile was the first line there.

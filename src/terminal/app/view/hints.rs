@@ -67,5 +67,5 @@ fn working(app: &App, chord: Chord) -> Option<Chord> {
     if matches!(place, KeyContext::Settings(SettingsContext::Pressing) | KeyContext::Question { is_typed: false }) {
         return Some(chord);
     }
-    app.keys().for_work_of(chord).find(|pressed| !place.types(*pressed))
+    app.keys().keys_for(chord).find(|pressed| !place.types(*pressed))
 }

@@ -1,6 +1,7 @@
 //! The screen as a whole: the open page between tabs and keys, and what lies over it.
 
 mod command_palette;
+mod glossary;
 mod help;
 mod hints;
 mod tabs;
