@@ -99,7 +99,7 @@ fn a_shot_is_recommended() {
     let player = Player::new().press("Enter").answer();
     check("recommended", &player);
     let text = player.text(120, 40);
-    for part in ["expert makes it 94 % (92-95)", "Yellow, an eighth full on the left; two tips of", "aim top 1.52 "] {
+    for part in ["expert makes it 94 % (92-95)", "Yellow, an eighth full on the left; two tips of", "noses top 1.52 "] {
         assert!(text.contains(part), "{part}\n{text}");
     }
     // At the smaller size the sentence, the card beside the table, and the line of aim in the title or in a row.
@@ -109,7 +109,7 @@ fn a_shot_is_recommended() {
     {
         assert!(text.contains(part), "{part}\n{text}");
     }
-    assert!(["noses top 1.52 → bottom 2.82", "nose to nose"].iter().any(|aim| text.contains(aim)), "{text}");
+    assert!(["aim top 1.52 → bottom 2.82, at noses", "nose to nose"].iter().any(|aim| text.contains(aim)), "{text}");
     // The thesis' numbers are one key away.
     let text = player.press("N").text(120, 40);
     for part in ["0.200 R, 6.2 mm left", "288.00° ", "V0", "ω0"] {
@@ -311,11 +311,18 @@ fn without_colours_letters_tell_everything() {
         let player = player.press("2");
         player.is_plain().shows(&["Y yellow  -710.0    0.0", "121.0 mm from white; step 10 mm", "Enter ask"]);
         let player = player.press("v v").studied();
-        let signs = ["Margins", "-4.33  +2.31", "speed   -1.51   wide", "# point", "- one ball", "X the stro"];
+        let signs = [
+            "Margins",
+            "4.33 right  2.31 left",
+            "speed   1.51 softer wide harder",
+            "# point",
+            "- one ball",
+            "X the stro",
+        ];
         let text = player.is_plain().text(120, 40);
         assert!(signs.iter().all(|sign| text.contains(sign)), "{text}");
         let text = player.text(80, 24);
-        assert!(text.contains("a -4.33 +2.31 0.5") && text.contains("# point - one ball"), "{text}");
+        assert!(text.contains("side  R4.33  L2.31") && text.contains("# point - one ball"), "{text}");
         player.is_silent_on("too few");
         let plan = player.press("v");
         plan.is_plain().shows(&["now  94 % yellow, ", "next 100 % very hard"]);

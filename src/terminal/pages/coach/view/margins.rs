@@ -10,7 +10,7 @@ use crate::{
     terminal::{
         Capabilities, Shot, ShotAnalysis,
         ui::{Theme, Ui, columns, draw_nothing, draw_title, list, write_right},
-        words::{fixed, speed_words},
+        words::fixed,
     },
 };
 
@@ -95,12 +95,12 @@ pub fn draw_margins(
         }
         // The other panels tell the speed in table lengths alone.
         if 2 * usize::from(inner.height) > rows.len() {
-            let told = speed_words(shot.cue.speed, unit, 1);
+            let told = fixed(unit.speed().0 * shot.cue.speed, 1);
             let x = inner.x + half + 1;
             let room = usize::from(inner.right().saturating_sub(x));
-            let mut words = format!("{told}, {}", lengths_words(shot.words.table_lengths));
+            let mut words = format!("{told} = {}", lengths_words(shot.words.table_lengths));
             if columns(&words) > room {
-                words = told;
+                words = format!("{told} {speed}");
             }
             ui.buffer.set_stringn(x, inner.bottom() - 1, words, room, ui.theme.faint());
         }

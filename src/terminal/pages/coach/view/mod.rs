@@ -18,7 +18,7 @@ use glam::DVec2;
 use ratatui::layout::{Margin, Position, Rect};
 
 use crate::{
-    coach::words::TipUnit,
+    coach::{systems::Guide, words::TipUnit},
     table::{BALLS, Layout},
     terminal::{
         AdviceState, Capabilities, InfoPanel, Mapping, Mode, Shot,
@@ -319,7 +319,13 @@ fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
     let is_counted = coach.what_if().is_none() && coach.lesson.as_ref().is_none_or(|lesson| lesson.is_of_shot);
     let Some(guide) = coach.guide().filter(|_| is_counted) else { return aim };
     let named = guide.shot_words();
-    let fits = [format!("{aim} {named}"), named].into_iter().find(|words| columns(words) <= room);
+    // What the sum comes to is where to aim.
+    let brief = match guide {
+        Guide::System(applied) => named.replacen(&format!(", aim at {}", applied.aim()), "", 1),
+        Guide::Shift(_) => guide.to_string(),
+    };
+    let tries = [format!("{aim} {named}"), named, brief, guide.to_string()];
+    let fits = tries.into_iter().find(|words| columns(words) <= room);
     fits.unwrap_or(aim)
 }
 
