@@ -5,6 +5,7 @@ use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
 use super::{CueBall, Opening, Side, Table};
+use crate::printing::typed_number;
 
 /// Number of balls in carom billiards.
 pub const BALLS: usize = 3;
@@ -234,20 +235,46 @@ impl Layout {
 }
 
 /// Reads one position, `"x,y"`, as [`Layout::parse`] does.
-pub(super) fn place(word: &str, table: &Table) -> Option<DVec2> {
-    let coordinate = |part: &str, half_extent: f64, reach: f64| match part.strip_suffix('d') {
-        Some(diamonds) => {
-            let at = diamonds.parse::<f64>().ok()? * table.diamond() - half_extent;
-            // On a rail's diamonds, or nearer to them than its radius, a ball touches the cushion.
-            Some(if at.abs() <= half_extent { at.clamp(-reach, reach) } else { at })
-        }
-        None => part.parse::<f64>().ok(),
+fn place(word: &str, table: &Table) -> Option<DVec2> {
+    let [x, y] = coordinates(word)?[..] else { return None };
+    between(x, y, table)
+}
+
+/// A number as it is typed for where a ball lies, and whether it counts diamonds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Coordinate {
+    pub number: f64,
+    pub in_diamonds: bool,
+}
+
+/// The numbers of a word, with commas between them. A comma is one of a number where nothing else can be meant: a `d` ends each number
+/// of diamonds, and of four parts two are whole.
+pub(super) fn coordinates(word: &str) -> Option<Vec<Coordinate>> {
+    let parts: Vec<&str> = word.trim_matches(',').split(',').collect();
+    let in_diamonds = parts.iter().any(|part| part.ends_with('d'));
+    let numbers: Vec<String> = match parts.len() {
+        _ if in_diamonds => parts.join(",").strip_suffix('d')?.split("d,").map(str::to_owned).collect(),
+        1 | 2 => parts.into_iter().map(str::to_owned).collect(),
+        4 => parts.chunks(2).map(|parts| parts.join(",")).collect(),
+        _ => return None,
     };
-    let (x, y) = word.split_once(',').filter(|(x, y)| x.ends_with('d') == y.ends_with('d'))?;
-    Some(DVec2::new(
-        coordinate(x, 0.5 * table.length, table.reach().x)?,
-        coordinate(y, 0.5 * table.width, table.reach().y)?,
-    ))
+    numbers.iter().map(|text| Some(Coordinate { number: typed_number(text)?, in_diamonds })).collect()
+}
+
+/// The place that two coordinates mean, m from the middle; `None` where one of them counts diamonds and the other does not.
+pub(super) fn between(x: Coordinate, y: Coordinate, table: &Table) -> Option<DVec2> {
+    if x.in_diamonds != y.in_diamonds {
+        return None;
+    }
+    let numbers = DVec2::new(x.number, y.number);
+    if !x.in_diamonds {
+        return Some(numbers);
+    }
+    let (half, reach) = (0.5 * DVec2::new(table.length, table.width), table.reach());
+    let at = numbers * table.diamond() - half;
+    // On a rail's diamonds, or nearer to them than its radius, a ball touches the cushion.
+    let touching = |at: f64, half: f64, reach: f64| if at.abs() <= half { at.clamp(-reach, reach) } else { at };
+    Some(DVec2::new(touching(at.x, half.x, reach.x), touching(at.y, half.y, reach.y)))
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Positions as they are typed: one ball or several, by colour or not.
 
-use glam::DVec2;
-
-use super::{CueBall, Layout, LayoutError, Table, layout::place};
+use super::{
+    CueBall, Layout, LayoutError, Table,
+    layout::{Coordinate, between, coordinates},
+};
 
 /// Why what was typed cannot be taken.
 #[derive(Debug, thiserror::Error, PartialEq)]
@@ -58,7 +59,8 @@ pub enum PositionsError {
 
 impl Layout {
     /// The balls as `text` puts them: `2d,0.5d` the ball `selected`, `2d,0.5d 6d,2d 4d,3.5d` the cue ball, the other and red,
-    /// `red 4d,3.5d` the one of that colour for who plays with `cue_ball`. All others stay.
+    /// `red 4d,3.5d` the one of that colour for who plays with `cue_ball`. All others stay. Commas between the numbers may be missing,
+    /// and those in them be points; where no number has a `d` and the balls could not lie so in metres, but in diamonds, those are meant.
     ///
     /// # Errors
     /// [`PositionsError`], also where the balls could not lie so on `table`.
@@ -70,31 +72,54 @@ impl Layout {
         selected: usize,
     ) -> Result<Self, PositionsError> {
         let names = cue_ball.names();
-        let mut words = text.split([' ', '\t', '\n', '\r', ';']).filter(|word| !word.is_empty());
-        let (mut named, mut bare) = (Vec::new(), Vec::new());
-        while let Some(word) = words.next() {
-            let position = |word: &str| place(word, table).ok_or_else(|| PositionsError::Word(word.to_owned()));
+        let words: Vec<&str> = text.split([' ', '\t', '\n', '\r', ';']).filter(|word| !word.is_empty()).collect();
+        let unknown = |word: &str| PositionsError::Word(word.to_owned());
+        // Each ball's numbers, those without a colour first.
+        let mut typed: Vec<(Option<usize>, Vec<Coordinate>)> = vec![(None, Vec::new())];
+        for word in &words {
             match names.iter().position(|name| is_called(name, word)) {
-                Some(ball) if named.iter().any(|(other, _)| *other == ball) => {
+                Some(ball) if typed.iter().any(|(other, _)| *other == Some(ball)) => {
                     return Err(PositionsError::Twice(names[ball]));
                 }
-                Some(ball) => named.push((ball, position(words.next().ok_or(PositionsError::Missing(names[ball]))?)?)),
-                None => bare.push(position(word)?),
+                Some(ball) => typed.push((Some(ball), Vec::new())),
+                None => {
+                    let more = coordinates(word).ok_or_else(|| unknown(word))?;
+                    typed.last_mut().into_iter().for_each(|(_, numbers)| numbers.extend_from_slice(&more));
+                }
             }
         }
-        let places: Vec<(usize, DVec2)> = match (named.len(), bare.len()) {
-            (0, 1) => vec![(selected, bare[0])],
-            (0, 3) => bare.into_iter().enumerate().collect(),
-            (_, 0) if !named.is_empty() => named,
+        let bare = typed.remove(0).1;
+        let places: Vec<(usize, &[Coordinate])> = match (typed.len(), bare.len()) {
+            (0, 2) => vec![(selected, &bare[..])],
+            (0, 6) => bare.chunks(2).enumerate().collect(),
             (0, 0) => return Err(PositionsError::Empty),
-            (0, count) => return Err(PositionsError::Count(count)),
+            (0, count) if count % 2 == 0 => return Err(PositionsError::Count(count / 2)),
+            (0, _) => return Err(unknown(words.last().copied().unwrap_or_default())),
+            (_, 0) => typed.iter().filter_map(|(ball, numbers)| Some(((*ball)?, &numbers[..]))).collect(),
             _ => return Err(PositionsError::Mixed),
         };
-        let mut layout = *self;
-        for (ball, place) in places {
-            layout.balls[ball] = place;
+        let put = |in_diamonds: bool| {
+            let mut layout = *self;
+            for (ball, numbers) in &places {
+                let [x, y] = numbers[..] else {
+                    return Err(if numbers.len() < 2 {
+                        PositionsError::Missing(names[*ball])
+                    } else {
+                        PositionsError::Mixed
+                    });
+                };
+                let [x, y] = [x, y].map(|one| Coordinate { in_diamonds: one.in_diamonds || in_diamonds, ..one });
+                layout.balls[*ball] = between(x, y, table).ok_or_else(|| unknown(text.trim()))?;
+            }
+            Ok(layout)
+        };
+        let is_in_diamonds = places.iter().any(|(_, numbers)| numbers.iter().any(|number| number.in_diamonds));
+        let layout = put(false)?;
+        if let (Err(LayoutError::Outside { .. }), false) = (layout.validate(table), is_in_diamonds)
+            && let Some(layout) = put(true).ok().filter(|layout| layout.validate(table).is_ok())
+        {
+            return Ok(layout);
         }
-        let is_in_diamonds = text.split_whitespace().any(|word| word.contains(',') && word.ends_with('d'));
         layout.validate(table).map_err(|error| match error {
             LayoutError::Outside { ball, x, y, max_x, max_y } if is_in_diamonds => {
                 let [x, least, along] = [x, -max_x, max_x].map(|x| (0.5 * table.length + x) / table.diamond());
@@ -115,6 +140,8 @@ fn is_called(name: &str, word: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
+
     use super::*;
 
     fn typed(text: &str) -> Result<Layout, String> {
@@ -138,20 +165,43 @@ mod tests {
     }
 
     #[test]
+    fn commas_may_be_missing_or_be_decimal_and_numbers_beyond_the_table_in_metres_are_diamonds() {
+        let all = typed("2d,0.5d 6d,2d 4d,3.5d");
+        for same in [
+            "2d 0.5d 6d 2d 4d 3.5d",
+            "2d, 0,5d; 6d, 2d; 4d, 3,5d",
+            "2d,0,5d 6d,2d 4d,3,5d",
+            "2,0.5 6,2 4,3.5",
+            "2 0.5 6 2 4 3.5",
+        ] {
+            assert_eq!(typed(same), all, "{same}");
+        }
+        assert!(typed("2 0,5d").is_err(), "a number without a d beside one that has it is neither");
+        assert_eq!(typed("red 7d 3,5d"), typed("red 7d,3.5d"));
+        assert_eq!(typed("7,3.5"), typed("7d,3.5d"));
+        assert_eq!(typed("-0,71,0,2"), typed("-0.71,0.2"));
+        assert_eq!(typed("1,0.5").unwrap().balls[2], DVec2::new(1.0, 0.5), "what can be metres is metres");
+    }
+
+    #[test]
     fn what_cannot_be_taken_is_named_with_what_would_be() {
         for (text, part) in [
             ("", "where is the ball? write one place"),
             ("red 2d,1d RED: 3d,1d", "red is put in two places"),
             ("2d,1d 3d,1d", "2 places"),
             ("blue 2d,1d", "\"blue\""),
-            ("2d;1d", "\"2d\""),
+            ("2d", "\"2d\""),
+            ("2d,1", "\"2d,1\""),
+            ("1,5,2", "\"1,5,2\""),
+            ("red 2d", "where is red?"),
+            ("red 2d,1d 3d", "some have none"),
             ("red", "where is red?"),
             ("red 2d,1d 3d,3d", "some have none"),
             ("9d,1d", "red at 9.00d,1.00d is outside the table; accepted are 0.09d to 7.91d, and 0.09d to 3.91d"),
-            ("1.5,0.1", "|x| <= 1.389"),
+            ("9,0.1", "|x| <= 1.389"),
             ("nan,1", "finite"),
-            ("w 1.5,0.1", "white at (1.5"),
-            ("y 1.5,0.1", "yellow at (1.5"),
+            ("w 9,0.1", "white at (9"),
+            ("y 9,0.1", "yellow at (9"),
         ] {
             let error = typed(text).unwrap_err();
             assert!(error.contains(part), "{text}: {error}");

@@ -34,6 +34,16 @@ pub enum Effect {
     Quit,
 }
 
+impl Effect {
+    /// Both, where both may be there; tasks of the drills are done one after the other, and of others the second is left out.
+    pub fn both(first: Option<Self>, second: Option<Self>) -> Option<Self> {
+        match (first, second) {
+            (Some(Self::Drill(first)), Some(Self::Drill(second))) => Some(Self::Drill([first, second].concat())),
+            (first, second) => first.or(second),
+        }
+    }
+}
+
 /// The screens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PageId {

@@ -41,7 +41,6 @@ pub use app::{
     command_palette::{Command, CommandPalette},
     document::document as keys_document,
     key_context::KeyContext,
-    palette_keys::PaletteAction,
 };
 pub use capabilities::{Capabilities, Depth, Glyphs};
 pub use config::{

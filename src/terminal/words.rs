@@ -55,23 +55,43 @@ pub const fn rule_word(rule: Rule) -> &'static str {
     }
 }
 
-/// The player's name: that of one of the skills that have one.
-pub fn skill_word(skill: Skill) -> &'static str {
-    Skill::NAMED.iter().find(|(_, named)| *named == skill).map_or("my skill", |(name, _)| name)
+/// The user at the table, by where the skill comes from; a skill with a name is nobody's in particular.
+fn user_word(skill: Skill) -> &'static str {
+    // What notes give is a level's errors so many hundredths of times; what is set has any average.
+    let hundredths = (100.0 * skill.scale()).round() / 100.0;
+    if Skill::level(hundredths) == skill && skill.as_average().is_none() { "me by my notes" } else { "me as set" }
+}
+
+/// The name of a skill that has one.
+pub fn named_skill(skill: Skill) -> Option<&'static str> {
+    Skill::NAMED.iter().find(|(_, named)| *named == skill).map(|(name, _)| *name)
+}
+
+/// The player in a few words: the skill's name, or whether it is the user's as set or by notes, with the average at three-cushion.
+pub fn skill_word(skill: Skill) -> String {
+    let own = || format!("{}: {}", user_word(skill), average_words(skill));
+    named_skill(skill).map_or_else(own, str::to_owned)
+}
+
+/// The same in fewer, without the average.
+pub fn short_skill_word(skill: Skill) -> &'static str {
+    named_skill(skill).unwrap_or_else(|| user_word(skill))
 }
 
 /// The player, and the average at three-cushion where that is known.
 pub fn player_words(skill: Skill) -> String {
-    let (name, (least, most)) = (skill_word(skill), Skill::AVERAGES);
-    let average = Skill::average(skill.scale());
-    if skill.is_perfect() {
-        name.to_owned()
-    } else if average > most {
-        format!("{name} (average above {most})")
-    } else if average < least {
-        format!("{name} (average below {least})")
-    } else {
-        format!("{name} (average {})", (20.0 * average).round() / 20.0)
+    let name = short_skill_word(skill);
+    if skill.is_perfect() { name.to_owned() } else { format!("{name} (average {})", average_words(skill)) }
+}
+
+/// The average at three-cushion, as far as it is known: that of the named levels is about as much, a player's own has two decimals.
+fn average_words(skill: Skill) -> String {
+    let ((least, most), average) = (Skill::AVERAGES, Skill::average(skill.scale()));
+    match named_skill(skill) {
+        _ if average > most => format!("above {most}"),
+        _ if average < least => format!("below {least}"),
+        Some(_) => short((20.0 * average).round() / 20.0, 2),
+        None => short(average, 2),
     }
 }
 
@@ -165,6 +185,16 @@ pub fn height_word(b: f64) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_two_skills_of_the_user_have_two_names() {
+        let set = Skill::of_average(0.6).unwrap();
+        let noted = Skill::level(7.85);
+        assert_eq!([set, noted, Skill::CLUB].map(skill_word), ["me as set: 0.6", "me by my notes: 0.18", "club"]);
+        assert_eq!(player_words(noted), "me by my notes (average 0.18)");
+        assert_eq!(player_words(Skill::CLUB), "club (average 0.5)");
+        assert_eq!(skill_word(Skill { a: 1e-3, ..Skill::EXPERT }), "me as set: above 2.5");
+    }
 
     #[test]
     fn places_steps_and_speeds_are_told_in_the_players_unit() {

@@ -1,10 +1,7 @@
 //! Flights in words: how high a ball jumps and how far.
 
 use super::{LengthUnit, short};
-use crate::{
-    simulation::{Jump, Recording},
-    table::Table,
-};
+use crate::{simulation::Jump, table::Table};
 
 /// A height in the unit for small lengths: "12 mm", "0.5 in".
 pub fn height_words(metres: f64, unit: LengthUnit) -> String {
@@ -22,17 +19,13 @@ pub fn jump_words(jump: &Jump, unit: LengthUnit) -> String {
     format!("{} high, {} far", height_words(jump.height, unit), unit.words(jump.distance))
 }
 
-/// Why there is no jump to be seen in a shot, if there is one: how high the highest hop is.
-pub fn no_jump_words(table: &Table, recording: Option<&Recording>, unit: LengthUnit) -> String {
+/// Why there is no jump to be seen in a shot.
+pub const fn no_jump_words(table: &Table) -> &'static str {
     if table.flight.is_none() {
-        return "no ball leaves this table's cloth: its file has no section [flight]".to_owned();
+        "no ball leaves this table's cloth: its file has no section [flight]"
+    } else {
+        "no ball jumps in this shot"
     }
-    let Some(recording) = recording else { return "there is no shot to look at yet".to_owned() };
-    let highest = recording.jumps().iter().map(|jump| jump.height).fold(0.0, f64::max);
-    if highest == 0.0 {
-        return "nothing leaves the cloth in this shot".to_owned();
-    }
-    format!("nothing leaves the cloth by more than {} in this shot", height_words(highest, unit))
 }
 
 #[cfg(test)]

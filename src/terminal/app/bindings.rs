@@ -5,7 +5,6 @@ use crossterm::event::{
     KeyEvent,
 };
 
-use super::palette_keys::{self, PaletteAction};
 use crate::terminal::{
     CalibrationAction, CalibrationCondition, CoachAction, CoachCondition, DrillAction, DrillCondition, KeyContext,
     PageId, SettingsAction, SettingsCondition, TrainingAction, TrainingCondition,
@@ -28,12 +27,18 @@ pub enum Action {
     Suspend,
     /// Opens the help.
     OpenHelp,
-    /// Closes the help.
-    CloseHelp,
-    /// Scrolls the help by lines, down where positive.
-    ScrollHelp(i16),
-    /// Something in the command palette, or opening it.
-    CommandPalette(PaletteAction),
+    /// Closes the page that lies over the screen.
+    CloseOverlay,
+    /// Scrolls it by lines, down where positive.
+    ScrollOverlay(i16),
+    /// Opens the command palette.
+    OpenPalette,
+    /// Closes it.
+    ClosePalette,
+    /// Does what is marked there.
+    ChooseCommand,
+    /// Moves its mark by lines, down where positive.
+    PaletteLine(isize),
     /// Draws the table with the next simpler set of characters.
     NextGlyphs,
     /// Shows the next of the themes.
@@ -44,6 +49,10 @@ pub enum Action {
     Answer(bool),
     /// Shows what was refused or has failed so far.
     OpenMessages,
+    /// Shows what the words of players mean.
+    OpenGlossary,
+    /// Begins a match against the coach, or goes on with it.
+    OpenMatch,
     /// Something on the coach's screen.
     Coach(CoachAction),
     /// Something on the training screen.
@@ -63,8 +72,8 @@ pub enum Condition {
     Always,
     /// Where a shell can take the terminal back and go on with the program later.
     Shell,
-    /// While the help is open.
-    Help,
+    /// While a page lies over the screen.
+    Overlay,
     /// Where there are other screens to go to.
     Tabs,
     /// As the coach's screen says.
@@ -98,15 +107,15 @@ pub struct Bound {
 
 impl Bound {
     /// What its keys do, one thing after the other: the words for it, and its keys.
-    pub fn works(&self) -> Vec<(Action, &'static str, Vec<Chord>)> {
-        let mut works: Vec<(Action, &'static str, Vec<Chord>)> = Vec::new();
+    pub fn commands(&self) -> Vec<(Action, &'static str, Vec<Chord>)> {
+        let mut commands: Vec<(Action, &'static str, Vec<Chord>)> = Vec::new();
         for (chord, action, words) in &self.keys {
-            match works.iter_mut().find(|(known, ..)| known == action) {
+            match commands.iter_mut().find(|(known, ..)| known == action) {
                 Some((.., chords)) => chords.push(*chord),
-                None => works.push((*action, words, vec![*chord])),
+                None => commands.push((*action, words, vec![*chord])),
             }
         }
-        works
+        commands
     }
 }
 
@@ -137,14 +146,25 @@ fn take<B: Copy + PartialEq, W: Copy>(
     }));
 }
 
-/// The keys of the help while it is open.
+/// The keys of a page that lies over the screen, while one does. What opens it closes it.
 #[rustfmt::skip]
-const HELP: &[Binding<Action, Condition>] = &[
-    bind(Program, Condition::Help, &[key(Esc, A::CloseHelp), letter('?', A::CloseHelp), letter('q', A::CloseHelp),
-        key(Enter, A::CloseHelp), key(F(1), A::CloseHelp)], Some(("close", 1)), "close the help"),
-    bind(Program, Condition::Help, &[key(Down, A::ScrollHelp(1)), key(Up, A::ScrollHelp(-1)), letter('j', A::ScrollHelp(1)),
-        letter('k', A::ScrollHelp(-1)), key(PageDown, A::ScrollHelp(10)), key(PageUp, A::ScrollHelp(-10)),
-        key(End, A::ScrollHelp(i16::MAX)), key(Home, A::ScrollHelp(i16::MIN))], Some(("scroll", 2)), "scroll the help"),
+const OVERLAY: &[Binding<Action, Condition>] = &[
+    bind(Program, Condition::Overlay, &[key(Esc, A::CloseOverlay), letter('?', A::CloseOverlay), letter('q', A::CloseOverlay),
+        key(Enter, A::CloseOverlay), key(F(1), A::CloseOverlay), key(F(6), A::CloseOverlay), key(F(8), A::CloseOverlay)],
+        Some(("close", 1)), "close this page"),
+    bind(Program, Condition::Overlay, &[key(Down, A::ScrollOverlay(1)), key(Up, A::ScrollOverlay(-1)), letter('j', A::ScrollOverlay(1)),
+        letter('k', A::ScrollOverlay(-1)), key(PageDown, A::ScrollOverlay(10)), key(PageUp, A::ScrollOverlay(-10)),
+        key(End, A::ScrollOverlay(i16::MAX)), key(Home, A::ScrollOverlay(i16::MIN))], Some(("scroll", 2)), "scroll this page"),
+];
+
+/// The keys of the command palette.
+#[rustfmt::skip]
+const PALETTE: &[Binding<Action, Condition>] = &[
+    bind(Program, Condition::Always, &[key(Enter, A::ChooseCommand)], Some(("do it", 1)), "do what is marked"),
+    bind(Program, Condition::Always, &[key(Down, A::PaletteLine(1)), key(Up, A::PaletteLine(-1)), key(PageDown, A::PaletteLine(10)),
+        key(PageUp, A::PaletteLine(-10))], Some(("choose", 2)), "mark another command")
+        .each(&["mark the next command", "mark the command before", "go down by ten commands", "go up by ten commands"]),
+    bind(Program, Condition::Always, &[key(Esc, A::ClosePalette), ctrl('p', A::ClosePalette)], Some(("close", 1)), "close the list"),
 ];
 
 /// A question of a page.
@@ -170,14 +190,28 @@ const TABS: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Tabs, &[key(F(5), A::Open(PageId::Settings))], None, "the settings, and keys of your own"),
     bind(Program, Condition::Tabs, &[key(F(7), A::Open(PageId::Calibration))], None, "measure the table that you play on")
         .known_as("calibration calibrate tests"),
+    bind(Program, Condition::Tabs, &[key(F(9), A::OpenMatch)], None, "a match against the coach, at three-cushion from the opening")
+        .known_as("game opponent play"),
 ];
+
+/// What opens the glossary.
+const GLOSSARY: Binding<Action, Condition> = bind(
+    Program,
+    Condition::Always,
+    &[key(F(8), A::OpenGlossary)],
+    None,
+    "the glossary: what the words of players mean",
+)
+.known_as("words terms average tip clock fullness ticky plus natural running reverse lag");
 
 /// The keys that all screens have.
 #[rustfmt::skip]
 const PROGRAM: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[letter('?', A::OpenHelp), key(F(1), A::OpenHelp)], Some(("help", 1)), "open this help"),
     bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: refusals and failures so far"),
-    palette_keys::OPEN,
+    GLOSSARY,
+    bind(Program, Condition::Always, &[letter(':', A::OpenPalette), ctrl('p', A::OpenPalette)], Some(("commands", 1)),
+        "open the command palette: find and run a command"),
     bind(Program, Condition::Always, &[letter('g', A::NextGlyphs)], None, "draw with sextants, half blocks or letters"),
     bind(Program, Condition::Always, &[letter('T', A::NextTheme)], None, "the next theme: dark, light, high contrast, colour-blind, mono"),
     bind(Program, Condition::Shell, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
@@ -189,6 +223,7 @@ const PROGRAM: &[Binding<Action, Condition>] = &[
 const LEAVE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[key(F(1), A::OpenHelp)], None, "open this help"),
     bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: refusals and failures so far"),
+    GLOSSARY,
     bind(Program, Condition::Shell, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
     bind(Program, Condition::Always, &[ctrl('c', A::Quit)], None, "quit"),
 ];
@@ -197,11 +232,11 @@ const LEAVE: &[Binding<Action, Condition>] = &[
 pub fn bindings(place: KeyContext) -> Vec<Bound> {
     let mut all = Vec::new();
     let program = |all: &mut Vec<Bound>, table| take(all, table, |action| action, |when| when);
-    let (help, leave) = match place {
+    let (overlay, leave) = match place {
         _ if place.takes_letters() => (&[][..], LEAVE),
-        _ => (HELP, PROGRAM),
+        _ => (OVERLAY, PROGRAM),
     };
-    program(&mut all, help);
+    program(&mut all, overlay);
     match place {
         KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach),
         KeyContext::OwnStroke => take(&mut all, coach::OWN_STROKE, A::Coach, Condition::Coach),
@@ -211,16 +246,16 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
         KeyContext::Drill(place) => take(&mut all, place.bindings(), A::Drill, Condition::Drill),
         KeyContext::Settings(place) => take(&mut all, place.bindings(), A::Settings, Condition::Settings),
         KeyContext::Calibration(place) => take(&mut all, place.bindings(), A::Calibration, Condition::Calibration),
-        KeyContext::CommandPalette => program(&mut all, palette_keys::PALETTE),
+        KeyContext::CommandPalette => program(&mut all, PALETTE),
     }
     program(&mut all, TABS);
     program(&mut all, leave);
     all
 }
 
-/// All keys at `place` but those of the help while it is open, for lists of keys.
+/// All keys at `place` but those of a page that lies over it, for lists of keys.
 pub fn listed(place: KeyContext) -> impl Iterator<Item = Bound> {
-    bindings(place).into_iter().filter(|binding| binding.when != Condition::Help)
+    bindings(place).into_iter().filter(|binding| binding.when != Condition::Overlay)
 }
 
 /// What keys do on each page, for lists of keys.
@@ -230,7 +265,11 @@ pub fn key_pages() -> Vec<KeyPage> {
 
 fn entries(place: KeyContext) -> Vec<KeyEntry> {
     let entries = |binding: Bound| {
-        binding.works().into_iter().map(move |(_, words, chords)| KeyEntry { chords, words, section: binding.section })
+        binding.commands().into_iter().map(move |(_, words, chords)| KeyEntry {
+            chords,
+            words,
+            section: binding.section,
+        })
     };
     listed(place).flat_map(entries).collect()
 }
@@ -253,8 +292,8 @@ pub fn find<'a>(
         let Some((_, action, _)) = binding.keys.iter().find(|(chord, ..)| chord.matches(event)) else { continue };
         match disabled_reason(binding.when) {
             None => return Some(Ok(*action)),
-            // While the help is closed, its keys mean nothing.
-            Some(_) if binding.when == Condition::Help => {}
+            // While nothing lies over the screen, its keys mean nothing.
+            Some(_) if binding.when == Condition::Overlay => {}
             Some(reason) => refused = Some(Err(reason)),
         }
     }
@@ -266,7 +305,7 @@ mod tests {
     use crossterm::event::KeyCode::Char;
 
     use super::*;
-    use crate::terminal::{CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::works_of};
+    use crate::terminal::{CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::commands_of};
 
     fn places() -> impl Iterator<Item = KeyContext> {
         let over = [
@@ -317,10 +356,10 @@ mod tests {
     }
 
     #[test]
-    fn keys_of_the_help_alone_say_nothing_while_it_is_closed() {
+    fn keys_of_a_page_over_the_screen_say_nothing_while_none_is_open() {
         let refuse_all = |_| Some("not now");
         assert_eq!(find(&KeyEvent::from(End), KeyContext::Training(TrainingContext::Form), refuse_all), None);
-        let end = Some(Ok(Action::ScrollHelp(i16::MAX)));
+        let end = Some(Ok(Action::ScrollOverlay(i16::MAX)));
         for place in KeyContext::PAGES.map(|(place, _)| place) {
             assert_eq!(find(&KeyEvent::from(End), place, |_| None), end, "{place:?}");
         }
@@ -358,10 +397,11 @@ mod tests {
     #[test]
     fn what_a_key_does_is_told_for_every_page_and_what_all_have_once() {
         let all = key_pages();
-        let pages = |letter| works_of(&all, Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
+        let pages =
+            |letter| commands_of(&all, Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
         // Beside a stroke of one's own it goes back by the stroke's changes, then by the balls'.
         assert_eq!(pages('u'), ["Coach", "Coach: your stroke", "Coach: your stroke", "Drills: exercise"]);
-        assert_eq!(works_of(&all, Chord::char('q')).len(), 1, "quitting");
+        assert_eq!(commands_of(&all, Chord::char('q')).len(), 1, "quitting");
         assert!(pages('%').is_empty());
     }
 

@@ -1,7 +1,7 @@
 //! The command palette: everything that the keys do at a place, narrowed by typed words, and what its own keys do.
 
 use crate::terminal::{
-    Action, App, Capabilities, Condition, Effect, KeyContext, Keys, PaletteAction,
+    Action, App, Capabilities, Condition, Effect, KeyContext, Keys,
     app::bindings::{Bound, listed},
     keymap::{Chord, keys_text},
     ui::{TextField, Typed},
@@ -55,10 +55,9 @@ fn has(text: &str, words: &[String]) -> bool {
 /// The commands at `place`, one for each thing that a binding does.
 pub fn commands(place: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Command> {
     let commands = |binding: Bound| {
-        let works =
-            binding.works().into_iter().filter(|(action, ..)| *action != Action::CommandPalette(PaletteAction::Open));
-        works.map(move |(action, description, chords)| Command {
-            keys: keys_text(chords.iter().flat_map(|chord| keys.for_work_of(*chord)), caps),
+        let all = binding.commands().into_iter().filter(|(action, ..)| *action != Action::OpenPalette);
+        all.map(move |(action, description, chords)| Command {
+            keys: keys_text(chords.iter().flat_map(|chord| keys.keys_for(*chord)), caps),
             chords,
             description,
             group: binding.description,
@@ -118,30 +117,21 @@ impl CommandPalette {
 }
 
 impl App {
-    /// Does what an action of the command palette asks for.
-    pub(super) fn update_palette(&mut self, action: PaletteAction) -> Option<Effect> {
-        let found = self
-            .command_palette
-            .as_ref()
-            .map_or_else(Vec::new, |command_palette| command_palette.found(self.commands()));
-        let Some(command_palette) = &mut self.command_palette else {
-            self.command_palette = (action == PaletteAction::Open).then(CommandPalette::default);
+    /// What is found by the words that are typed; nothing while the palette is closed.
+    pub(super) fn found_commands(&self) -> Vec<Command> {
+        self.command_palette.as_ref().map_or_else(Vec::new, |palette| palette.found(self.commands()))
+    }
+
+    /// Does what is marked, or says why not.
+    pub(super) fn choose_command(&mut self) -> Option<Effect> {
+        let found = self.found_commands();
+        let command = found.get(self.command_palette.as_ref()?.mark(found.len()))?;
+        if let Some(reason) = self.disabled_reason(command.when) {
+            self.toasts.push(reason.to_owned(), true);
             return None;
-        };
-        match action {
-            PaletteAction::Open | PaletteAction::Close => self.command_palette = None,
-            PaletteAction::Line(lines) => command_palette.move_mark(lines, found.len()),
-            PaletteAction::Choose => {
-                let command = found.get(command_palette.mark(found.len()))?;
-                if let Some(reason) = self.disabled_reason(command.when) {
-                    self.toasts.push(reason.to_owned(), true);
-                    return None;
-                }
-                self.command_palette = None;
-                return self.update(command.action);
-            }
         }
-        None
+        self.command_palette = None;
+        self.update(command.action)
     }
 
     /// What can be done at the place below the command palette, what may be used now first. What one action does in several
@@ -201,7 +191,7 @@ mod tests {
 
     #[test]
     fn it_does_not_list_itself() {
-        assert!(found("").iter().all(|command| !matches!(command.action, Action::CommandPalette(_))));
+        assert!(found("").iter().all(|command| command.action != Action::OpenPalette));
     }
 
     #[test]

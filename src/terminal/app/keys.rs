@@ -20,7 +20,13 @@ impl App {
         }
         let effect = self.take_key(key);
         self.collect_toasts(true);
-        effect
+        effect.or_else(|| self.study())
+    }
+
+    /// A closer look at the coach's shot, where that is on the screen and none was taken yet: settings that were changed elsewhere may
+    /// have brought it back.
+    pub(super) fn study(&mut self) -> Option<Effect> {
+        if self.screen == PageId::Coach { self.coach.study() } else { None }
     }
 
     /// A key whose byte has come in one piece with that of an Esc pressed just before, which is how terminals send a key with Alt: where
@@ -37,12 +43,12 @@ impl App {
             return self.update(Action::Quit);
         }
         if self.is_too_small() {
-            let refuse_help = |when| match when {
-                Condition::Help => Some(""),
+            let refuse = |when| match when {
+                Condition::Overlay => Some(""),
                 Condition::Shell => self.no_shell(),
                 _ => None,
             };
-            return match bindings::find(&self.keys().translate(key), KeyContext::Coach, refuse_help) {
+            return match bindings::find(&self.keys().translate(key), KeyContext::Coach, refuse) {
                 Some(Ok(action @ (Action::Quit | Action::Suspend))) => self.update(action),
                 _ => None,
             };
@@ -70,6 +76,11 @@ impl App {
         let found = found?;
         if meant.code == KeyCode::Esc {
             self.toasts.clear();
+            if found.is_err() {
+                // Where there is nothing to leave, nothing is to be said.
+                *self.page_mut().message_mut() = None;
+                return None;
+            }
         }
         self.perform(found)
     }
@@ -81,7 +92,12 @@ impl App {
         match asked {
             Ok(action) => self.update(action),
             Err(reason) => {
-                self.toasts.push(reason.to_owned(), true);
+                if self.overlay.is_some() {
+                    // The page that is read may be that of the messages.
+                    self.toasts.push_for_now(reason.to_owned());
+                } else {
+                    self.toasts.push(reason.to_owned(), true);
+                }
                 None
             }
         }
@@ -94,7 +110,7 @@ impl App {
 
     const fn is_asked_for_a_key(&self) -> bool {
         matches!((self.screen, &self.settings.question), (PageId::Settings, Some(Question::Key)))
-            && self.help.is_none()
+            && self.overlay.is_none()
             && self.command_palette.is_none()
     }
 
@@ -116,15 +132,15 @@ impl App {
             }
             return taken;
         }
-        self.help.is_none() && self.page_mut().input(typed)
+        self.overlay.is_none() && self.page_mut().input(typed)
     }
 
     /// Why a binding may not be used now; `None` where it may.
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         match when {
-            Condition::Help => self.help.is_none().then_some("the help is not open"),
+            Condition::Overlay => self.overlay.is_none().then_some("no page lies over the screen"),
             Condition::Tabs => self.stands_alone().then_some("no other screens here; start carom for all of them"),
-            _ if self.help.is_some() => Some("close the help first: Esc"),
+            _ if self.overlay.is_some() => Some("close this first: Esc"),
             Condition::Always => None,
             Condition::Shell => self.no_shell(),
             Condition::Coach(when) => self.coach.disabled_reason(when),
@@ -150,7 +166,7 @@ impl App {
 
     /// The same without the command palette.
     pub(super) fn place_below(&self) -> KeyContext {
-        let asked = self.page().asked(self.caps).filter(|asked| self.help.is_none() && !asked.has_own_keys);
+        let asked = self.page().asked(self.caps).filter(|asked| self.overlay.is_none() && !asked.has_own_keys);
         if let Some(asked) = asked {
             return KeyContext::Question { is_typed: asked.typed.is_some() };
         }
@@ -159,11 +175,11 @@ impl App {
             PageId::Coach if self.coach.what_if().is_some() => KeyContext::OwnStroke,
             PageId::Coach => KeyContext::Coach,
             PageId::Training => KeyContext::Training(self.training.page()),
-            PageId::Drills if self.help.is_some() => KeyContext::Drill(self.drills.page()),
+            PageId::Drills if self.overlay.is_some() => KeyContext::Drill(self.drills.page()),
             PageId::Drills => KeyContext::Drill(self.drills.place()),
-            PageId::Settings if self.help.is_some() => KeyContext::Settings(self.settings.page),
+            PageId::Settings if self.overlay.is_some() => KeyContext::Settings(self.settings.page),
             PageId::Settings => KeyContext::Settings(self.settings.place()),
-            PageId::Calibration if self.help.is_some() => KeyContext::Calibration(CalibrationContext::Tests),
+            PageId::Calibration if self.overlay.is_some() => KeyContext::Calibration(CalibrationContext::Tests),
             PageId::Calibration => KeyContext::Calibration(self.calibration.place()),
         }
     }

@@ -8,7 +8,6 @@ pub mod document;
 pub mod key_context;
 mod keys;
 mod mouse;
-pub mod palette_keys;
 mod reports;
 mod settings;
 mod tabs;
@@ -54,6 +53,8 @@ pub enum Overlay {
     Help,
     /// What was refused or has failed so far.
     Messages,
+    /// What the words of players mean.
+    Glossary,
 }
 
 /// The whole state of the terminal program.
@@ -78,7 +79,7 @@ pub struct App {
     /// The screen before the settings.
     before: PageId,
     /// The page that lies over the screen, and its first line.
-    pub help: Option<(Overlay, u16)>,
+    pub overlay: Option<(Overlay, u16)>,
     /// The command palette while it is open.
     pub command_palette: Option<CommandPalette>,
     /// Refusals and failures, for as long as they are shown, and those before.
@@ -95,8 +96,8 @@ pub struct App {
     finest: Glyphs,
     theme: Theme,
     theme_name: ThemeName,
-    /// Whether the last session has left a stroke that was typed in part.
-    pub(super) had_draft: bool,
+    /// The stroke that was typed in part when the last session ended.
+    pub(super) draft_at_start: Option<StrokeDraft>,
     /// Whether the player is a guest of this machine.
     is_guest: bool,
     /// Finds out what the terminal can show under some settings; without it that stays as at the start.
@@ -119,7 +120,7 @@ impl App {
             pending_table: None,
             in_force: Settings::default(),
             before: PageId::Coach,
-            help: None,
+            overlay: None,
             command_palette: None,
             toasts: Toasts::default(),
             area: Rect::default(),
@@ -129,7 +130,7 @@ impl App {
             finest: caps.finest(),
             theme: Theme::new(caps.depth),
             theme_name: ThemeName::default(),
-            had_draft: false,
+            draft_at_start: None,
             is_guest: false,
             detect: None,
         })
@@ -218,13 +219,25 @@ impl App {
     /// The same program with the stroke of a calibration that was typed in part when the last session ended.
     #[must_use]
     pub fn with_draft(mut self, draft: Option<StrokeDraft>) -> Self {
-        if let Some(test) = draft.and_then(|draft| self.calibration.go_on_with(draft)) {
-            self.had_draft = true;
-            let sentence = format!("a stroke of {test} that was typed in part is kept: F7 goes on with it");
-            // It goes with the next key, as an answer does: it would lie on the form that it offers.
-            self.toasts.push(sentence, true);
+        let Some(draft) = draft else { return self };
+        let left = StrokeDraft { is_told: false, ..draft.clone() };
+        let is_told = draft.is_told;
+        if let Some(test) = self.calibration.go_on_with(draft) {
+            self.draft_at_start = Some(left);
+            if !is_told {
+                let sentence = format!("a stroke of {test} that was typed in part is kept: F7 goes on with it");
+                // It goes with the next key, as an answer does: it would lie on the form that it offers.
+                self.toasts.push(sentence, true);
+            }
         }
         self
+    }
+
+    /// The stroke that is typed in part, for the next session; it is told of again where anything has been typed since the last start.
+    pub fn draft(&self) -> Option<StrokeDraft> {
+        let draft = self.calibration.draft()?;
+        let is_told = self.draft_at_start.as_ref() == Some(&draft);
+        Some(StrokeDraft { is_told, ..draft })
     }
 
     /// The same program for a player whose own skill is known.
@@ -262,14 +275,19 @@ impl App {
             Action::Suspend => return Some(Effect::Suspend),
             Action::OpenHelp => self.lay_over(Overlay::Help),
             Action::OpenMessages => self.lay_over(Overlay::Messages),
-            Action::CloseHelp => {
-                if self.help.take() == Some((Overlay::Messages, 0)) {
+            Action::OpenGlossary => self.lay_over(Overlay::Glossary),
+            Action::OpenMatch => {
+                let opened = self.open(PageId::Drills);
+                return Effect::both(opened, self.drills.open_match());
+            }
+            Action::CloseOverlay => {
+                if self.overlay.take() == Some((Overlay::Messages, 0)) {
                     // What has come meanwhile was the first line there.
                     self.toasts.clear();
                 }
             }
-            Action::ScrollHelp(lines) => {
-                self.help = self.help.map(|(page, top)| {
+            Action::ScrollOverlay(lines) => {
+                self.overlay = self.overlay.map(|(page, top)| {
                     let end = view::help_end(self, page, self.area);
                     (page, top.min(end).saturating_add_signed(lines).min(end))
                 });
@@ -293,7 +311,15 @@ impl App {
                 self.drills.open_films();
                 return effect;
             }
-            Action::CommandPalette(action) => return self.update_palette(action),
+            Action::OpenPalette => self.command_palette = Some(CommandPalette::default()),
+            Action::ClosePalette => self.command_palette = None,
+            Action::ChooseCommand => return self.choose_command(),
+            Action::PaletteLine(lines) => {
+                let count = self.found_commands().len();
+                if let Some(palette) = &mut self.command_palette {
+                    palette.move_mark(lines, count);
+                }
+            }
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;
                 self.turn_to(PageId::Drills);
@@ -374,12 +400,19 @@ impl App {
     /// Lets `seconds` pass for whatever moves on the screen.
     pub fn tick(&mut self, seconds: f64) {
         self.toasts.tick(seconds);
-        self.page_mut().tick(seconds);
+        if !self.is_covered() {
+            self.page_mut().tick(seconds);
+        }
     }
 
     /// Seconds until the next picture; `None` while nothing moves by itself.
     pub fn frame_interval(&self) -> Option<f64> {
-        self.page().frame_interval()
+        self.page().frame_interval().filter(|_| !self.is_covered())
+    }
+
+    /// Whether something lies over the page, which then stands still: what moves is to be seen.
+    pub(super) const fn is_covered(&self) -> bool {
+        self.overlay.is_some() || self.command_palette.is_some()
     }
 
     /// The terminal has this size from now on.

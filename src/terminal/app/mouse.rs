@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent, MouseButton::Left, MouseEvent, MouseEventKind as Kind};
 
 use crate::terminal::{
-    Action, App, CoachAction, CoachCondition, Condition, Effect, KeyContext, Mapping, PaletteAction,
+    Action, App, CoachAction, CoachCondition, Condition, Effect, KeyContext, Mapping,
     app::{
         bindings,
         view::{Pointed, pointed_at},
@@ -20,7 +20,7 @@ impl App {
     pub fn mouse(&mut self, event: MouseEvent) -> Option<Effect> {
         let effect = self.point(event);
         self.collect_toasts(true);
-        effect
+        effect.or_else(|| self.study())
     }
 
     fn point(&mut self, event: MouseEvent) -> Option<Effect> {
@@ -31,7 +31,7 @@ impl App {
             Kind::Down(Left) => self.click(event),
             Kind::ScrollUp => self.wheel(event, -1),
             Kind::ScrollDown => self.wheel(event, 1),
-            Kind::Drag(Left) if self.place() == KeyContext::Coach && self.help.is_none() => {
+            Kind::Drag(Left) if self.place() == KeyContext::Coach && self.overlay.is_none() => {
                 let pointer = table_mapping(&self.coach, self.area).nearest_metres(event.column, event.row)?;
                 self.coach.drag_ball(pointer)
             }
@@ -57,15 +57,17 @@ impl App {
     /// The wheel was turned by a notch, down where positive.
     fn wheel(&mut self, event: MouseEvent, notch: i8) -> Option<Effect> {
         if self.command_palette.is_some() {
-            return self.update(Action::CommandPalette(PaletteAction::Line(isize::from(notch))));
+            return self.update(Action::PaletteLine(isize::from(notch)));
         }
-        if self.help.is_some() {
-            return self.update(Action::ScrollHelp(i16::from(notch) * HELP_LINES));
+        if self.overlay.is_some() {
+            return self.update(Action::ScrollOverlay(i16::from(notch) * HELP_LINES));
         }
         match self.target(event)? {
             Pointed::Page(Target::Table(_)) => {
-                let faster = CoachAction::Pace(-isize::from(notch));
-                self.attempt(Condition::Coach(CoachCondition::Watching), Action::Coach(faster))
+                let faster = Action::Coach(CoachAction::Pace(-isize::from(notch)));
+                // A notch may be an accident: where no shot plays, nothing is said.
+                let is_watched = self.disabled_reason(Condition::Coach(CoachCondition::Watching)).is_none();
+                if is_watched { self.perform(Ok(faster)) } else { None }
             }
             Pointed::Page(Target::Shot(_)) | Pointed::Tab(_) => None,
             Pointed::Page(Target::List(_)) => self.move_mark(isize::from(notch)),
@@ -73,8 +75,7 @@ impl App {
     }
 
     fn target(&self, event: MouseEvent) -> Option<Pointed> {
-        let is_covered = self.help.is_some() || self.command_palette.is_some();
-        if is_covered { None } else { pointed_at(self, self.area, (event.column, event.row).into()) }
+        if self.is_covered() { None } else { pointed_at(self, self.area, (event.column, event.row).into()) }
     }
 
     /// Selects the ball that is drawn where the mouse is, and holds it.

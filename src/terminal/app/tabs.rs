@@ -5,7 +5,7 @@ use crate::terminal::{App, Effect, Overlay, PageId};
 impl App {
     pub(super) fn lay_over(&mut self, page: Overlay) {
         self.command_palette = None;
-        self.help = Some((page, 0));
+        self.overlay = Some((page, 0));
         if page == Overlay::Messages {
             // All of them are there, and a toast would lie on them.
             self.toasts.clear();
@@ -14,7 +14,7 @@ impl App {
 
     /// Turns to a screen, whatever lay over the one before; gives that one, if it is another.
     pub(super) fn turn_to(&mut self, screen: PageId) -> Option<PageId> {
-        (self.help, self.command_palette) = (None, None);
+        (self.overlay, self.command_palette) = (None, None);
         self.coach.drop_ball();
         if self.screen == screen {
             return None;

@@ -142,7 +142,7 @@ mod tests {
         assert!(first.starts_with(FIRST_LINE) && !read(&first).0.mouse, "{first}");
         let commented = changed(Some("# only this\n[keys]\nx = \"u\"\n"), &Change::Value("plan", "false".to_owned()));
         let (settings, complaints) = read(&commented.unwrap());
-        assert!(!settings.plan && settings.keys.work_of(key("x")) == Some(key("u")) && complaints.is_empty());
+        assert!(!settings.plan && settings.keys.meant_by(key("x")) == Some(key("u")) && complaints.is_empty());
     }
 
     #[test]
@@ -150,7 +150,7 @@ mod tests {
         let change = Change::Keys(vec![key("X")], Some((key("Ctrl-a"), key("\""))));
         let new = changed(Some(FILE), &change).unwrap();
         let keys = read(&new).0.keys;
-        assert_eq!((keys.work_of(key("X")), keys.work_of(key("Ctrl-a"))), (None, Some(key("\""))), "{new}");
+        assert_eq!((keys.meant_by(key("X")), keys.meant_by(key("Ctrl-a"))), (None, Some(key("\""))), "{new}");
         assert!(new.contains("[else]\ny = 1") && new.contains("# for the terrace"), "{new}");
         let gone = changed(Some(&new), &Change::Keys(vec![key("Ctrl-a")], None)).unwrap();
         assert_eq!(read(&gone).0.keys, super::super::Keys::default(), "{gone}");

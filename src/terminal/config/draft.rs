@@ -24,6 +24,9 @@ pub struct StrokeDraft {
     pub amends: Option<(usize, Entry)>,
     /// Whether it is one of a check of the day.
     pub is_daily: bool,
+    /// Whether a start has told of it as it is.
+    #[serde(default)]
+    pub is_told: bool,
 }
 
 impl StrokeDraft {

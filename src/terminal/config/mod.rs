@@ -16,6 +16,7 @@ use std::{
 use crate::{
     coach::{Doubt, Skill, Units},
     game::Rule,
+    printing::typed_number,
     storage::{self, Places},
     table::{PRESETS, Table},
     terminal::{Depth, Glyphs, Keys, ThemeName, keymap::remap},
@@ -105,7 +106,10 @@ impl Settings {
     /// # Errors
     /// A sentence that names the value and what would be accepted.
     pub fn with(&self, entry: &Entry, typed: &str) -> Result<Self, String> {
-        for value in [typed, &quoted(typed)] {
+        // A number with a decimal comma is none of TOML's.
+        let number = typed_number(typed).filter(|_| typed.contains(',')).map(|number| number.to_string());
+        let number = number.as_deref().unwrap_or(typed);
+        for value in [typed, &quoted(typed), number, &quoted(number)] {
             let mut settings = self.clone();
             if read::take_value(&mut settings, entry, value).is_some() {
                 if settings.table != self.table {

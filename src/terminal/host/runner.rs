@@ -184,10 +184,10 @@ impl Runner {
     fn keep_draft(&self) -> io::Result<()> {
         let path = &self.places.draft;
         let told = |error| io::Error::other(format!("{}: {error}", path.display()));
-        match self.app.calibration.draft() {
+        match self.app.draft() {
             Some(draft) => draft.save(path).map_err(told),
             // Another program may have done so.
-            None if self.app.had_draft && path.exists() => fs::remove_file(path).map_err(told),
+            None if self.app.draft_at_start.is_some() && path.exists() => fs::remove_file(path).map_err(told),
             None => Ok(()),
         }
     }

@@ -4,6 +4,8 @@ use std::fmt;
 
 use ratatui::style::Color;
 
+use crate::terminal::ui::theme::ANSI;
+
 /// A colour as the parameters of SGR; `base` is 30 for the front and 40 for the back.
 pub struct Sgr {
     /// The colour.
@@ -15,30 +17,16 @@ pub struct Sgr {
 impl fmt::Display for Sgr {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let base = self.base;
-        let basic = |number: u8| base + number;
-        let bright = |number: u8| base + 60 + number;
-        let code = match self.color {
-            Color::Reset => basic(9),
-            Color::Black => basic(0),
-            Color::Red => basic(1),
-            Color::Green => basic(2),
-            Color::Yellow => basic(3),
-            Color::Blue => basic(4),
-            Color::Magenta => basic(5),
-            Color::Cyan => basic(6),
-            Color::Gray => basic(7),
-            Color::DarkGray => bright(0),
-            Color::LightRed => bright(1),
-            Color::LightGreen => bright(2),
-            Color::LightYellow => bright(3),
-            Color::LightBlue => bright(4),
-            Color::LightMagenta => bright(5),
-            Color::LightCyan => bright(6),
-            Color::White => bright(7),
-            Color::Rgb(r, g, b) => return write!(out, "{};2;{r};{g};{b}", basic(8)),
-            Color::Indexed(index) => return write!(out, "{};5;{index}", basic(8)),
-        };
-        write!(out, "{code}")
+        match self.color {
+            Color::Reset => write!(out, "{}", base + 9),
+            Color::Rgb(r, g, b) => write!(out, "{};2;{r};{g};{b}", base + 8),
+            Color::Indexed(index) => write!(out, "{};5;{index}", base + 8),
+            named => {
+                let number = ANSI.iter().position(|color| *color == named).unwrap_or_default() as u8;
+                // The bright ones have codes of their own.
+                write!(out, "{}", base + number % 8 + number / 8 * 60)
+            }
+        }
     }
 }
 

@@ -97,17 +97,17 @@ pub struct KeyPage {
 }
 
 /// Everything that a key does by default on any of `pages`: the page's name and what it does there.
-pub fn works_of(pages: &[KeyPage], chord: Chord) -> Vec<(&'static str, &'static str)> {
-    let mut works = Vec::new();
+pub fn commands_of(pages: &[KeyPage], chord: Chord) -> Vec<(&'static str, &'static str)> {
+    let mut commands = Vec::new();
     for page in pages {
         for entry in page.entries.iter().filter(|entry| entry.chords.contains(&chord)) {
             // What all pages have is listed once.
-            if works.iter().all(|(_, known)| *known != entry.words) {
-                works.push((page.name, entry.words));
+            if commands.iter().all(|(_, known)| *known != entry.words) {
+                commands.push((page.name, entry.words));
             }
         }
     }
-    works
+    commands
 }
 
 /// The keys that mark another line of a list; `$line` makes the number of lines an action.

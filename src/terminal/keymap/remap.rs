@@ -41,7 +41,7 @@ impl Keys {
     }
 
     /// The key that was given to `pressed` to do its work, if one was.
-    pub fn work_of(&self, pressed: Chord) -> Option<Chord> {
+    pub fn meant_by(&self, pressed: Chord) -> Option<Chord> {
         self.pairs.iter().find(|(known, _)| *known == pressed).map(|(_, meant)| *meant)
     }
 
@@ -53,7 +53,7 @@ impl Keys {
     }
 
     /// The keys that do the work of `meant`, the user's own first.
-    pub fn for_work_of(&self, meant: Chord) -> impl Iterator<Item = Chord> {
+    pub fn keys_for(&self, meant: Chord) -> impl Iterator<Item = Chord> {
         let own = self.pairs.iter().filter(move |(_, work)| *work == meant).map(|(pressed, _)| *pressed);
         let kept = self.pairs.iter().all(|(pressed, _)| *pressed != meant).then_some(meant);
         own.chain(kept)
@@ -157,7 +157,7 @@ mod tests {
         keys.add(x, enter);
         assert!(enter.matches(&keys.translate(&x.event())));
         assert!(enter.matches(&keys.translate(&enter.event())));
-        assert_eq!(keys.for_work_of(enter).collect::<Vec<_>>(), [x, enter]);
-        assert_eq!(keys.for_work_of(x).count(), 0);
+        assert_eq!(keys.keys_for(enter).collect::<Vec<_>>(), [x, enter]);
+        assert_eq!(keys.keys_for(x).count(), 0);
     }
 }

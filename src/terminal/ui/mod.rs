@@ -70,7 +70,7 @@ impl Ui<'_> {
 
     /// The first key that does `action` by this table; empty where none does.
     pub fn key_of<A: PartialEq, W>(&self, table: &[Binding<A, W>], action: &A) -> String {
-        keys_text(chord_of(table, action).and_then(|chord| self.keys.for_work_of(chord).next()), self.caps)
+        keys_text(chord_of(table, action).and_then(|chord| self.keys.keys_for(chord).next()), self.caps)
     }
 }
 

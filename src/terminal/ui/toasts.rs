@@ -20,6 +20,8 @@ pub struct Toast {
     pub text: String,
     /// Whether it answers a key: then it goes with the next one that does something.
     is_answer: bool,
+    /// Whether it is among the messages.
+    pub is_kept: bool,
     /// Seconds until it goes.
     left: f64,
 }
@@ -61,7 +63,13 @@ impl Toasts {
             self.shown.remove(0);
         }
         self.keep(text.clone());
-        self.shown.push(Toast { text, is_answer, left });
+        self.shown.push(Toast { text, is_answer, is_kept: true, left });
+    }
+
+    /// Shows the answer to a key alone, which is not kept: nobody reads it again.
+    pub fn push_for_now(&mut self, text: String) {
+        let left = text.chars().count() as f64 / READING + LOOKING.0;
+        self.shown.push(Toast { text, is_answer: true, is_kept: false, left });
     }
 
     /// Keeps it to be read again; what a key that is held down says over and over is one message.

@@ -156,7 +156,7 @@ fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its
     let mut player = player.press("[");
     player.study = None;
     let player = player.press("Space Esc");
-    assert!(player.study.is_none() && player.text(80, 24).contains("yours"));
+    assert!(player.study.is_none() && player.text(80, 24).contains("Margins R right, L left"));
 }
 
 #[test]
@@ -172,6 +172,14 @@ fn margins_and_maps() {
             && large.contains("tightest: errors leave it first"),
         "{large}"
     );
+    // Which way each may be off is told at both sizes.
+    for (size, ways) in [
+        ((120, 40), ["right", "left", "lower", "higher", "softer", "harder"]),
+        ((80, 24), ["side", "hght", "cue", "aim", "spd", "R"]),
+    ] {
+        let text = player.text(size.0, size.1);
+        assert!(ways.iter().all(|way| text.contains(way)), "{text}");
+    }
     let picture = player.picture(120, 40);
     let (point, tip) = (Color::Rgb(0x5c, 0xbd, 0x72), Color::Rgb(0x1f, 0x63, 0xc8));
     // The map of direction and speed from column 45 to 70: the stroke in its middle, and a point all around it.
@@ -191,7 +199,7 @@ fn margins_maps_and_speeds_are_in_the_units_of_the_settings() {
     let player =
         Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("Enter").answer().press("v v").studied();
     player.shows(&["Tip ±0.7 in"]);
-    assert!(player.text(80, 24).contains("± yours in ° ft/s"));
+    assert!(player.text(80, 24).contains("R right, L left: in ° ft/s"));
     for (width, height) in SIZES {
         let text = player.text(width, height);
         assert!(!text.contains(" mm") && !text.contains("m/s"), "{text}");

@@ -344,6 +344,10 @@ fn what_is_typed_in_part_is_there_at_the_next_start() {
     let mut next = new();
     next.app = next.app.with_draft(draft.clone());
     next.warns("a stroke of slow-roll that was typed in part is kept: F7 goes on with it");
+    // At the start after that, where nothing was typed meanwhile, it is told no more.
+    let mut later = new();
+    later.app = later.app.with_draft(next.app.draft());
+    later.warns_nothing();
     let next = next.press("F7");
     assert!(!next.text(80, 24).contains("typed in part"), "the sentence would lie on the form");
     assert_eq!(next.app.place(), KeyContext::Calibration(CalibrationContext::Marks));

@@ -10,7 +10,7 @@ use super::{
     player::{ASCII, NO_COLOUR, Player, SHOT, TRUE_COLOUR, advice, check, check_at, proposal},
 };
 use carom::{
-    coach::{Difference, Kiss, Why},
+    coach::{Difference, Kiss, Skill, Why},
     physics::CueInputs,
     table::CueBall,
     terminal::{Advice, CoachNews, Effect, Effort, PageId, Proposal, Shot},
@@ -73,6 +73,15 @@ fn the_rail_stops_a_ball_and_says_where_it_is() {
 }
 
 #[test]
+fn without_a_shot_the_panel_tells_where_the_balls_lie_wherever_it_was_left() {
+    let placing = Player::new().press("Enter").answer().press("v Esc Left");
+    let text = placing.text(80, 24);
+    assert!(text.contains("Balls") && !text.contains("Chances"), "{text}");
+    let text = placing.press("v").text(80, 24);
+    assert!(text.contains("without a shot the panel tells"), "{text}");
+}
+
+#[test]
 fn the_coach_thinks_and_can_be_stopped() {
     let player = Player::new().press("Enter").wait(0.35);
     player.shows(&["thinking ", "⠸ the coach is thinking; Esc stops it", "Esc cancel", "no shot yet"]);
@@ -90,7 +99,7 @@ fn a_shot_is_recommended() {
     let player = Player::new().press("Enter").answer();
     check("recommended", &player);
     let text = player.text(120, 40);
-    for part in ["expert makes it 94 % (92-95)", "Yellow, an eighth full on the left; two tips of", "aim top 1.52 "] {
+    for part in ["expert makes it 94 % (92-95)", "Yellow, an eighth full on the left; two tips of", "noses top 1.52 "] {
         assert!(text.contains(part), "{part}\n{text}");
     }
     // At the smaller size the sentence, the card beside the table, and the line of aim in the title or in a row.
@@ -100,7 +109,7 @@ fn a_shot_is_recommended() {
     {
         assert!(text.contains(part), "{part}\n{text}");
     }
-    assert!(["aim top 1.52 → bottom 2.82, at noses", "Cue from 1.5"].iter().any(|aim| text.contains(aim)), "{text}");
+    assert!(["aim top 1.52 → bottom 2.82, at noses", "nose to nose"].iter().any(|aim| text.contains(aim)), "{text}");
     // The thesis' numbers are one key away.
     let text = player.press("N").text(120, 40);
     for part in ["0.200 R, 6.2 mm left", "288.00° ", "V0", "ω0"] {
@@ -273,15 +282,13 @@ fn undo_and_redo_walk_through_all_changes() {
 
 #[test]
 fn a_key_that_does_nothing_now_says_why() {
-    for (keys, reason) in [
-        ("Space", "there is no shot yet; Enter asks the coach"),
-        ("Esc", "there is no shot yet; Enter asks the coach"),
-        ("U", "nothing was taken back"),
-    ] {
+    for (keys, reason) in [("Space", "there is no shot yet; Enter asks the coach"), ("U", "nothing was taken back")] {
         Player::new().press(keys).warns(reason);
     }
     let watching = Player::new().press("Enter").answer().press("h");
     watching.warns("a shot is being watched; Esc goes back to the balls");
+    // Whoever wants to get out of something and is out is not told so.
+    Player::new().press("Esc").warns_nothing();
 }
 
 #[test]
@@ -304,11 +311,18 @@ fn without_colours_letters_tell_everything() {
         let player = player.press("2");
         player.is_plain().shows(&["Y yellow  -710.0    0.0", "121.0 mm from white; step 10 mm", "Enter ask"]);
         let player = player.press("v v").studied();
-        let signs = ["Margins", "-4.33  +2.31", "speed   -1.51   wide", "# point", "- one ball", "X the stro"];
+        let signs = [
+            "Margins",
+            "4.33 right  2.31 left",
+            "speed   1.51 softer wide harder",
+            "# point",
+            "- one ball",
+            "X the stro",
+        ];
         let text = player.is_plain().text(120, 40);
         assert!(signs.iter().all(|sign| text.contains(sign)), "{text}");
         let text = player.text(80, 24);
-        assert!(text.contains("a -4.33 +2.31 0.5") && text.contains("# point - one ball"), "{text}");
+        assert!(text.contains("side  R4.33  L2.31") && text.contains("# point - one ball"), "{text}");
         player.is_silent_on("too few");
         let plan = player.press("v");
         plan.is_plain().shows(&["now  94 % yellow, ", "next 100 % very hard"]);
@@ -433,6 +447,29 @@ fn nothing_moves_by_itself_while_nothing_plays() {
     let player = player.press("Space");
     assert!(player.app.frame_interval().is_some());
     assert_eq!(player.wait(1e3).app.frame_interval(), None, "playback ends at the end");
+}
+
+#[test]
+fn what_lies_over_the_page_stops_it_until_it_is_closed() {
+    for over in ["?", "F6", ":"] {
+        let player = Player::new().press("Enter").answer().press("Space").wait(0.1).press(over);
+        let time = player.app.coach.playback.time;
+        assert_eq!(player.app.frame_interval(), None, "{over}");
+        let player = player.wait(1.0).press("Esc");
+        assert!(player.app.coach.playback.time == time && player.app.coach.playback.playing, "{over}");
+    }
+}
+
+#[test]
+fn a_shot_that_is_asked_for_again_elsewhere_is_looked_at_when_one_comes_back() {
+    let mut player = Player::new().press("Enter").answer();
+    let skill = player.app.coach.query.skill;
+    player.app.coach.take_skill(Skill::CLUB);
+    // The coach's news come meanwhile, and end the closer look at a shot that is not shown.
+    let mut player = player.tell(0, CoachNews::Refused(String::new()));
+    player.app.coach.take_skill(skill);
+    player.study = None;
+    assert!(player.press("F5 F2").study.is_some());
 }
 
 #[test]

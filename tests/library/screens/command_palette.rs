@@ -26,6 +26,7 @@ fn words_narrow_it_and_enter_does_what_is_marked() {
     assert_eq!(player.app.command_palette.as_ref().map(|_| ()), None);
     let player = player.press("C-p r e c o m m Esc u");
     player.warns("there is nothing to take back");
+    assert!(player.press("C-p C-p").app.command_palette.is_none(), "what opens it closes it");
 }
 
 #[test]
@@ -45,14 +46,14 @@ fn what_may_not_be_used_now_says_why_and_stays() {
 fn what_a_key_does_before_and_in_a_shot_is_listed_once_in_the_words_of_now() {
     let placing = Player::new().press(": y e l l o w").text(80, 24);
     assert!(
-        placing.contains("1 of 67")
+        placing.contains("1 of 69")
             && placing.contains("select the yellow ball")
             && !placing.contains("leave the shot"),
         "{placing}"
     );
     let watching = Player::new().press("Enter").answer().press(": y e l l o w").text(80, 24);
     assert!(
-        watching.contains("1 of 67") && watching.contains("leave the shot and select the yellow ball"),
+        watching.contains("1 of 69") && watching.contains("leave the shot and select the yellow ball"),
         "{watching}"
     );
 }

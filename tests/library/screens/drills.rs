@@ -282,11 +282,11 @@ fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_
     Store::new(&places(folder.path())).keep_skill(Skill::CLUB.scaled(1.1)).unwrap();
     let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
     let own = player.store().own_skill().unwrap().unwrap().skill;
-    player.says("player: my skill");
+    player.says("player: me by my notes");
     let back = player.press("Esc");
     assert_eq!(back.app.coach.query.skill, Skill::EXPERT);
     let again = back.press("d");
-    again.says("player: my skill");
+    again.says("player: me by my notes");
     let cycled = again.press("Esc S S S S S");
     assert_eq!(cycled.app.coach.query.skill, own);
     let perfect = cycled.press("S d");

@@ -135,10 +135,15 @@ fn a_click_on_a_shot_of_the_list_shows_it() {
 }
 
 #[test]
+fn the_wheel_over_the_table_says_nothing_where_no_shot_is_watched() {
+    at_the_table(Player::new()).point(MouseEventKind::ScrollDown, (60, 15)).warns_nothing();
+}
+
+#[test]
 fn the_wheel_scrolls_the_help_and_moves_the_mark_of_the_commands() {
     let player = at_the_table(Player::new().press("?")).point(MouseEventKind::ScrollDown, (3, 3));
-    assert_eq!(player.app.help, Some((Overlay::Help, 3)));
-    assert_eq!(player.point(PRESS, (60, 15)).app.help, Some((Overlay::Help, 3)), "what lies below is not reached");
+    assert_eq!(player.app.overlay, Some((Overlay::Help, 3)));
+    assert_eq!(player.point(PRESS, (60, 15)).app.overlay, Some((Overlay::Help, 3)), "what lies below is not reached");
     let player = at_the_table(Player::new().press(":")).point(MouseEventKind::ScrollDown, (3, 3));
     assert_eq!(player.app.command_palette.as_ref().unwrap().mark(9), 1);
 }

@@ -32,6 +32,14 @@ fn one_ball_is_typed_for_the_selected_one_or_by_its_colour() {
 }
 
 #[test]
+fn numbers_are_taken_as_people_write_them() {
+    let player = Player::new().press("p").type_in("1d 1d 5d 0,5d 7d 3.5d").press("Enter");
+    assert_eq!(*player.app.coach.layout(), layout("1d,1d 5d,0.5d 7d,3.5d"));
+    let player = player.press("3 p").type_in("6,2").press("Enter");
+    assert_eq!(player.app.coach.layout().balls[2], layout("1d,1d 5d,0.5d 6d,2d").balls[2]);
+}
+
+#[test]
 fn what_cannot_be_taken_is_said_and_stays_to_be_mended() {
     let player = Player::new().press("p").type_in("2d,9d").press("Enter");
     player.warns("outside the table");
@@ -57,6 +65,10 @@ fn a_layout_and_a_share_code_are_pasted_over_the_table() {
     player.app.paste("a letter to a friend, by accident");
     player.warns("pasted text not used");
     assert_eq!(*player.app.coach.layout(), exercise.layout);
+    // What is too long is cut where a letter ends.
+    player.app.paste(&format!("x{}", "\u{e9}".repeat(2000)));
+    let toast = player.app.toasts.shown.last().expect("it is refused");
+    assert!(toast.text.len() < 1000, "{}", toast.text.len());
     // A code is taken where positions are typed, too.
     let mut player = Player::new().press("p");
     player.app.paste(&encode(exercise).unwrap());

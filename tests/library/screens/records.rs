@@ -35,7 +35,7 @@ fn the_records() {
     assert!(figures.iter().all(|part| large.contains(part)), "{large}");
     one.says("you play like an average of");
     let kept = one.press("w");
-    kept.says("my skill");
+    kept.says("me by my notes");
     let skill = kept.store().own_skill().unwrap().unwrap().skill;
     let played = kept.app.drills.player.skill;
     assert_eq!(played.to_string(), skill.to_string());

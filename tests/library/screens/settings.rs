@@ -108,6 +108,11 @@ fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
     let player = player.press("Enter");
     player.says("think_ms = 5; accepted is 10 to 60000");
     check("refused", &player);
+    // Half of the world writes commas.
+    for (downs, typed, line) in [(5, "0,6", "skill = \"average=0.6\"\n"), (11, "0,5", "speed = 0.5\n")] {
+        let written = new().press(&"Down ".repeat(downs)).press("Enter").type_in(typed).press("Enter").settings_text();
+        assert!(written.contains(line), "{written}");
+    }
     let player = player.type_in("50").press("Enter");
     assert!(player.settings_text().contains("think_ms = 550\n"));
     // From a number that was typed on, the next larger and smaller of the usual ones.

@@ -6,6 +6,7 @@ use carom::{
 };
 
 use super::player::{ASCII, Player, proposal};
+use ratatui::style::Color;
 
 /// A player whose coach has answered with this shot.
 fn advised(player: Player, balls: &str, words: &str) -> Player {
@@ -56,36 +57,61 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
     {
         let player = with_model_shot(Player::with(ASCII), name).press("Esc");
         let player = player.press("y");
-        player.shows(&[&format!("System - {system} for this shot")]);
+        player.shows(&[&format!("{system} - for this shot")]);
         // Where the shot is gone, its numbers go too.
         let moved = player.press("1 S-Up");
-        moved.shows(&[&format!("System - {system} example")]);
+        moved.shows(&[&format!("{system} - an example")]);
         let mut player = moved.press("u");
-        player.shows(&[&format!("System - {system} for this shot")]);
+        player.shows(&[&format!("{system} - for this shot")]);
         player.app.paste("2d,0.5d 6d,2d 4d,3.5d");
-        player.shows(&[&format!("System - {system} example")]);
+        player.shows(&[&format!("{system} - an example")]);
     }
+}
+
+#[test]
+fn an_example_is_without_the_players_balls_and_a_shot_that_no_system_describes_is_told_so() {
+    let yellow = Color::Rgb(0xf6, 0xc3, 0x24);
+    let is_there = |player: &Player| {
+        let picture = player.picture(120, 40);
+        let table = (1..29).flat_map(|y| (0..120).map(move |x| (x, y)));
+        table.map(|at| &picture[at]).any(|cell| [cell.fg, cell.bg].contains(&yellow))
+    };
+    // It is too slow for three cushions.
+    let player = advised(Player::new(), "6d,1d 7d,3.5d 0.5d,0.5d", "0,0,3,133,0.6").press("Esc");
+    assert!(is_there(&player));
+    let player = player.press("y");
+    player.shows(&["Corner-5 \u{b7} an example", "No system describes this shot."]);
+    assert!(!is_there(&player), "{}", player.text(120, 40));
+    // Before any shot there is none to speak of.
+    Player::new().press("y").is_silent_on("No system describes");
+}
+
+#[test]
+fn the_line_below_tells_the_number_of_the_shot_itself_too() {
+    let balls = "0.840,-0.320 -0.270,-0.550 -0.180,-0.630";
+    let text = advised(Player::with(ASCII), balls, "0.25,0.3,3,146.4,2.4").press("y").text(200, 60);
+    assert!(text.contains("on this table 19, this shot at 17"), "{text}");
 }
 
 #[test]
 fn beside_another_systems_example_the_line_below_names_no_system_of_the_shot() {
     let player = with_model_shot(Player::with(ASCII), "corner-5-from-the-corner").press("y");
-    player.shows(&["System - Corner-5 for this shot", " Corner-5: ", " on the wood"]);
+    player.shows(&["Corner-5 - for this shot", " Corner-5: ", " on the wood"]);
     let player = player.press("y");
-    player.shows(&["System - Plus example", "Cue from "]);
+    player.shows(&["Plus - an example", "Cue from "]);
     player.is_silent_on("Corner-5: ");
 }
 
 #[test]
 fn a_parallel_shift_is_drawn_before_the_systems_and_is_of_its_shot_alone() {
     let player = advised(Player::with(ASCII), "-0.6035,-0.355 0.165,0.42 0,0.3", "0,0.2,2,75,4").press("Esc y");
-    player.shows(&["- Parallel shift for this shot -", "Aimed at diamond 3 of the top rail", "as here, to 4.3"]);
+    player.shows(&["- Parallel shift - for this shot -", "Aimed at diamond 3 of the top rail", "as here, to 4.3"]);
     assert!(player.text(120, 40).contains("The dots are the line to the"));
     assert!(player.text(200, 60).contains("further along the third"));
     let next = player.press("y");
-    next.shows(&["System - Corner-5 example"]);
+    next.shows(&["Corner-5 - an example"]);
     let mut shift = next.press("y y y y");
-    shift.shows(&["Parallel shift for this shot"]);
+    shift.shows(&["Parallel shift - for this shot"]);
     shift.app.paste("2d,0.5d 6d,2d 4d,3.5d");
     shift.is_silent_on("- Parallel shift");
 }

@@ -1,7 +1,10 @@
 //! Going from screen to screen: wherever one is, the same keys lead everywhere, and nothing is lost on the way.
 
 use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_text};
-use carom::terminal::{App, Capabilities, DrillContext, Effect, KeyContext, PageId, TrainingContext};
+use carom::{
+    drills::Goal,
+    terminal::{App, Capabilities, DrillContext, Effect, KeyContext, PageId, TrainingContext},
+};
 use ratatui::style::Modifier;
 
 fn first_row(text: &str) -> String {
@@ -68,7 +71,7 @@ fn a_shot_is_paused_on_every_way_to_another_screen_and_on_no_way_to_its_own() {
     let playing = Player::new().press("Enter").answer().press("Space").wait(0.5).press("F2");
     assert!(playing.app.coach.playback.playing);
     let closed = playing.press("? F2");
-    assert!(closed.app.coach.playback.playing && closed.app.help.is_none());
+    assert!(closed.app.coach.playback.playing && closed.app.overlay.is_none());
 }
 
 #[test]
@@ -93,10 +96,34 @@ fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
 }
 
 #[test]
+fn a_match_against_the_coach_begins_from_anywhere_and_goes_on_where_it_was_left() {
+    let player = Player::new().press("F9");
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Exercise));
+    let session = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.clone();
+    let begun = session(&player);
+    assert!(matches!(begun.goal, Goal::Match { against_coach: true, .. }), "{begun:?}");
+    let again = player.press("F5 F9");
+    assert_eq!(session(&again).id, begun.id);
+    Player::new().press(": a g a i n s t Enter").is_silent_on("What can be done here");
+    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter F2 F9");
+    exam.warns("an exam is under way; leave it before a match");
+}
+
+#[test]
+fn the_glossary_is_read_wherever_one_is() {
+    for keys in ["F8", ": g l o s s Enter", "p F8", "F5 F8"] {
+        Player::new().press(keys).shows(&["Tip: how far the tip of the cue is"]);
+    }
+    let closed = Player::new().press("F8 End F8");
+    assert_eq!(closed.app.overlay, None);
+    Player::with(ASCII).press("F8").is_plain();
+}
+
+#[test]
 fn palette_and_help_close_on_the_way() {
-    for keys in [": x F3", "? F3", "F6 F3"] {
+    for keys in [": x F3", "? F3", "F6 F3", "F8 F3"] {
         let player = Player::new().press(keys);
-        assert_eq!((player.app.screen, player.app.help), (PageId::Drills, None), "{keys}");
+        assert_eq!((player.app.screen, player.app.overlay), (PageId::Drills, None), "{keys}");
         assert!(player.app.command_palette.is_none());
     }
 }

@@ -63,7 +63,7 @@ fn what_fails_elsewhere_is_told_wherever_one_is_and_can_be_read_again() {
     let text = player.text(120, 40);
     assert!(text.contains("the disk is full") && text.contains("carom.log"), "{text}");
     let closed = player.press("Esc");
-    assert!(closed.app.help.is_none() && !closed.text(120, 40).contains("the disk is full"));
+    assert!(closed.app.overlay.is_none() && !closed.text(120, 40).contains("the disk is full"));
 }
 
 #[test]
@@ -76,6 +76,18 @@ fn nothing_lies_over_the_page_of_messages() {
     let text = player.text(120, 40);
     assert!((1..=7).all(|n| text.contains(&format!("\"mistake{n}\""))), "{text}");
     player.press("Esc").warns_nothing();
+}
+
+#[test]
+fn the_key_that_opens_the_messages_closes_them_and_what_is_refused_over_them_is_none() {
+    let refused = Player::new().press("F6 x");
+    for (width, height) in SIZES {
+        let text = refused.text(width, height);
+        assert!(text.contains("close this first: Esc") && text.contains("No messages so far"), "{text}");
+    }
+    let closed = refused.press("F6");
+    assert_eq!((closed.app.overlay, closed.app.toasts.past().len()), (None, 0));
+    closed.warns_nothing();
 }
 
 #[test]

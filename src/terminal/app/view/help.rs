@@ -1,5 +1,5 @@
 //! The pages that lie over a screen: every key with what it does, read from the table of keys, and a few words on what is
-//! drawn; or all that was refused or has failed so far.
+//! drawn; all that was refused or has failed so far; or the glossary.
 
 use ratatui::{
     layout::Rect,
@@ -10,7 +10,7 @@ use crate::{
     learning::run::quantity::Quantity,
     terminal::{
         App, DrillContext, KeyContext, Overlay,
-        app::bindings::listed,
+        app::{bindings::listed, view::glossary},
         keymap::{Section, keys_text},
         pages::PageArea,
         ui::{Ui, wrap},
@@ -141,6 +141,7 @@ fn lines(app: &App, what: Overlay, area: Rect) -> Vec<Line<'static>> {
     match what {
         Overlay::Help => help(app, width),
         Overlay::Messages => messages(app, width),
+        Overlay::Glossary => glossary::lines(app, width),
     }
 }
 
@@ -176,7 +177,7 @@ fn help(app: &App, width: usize) -> Vec<Line<'static>> {
         }
         lines.push(Line::styled(title, theme.good()));
         for binding in own {
-            let keys = keys_text(binding.keys.iter().flat_map(|(chord, ..)| app.keys().for_work_of(*chord)), caps);
+            let keys = keys_text(binding.keys.iter().flat_map(|(chord, ..)| app.keys().keys_for(*chord)), caps);
             let keys = wrap(&keys, KEYS - 1);
             let words = wrap(binding.description, width.saturating_sub(KEYS + 2));
             for n in 0..keys.len().max(words.len()) {

@@ -6,7 +6,7 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    Action, App, Condition, KeyContext, PaletteAction, SettingsContext,
+    Action, App, Condition, KeyContext, SettingsContext,
     app::bindings::{Bound, bindings},
     keymap::{Chord, Section, keys_text},
     ui::{Theme, Ui},
@@ -32,7 +32,7 @@ pub fn draw_hints(app: &App, area: Rect, ui: &mut Ui) {
     let mut gap = GAP;
     // The keys of the program itself stay to the last, but for the command palette's and the way from the coach to another
     // screen; the others go from the end.
-    let is_palette = |binding: &Bound| binding.keys[0].1 == Action::CommandPalette(PaletteAction::Open);
+    let is_palette = |binding: &Bound| binding.keys[0].1 == Action::OpenPalette;
     let stays = |binding: &Bound| {
         binding.section == Section::Program && !matches!(binding.when, Condition::Coach(_)) && !is_palette(binding)
     };
@@ -67,5 +67,5 @@ fn working(app: &App, chord: Chord) -> Option<Chord> {
     if matches!(place, KeyContext::Settings(SettingsContext::Pressing) | KeyContext::Question { is_typed: false }) {
         return Some(chord);
     }
-    app.keys().for_work_of(chord).find(|pressed| !place.types(*pressed))
+    app.keys().keys_for(chord).find(|pressed| !place.types(*pressed))
 }

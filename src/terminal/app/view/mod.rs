@@ -1,6 +1,7 @@
 //! The screen as a whole: the open page between tabs and keys, and what lies over it.
 
 mod command_palette;
+mod glossary;
 mod help;
 mod hints;
 mod tabs;
@@ -12,7 +13,7 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use self::{hints::draw_hints, tabs::draw_tabs, toasts::draw_toasts};
 use crate::terminal::{
-    App, Overlay,
+    App, Overlay, Toast,
     pages::{Page, PageArea},
     ui::{Ui, draw_question, draw_status},
 };
@@ -56,7 +57,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     draw_tabs(app, Rect { height: 1, ..area }, ui);
     draw_hints(app, Rect { y: area.bottom() - 1, height: 1, ..area }, ui);
     // Whatever is to be read or answered begins there; toasts stay above it.
-    let mut foot = match app.help {
+    let mut foot = match app.overlay {
         Some((overlay, top)) => help::draw(app, overlay, top, &parts, ui),
         None => draw_page(app.page(), &parts, ui),
     };
@@ -64,10 +65,8 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         foot = command_palette::draw(app, command_palette, area, ui);
     }
     // The page of messages begins with what would be told over it.
-    if app.help == Some((Overlay::Messages, 0)) {
-        return;
-    }
+    let is_told = |toast: &&Toast| !toast.is_kept || app.overlay != Some((Overlay::Messages, 0));
     // The first row is the header's.
     let room = Rect::new(area.x, area.y + 1, area.width, foot.saturating_sub(area.y + 1));
-    draw_toasts(app, room, ui);
+    draw_toasts(app.toasts.shown.iter().filter(is_told), room, ui);
 }

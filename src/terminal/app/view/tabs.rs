@@ -23,7 +23,7 @@ pub fn tabs(app: &App, area: Rect) -> Vec<(PageId, Rect, String)> {
     let has_tab = |screen: &PageId| *screen != PageId::Calibration || app.screen == *screen || area.width >= ROOMY;
     for screen in PageId::ALL.into_iter().filter(has_tab) {
         let key = chord_of_tab(screen).filter(|_| area.width >= WIDE);
-        let key = keys_text(key.into_iter().flat_map(|chord| app.keys().for_work_of(chord).take(1)), app.caps);
+        let key = keys_text(key.into_iter().flat_map(|chord| app.keys().keys_for(chord).take(1)), app.caps);
         let gap = u16::from(!key.is_empty());
         let width = (Span::raw(&key).width() + Span::raw(screen.title()).width()) as u16 + gap + 2;
         let place = Rect::new(x, area.y, width.min(area.right().saturating_sub(x)), 1);

@@ -7,7 +7,7 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    App,
+    Toast,
     ui::{Ui, columns, cut, frame, wrap},
 };
 
@@ -16,11 +16,11 @@ const WIDTH: (u16, u16) = (64, 60);
 /// Most lines of one sentence; all of it is among the messages.
 const LINES: usize = 6;
 
-/// Draws the toasts at the bottom of `area`, as many of the newest as its lower half has room for.
-pub fn draw_toasts(app: &App, area: Rect, ui: &mut Ui) {
+/// Draws the toasts, the oldest first, at the bottom of `area`, as many of the newest as its lower half has room for.
+pub fn draw_toasts<'a>(toasts: impl DoubleEndedIterator<Item = &'a Toast>, area: Rect, ui: &mut Ui) {
     let most = WIDTH.0.min(area.width * WIDTH.1 / 100);
     let mut bottom = area.bottom();
-    for toast in app.toasts.shown.iter().rev() {
+    for toast in toasts.rev() {
         let room = usize::from(most.saturating_sub(4));
         let all = wrap(&toast.text, room);
         let is_cut = all.len() > LINES;

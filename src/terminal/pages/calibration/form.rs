@@ -51,6 +51,7 @@ impl Form {
             far_end: self.far_end,
             amends: self.amends.clone(),
             is_daily,
+            is_told: false,
         }
     }
 

@@ -5,13 +5,14 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::{
+    coach::words::no_jump_words,
     game::Point,
     table::{BALLS, CueBall, Layout, Opening, Side},
     terminal::{
         CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode, Terms,
         pages::coach::{CoachPage, Snapshot},
         shot::{
-            OwnStroke,
+            OwnStroke, Profile,
             placing::{self, STEPS},
         },
         ui::Message,
@@ -109,6 +110,10 @@ impl CoachPage {
             }
             Action::TurnSideView => self.turn_side_view(),
             Action::TurnShown => self.turn_shown(),
+            Action::NextInfoPanel if self.shot().is_none() && self.pending.is_none() => {
+                self.message =
+                    Some(Message::plain("without a shot the panel tells where the balls lie; Enter asks the coach"));
+            }
             Action::NextInfoPanel => self.info = self.info.next(),
             Action::Shot(shots) => self.choose(|advised| advised.turn(shots)),
             Action::Show(shot) => self.choose(|advised| advised.show(shot)),
@@ -175,6 +180,20 @@ impl CoachPage {
         self.own_stroke = None;
         self.playback.pause();
         self.mode = Mode::Placing;
+    }
+
+    /// The jump of the shot, while it is to be shown from the side; a shot without one has none.
+    pub fn profile(&self) -> Option<&Profile> {
+        self.shot().filter(|_| self.is_from_side)?.profile(self.table())
+    }
+
+    /// Shows the jump from the side, or no longer; where no ball jumps it says so.
+    fn turn_side_view(&mut self) {
+        self.is_from_side = !self.is_from_side;
+        if self.is_from_side && self.profile().is_none() {
+            self.is_from_side = false;
+            self.message = Some(Message::plain(no_jump_words(self.table())));
+        }
     }
 
     fn choose_step(&mut self, step: usize) {

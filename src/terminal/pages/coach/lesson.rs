@@ -38,6 +38,12 @@ impl CoachPage {
         self.shown().map(AdviceState::choice)?.study.as_ref()?.system.as_ref()
     }
 
+    /// Whether it is known that nothing is counted for the shot that is shown.
+    pub fn has_no_system(&self) -> bool {
+        let study = self.shown().and_then(|advised| advised.choice().study.as_ref());
+        study.is_some_and(|study| study.system.is_none())
+    }
+
     /// Opens the lesson at what is counted for the shot, goes on to the next system, and closes it after the last.
     pub(super) fn next_lesson(&mut self) {
         let mut order: Vec<Option<System>> = System::ALL.map(Some).to_vec();

@@ -16,7 +16,6 @@ mod positions;
 mod question;
 mod request;
 mod saving;
-mod side_view;
 mod spectators;
 pub mod view;
 
@@ -439,6 +438,11 @@ impl CoachPage {
         let pending = self.pending.as_ref().filter(|pending| pending.query == self.query);
         let so_far = pending.and_then(|pending| pending.so_far.as_ref());
         so_far.or_else(|| self.advised().map(|advised| &advised.choice().proposal))
+    }
+
+    /// What the chosen panel tells: where the balls lie, while there is no shot and none is looked for.
+    pub fn panel(&self) -> InfoPanel {
+        if self.shot().is_some() || self.pending.is_some() { self.info } else { InfoPanel::Shot }
     }
 
     /// The shot that is on the table: the player's own while there is one, else the one that is shown.

@@ -31,7 +31,8 @@ impl CoachPage {
     /// Puts the balls where the text says, or says why not.
     pub(super) fn take_typed(&mut self, text: &str) -> Result<(), String> {
         // What is longer is neither, and no sentence is to repeat it all.
-        let text = text.get(..LONGEST).unwrap_or(text).trim();
+        let end = (0..=LONGEST.min(text.len())).rev().find(|end| text.is_char_boundary(*end)).unwrap_or_default();
+        let text = text[..end].trim();
         if is_code(text) {
             let exercise = decode(text).map_err(|error| error.to_string())?;
             let table = exercise.table().map_err(|error| error.to_string())?;

@@ -31,7 +31,7 @@ impl Question {
                 let [cue, other, _] = names;
                 let one = names[selected];
                 format!(
-                    "where? 2d,0.5d for {one}; three such places for {cue}, {other} and red; red 4d,3.5d for red; \
+                    "where? 2d 0.5d for {one}; three such places for {cue}, {other} and red; red 4d 3.5d for red; \
                      or a share code: "
                 )
             }

@@ -18,7 +18,7 @@ use crate::{
             neighbour, next_skill,
         },
         ui::Message,
-        words::{chance_words, skill_word},
+        words::{chance_words, named_skill, skill_word},
     },
 };
 
@@ -172,7 +172,7 @@ impl CoachPage {
 
     /// Takes a closer look at the shot that is shown, as long as there is something to find out, and at no other. A stroke of the
     /// player's own comes before that.
-    pub(super) fn study(&mut self) -> Option<Effect> {
+    pub fn study(&mut self) -> Option<Effect> {
         let advised = self.advised().filter(|_| self.pending.is_none() && self.own_stroke.is_none());
         let wanted = advised.map(AdviceState::choice).filter(|choice| !choice.is_studied);
         let wanted = wanted.map(|choice| Arc::clone(&choice.proposal.shot));
@@ -277,7 +277,10 @@ impl CoachPage {
 
 /// How often the player makes it, in a sentence.
 fn made_words(query: &CoachQuery, chance: &str) -> String {
-    format!("{} makes it {chance}", skill_word(query.skill))
+    match named_skill(query.skill) {
+        Some(name) => format!("{name} makes it {chance}"),
+        None => format!("you make it {chance}"),
+    }
 }
 
 /// A proposal in a sentence, where the balls are called so, the cue ball first.

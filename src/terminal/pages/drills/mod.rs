@@ -4,6 +4,7 @@
 //! [`DrillReport`]. [`actions`] is what each key does.
 
 mod actions;
+mod against_coach;
 mod aim_line;
 mod book;
 mod catalogue;

@@ -99,7 +99,7 @@ impl DrillsPage {
             DrillReport::SkillKept(skill, kept) => {
                 self.player.own = Some(skill);
                 self.player.choose(skill);
-                self.message = Some(Message::good("this is your skill now: you are the player \"my skill\""));
+                self.message = Some(Message::good("this is your skill now: you are the player \"me by my notes\""));
                 self.warn_unsaved(kept, "the skill is taken, but not kept for the next time");
                 return self.change_player();
             }

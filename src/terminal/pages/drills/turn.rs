@@ -254,13 +254,13 @@ impl Turn {
 
     /// Shows jumps from the side, or no longer; what there is to say where the shot on the table has none. Before the stroke
     /// it holds for the one that comes.
-    pub(super) fn turn_side_view(&mut self, unit: LengthUnit) -> String {
+    pub(super) fn turn_side_view(&mut self) -> String {
         self.is_from_side = !self.is_from_side;
         match (self.is_from_side, self.shot()) {
             (false, _) => "jumps are shown from above alone".to_owned(),
             (true, None) => "jumps are shown from the side too".to_owned(),
             (true, Some(shot)) if shot.profile(&self.table).is_some() => "the jump from the side".to_owned(),
-            (true, Some(shot)) => no_jump_words(&self.table, Some(&shot.recording), unit),
+            (true, Some(_)) => no_jump_words(&self.table).to_owned(),
         }
     }
 

@@ -159,7 +159,7 @@ impl DrillsPage {
                 turn.text_page = 0;
                 turn.with_hint |= turn.shows_hint && turn.is_aiming();
             }
-            Action::TurnSideView => self.message = Some(Message::plain(turn.turn_side_view(self.units.length))),
+            Action::TurnSideView => self.message = Some(Message::plain(turn.turn_side_view())),
             Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
             Action::TurnText(pages) => turn.text_page += pages,
             Action::Shift => {

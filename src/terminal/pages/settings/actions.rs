@@ -35,7 +35,7 @@ impl SettingsPage {
             Action::Turn => self.page = Page::Keys,
             Action::Line(lines) if self.page == Page::Keys => self.keys.move_mark(lines),
             Action::Line(lines) => self.mark = self.mark.saturating_add_signed(lines).min(ENTRIES.len() - 1),
-            Action::KeyContext(pages) => self.keys.choose_place(pages),
+            Action::ChooseKeyPage(pages) => self.keys.choose_place(pages),
             Action::Value(step) => return self.step(step),
             Action::Type => self.question = Some(Question::Value(TextField::new(LONGEST))),
             Action::Press => self.question = Some(Question::Key),
@@ -126,7 +126,7 @@ impl SettingsPage {
     /// A key was pressed that is to do what is marked.
     pub fn pressed(&mut self, key: &KeyEvent) -> Option<Effect> {
         match self.keys.check(Chord::of(key), &self.settings.keys) {
-            Ok(chord) if self.keys.other_works(chord, &self.settings.keys).is_empty() => {
+            Ok(chord) if self.keys.other_commands(chord, &self.settings.keys).is_empty() => {
                 self.question = None;
                 return Some(self.give(chord));
             }

@@ -27,7 +27,7 @@ pub enum SettingsAction {
     /// Goes to the other page.
     Turn,
     /// Lists the keys of another place, the next where positive.
-    KeyContext(isize),
+    ChooseKeyPage(isize),
     /// Asks for another key for what is marked.
     Press,
     /// Answers what is asked: yes, or what was typed; or no.
@@ -85,7 +85,7 @@ pub const VALUES: &[Binding<A, W>] = &[
 #[rustfmt::skip]
 pub const KEYS: &[Binding<A, W>] = &[
     bind(OwnKeys, W::Always, &[key(Enter, A::Press)], Some(("new key", 1)), "choose a key for what is marked"),
-    bind(OwnKeys, W::Always, &[key(Left, A::KeyContext(-1)), key(Right, A::KeyContext(1)), letter('h', A::KeyContext(-1)), letter('l', A::KeyContext(1))],
+    bind(OwnKeys, W::Always, &[key(Left, A::ChooseKeyPage(-1)), key(Right, A::ChooseKeyPage(1)), letter('h', A::ChooseKeyPage(-1)), letter('l', A::ChooseKeyPage(1))],
         Some(("page", 2)), "list the keys of another page")
         .each(&["list the keys of the page before", "list the keys of the next page"]),
     bind(OwnKeys, W::Always, lines!(A::Line), Some(("choose", 2)), "mark something else").each(marks!("line")),

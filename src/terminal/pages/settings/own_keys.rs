@@ -5,9 +5,8 @@ use crossterm::event::KeyCode::{Char, Down, Enter, Esc, F, Tab, Up};
 use crate::terminal::{
     Change, Keys,
     keymap::{
-        Chord, KeyEntry, KeyPage,
+        Chord, KeyEntry, KeyPage, commands_of,
         remap::{chord as chord_named, name},
-        works_of,
     },
     pages::around,
 };
@@ -64,15 +63,15 @@ impl OwnKeys {
     }
 
     /// Everything that the marked command's first key does, on all pages: another key that does its work does all of it.
-    pub fn works(&self) -> Vec<(&'static str, &'static str)> {
-        self.chords().first().map_or_else(Vec::new, |chord| works_of(&self.pages, *chord))
+    pub fn commands(&self) -> Vec<(&'static str, &'static str)> {
+        self.chords().first().map_or_else(Vec::new, |chord| commands_of(&self.pages, *chord))
     }
 
     /// What `pressed` does now that is not the work of what is marked.
-    pub fn other_works(&self, pressed: Chord, keys: &Keys) -> Vec<(&'static str, &'static str)> {
-        let own = self.works();
-        let works = works_of(&self.pages, keys.work_of(pressed).unwrap_or(pressed));
-        works.into_iter().filter(|work| !own.contains(work)).collect()
+    pub fn other_commands(&self, pressed: Chord, keys: &Keys) -> Vec<(&'static str, &'static str)> {
+        let own = self.commands();
+        let commands = commands_of(&self.pages, keys.meant_by(pressed).unwrap_or(pressed));
+        commands.into_iter().filter(|command| !own.contains(command)).collect()
     }
 
     /// A key that may be given to what is marked.
@@ -95,7 +94,7 @@ impl OwnKeys {
         }
         let chords = self.chords();
         let Some(first) = chords.first() else { return Err("nothing is marked".to_owned()) };
-        let does_it = keys.work_of(pressed).map_or(chords.contains(&pressed), |meant| meant == *first);
+        let does_it = keys.meant_by(pressed).map_or(chords.contains(&pressed), |meant| meant == *first);
         if does_it { Err(format!("{written} does this already")) } else { Ok(pressed) }
     }
 

@@ -13,35 +13,20 @@ const LEAST_SHOTS: f64 = 100.0;
 /// A part that follows the end moves by this share of itself at a time: a chart that moves with every line would send
 /// kilobytes with each.
 const FOLLOW_STEP: f64 = 0.25;
-/// Training, s, by which it moves at least: at a high speed a narrow part would move with every line all the same.
-const FOLLOW_SECONDS: f64 = 5.0;
-/// Steps that a part which follows the end is wide at least, so that neighbours overlap.
-const LEAST_STEPS: f64 = 2.0;
+/// Narrowest part that follows the end, as a share of all shots: a narrower one would move with every line.
+const NARROWEST: f64 = 1.0 / 32.0;
 /// Why a part that follows the end gets no narrower.
-const TOO_FAST: &str = "the run is too fast for a narrower view; Left holds it still, then + shows less";
-/// Why there is no part of a run that has just begun.
-const TOO_SHORT: &str = "too few shots so far to zoom in on";
+const FOLLOWS: &str = "no narrower view follows the run; Left holds it still, then + shows less";
 /// Share of the part by which it is moved by hand.
 const PAN_STEP: f64 = 0.25;
 
 /// How far a run is, as far as charts depend on it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Progress {
     /// Shots played.
     pub shots: u64,
     /// Shots planned, where that is known.
     pub planned: Option<u64>,
-    /// Shots that it plays a second; 0 where it is not training.
-    pub speed: f64,
-}
-
-impl Progress {
-    /// The shots by which a part that follows the end moves at least: a power of two, because a speed is never quite the
-    /// same, and each other step would draw everything again.
-    fn least_step(&self) -> f64 {
-        let step = FOLLOW_SECONDS * self.speed;
-        if step >= 1.0 && step.is_finite() { step.log2().ceil().exp2() } else { 0.0 }
-    }
 }
 
 /// Part of a run.
@@ -163,12 +148,11 @@ impl Charts {
         if let Some(end) = end {
             return (end - width, end);
         }
-        let least = progress.least_step();
-        let width = width.max(LEAST_STEPS * least);
+        let width = width.max(NARROWEST * (all.1 - all.0));
         if width >= all.1 - all.0 {
             return all;
         }
-        let step = (FOLLOW_STEP * width).max(least);
+        let step = FOLLOW_STEP * width;
         let end = ((progress.shots as f64 / step).ceil() * step).clamp(all.0 + width, all.1);
         (end - width, end)
     }
@@ -182,14 +166,10 @@ impl Charts {
         let (all, (from, to)) = (whole(progress.shots, progress.planned), self.range(progress));
         let is_moved = self.part.is_some_and(|part| part.end.is_some());
         let width = if steps > 0 {
-            let least = if is_moved { 0.0 } else { LEAST_STEPS * progress.least_step() };
-            let width = (0.5 * (to - from)).max(LEAST_SHOTS).max(least);
+            let least = if is_moved { LEAST_SHOTS } else { LEAST_SHOTS.max(NARROWEST * (all.1 - all.0)) };
+            let width = (0.5 * (to - from)).max(least);
             if width >= to - from {
-                return Err(match self.part {
-                    _ if least <= LEAST_SHOTS => "this is the closest zoom",
-                    Some(_) => TOO_FAST,
-                    None => TOO_SHORT,
-                });
+                return Err(if least > LEAST_SHOTS { FOLLOWS } else { "this is the closest zoom" });
             }
             width
         } else {
@@ -208,7 +188,7 @@ impl Charts {
     pub fn pan(&mut self, steps: isize, progress: Progress) {
         let (all, (from, to)) = (whole(progress.shots, progress.planned), self.range(progress));
         if let Some(part) = &mut self.part {
-            // As wide as it is seen: while it follows a fast run it is wider than was asked for.
+            // As wide as it is seen: while it follows a run that has grown it is wider than was asked for.
             part.width = to - from;
             let end = to + steps as f64 * PAN_STEP * part.width;
             part.end = Some(end.min(all.1).max(all.0 + part.width));
@@ -232,32 +212,32 @@ impl Charts {
 mod tests {
     use super::*;
 
-    fn at(shots: u64, speed: f64) -> Progress {
-        Progress { shots, planned: Some(1_000_000), speed }
+    fn at(shots: u64) -> Progress {
+        Progress { shots, planned: Some(1_000_000) }
     }
 
     #[test]
     fn zooming_follows_the_end_until_somebody_moves_the_part() {
         let mut charts = Charts::default();
-        let all = charts.range(at(700_000, 0.0));
-        charts.zoom(1, at(700_000, 0.0)).unwrap();
-        charts.zoom(1, at(700_000, 0.0)).unwrap();
-        let (from, to) = charts.range(at(700_000, 0.0));
+        let all = charts.range(at(700_000));
+        charts.zoom(1, at(700_000)).unwrap();
+        charts.zoom(1, at(700_000)).unwrap();
+        let (from, to) = charts.range(at(700_000));
         assert!((4.0 * (to - from) - (all.1 - all.0)).abs() < 1e-6);
         assert!(from < 700_000.0 && to >= 700_000.0, "{from} {to}");
-        let later = charts.range(at(to as u64 + 1, 0.0));
+        let later = charts.range(at(to as u64 + 1));
         assert!(later.1 > to && later.0 > from, "it moves on with the run");
-        charts.pan(-1, at(700_000, 0.0));
-        let moved = charts.range(at(700_000, 0.0));
-        assert_eq!(moved, charts.range(at(900_000, 0.0)), "it stays where it was put");
+        charts.pan(-1, at(700_000));
+        let moved = charts.range(at(700_000));
+        assert_eq!(moved, charts.range(at(900_000)), "it stays where it was put");
         let middle = 0.5 * (moved.0 + moved.1);
-        charts.zoom(1, at(900_000, 0.0)).unwrap();
-        let (from, to) = charts.range(at(900_000, 0.0));
+        charts.zoom(1, at(900_000)).unwrap();
+        let (from, to) = charts.range(at(900_000));
         assert!((0.5 * (from + to) - middle).abs() < 1e-6);
         charts.follow_end();
-        assert!(charts.range(at(900_000, 0.0)).1 >= 900_000.0);
+        assert!(charts.range(at(900_000)).1 >= 900_000.0);
         for _ in 0..9 {
-            charts.zoom(-1, at(900_000, 0.0)).unwrap();
+            charts.zoom(-1, at(900_000)).unwrap();
         }
         assert!(!charts.is_part());
     }
@@ -266,41 +246,35 @@ mod tests {
     fn a_part_that_follows_the_end_moves_in_steps() {
         let mut charts = Charts::default();
         for _ in 0..4 {
-            charts.zoom(1, at(700_000, 0.0)).unwrap();
+            charts.zoom(1, at(700_000)).unwrap();
         }
-        let ranges: Vec<_> = (700_000..800_000).step_by(500).map(|shots| charts.range(at(shots, 0.0))).collect();
+        let ranges: Vec<_> = (700_000..800_000).step_by(500).map(|shots| charts.range(at(shots))).collect();
         let moves = ranges.windows(2).filter(|pair| pair[0] != pair[1]).count();
         assert!((1..=10).contains(&moves), "{moves}");
     }
 
     #[test]
-    fn a_fast_run_moves_its_part_every_few_seconds_at_most() {
+    fn a_part_that_follows_the_end_is_never_so_narrow_that_it_moves_with_every_line() {
         let mut charts = Charts::default();
-        let refused = (0..30).find_map(|_| charts.zoom(1, at(700_000, 433.0)).err());
-        assert_eq!(refused, Some(TOO_FAST));
-        let seconds: Vec<u64> = (0..100).collect();
-        // Its speed is never quite the same.
-        let ranges = seconds.iter().map(|n| charts.range(at(700_000 + 433 * n, 430.0 + (n % 7) as f64)));
-        let ranges: Vec<_> = ranges.collect();
-        let moves = ranges.windows(2).filter(|pair| pair[0] != pair[1]).count();
-        assert!((5..=20).contains(&moves), "{moves} in 100 s");
-        let (from, to) = charts.range(at(700_000, 433.0));
-        assert!(to - from < 20_000.0, "{from} {to}");
-        charts.pan(-1, at(700_000, 433.0));
-        charts.zoom(1, at(700_000, 433.0)).unwrap();
-        let held = charts.range(at(700_000, 433.0));
+        let refused = (0..30).find_map(|_| charts.zoom(1, at(700_000)).err());
+        assert_eq!(refused, Some(FOLLOWS));
+        let (from, to) = charts.range(at(700_000));
+        assert!((to - from - 31_250.0).abs() < 1e-6, "{from} {to}");
+        charts.pan(-1, at(700_000));
+        charts.zoom(1, at(700_000)).unwrap();
+        let held = charts.range(at(700_000));
         assert!(held.1 - held.0 < 0.6 * (to - from), "a part that does not move may be narrow");
         charts.follow_end();
-        assert!(charts.range(at(700_000, 433.0)).1 - charts.range(at(700_000, 433.0)).0 >= to - from);
+        assert_eq!(charts.range(at(700_000)), (from, to));
     }
 
     #[test]
     fn the_part_never_leaves_the_run() {
         let mut charts = Charts::default();
-        charts.zoom(1, at(10, 0.0)).unwrap();
+        charts.zoom(1, at(10)).unwrap();
         for steps in [-1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1] {
-            charts.pan(steps, at(500_000, 0.0));
-            let (from, to) = charts.range(at(500_000, 0.0));
+            charts.pan(steps, at(500_000));
+            let (from, to) = charts.range(at(500_000));
             assert!(from >= 0.0 && to <= whole(500_000, Some(1_000_000)).1 && from < to, "{from} {to}");
         }
     }

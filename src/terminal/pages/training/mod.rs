@@ -288,7 +288,9 @@ impl Page for TrainingPage {
     }
 
     fn tick(&mut self, seconds: f64) {
-        if let Some(watch) = &mut self.watch {
+        // Ticks come for toasts too.
+        let is_seen = self.page() == TrainingContext::Watch;
+        if let Some(watch) = self.watch.as_mut().filter(|_| is_seen) {
             watch.replay.tick(seconds);
         }
     }

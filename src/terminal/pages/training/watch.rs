@@ -104,12 +104,8 @@ impl Watch {
 
     /// How far it is, or the run that it is compared with: charts show both.
     pub fn progress(&self) -> Progress {
-        let runs = || [Some(&self.own.run), self.other.as_ref().map(|other| &other.run)].into_iter().flatten();
-        Progress {
-            shots: runs().map(Followed::shots).max().unwrap_or(0),
-            planned: self.planned_end(),
-            speed: runs().map(speed).fold(0.0, f64::max),
-        }
+        let runs = [Some(&self.own.run), self.other.as_ref().map(|other| &other.run)].into_iter().flatten();
+        Progress { shots: runs.map(Followed::shots).max().unwrap_or(0), planned: self.planned_end() }
     }
 
     /// Where charts end: at the plan, or where the last iteration of the run ended, which may be a few shots beyond.
@@ -187,10 +183,4 @@ impl Watch {
             }
         }
     }
-}
-
-/// Shots that a run plays a second, on average; 0 while it does not train.
-fn speed(run: &Followed) -> f64 {
-    let status = run.status.as_ref().filter(|_| run.condition.is_at_work());
-    status.map_or(0.0, |status| status.shots as f64 / status.seconds.max(1.0))
 }

@@ -6,6 +6,7 @@ use ratatui::{
     buffer::Cell,
     layout::Rect,
     style::{Color, Modifier, Style},
+    symbols::braille::BRAILLE,
     text::Span,
 };
 
@@ -178,7 +179,8 @@ impl Grid {
         let Some(layer) = self.uppermost(index, u8::MAX) else { return };
         match self.dots {
             Dots::Braille => {
-                cell.set_char(braille(self.cells[layer as usize][index])).set_style(layer.style(theme));
+                // Its dots are the bits, row by row.
+                cell.set_char(BRAILLE[usize::from(self.cells[layer as usize][index])]).set_style(layer.style(theme));
             }
             Dots::Halves if layer == Layer::Lines => {
                 cell.set_char('·').set_style(layer.style(theme));
@@ -212,25 +214,10 @@ pub fn sample(layer: Layer, caps: Capabilities, theme: &Theme) -> Span<'static> 
     Span::styled(mark.to_string().repeat(2), layer.style(theme))
 }
 
-/// The braille character with these dots, whose bits go row by row.
-fn braille(bits: u8) -> char {
-    /// Unicode numbers the dots down the columns, with the fourth row added later.
-    const PLACES: [u32; 8] = [0, 3, 1, 4, 2, 5, 6, 7];
-    let dots =
-        PLACES.iter().enumerate().filter(|(n, _)| bits >> n & 1 == 1).fold(0, |dots, (_, place)| dots | 1 << place);
-    char::from_u32(0x2800 + dots).unwrap_or(' ')
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::terminal::{Depth, ui::drawn};
-
-    #[test]
-    fn dots_become_the_braille_character_with_the_same_shape() {
-        assert_eq!((braille(0b11), braille(0b1100_0000), braille(0b0101_0101)), ('⠉', '⣀', '⡇'));
-        assert_eq!(braille(0b10), '⠈');
-    }
 
     #[test]
     fn of_two_curves_in_a_cell_the_upper_one_is_shown_alone() {

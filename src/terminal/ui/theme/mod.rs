@@ -8,6 +8,26 @@ use crate::{table::CueBall, terminal::Depth};
 
 pub use themes::{ThemeName, UnknownTheme};
 
+/// The 16 colours of every terminal, in the order of their codes.
+pub const ANSI: [Color; 16] = [
+    Color::Black,
+    Color::Red,
+    Color::Green,
+    Color::Yellow,
+    Color::Blue,
+    Color::Magenta,
+    Color::Cyan,
+    Color::Gray,
+    Color::DarkGray,
+    Color::LightRed,
+    Color::LightGreen,
+    Color::LightYellow,
+    Color::LightBlue,
+    Color::LightMagenta,
+    Color::LightCyan,
+    Color::White,
+];
+
 /// Colours by their purpose. In monochrome all of them are [`Color::Reset`]: crossterm under `NO_COLOR` turns bold and
 /// reverse off with every colour command, so that only letters and modifiers may tell things apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

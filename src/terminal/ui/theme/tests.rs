@@ -2,7 +2,10 @@
 
 use ratatui::style::{Color, Modifier};
 
-use crate::terminal::{Depth, ThemeName, ui::Theme};
+use crate::terminal::{
+    Depth, ThemeName,
+    ui::{Theme, theme::ANSI},
+};
 
 /// The 16 colours as terminals have them, in the order of their codes: the Linux console (and VGA), xterm, Visual Studio Code.
 const SIXTEEN: [[u32; 16]; 3] = [
@@ -18,26 +21,6 @@ const SIXTEEN: [[u32; 16]; 3] = [
         0x00_0000, 0xcd_3131, 0x0d_bc79, 0xe5_e510, 0x24_72c8, 0xbc_3fbc, 0x11_a8cd, 0xe5_e5e5, 0x66_6666, 0xf1_4c4c,
         0x23_d18b, 0xf5_f543, 0x3b_8eea, 0xd6_70d6, 0x29_b8db, 0xff_ffff,
     ],
-];
-
-/// The 16 colours in the order of their codes.
-const CODES: [Color; 16] = [
-    Color::Black,
-    Color::Red,
-    Color::Green,
-    Color::Yellow,
-    Color::Blue,
-    Color::Magenta,
-    Color::Cyan,
-    Color::Gray,
-    Color::DarkGray,
-    Color::LightRed,
-    Color::LightGreen,
-    Color::LightYellow,
-    Color::LightBlue,
-    Color::LightMagenta,
-    Color::LightCyan,
-    Color::White,
 ];
 
 /// What is left of linear colours for those who lack no cones, the long, the middle or the short ones (Machado, Oliveira and
@@ -57,7 +40,7 @@ fn themes() -> impl Iterator<Item = (ThemeName, Theme)> {
 
 /// The number among the 16 colours, if it is one of them.
 fn code(color: Color) -> Option<usize> {
-    CODES.iter().position(|code| *code == color)
+    ANSI.iter().position(|code| *code == color)
 }
 
 /// Linear red, green and blue of a colour on a terminal that has these 16.
@@ -140,7 +123,7 @@ fn text_can_be_read_in_every_theme_at_every_depth() {
             let color = style.fg.unwrap();
             // Many terminals show bold words in the brighter one of the 16.
             let bold = style.add_modifier.contains(Modifier::BOLD);
-            let brighter = code(color).filter(|code| bold && *code < 8).map(|code| CODES[code + 8]);
+            let brighter = code(color).filter(|code| bold && *code < 8).map(|code| ANSI[code + 8]);
             for color in [color].into_iter().chain(brighter) {
                 for sixteen in &SIXTEEN {
                     let contrast = contrast(color, theme.background, sixteen);

@@ -9,7 +9,7 @@ use crate::{
         CoachAction,
         pages::coach::{CoachPage, keys::COACH},
         ui::{Ui, draw_title, write_paragraphs},
-        words::skill_word,
+        words::{named_skill, player_words},
     },
 };
 
@@ -27,11 +27,11 @@ pub fn draw_asked(coach: &CoachPage, area: Rect, ui: &mut Ui) {
 
 /// Who plays, as one says it of a person.
 fn whom(skill: Skill) -> String {
-    match skill_word(skill) {
-        "my skill" => "your own skill".to_owned(),
-        "expert" => "an expert".to_owned(),
-        "beginner" => "a beginner".to_owned(),
-        name => format!("a {name} player"),
+    match named_skill(skill) {
+        None => player_words(skill).replacen("me", "you", 1).replacen("my", "your", 1),
+        Some("expert") => "an expert".to_owned(),
+        Some("beginner") => "a beginner".to_owned(),
+        Some(name) => format!("a {name} player"),
     }
 }
 

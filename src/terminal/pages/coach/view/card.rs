@@ -140,8 +140,9 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
         degrees if words.is_level => format!("{degrees}\u{b0}, as level as can be"),
         degrees => format!("raised {degrees}\u{b0}"),
     };
+    // Systems count on the wood behind the noses.
     let mark =
-        |mark: RailPoint| format!("{} rail {}", mark.rail.name(), place_along(coach, mark.diamond, to_hundredths));
+        |mark: RailPoint| format!("{} nose {}", mark.rail.name(), place_along(coach, mark.diamond, to_hundredths));
     let lengths = lengths_words(words.table_lengths);
     let speed = format!("{lengths}, {}", speed_words(proposal.shot.cue.speed, coach.units.length, 2));
     let whole_speed = format!("{}, {speed}", pace_word(words.table_lengths));
@@ -155,8 +156,8 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
         ("cue", cue),
     ]);
     if rows.len() + aim.len() > most {
-        let [from, to] = aim.map(|(_, mark)| mark.replace(" rail", ""));
-        rows.push(("aim", format!("{from} to {to}")));
+        let [from, to] = aim.map(|(_, mark)| mark.replace(" nose", ""));
+        rows.push(("noses", format!("{from} to {to}")));
     } else {
         rows.extend(aim);
     }

@@ -74,11 +74,12 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
 /// How often each of the three would miss the shot if it alone erred, in lines; in fewer words where `rows` ask for it.
 fn risk_lines(risk: &Risk, width: usize, rows: usize) -> Vec<String> {
     let [hand, table, balls] = [risk.hand, risk.table, risk.placing].map(percent);
-    let whole = ["each error alone misses:".to_owned(), format!("hand {hand} %, table {table} %, balls {balls} %")];
+    // They are no parts of one sum: each is what would be missed if nothing else erred.
+    let whole = ["each error alone would miss:".to_owned(), format!("hand {hand} %, table {table} %, balls {balls} %")];
     let in_one = [
         whole.join(" "),
-        format!("missed by hand {hand}, table {table}, balls {balls} %"),
-        format!("miss: hand {hand}, table {table}, balls {balls} %"),
+        format!("alone miss: hand {hand}, table {table}, balls {balls} %"),
+        format!("alone: hand {hand}, table {table}, balls {balls} %"),
     ];
     if columns(&in_one[0]) > width && rows >= whole.len() {
         return whole.into();
@@ -183,9 +184,9 @@ mod tests {
     #[test]
     fn each_risk_is_told_in_one_row_too() {
         let risk = Risk { hand: 0.63, table: 0.24, placing: 0.112 };
-        assert_eq!(risk_lines(&risk, 38, 2), ["each error alone misses:", "hand 63 %, table 24 %, balls 11 %"]);
-        assert_eq!(risk_lines(&risk, 39, 1), ["missed by hand 63, table 24, balls 11 %"]);
-        assert_eq!(risk_lines(&risk, 38, 1), ["miss: hand 63, table 24, balls 11 %"]);
-        assert_eq!(risk_lines(&risk, 70, 1), ["each error alone misses: hand 63 %, table 24 %, balls 11 %"]);
+        assert_eq!(risk_lines(&risk, 38, 2), ["each error alone would miss:", "hand 63 %, table 24 %, balls 11 %"]);
+        assert_eq!(risk_lines(&risk, 41, 1), ["alone miss: hand 63, table 24, balls 11 %"]);
+        assert_eq!(risk_lines(&risk, 38, 1), ["alone: hand 63, table 24, balls 11 %"]);
+        assert_eq!(risk_lines(&risk, 70, 1), ["each error alone would miss: hand 63 %, table 24 %, balls 11 %"]);
     }
 }

@@ -11,7 +11,7 @@ use crate::{
         CoachAction, Mode,
         pages::coach::{CoachPage, keys::COACH},
         ui::{Ui, end_of},
-        words::{fixed, rule_word, skill_word},
+        words::{fixed, rule_word, short_skill_word, skill_word},
     },
 };
 
@@ -32,13 +32,15 @@ const NAME: usize = 8;
 /// Draws the coach's row. What is asked and the time of the shot always have room; the rest comes as it fits.
 pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let room = usize::from(area.width);
-    let time = transport(coach, Form::Short, 0, ui).width() + 2;
-    let whole = question(coach, true, ui);
-    // Of what there is no room for, the plan goes first; a wish for this very shot stays, and the name of another table.
+    // How long the shot takes and how fast it plays go before all that decides what it is.
+    let time = transport(coach, Form::Now, 0, ui).width() + 2;
+    // Of the rest the player's average goes first, then the plan; a wish for this very shot stays, and the name of another table.
     let is_named = coach.query.policy.is_some() || coach.table().name != "match";
     let has_plan = coach.query.plan && coach.query.first == FirstMet::Any && !is_named;
-    let fits = whole.width() + time + if is_named { NAME } else { 0 } <= room;
-    let question = if fits { whole } else { question(coach, has_plan, ui) };
+    let taken = time + if is_named { NAME } else { 0 };
+    let [whole, brief, least] =
+        [(true, true), (true, false), (has_plan, false)].map(|(plan, average)| question(coach, plan, average, ui));
+    let question = [whole, brief].into_iter().find(|line| line.width() + taken <= room).unwrap_or(least);
     let name = name(coach, room.saturating_sub(question.width() + time), room, ui);
     let left = room.saturating_sub(question.width() + name.width() + 1);
     // The bar says more than words do.
@@ -60,8 +62,9 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     ui.buffer.set_line(start, area.y, &right, area.right() - start);
 }
 
-/// What is asked, each after the key that changes it; whether the next point counts only where that is wanted.
-fn question(coach: &CoachPage, has_plan: bool, ui: &Ui) -> Line<'static> {
+/// What is asked, each after the key that changes it; whether the next point counts, and the player's average, only where that is
+/// wanted.
+fn question(coach: &CoachPage, has_plan: bool, has_average: bool, ui: &Ui) -> Line<'static> {
     let query = &coach.query;
     if let Some(followed) = coach.followed() {
         let words = if followed.emptiness().is_some() {
@@ -73,10 +76,11 @@ fn question(coach: &CoachPage, has_plan: bool, ui: &Ui) -> Line<'static> {
         let whose = Span::styled(format!(" following {}", followed.name), ui.theme.accent());
         return Line::from(vec![whose, Span::styled(words, ui.theme.text())]);
     }
+    let player = if has_average { skill_word(query.skill) } else { short_skill_word(query.skill).to_owned() };
     let plan = if query.plan { "plan on" } else { "plan off" };
     let parts = [
         (CoachAction::NextRule, rule_word(query.rule)),
-        (CoachAction::NextSkill, skill_word(query.skill)),
+        (CoachAction::NextSkill, player.as_str()),
         (CoachAction::TurnPlan, plan),
     ];
     let mut parts = parts[..if has_plan { 3 } else { 2 }].to_vec();

@@ -107,23 +107,15 @@ fn write_at(
     ui.buffer.set_string(x, y, text, style);
 }
 
-/// Draws the panel: the arithmetic, in fewer words where there is no room for all of them, then what it is. A sentence that has no room
-/// says so by its end.
-pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
-    let mut title = match &lesson.guide {
-        Guide::System(applied) => vec![
-            Span::styled("System", ui.theme.text()),
-            ui.dash(),
-            Span::styled(applied.system.name(), ui.theme.good()),
-        ],
-        Guide::Shift(_) => vec![Span::styled("Parallel shift", ui.theme.good())],
+/// Draws the panel: the arithmetic, in fewer words where there is no room for all of them, then what it is; before an example, that the
+/// shot on the table `has_no_system`. A sentence that has no room says so by its end.
+pub fn draw_lesson(lesson: &Lesson, has_no_system: bool, area: Rect, ui: &mut Ui) {
+    let name = match &lesson.guide {
+        Guide::System(applied) => applied.system.name(),
+        Guide::Shift(_) => "Parallel shift",
     };
-    title.push(if lesson.is_of_shot {
-        Span::styled(" for this shot", ui.theme.faint())
-    } else {
-        // Its line runs over the player's balls and looks like advice.
-        Span::styled(" example, not your shot", ui.theme.text())
-    });
+    let whose = if lesson.is_of_shot { "for this shot" } else { "an example" };
+    let title = vec![Span::styled(name, ui.theme.good()), ui.dash(), Span::styled(whose, ui.theme.text())];
     let inner = draw_title(title, area, ui);
     let inner = inner.inner(Margin::new(1, 0));
     let rows = |sentences: &[(String, bool)]| -> usize {
@@ -131,6 +123,9 @@ pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
         main.map(|(words, _)| wrap(words, usize::from(inner.width)).len()).sum()
     };
     let mut sentences = sentences(&lesson.guide);
+    if has_no_system && !lesson.is_of_shot {
+        sentences.insert(0, ("No system describes this shot.".to_owned(), true));
+    }
     sentences.retain(|(words, _)| !words.is_empty());
     if let Guide::Shift(shift) = &lesson.guide
         && rows(&sentences) > usize::from(inner.height)
@@ -159,19 +154,14 @@ fn sentences(guide: &Guide) -> Vec<(String, bool)> {
     };
     let system = applied.system;
     let side = if system.is_running() { "running side" } else { "no side" };
-    let own = applied.shot_first.map(|first| format!("the shot itself, with its side, at {}", number(system, first)));
+    let own = applied.shot_first.map(|first| format!("this shot, with its side, at {}", number(system, first)));
     vec![
         (format!("{}: aim at {} on the wood", applied.arithmetic(), applied.aim()), true),
         (applied.correction(), true),
         (own.unwrap_or_default(), true),
         (format!("{}; {side}", system.track()), false),
         (system.rule().to_owned(), false),
-        (
-            "On the rails: where the line comes from and the first cushion; aim through the diamond on the wood."
-                .to_owned(),
-            false,
-        ),
-        ("On the cloth: where the ball comes to the third cushion.".to_owned(), false),
+        ("Numbers: start and first on the rails, third on the cloth.".to_owned(), false),
     ]
 }
 

@@ -1,10 +1,6 @@
 //! The panel of margins: how far off each input may be beside how far the player is off as a rule.
 
-use ratatui::{
-    layout::Rect,
-    style::Style,
-    text::{Line, Span},
-};
+use ratatui::{layout::Rect, style::Style, text::Span};
 
 use crate::{
     coach::{
@@ -21,19 +17,18 @@ use crate::{
 /// Rows from which on every input has one of its own.
 const TALL: u16 = 6;
 
-/// Columns of the tall table: where its names and its numbers end, from the panel's left edge.
-const NAME_END: u16 = 8;
-const LESS_END: u16 = 14;
-const MORE_END: u16 = 21;
-const YOURS_END: u16 = 29;
-const UNIT: u16 = 30;
+/// Columns of the tall table: where its names and its numbers end, from the panel's left edge. Behind a number stands which way.
+const NAME_END: u16 = 7;
+const LESS_END: u16 = 13;
+const MORE_END: u16 = 25;
+const YOURS_END: u16 = 38;
 
-/// Columns of an input where two share a row: at least, and where there is room.
+/// Columns of an input where two share a row: at least, and where there is room for the player's errors as well, which the maps
+/// beside it tell too.
 const HALF: (u16, u16) = (20, 24);
 
 /// Draws the panel of a shot that is studied, with distances in `unit`; the tightest input, the one that the player's errors leave
-/// first, is marked. The inputs have the thesis' letters where they are told `in_letters`, and where words have no room. Without a
-/// study it says `empty`.
+/// first, is marked. The inputs have the thesis' letters where they are told `in_letters`. Without a study it says `empty`.
 pub fn draw_margins(
     studied: Option<(&ShotAnalysis, &Shot)>,
     (unit, in_letters): (LengthUnit, bool),
@@ -42,12 +37,14 @@ pub fn draw_margins(
     ui: &mut Ui,
 ) {
     let tall = area.height > TALL;
+    let half = (area.width / 2).clamp(HALF.0, HALF.1);
+    let has_yours = half == HALF.1;
+    let [small, speed] = [Input::Side, Input::Speed].map(|input| input.told_in(unit).1);
+    let units = format!("{small} {} {speed}", ui.caps.pick("°", "deg"));
     let mut title = vec![Span::styled("Margins", ui.theme.text())];
     if studied.is_some() && !tall {
-        let [small, speed] = [Input::Side, Input::Speed].map(|input| input.told_in(unit).1);
-        let (yours, degree) = (ui.caps.pick("± yours", "yours"), ui.caps.pick("°", "deg"));
-        let units = format!(" less, more, {yours} {small} {degree} {speed}");
-        title.push(Span::styled(units, ui.theme.faint()));
+        let yours = if has_yours { ui.caps.pick(", ± yours", ", yours") } else { "" };
+        title.push(Span::styled(format!(" R right, L left{yours}: {units}"), ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
     let (margins, skill, shot) = match studied {
@@ -70,19 +67,19 @@ pub fn draw_margins(
             let is_tightest = Some(n) == tightest;
             let (factor, unit) = margin.input.told_in(unit);
             let yours = yours(factor * skill.error(margin.input));
-            Row { margin, factor, unit, yours, is_tightest }
+            Row { margin, factor, unit, yours, is_tightest, in_letters }
         })
         .collect();
     if tall {
-        for (end, label) in [(LESS_END, "less"), (MORE_END, "more"), (YOURS_END, ui.caps.pick("yours ±", "yours"))] {
-            write_right(ui.buffer, inner.x, inner.x + end, inner.y, label, ui.theme.faint());
-        }
+        ui.buffer.set_string(inner.x + 1, inner.y, &units, ui.theme.faint());
+        let yours = ui.caps.pick("yours ±", "yours");
+        write_right(ui.buffer, inner.x, inner.x + YOURS_END, inner.y, yours, ui.theme.faint());
         for (row, y) in rows.iter().zip(inner.y + 1..inner.bottom()) {
-            row.draw_whole(in_letters, Rect { y, height: 1, ..inner }, ui);
+            row.draw_whole(inner.x, y, ui);
         }
         let note = inner.y + 1 + rows.len() as u16;
         if tightest.is_some() && note < inner.bottom() {
-            let words = format!("{} tightest: errors leave it first", ui.caps.pick("◂", "<"));
+            let words = format!("{} tightest: errors leave it first", ui.caps.pick("▸", ">"));
             ui.buffer.set_stringn(
                 inner.x + 1,
                 note,
@@ -93,18 +90,17 @@ pub fn draw_margins(
         }
     } else {
         let places = (0..2).flat_map(|column| (inner.y..inner.bottom()).map(move |y| (column, y)));
-        let half = (inner.width / 2).clamp(HALF.0, HALF.1);
         for (row, (column, y)) in rows.iter().zip(places) {
-            row.draw_half(inner.x + half * column, y, ui);
+            row.draw_half(has_yours, inner.x + half * column, y, ui);
         }
         // The other panels tell the speed in table lengths alone.
         if 2 * usize::from(inner.height) > rows.len() {
-            let (speed, lengths) = (unit.speed().0 * shot.cue.speed, shot.words.table_lengths);
+            let told = fixed(unit.speed().0 * shot.cue.speed, 1);
             let x = inner.x + half + 1;
             let room = usize::from(inner.right().saturating_sub(x));
-            let mut words = format!("V {} = {}", fixed(speed, 1), lengths_words(lengths));
+            let mut words = format!("{told} = {}", lengths_words(shot.words.table_lengths));
             if columns(&words) > room {
-                words = format!("V {}", fixed(speed, 1));
+                words = format!("{told} {speed}");
             }
             ui.buffer.set_stringn(x, inner.bottom() - 1, words, room, ui.theme.faint());
         }
@@ -134,6 +130,7 @@ struct Row<'a> {
     /// The player's standard error, in that unit.
     yours: String,
     is_tightest: bool,
+    in_letters: bool,
 }
 
 impl Row<'_> {
@@ -141,57 +138,57 @@ impl Row<'_> {
         if self.is_tightest { theme.accent() } else { theme.text() }
     }
 
-    /// The word that other views have for it.
-    const fn word(&self) -> &'static str {
+    /// The word that other views have for it, or the thesis' letter; and the word where there is less room.
+    fn names(&self, caps: Capabilities) -> [&'static str; 2] {
         match self.margin.input {
-            Input::Side => "side",
-            Input::Height => "height",
-            Input::Elevation => "cue",
-            Input::Direction => "aim",
-            Input::Speed => "speed",
+            Input::Elevation if self.in_letters => [caps.pick("θ", "th"); 2],
+            Input::Direction if self.in_letters => [caps.pick("φ", "ph"); 2],
+            input if self.in_letters => [input.name(); 2],
+            Input::Side => ["side"; 2],
+            Input::Height => ["height", "hght"],
+            Input::Elevation => ["cue"; 2],
+            Input::Direction => ["aim"; 2],
+            Input::Speed => ["speed", "spd"],
         }
     }
 
-    fn letter(&self, caps: Capabilities) -> &'static str {
+    /// Which way less and more of it is, and the sign for that. Side and direction are counted to the shooter's left.
+    const fn ways(&self) -> [(&'static str, &'static str); 2] {
         match self.margin.input {
-            Input::Elevation => caps.pick("θ", "th"),
-            Input::Direction => caps.pick("φ", "ph"),
-            input => input.name(),
+            Input::Side | Input::Direction => [("right", "R"), ("left", "L")],
+            Input::Height | Input::Elevation => [("lower", "-"), ("higher", "+")],
+            Input::Speed => [("softer", "-"), ("harder", "+")],
         }
     }
 
-    /// How much less and more the input may be, with so many decimals.
-    fn sizes(&self, decimals: usize) -> [String; 2] {
-        [(self.margin.less, "-"), (self.margin.more, "+")]
-            .map(|(margin, sign)| size(margin.map(|margin| self.factor * margin), sign, decimals))
+    /// How much less and more the input may be.
+    fn sizes(&self) -> [Option<f64>; 2] {
+        [self.margin.less, self.margin.more].map(|margin| margin.map(|margin| self.factor * margin))
     }
 
-    fn draw_whole(&self, in_letters: bool, area: Rect, ui: &mut Ui) {
-        let (x, y) = (area.x, area.y);
-        ui.buffer.set_string(x + 1, y, if in_letters { self.letter(ui.caps) } else { self.word() }, ui.theme.faint());
+    fn draw_whole(&self, x: u16, y: u16, ui: &mut Ui) {
+        let [name, _] = self.names(ui.caps);
+        list::draw_mark(self.is_tightest, x, y, ui);
+        ui.buffer.set_string(x + 1, y, name, ui.theme.faint());
         // An inch has hundredths that are a quarter of a millimetre.
         let decimals = if self.unit == LengthUnit::Feet.fine().1 { 3 } else { 2 };
-        let [less, more] = self.sizes(decimals);
-        write_right(ui.buffer, x + NAME_END, x + LESS_END, y, &less, self.style(ui.theme));
-        write_right(ui.buffer, x + NAME_END, x + MORE_END, y, &more, self.style(ui.theme));
-        write_right(ui.buffer, x + NAME_END, x + YOURS_END, y, &self.yours, ui.theme.text());
-        let unit = match self.unit {
-            "degrees" => ui.caps.pick("°", "deg"),
-            unit => unit,
-        };
-        let mark = if self.is_tightest { ui.caps.pick(" ◂", " <") } else { "" };
-        let line = Line::from(vec![Span::styled(unit, ui.theme.faint()), Span::styled(mark, ui.theme.accent())]);
-        ui.buffer.set_line(x + UNIT, y, &line, area.right().saturating_sub(x + UNIT));
+        for ((margin, (way, _)), end) in self.sizes().into_iter().zip(self.ways()).zip([LESS_END, MORE_END]) {
+            write_right(ui.buffer, x + NAME_END, x + end, y, &size(margin, "", decimals), self.style(ui.theme));
+            ui.buffer.set_string(x + end + 1, y, way, ui.theme.faint());
+        }
+        write_right(ui.buffer, x + MORE_END, x + YOURS_END, y, &self.yours, ui.theme.text());
     }
 
-    fn draw_half(&self, x: u16, y: u16, ui: &mut Ui) {
+    fn draw_half(&self, has_yours: bool, x: u16, y: u16, ui: &mut Ui) {
+        let [_, name] = self.names(ui.caps);
         list::draw_mark(self.is_tightest, x, y, ui);
-        ui.buffer.set_string(x + 1, y, self.letter(ui.caps), ui.theme.faint());
-        let [less, more] = self.sizes(2);
-        write_right(ui.buffer, x + 3, x + 8, y, &less, self.style(ui.theme));
-        write_right(ui.buffer, x + 8, x + 14, y, &more, self.style(ui.theme));
-        // They are less than 1 as a rule, so that their points stand one below the other.
-        ui.buffer.set_stringn(x + 15, y, &self.yours, 5, ui.theme.faint());
+        ui.buffer.set_string(x + 1, y, name, ui.theme.faint());
+        for ((margin, (_, sign)), end) in self.sizes().into_iter().zip(self.ways()).zip([12, 19]) {
+            write_right(ui.buffer, x + 5, x + end, y, &size(margin, sign, 2), self.style(ui.theme));
+        }
+        if has_yours {
+            ui.buffer.set_stringn(x + 20, y, &self.yours, 4, ui.theme.faint());
+        }
     }
 }
 
@@ -220,6 +217,12 @@ mod tests {
         assert_eq!(tightest(&margins, Skill::PERFECT), None, "who never errs finds nothing tight");
         let sizes = [(Some(9.994), "-"), (Some(9.996), "+"), (None, "-")].map(|(margin, sign)| size(margin, sign, 2));
         assert_eq!(sizes, ["-9.99", "+10.0", "wide"]);
+        let ways = margins.each_ref().map(|margin| {
+            let row =
+                Row { margin, factor: 1.0, unit: "", yours: String::new(), is_tightest: false, in_letters: false };
+            row.ways().map(|(way, _)| way).join(" ")
+        });
+        assert_eq!(ways, ["right left", "lower higher", "lower higher", "right left", "softer harder"]);
         assert_eq!([0.5, 0.125, 0.934, 2.1994].map(yours), ["0.5", "0.125", "0.93", "2.2"]);
     }
 }

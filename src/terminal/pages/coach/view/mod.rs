@@ -18,8 +18,8 @@ use glam::DVec2;
 use ratatui::layout::{Margin, Position, Rect};
 
 use crate::{
-    coach::words::TipUnit,
-    table::BALLS,
+    coach::{systems::Guide, words::TipUnit},
+    table::{BALLS, Layout},
     terminal::{
         AdviceState, Capabilities, InfoPanel, Mapping, Mode, Shot,
         pages::{
@@ -52,6 +52,9 @@ use crate::{
     },
 };
 
+/// Where balls are that are not to be seen, m: so far from the table that no picture of one reaches it.
+const NOWHERE: [DVec2; BALLS] = [DVec2::splat(1e3), DVec2::new(1e3, -1e3), DVec2::new(-1e3, 1e3)];
+
 impl PageView for CoachPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
         draw_header(self, area.header, ui);
@@ -70,12 +73,14 @@ impl PageView for CoachPage {
         if let Some(lesson) = lesson {
             spots = lesson_spots(lesson, ui.theme);
         }
+        // An example is not of these balls.
+        let is_example = lesson.is_some_and(|lesson| !lesson.is_of_shot);
+        let nowhere = Layout::new(NOWHERE);
         let kiss = kiss_note(self);
         let view = TableView {
-            // An example is not of these balls.
-            shot: self.shot().map(AsRef::as_ref).filter(|_| lesson.is_none_or(|lesson| lesson.is_of_shot)),
+            shot: self.shot().map(AsRef::as_ref).filter(|_| !is_example),
             time: self.playback.time,
-            is_moving: self.mode == Mode::Watching,
+            is_moving: self.mode == Mode::Watching || is_example,
             front: self.selected,
             other: self.what_if().and_then(|what_if| what_if.coach.as_deref()),
             other_name: COACH,
@@ -85,7 +90,7 @@ impl PageView for CoachPage {
             is_numbered: lesson.is_none(),
             spots: &spots,
             note: kiss.as_ref().map(|(place, words)| (*place, words.as_str())),
-            ..TableView::new(self.table(), self.layout())
+            ..TableView::new(self.table(), if is_example { &nowhere } else { self.layout() })
         };
         draw_table(&view, panes.table, ui);
         if let Some(lesson) = lesson {
@@ -153,7 +158,7 @@ fn panes(coach: &CoachPage, area: Rect) -> (Panes, Rect) {
 /// far as there is room. Whether one of them says why the first shot leads.
 fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     let (table, shot) = (coach.table(), coach.shot().map(AsRef::as_ref));
-    let chosen = coach.info;
+    let chosen = coach.panel();
     if let Some(what_if) = coach.what_if() {
         draw_own_stroke(coach, what_if, panes, ui);
         return false;
@@ -176,7 +181,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     let says_why = has_told_why || is_explained || !is_beside;
     for (panel, area) in info_panels(chosen, panes) {
         match coach.lesson.as_ref().filter(|_| panel == chosen) {
-            Some(lesson) => draw_lesson(lesson, area, ui),
+            Some(lesson) => draw_lesson(lesson, coach.has_no_system(), area, ui),
             None if told.is_some() && panel == chosen => {}
             None => draw_info(coach, panel, !has_told_why && !is_explained, area, ui),
         }
@@ -308,10 +313,19 @@ fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Messa
 /// is told above as well. Beside another system's example it is the line alone.
 fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
     let aim = spell(&shot.words.aim(coach.units), ui.caps);
+    // The systems count on the wood behind the noses.
+    let at_noses = format!("{}, nose to nose.", aim.trim_end_matches('.'));
+    let aim = if columns(&at_noses) <= room { at_noses } else { aim };
     let is_counted = coach.what_if().is_none() && coach.lesson.as_ref().is_none_or(|lesson| lesson.is_of_shot);
     let Some(guide) = coach.guide().filter(|_| is_counted) else { return aim };
-    let named = guide.to_string();
-    let fits = [format!("{aim} {named}"), named].into_iter().find(|words| columns(words) <= room);
+    let named = guide.shot_words();
+    // What the sum comes to is where to aim.
+    let brief = match guide {
+        Guide::System(applied) => named.replacen(&format!(", aim at {}", applied.aim()), "", 1),
+        Guide::Shift(_) => guide.to_string(),
+    };
+    let tries = [format!("{aim} {named}"), named, brief, guide.to_string()];
+    let fits = tries.into_iter().find(|words| columns(words) <= room);
     fits.unwrap_or(aim)
 }
 

@@ -83,14 +83,14 @@ pub fn to_hundredths(diamonds: f64) -> String {
 }
 
 /// The line of aim in few words, and in fewer: where the cue comes from and where it points, as diamonds or millimetres along
-/// the noses of the rails. The longer words say so, for systems count on the wood behind them.
+/// the noses of the rails. Both say so, for systems count on the wood behind them.
 fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
     let words = &proposal.shot.words;
     let [behind, ahead] =
         [words.behind, words.ahead].map(|mark| (mark.rail.name(), place_along(coach, mark.diamond, to_hundredths)));
     let arrow = ui.caps.pick("→", ">");
-    let aim = format!("aim {} {} {arrow} {} {}", behind.0, behind.1, ahead.0, ahead.1);
-    [format!("{aim}, at noses"), aim]
+    let line = format!("{} {} {arrow} {} {}", behind.0, behind.1, ahead.0, ahead.1);
+    [format!("aim {line}, at noses"), format!("noses {line}")]
 }
 
 /// The first of the tries that `rows` hold, each part from a new row or else one behind the other; the last, with its end replaced by

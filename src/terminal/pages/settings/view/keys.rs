@@ -47,7 +47,7 @@ fn draw_entry(settings: &SettingsPage, entry: &KeyEntry, is_marked: bool, area: 
 /// The keys that do it now, the user's own first; `None` where none does.
 fn keys_of(settings: &SettingsPage, entry: &KeyEntry, caps: Capabilities) -> Option<String> {
     let keys = &settings.settings.keys;
-    let text = keys_text(entry.chords.iter().flat_map(|chord| keys.for_work_of(*chord)), caps);
+    let text = keys_text(entry.chords.iter().flat_map(|chord| keys.keys_for(*chord)), caps);
     (!text.is_empty()).then_some(text)
 }
 
@@ -58,9 +58,9 @@ fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui
         (entry.words.to_owned(), ui.theme.text()),
         (format!("Keys: {keys}. By default: {}.", keys_text(entry.chords.iter().copied(), ui.caps)), ui.theme.text()),
     ];
-    let works = settings.keys.works();
-    if let (Some(chord), true) = (entry.chords.first(), works.len() > 1) {
-        let all = tell(&works);
+    let commands = settings.keys.commands();
+    if let (Some(chord), true) = (entry.chords.first(), commands.len() > 1) {
+        let all = tell(&commands);
         paragraphs.push((
             format!("A key of your own does all that {} does: {all}.", keys_text([*chord], ui.caps)),
             ui.theme.faint(),
@@ -70,9 +70,9 @@ fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui
 }
 
 /// What a key does, page by page.
-fn tell(works: &[(&str, &str)]) -> String {
-    let works: Vec<String> = works.iter().map(|(page, what)| format!("{what} ({page})")).collect();
-    works.join("; ")
+fn tell(commands: &[(&str, &str)]) -> String {
+    let commands: Vec<String> = commands.iter().map(|(page, what)| format!("{what} ({page})")).collect();
+    commands.join("; ")
 }
 
 /// What is asked while a key is to be pressed.
@@ -83,6 +83,6 @@ pub fn press(settings: &SettingsPage) -> String {
 
 /// What is asked about a key that does something else.
 pub fn taken(settings: &SettingsPage, chord: Chord, caps: Capabilities) -> String {
-    let works = settings.keys.other_works(chord, &settings.settings.keys);
-    format!("{} already does: {}. Use it for this instead?", keys_text([chord], caps), tell(&works))
+    let commands = settings.keys.other_commands(chord, &settings.settings.keys);
+    format!("{} already does: {}. Use it for this instead?", keys_text([chord], caps), tell(&commands))
 }

@@ -1,0 +1,85 @@
+//! What the words of players mean: the glossary of the documentation as a page over the screen.
+
+use ratatui::text::{Line, Span};
+
+use crate::terminal::{
+    App,
+    ui::{spell, wrap},
+};
+
+/// The one place where the words are explained.
+const GLOSSARY: &str = include_str!("../../../../docs/glossary.md");
+
+/// A paragraph of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Heading,
+    Item,
+    Text,
+}
+
+/// The lines of the page, of at most `width` columns.
+pub fn lines(app: &App, width: usize) -> Vec<Line<'static>> {
+    let (theme, caps) = (app.theme(), app.caps);
+    let mut lines = Vec::new();
+    for (kind, text) in paragraphs(GLOSSARY) {
+        let text = spell(&text, caps);
+        if kind == Kind::Heading {
+            lines.extend([Line::default(), Line::styled(text, theme.good())]);
+            continue;
+        }
+        for (n, line) in wrap(&text, width.saturating_sub(2)).into_iter().enumerate() {
+            let mark = if n == 0 && kind == Kind::Item { caps.pick("• ", "- ") } else { "  " };
+            lines.push(Line::from(vec![Span::styled(mark, theme.accent()), Span::styled(line, theme.text())]));
+        }
+    }
+    lines
+}
+
+/// The paragraphs of a page of the documentation below its title, without the signs of Markdown; a row of a table is one.
+fn paragraphs(markdown: &str) -> Vec<(Kind, String)> {
+    let mut all: Vec<(Kind, String)> = Vec::new();
+    let mut goes_on = false;
+    for line in markdown.lines().skip(1) {
+        let line = line.replace(['*', '`'], "");
+        let text = line.trim();
+        let (kind, text) = if let Some(heading) = text.strip_prefix("## ") {
+            (Kind::Heading, heading.to_owned())
+        } else if let Some(item) = text.strip_prefix("- ") {
+            (Kind::Item, item.to_owned())
+        } else if text.starts_with("|-") {
+            // What stands above it names the columns.
+            all.pop();
+            continue;
+        } else if let Some(row) = text.strip_prefix("| ") {
+            (Kind::Item, row.trim_end_matches(['|', ' ']).replace(" | ", ": "))
+        } else if let (Some((_, open)), true) = (all.last_mut(), goes_on && !text.is_empty()) {
+            *open = format!("{open} {text}");
+            continue;
+        } else {
+            (Kind::Text, text.to_owned())
+        };
+        goes_on = !text.is_empty() && kind != Kind::Heading;
+        if goes_on || kind == Kind::Heading {
+            all.push((kind, text));
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_read_without_their_signs_and_tables_row_by_row() {
+        let read = paragraphs("# T\n\nOne\ntwo.\n\n## H\n\n- **A**: `a`\n  b.\n\n| x | y |\n|---|---|\n| c | d |\n");
+        let wanted = [(Kind::Text, "One two."), (Kind::Heading, "H"), (Kind::Item, "A: a b."), (Kind::Item, "c: d")];
+        assert_eq!(read, wanted.map(|(kind, text)| (kind, text.to_owned())));
+        let all = paragraphs(GLOSSARY);
+        assert!(all.iter().all(|(_, text)| !text.contains(['*', '`', '|', '#'])), "{all:?}");
+        for word in ["Tip: ", "Fullness: ", "ticky: ", "plus: "] {
+            assert!(all.iter().any(|(_, text)| text.starts_with(word)), "{word}");
+        }
+    }
+}
