@@ -295,15 +295,7 @@ impl App {
             Action::NextGlyphs => self.next_glyphs(),
             Action::NextTheme => self.next_theme(),
             Action::Open(screen) => return self.open(screen),
-            Action::Answer(yes) => {
-                return self.update(match self.screen {
-                    PageId::Coach => Action::Coach(CoachAction::Answer(yes)),
-                    PageId::Training => Action::Training(TrainingAction::Answer(yes)),
-                    PageId::Drills => Action::Drill(DrillAction::Answer(yes)),
-                    PageId::Settings => Action::Settings(SettingsAction::Answer(yes)),
-                    PageId::Calibration => Action::Calibration(CalibrationAction::Answer(yes)),
-                });
-            }
+            Action::Answer(yes) => return self.update(self.answer(yes)),
             Action::Coach(CoachAction::OpenDrills) => return self.open(PageId::Drills),
             Action::Coach(CoachAction::OpenTraining) => return self.open(PageId::Training),
             Action::Coach(CoachAction::OpenFilms) => {
@@ -376,6 +368,17 @@ impl App {
             }
         }
         None
+    }
+
+    /// The answer to the open page's question.
+    const fn answer(&self, yes: bool) -> Action {
+        match self.screen {
+            PageId::Coach => Action::Coach(CoachAction::Answer(yes)),
+            PageId::Training => Action::Training(TrainingAction::Answer(yes)),
+            PageId::Drills => Action::Drill(DrillAction::Answer(yes)),
+            PageId::Settings => Action::Settings(SettingsAction::Answer(yes)),
+            PageId::Calibration => Action::Calibration(CalibrationAction::Answer(yes)),
+        }
     }
 
     /// What is polled for the page that is open; reports go to [`App::receive_training`] and `CoachPage::see`.
