@@ -122,6 +122,14 @@ impl App {
         self.command_palette.as_ref().map_or_else(Vec::new, |palette| palette.found(self.commands()))
     }
 
+    /// Moves the palette's mark by lines, down where positive.
+    pub(super) fn move_palette_mark(&mut self, lines: isize) {
+        let count = self.found_commands().len();
+        if let Some(palette) = &mut self.command_palette {
+            palette.move_mark(lines, count);
+        }
+    }
+
     /// Does what is marked, or says why not.
     pub(super) fn choose_command(&mut self) -> Option<Effect> {
         let found = self.found_commands();

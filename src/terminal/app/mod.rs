@@ -280,12 +280,7 @@ impl App {
                 let opened = self.open(PageId::Drills);
                 return Effect::both(opened, self.drills.open_match());
             }
-            Action::CloseOverlay => {
-                if self.overlay.take() == Some((Overlay::Messages, 0)) {
-                    // What has come meanwhile was the first line there.
-                    self.toasts.clear();
-                }
-            }
+            Action::CloseOverlay => self.close_overlay(),
             Action::ScrollOverlay(lines) => {
                 self.overlay = self.overlay.map(|(page, top)| {
                     let end = view::help_end(self, page, self.area);
@@ -306,12 +301,7 @@ impl App {
             Action::OpenPalette => self.command_palette = Some(CommandPalette::default()),
             Action::ClosePalette => self.command_palette = None,
             Action::ChooseCommand => return self.choose_command(),
-            Action::PaletteLine(lines) => {
-                let count = self.found_commands().len();
-                if let Some(palette) = &mut self.command_palette {
-                    palette.move_mark(lines, count);
-                }
-            }
+            Action::PaletteLine(lines) => self.move_palette_mark(lines),
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;
                 self.turn_to(PageId::Drills);

@@ -12,6 +12,13 @@ impl App {
         }
     }
 
+    pub(super) fn close_overlay(&mut self) {
+        if self.overlay.take() == Some((Overlay::Messages, 0)) {
+            // What has come meanwhile was the first line there.
+            self.toasts.clear();
+        }
+    }
+
     /// Turns to a screen, whatever lay over the one before; gives that one, if it is another.
     pub(super) fn turn_to(&mut self, screen: PageId) -> Option<PageId> {
         (self.overlay, self.command_palette) = (None, None);
