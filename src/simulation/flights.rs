@@ -7,7 +7,7 @@ use super::{
     aloft::Nose,
     chatter::Chatters,
     contacts::PAIRS_OF,
-    engine::{Ball, ContactMode, Engine, Meeting, SAME_TIME, only},
+    engine::{Ball, ContactMode, Engine, Meeting, only},
     guards::IMPACT_IN_THE_AIR,
     hops::Hops,
     savings::Savings,
@@ -185,7 +185,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Lets a ball that comes down on the cloth in the very moment of an impact land before it: which side of the landing its state
     /// is taken from is rounding's choice. One that would be thrown up too slowly to fly lies there.
     fn land_first(&self, state: &mut SpatialState) {
-        if state.position.z <= SAME_TIME * (-state.velocity.z).max(0.0) {
+        let rounding = if state.velocity.z < 0.0 { f64::EPSILON * self.constants.radius } else { 0.0 };
+        if state.position.z <= rounding {
             state.position.z = 0.0;
             self.answer(state);
             if state.velocity.z <= self.constants.tolerance.slowest_in_air {
