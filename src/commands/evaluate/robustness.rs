@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::spec::Spec;
+use super::spec::{Spec, layout_seed};
 use crate::{
     coach::{Doubt, Shooter, Skill, make_probability},
     commands::output::plural,
@@ -94,14 +94,22 @@ struct Tenth {
     made: f64,
 }
 
-/// The make probability of a shot; 0 where the cue has no room for it.
-pub fn chance(spec: &Spec, rule: Rule, table: &Table, layout: &Layout, skill: Skill, cue: &CueInputs) -> f64 {
+/// The make probability of a shot on the layout with number `index`; 0 where the cue has no room for it.
+pub fn chance(
+    spec: &Spec,
+    rule: Rule,
+    table: &Table,
+    (index, layout): (u32, &Layout),
+    skill: Skill,
+    cue: &CueInputs,
+) -> f64 {
     if !has_room(table, layout, cue) {
         return 0.0;
     }
-    // Another stream than the recommender's, which has this seed too.
+    // Another stream than the recommender's, which has the measurement's seed too. Errors that layouts had in common would move all
+    // their chances together, and the interval, which takes layouts as independent, would be too narrow.
     let shooter = Shooter { skill, doubt: spec.doubt };
-    make_probability(shooter, rule, table, layout, cue, ATTEMPTS, !spec.seed).rate
+    make_probability(shooter, rule, table, layout, cue, ATTEMPTS, !layout_seed(spec.seed, index)).rate
 }
 
 impl Robustness {
@@ -176,6 +184,22 @@ mod tests {
         let [low, high] = spread.make_interval.unwrap();
         assert!((low - 0.441).abs() < 1e-3 && (high - 0.559).abs() < 1e-3, "{low} to {high}");
         assert_eq!(spread.worst_tenth, Some(0.2));
+    }
+
+    #[test]
+    fn every_layout_has_errors_and_tables_of_its_own() {
+        let layout = Layout::opening(&Table::default());
+        for doubt in [Doubt::FULL, Doubt::NONE] {
+            let spec = Spec { doubt, ..Spec::of_random_search(4) };
+            let on = |index, cue: &CueInputs| {
+                chance(&spec, Rule::StraightRail, &spec.table, (index, &layout), Skill::CLUB, cue)
+            };
+            let cue = |step| CueInputs { a: 0.0, b: 0.2, theta: 0.1, phi: 0.01 * f64::from(step), speed: 3.0 };
+            let uncertain = (-20..20).map(cue).find(|cue| (0.1..0.9).contains(&on(0, cue))).unwrap();
+            let chances: Vec<f64> = (0..4).map(|index| on(index, &uncertain)).collect();
+            assert!(chances.iter().any(|chance| *chance != chances[0]), "the same errors on each: {chances:?}");
+            assert_eq!(chances, (0..4).map(|index| on(index, &uncertain)).collect::<Vec<_>>());
+        }
     }
 
     #[test]

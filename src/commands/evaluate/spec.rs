@@ -63,6 +63,12 @@ impl Spec {
     }
 }
 
+/// The seed of what is drawn for the layout with this number, its own: parts measure what the whole does, and luck on one layout is no
+/// luck on another.
+pub const fn layout_seed(seed: u64, index: u32) -> u64 {
+    seed ^ ((index as u64) << 32)
+}
+
 /// A part of the layouts: `k/n` is every n-th layout from the k-th on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
@@ -244,6 +250,35 @@ impl Records {
         match self {
             Self::Shots(records) => records.sort_by_key(|record| record.layout),
             Self::Innings(records) => records.sort_by_key(|record| record.layout),
+        }
+    }
+}
+
+#[cfg(test)]
+impl Spec {
+    /// A measurement of the simplest kind.
+    pub fn of_random_search(layouts: u32) -> Self {
+        Self {
+            player: "random search".to_owned(),
+            policy: None,
+            checksum: None,
+            version: None,
+            networks: None,
+            table: Table::default(),
+            measure: "straight".to_owned(),
+            is_yes_or_no: true,
+            seed: 4,
+            layouts,
+            drawn_tables: false,
+            skill: None,
+            doubt: Doubt::FULL,
+            choose_doubt: None,
+            plan: false,
+            no_jumps: false,
+            budget_ms: None,
+            simulations: None,
+            random_search: Some(30),
+            most_points: None,
         }
     }
 }

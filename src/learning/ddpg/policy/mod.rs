@@ -4,7 +4,7 @@ pub mod calibration;
 pub mod file;
 pub mod kept;
 
-use std::{iter::once, sync::Arc};
+use std::sync::Arc;
 
 use self::file::Origin;
 pub(in crate::learning) use self::file::bundled_bytes;
@@ -119,14 +119,17 @@ impl Policy {
         for layouts in layouts.chunks(64) {
             for (layout, proposals) in layouts.iter().zip(self.proposals_for(table, layouts, &Skill::PERFECT)) {
                 let first = reward.with_room(table, layout, &proposals[0].cue, u32::MAX);
-                // On the `thesis` table a few proposals would take all the time, and next to none of those earn anything.
-                let value = |proposal: &Proposal| reward.with_room(table, layout, &proposal.cue, CONTACT_STEPS);
-                let any = once(first).chain(proposals[1..].iter().map(value)).any(|earned| earned >= 1.0);
-                played.push((first, any));
+                played.push((first, first >= 1.0 || any_earns(table, reward, layout, &proposals[1..])));
             }
         }
         Score::of(&played)
     }
+}
+
+/// Whether any of the proposals earns at least one.
+pub fn any_earns(table: &Table, reward: Reward, layout: &Layout, proposals: &[Proposal]) -> bool {
+    // On the `thesis` table a few proposals would take all the time, and next to none of those earn anything.
+    proposals.iter().any(|proposal| reward.with_room(table, layout, &proposal.cue, CONTACT_STEPS) >= 1.0)
 }
 
 #[cfg(test)]
