@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     drawn_tables::DrawnTables,
-    robustness::{self, Robustness, Said},
+    robustness::{self, Reliability, Robustness},
     spec::{Shard, Spec, layout_seed},
 };
 use crate::{
@@ -74,30 +74,31 @@ impl Player {
 struct Decision {
     cue: CueInputs,
     simulations: Option<u64>,
-    claimed: Option<f64>,
+    predicted: Option<f64>,
     /// What else the networks propose, where these play alone for what is yes or no.
     others: Option<Vec<Proposal>>,
 }
 
 /// What was measured on one layout.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShotRecord {
     /// Its number, from 0.
     pub layout: u32,
     /// The reward of the shot without errors.
-    earned: f64,
+    pub earned: f64,
     /// Speed of the stroke, m/s.
-    speed: f64,
+    pub speed: f64,
     /// Time of the decision, s.
-    seconds: f64,
+    pub seconds: f64,
     /// Of players that search.
-    simulations: Option<u64>,
-    /// What the player said of the shot's make probability.
-    claimed: Option<f64>,
+    pub simulations: Option<u64>,
+    /// What the player predicted of the shot's make probability.
+    #[serde(rename = "claimed")]
+    pub predicted: Option<f64>,
     /// How often the player of the skill makes it.
-    chance: Option<f64>,
+    pub chance: Option<f64>,
     /// Of networks that play alone, whether any of their proposals makes the point without errors.
-    best_of_k: Option<bool>,
+    pub best_of_k: Option<bool>,
 }
 
 /// Lets `player` decide on every layout of the part and plays what it decides.
@@ -119,7 +120,7 @@ pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: R
             speed: cue.speed,
             seconds,
             simulations: decision.simulations,
-            claimed: decision.claimed,
+            predicted: decision.predicted,
             best_of_k: decision.others.map(|others| earned >= 1.0 || any_earns(table, reward, layout, &others)),
             chance: spec.skill.map(|skill| robustness::chance(spec, rule, table, (index, layout), skill, &cue)),
         }
@@ -136,13 +137,13 @@ fn decide(
     layout: &Layout,
     index: u32,
 ) -> Decision {
-    let shot = |cue| Decision { cue, simulations: None, claimed: None, others: None };
+    let shot = |cue| Decision { cue, simulations: None, predicted: None, others: None };
     match player {
         Player::Recommender(coach, request) => {
             coach.recommend(layout, request).map_or(shot(NO_SHOT), |advice| Decision {
                 cue: advice.cue,
                 simulations: Some(advice.simulations),
-                claimed: advice.make_probability.map(|chance| chance.rate),
+                predicted: advice.make_probability.map(|chance| chance.rate),
                 others: None,
             })
         }
@@ -153,7 +154,7 @@ fn decide(
             // What it says of another reward, or of a player whom it is not told, is no probability of what is measured.
             let is_of_this = policy.origin().reward == reward && (skill.is_perfect() || policy.speaks_of(&skill));
             let others = spec.is_yes_or_no.then_some(proposals);
-            Decision { cue, simulations: None, claimed: is_of_this.then_some(success), others }
+            Decision { cue, simulations: None, predicted: is_of_this.then_some(success), others }
         }
         Player::RandomSearch(shots) => {
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(layout_seed(spec.seed, index));
@@ -204,9 +205,9 @@ struct EvaluationReport<'a> {
     /// Of players that search.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulations_per_layout: Option<f64>,
-    /// What the networks say of their shots, where no skill is given.
+    /// What the networks predict of their shots, where no skill is given.
     #[serde(flatten)]
-    said: Option<Said>,
+    reliability: Option<Reliability>,
     /// How often the player of the skill makes the shots.
     #[serde(skip_serializing_if = "Option::is_none")]
     robustness: Option<Robustness>,
@@ -225,15 +226,15 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
     let chances: Option<Vec<f64>> = records.iter().map(|record| record.chance).collect();
     let best_of_k: Option<Vec<bool>> = records.iter().map(|record| record.best_of_k).collect();
     let is_searching = records.iter().any(|record| record.simulations.is_some());
-    let has_said = is_searching || records.iter().any(|record| record.claimed.is_some());
-    let claimed: Vec<_> = records.iter().map(|record| record.claimed).collect();
+    let has_predicted = is_searching || records.iter().any(|record| record.predicted.is_some());
+    let predicted: Vec<_> = records.iter().map(|record| record.predicted).collect();
     let earned: Vec<_> = records.iter().map(|record| record.earned).collect();
     // Of the player's attempts, or else of the shot itself where that is a point or none.
-    let said = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no && has_said;
+    let is_alone = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no && has_predicted;
     let robustness = spec.skill.zip(chances).map(|(skill, chances)| {
         let mut robustness = Robustness::new(skill, spec.doubt, chances);
-        if has_said {
-            robustness.claim(&claimed);
+        if has_predicted {
+            robustness.compare(&predicted);
         }
         robustness
     });
@@ -252,7 +253,7 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
         slowest_ms: 1e3 * records.iter().map(|record| record.seconds).fold(0.0, f64::max),
         hard_share: mean(&|record| f64::from(record.speed > HARD)),
         simulations_per_layout: is_searching.then(|| mean(&|record| record.simulations.unwrap_or(0) as f64)),
-        said: said.then(|| Said::new(&claimed, &earned)),
+        reliability: is_alone.then(|| Reliability::new(&predicted, &earned)),
         robustness,
     }
 }
@@ -283,7 +284,7 @@ fn print_text(out: &mut impl Write, report: &EvaluationReport<'_>, layouts: usiz
         None => writeln!(out)?,
     }
     writeln!(out, "{:.1} % of the strokes are harder than {HARD} m/s", 100.0 * report.hard_share)?;
-    report.said.as_ref().map_or(Ok(()), |said| writeln!(out, "{said}"))?;
+    report.reliability.as_ref().map_or(Ok(()), |reliability| writeln!(out, "{reliability}"))?;
     report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
 }
 
@@ -294,15 +295,9 @@ mod tests {
     #[test]
     fn a_report_counts_what_the_records_say() {
         let spec = Spec::of_random_search(4);
-        let record = |layout, earned, speed| ShotRecord {
-            layout,
-            earned,
-            speed,
-            seconds: 0.5,
-            simulations: None,
-            claimed: None,
-            chance: None,
-            best_of_k: Some(speed < 6.0),
+        let record = |layout, earned, speed| {
+            let best_of_k = Some(speed < 6.0);
+            ShotRecord { layout, earned, speed, seconds: 0.5, best_of_k, ..ShotRecord::default() }
         };
         let records = [record(0, 1.0, 2.0), record(1, 0.0, 6.0), record(2, 1.0, 5.5), record(3, 1.0, 1.0)];
         let report = report(&spec, &records);
