@@ -63,7 +63,7 @@ impl Policy {
 
     /// Whether it has practised on tables like this one.
     pub fn knows(&self, table: &Table) -> bool {
-        if self.has_context() { knows(table) } else { self.origin.table == table.name }
+        self.origin.table == table.name || (self.has_context() && knows(table))
     }
 
     /// The stroke that the critic likes best for a player of this skill; only one with a context asks whose it is.
@@ -177,6 +177,15 @@ mod tests {
         let has_room: Vec<bool> = made.map(|proposal| has_room(&table, &layouts[0], &proposal.cue)).collect();
         assert!(has_room.contains(&false) && !has_room.contains(&true), "another policy wants another layout");
         assert_eq!(policy.score(&table, reward, layouts).best_of_k, 0.0);
+    }
+
+    #[test]
+    fn a_policy_knows_the_table_that_it_was_trained_on() {
+        let (table, thesis) = (Table::default(), Table::preset("thesis").unwrap());
+        let mut policy = Policy::bundled_for(&table, Rule::ThreeCushion, true).unwrap().unwrap();
+        assert!(policy.has_context() && policy.knows(&table) && !policy.knows(&thesis));
+        policy.origin.table = "thesis".to_owned();
+        assert!(policy.knows(&thesis));
     }
 
     #[test]
