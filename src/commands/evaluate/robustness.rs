@@ -198,8 +198,8 @@ mod tests {
             let on = |index, cue: &CueInputs| {
                 chance(&spec, Rule::StraightRail, &spec.table, (index, &layout), Skill::CLUB, cue)
             };
-            let cue = |step| CueInputs { a: 0.0, b: 0.2, theta: 0.1, phi: 0.01 * f64::from(step), speed: 3.0 };
-            let uncertain = (-20..20).map(cue).find(|cue| (0.1..0.9).contains(&on(0, cue))).unwrap();
+            let cue = |step| CueInputs { a: 0.0, b: 0.2, theta: 0.1, phi: 0.02 * f64::from(step), speed: 3.0 };
+            let uncertain = (-157..157).map(cue).find(|cue| (0.02..0.98).contains(&on(0, cue))).unwrap();
             let chances: Vec<f64> = (0..4).map(|index| on(index, &uncertain)).collect();
             assert!(chances.iter().any(|chance| *chance != chances[0]), "the same errors on each: {chances:?}");
             assert_eq!(chances, (0..4).map(|index| on(index, &uncertain)).collect::<Vec<_>>());
