@@ -1,8 +1,8 @@
 #!/bin/sh
 # Trains policies like the bundled ones: models/train.sh [FOLDER] [PROGRAM]. Started again, it goes on where it was. The same seed gives the
-# same weights on the same machine with the same version. The weights that are bundled come from rounds that older versions played: the first
+# same weights on the same machine with the same version. The weights that are bundled come from stages that older versions played: the first
 # ones for match began from networks of a version before this file, were played without the cue's room, and those up to match-r3-third,
-# match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth. Some rounds were stopped by hand, as is said where
+# match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth. Some stages were stopped by hand, as is said where
 # they stand; here they are played to their end, along which their learning rates fall. As they were played all took thirty-eight hours of a
 # shared core; to their ends they take longer.
 set -eu
@@ -16,7 +16,7 @@ train() {
 }
 
 train textbook-r3-first --table textbook --reward r3 --seed 1 --steps 5000000
-# A second round nearer to what it has learnt: the critic's choice was what lost most.
+# A second stage nearer to what it has learnt: the critic's choice was what lost most.
 near="exploration={ noise = [0.01, 0.03, 0.1], uniform = 0.05 }"
 train textbook-r3 --from "$folder/textbook-r3-first" --seed 2 --steps 3000000 --set critic_chooses=0.6 --set "$near"
 train textbook-one-cushion --table textbook --reward one-cushion --seed 1 --steps 2500000
@@ -38,7 +38,7 @@ train match-three-cushion-fifth --from "$folder/match-three-cushion-fourth" --se
 train thesis-r3-first --table thesis --reward r3 --seed 3 --steps 4000000 --set "critic_layers=[256, 256, 256]"
 train thesis-one-cushion --table thesis --reward one-cushion --seed 1 --steps 3000000
 train thesis-three-cushion-first --table thesis --reward three-cushion --seed 1 --steps 2500000
-# Last rounds, but for two files for thesis: some of the shots are the networks' own best proposals, and no output goes on to where the
+# Last stages, but for two files for thesis: some of the shots are the networks' own best proposals, and no output goes on to where the
 # squashing is flat. The learning rates begin lower each time. Two of the runs were stopped by hand, after 6,628,992 and 11,251,584 shots.
 match="--set ranking=0.4 --set saturation_penalty=0.1"
 thesis="--set ranking=0.3 --set saturation_penalty=0.1"
@@ -88,13 +88,13 @@ perfect match-three-cushion-thirteenth --from "$folder/match-three-cushion-twelf
 alone="--set ranking=0.7 --set actor_learning_rate=0.000000001 --set actor_batch=1"
 perfect match-three-cushion-fourteenth --from "$folder/match-three-cushion-thirteenth" --seed 505 --steps 14000000 $alone --set critic_learning_rate=0.0013
 perfect match-three-cushion --from "$folder/match-three-cushion-fourteenth" --seed 506 --steps 6000000 $alone --set critic_learning_rate=0.0003
-# Searches up to the 26th round at three cushions raced 96 strokes of their own and the proposals, as versions before 2026-11-26 did.
+# Searches up to the 26th stage at three cushions raced 96 strokes of their own and the proposals, as versions before 2026-11-26 did.
 # Heads with speeds of their own; then expert iteration, in which a search shows what players who err make most often; then without a
 # search, so that the critic learns to choose: at three cushions it alone, for there the actor went back to harder strokes.
 heads="$rate --set heads=9 --set actor_batch=64"
 expert="--set ranking=0.4 --set searched=2 --set imitation=0.3"
-# The same with an actor that stands still: its rate of 1e-9 came along with the weights, which was seen only after the 22nd round at
-# three cushions. In those rounds the searches taught the critic alone; they were played with imitation, which has no effect then and is
+# The same with an actor that stands still: its rate of 1e-9 came along with the weights, which was seen only after the 22nd stage at
+# three cushions. In those stages the searches taught the critic alone; they were played with imitation, which has no effect then and is
 # refused by now.
 still="--set ranking=0.4 --set searched=2 --set imitation=0"
 choice="--set new_actor=false --set searched=0 --set imitation=0"
@@ -124,7 +124,7 @@ context context-one-cushion-fifth --from "$folder/context-one-cushion-fourth" --
 speeds="head_speeds=[[0.8, 2.6], [1.8, 4.2], [3.0, 6.0]]"
 context context-three-cushion-sixth --from "$folder/context-three-cushion-fifth" --seed 211 --steps 6000000 $heads $still $again --set "$speeds"
 context context-three-cushion-seventh --from "$folder/context-three-cushion-sixth" --seed 241 --steps 4200000 $heads $choice $critic --set "$speeds"
-# More of both at three cushions, where the choice was what lost most; last rounds in which the critic alone learns, at a quarter of its rate.
+# More of both at three cushions, where the choice was what lost most; last stages in which the critic alone learns, at a quarter of its rate.
 fine="--set ranking=0.7 --set critic_learning_rate=0.0003 --set actor_learning_rate=0.000000001 --set actor_batch=1"
 context context-three-cushion-eighth --from "$folder/context-three-cushion-seventh" --seed 311 --steps 5000000 $heads $still $again --set "$speeds"
 context context-three-cushion-ninth --from "$folder/context-three-cushion-eighth" --seed 321 --steps 6000000 $heads $still $again --set "$speeds"
@@ -163,7 +163,7 @@ context context-three-cushion-31st --from "$folder/context-three-cushion-30th" -
 speeds="head_speeds=[[0.5, 2.0], [1.4, 3.6], [2.8, 6.0]]"
 context context-one-cushion-sixth --from "$folder/context-one-cushion-fifth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
 context context-r3-seventh --from "$folder/context-r3-sixth" --seed 411 --steps 6000000 $heads $choice $fine --set "$speeds"
-# One update more, for what the critics say of their own choice is calibrated at the end of a run; the rounds before are older than that.
+# One update more, for what the critics say of their own choice is calibrated at the end of a run; the stages before are older than that.
 train context-three-cushion --from "$folder/context-three-cushion-31st" --reward three-cushion --seed 772 --steps 192 --set calibrated=32768
 train context-one-cushion --from "$folder/context-one-cushion-sixth" --reward one-cushion --seed 772 --steps 192 --set calibrated=32768
 train context-r3 --from "$folder/context-r3-seventh" --reward r3 --seed 772 --steps 192 --set calibrated=32768

@@ -20,7 +20,7 @@ use crate::{
 };
 
 /// The word for the run that was last training.
-const LATEST: &str = "latest";
+pub const LATEST: &str = "latest";
 
 /// The file or folder `name`, or the folder called so among the user's runs.
 fn run_named(name: &Path) -> Option<PathBuf> {

@@ -22,7 +22,7 @@ use crate::{
         status::Phase,
     },
     platform::stop_when_told,
-    printing::{self, OneLine},
+    printing::{self, OneLine, shell_word},
     terminal,
 };
 
@@ -62,7 +62,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             if print_runs(folder.as_deref(), args.json)? {
                 tell(match folder {
                     None => "choose one of them: carom watch NAME, or carom watch latest".to_owned(),
-                    Some(folder) => format!("choose one of them: carom watch {}", folder.join("NAME").display()),
+                    Some(folder) => {
+                        let name = folder.join("NAME");
+                        format!("choose one of them: carom watch {}", shell_word(&name.to_string_lossy()))
+                    }
                 });
             }
             Ok(())

@@ -21,10 +21,10 @@ use crate::{
 };
 
 /// Creates an untrained agent from a plan, a table and settings.
-pub type Start = fn(TrainingPlan, Table, &Value) -> Result<Box<dyn Learner>, StartError>;
+pub type StartFn = fn(TrainingPlan, Table, &Value) -> Result<Box<dyn Learner>, StartError>;
 
 /// Takes up a learner from a file.
-pub type Restore = fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>;
+pub type RestoreFn = fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>;
 
 /// A kind of agent: how to create it untrained, and how to restore a saved one.
 #[derive(Clone, Copy, Debug)]
@@ -36,13 +36,13 @@ pub struct AgentKind {
     /// All its settings, from an object of those that differ from its defaults.
     pub settings: fn(&Value) -> Result<Value, StartError>,
     /// An untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
-    pub start: Start,
+    pub start: StartFn,
     /// The learner whose [`Learner::save`] filled the file and returned the note.
-    pub restore: Restore,
+    pub restore: RestoreFn,
     /// Settings that apply only when weights are loaded; `--from` does not pass them on.
-    pub of_one_start: &'static [&'static str],
+    pub not_inherited: &'static [&'static str],
     /// Settings that say what the networks' inputs and outputs mean: weights that were learnt under others mean something else.
-    pub of_meaning: &'static [&'static str],
+    pub must_match: &'static [&'static str],
 }
 
 /// Why an agent cannot start.
@@ -230,8 +230,14 @@ pub trait Learner: Debug + Send {
     fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>>;
 
     /// The bytes of a policy file, for agents whose policy the coach can use. `held_out_reward` is what it has been
-    /// measured to earn, `date` the day on which the run was started.
-    fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError>;
+    /// measured to earn, `date` the day on which the run was started. That of a finished run may take minutes of calibration: meanwhile
+    /// `go_on` is asked again and again, and once it says no there are no bytes either.
+    fn policy(
+        &self,
+        held_out_reward: f64,
+        date: &str,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Option<Vec<u8>>, WeightsError>;
 
     /// Adds the arrays of its whole state to a file and returns everything else (`note_of`).
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError>;

@@ -49,6 +49,31 @@ fn merged_parts_are_the_whole() {
     }
 }
 
+#[test]
+fn two_measurements_on_the_same_layouts_are_compared_layout_by_layout() {
+    let [folder, other] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let line = "evaluate --policy-only --rule three-cushion --layouts 40 --skill club";
+    let context = part(folder.path(), line, "1/1");
+    let flawless = part(other.path(), &format!("{line} --policy match-three-cushion"), "1/1");
+    let compared = json(&format!("evaluate --merge {context} --against {flawless}"));
+    let [low, high] = [0, 1].map(|end| compared["difference_interval"][end].as_f64().unwrap());
+    assert!(compared["compared"] == "make_probability" && 0.0 < low && low < high, "{compared}");
+    let chance = |policy: &str| json(&format!("{line}{policy}"))["robustness"]["make_probability"].as_f64().unwrap();
+    let apart = chance("") - chance(" --policy match-three-cushion");
+    assert!((compared["difference"].as_f64().unwrap() - apart).abs() < 1e-9, "{compared}");
+    let text = asked(&["evaluate", "--merge", &context, "--against", &flawless]).output().unwrap().stdout;
+    assert!(
+        String::from_utf8(text).unwrap().starts_with("make probability against the other on the same 40 layouts: +")
+    );
+    let elsewhere = part(other.path(), &line.replace("40", "41"), "1/1");
+    let refused = asked(&["evaluate", "--merge", &context, "--against", &elsewhere]).output().unwrap();
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert!(
+        refused.status.code() == Some(2) && said.contains("the same layouts are compared: layouts 40 and 41"),
+        "{said}"
+    );
+}
+
 /// The name of a policy is no policy: what it stands for may have changed between two parts.
 #[test]
 fn parts_by_other_networks_or_another_version_are_not_put_together() {

@@ -21,8 +21,8 @@ fn a_figure_is_written_as_csv_and_svg_and_does_not_depend_on_threads() {
             .map(|name| std::fs::read_to_string(folder.path().join(name)).unwrap())
     };
     let one = files("1");
-    assert!(one[0].starts_with("episode,shots,mean_reward,mean_q,loss\none shot,800,"), "{}", one[0]);
-    assert!(one[0].contains("\n20 shots,200,") && one[0].contains("\nuntil a miss,200,"), "{}", one[0]);
+    assert!(one[0].starts_with("curve,seed,shots,mean_reward,mean_q,loss\none shot,1,800,"), "{}", one[0]);
+    assert!(one[0].contains("\n20 shots,1,200,") && one[0].contains("\nuntil a miss,1,200,"), "{}", one[0]);
     assert!(one[1].contains("</svg>") && one[3].contains("loss"), "{}", one[3]);
     assert_eq!(one, files("2"));
 }

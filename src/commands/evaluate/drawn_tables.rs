@@ -3,6 +3,7 @@
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
+use super::spec::layout_seed;
 use crate::{
     calibration::prior,
     statistics::normal_pair,
@@ -30,7 +31,7 @@ impl DrawnTables {
     pub fn of(&self, index: u32) -> Table {
         let Self { around, sampler, seed } = self;
         let Some(sampler) = sampler else { return around.clone() };
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (u64::from(index) << 32));
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(layout_seed(*seed, index));
         let drawn = sampler.draw(|| normal_pair(&mut rng)[0]);
         Table { name: around.name.clone(), doubt: around.doubt.clone(), ..drawn }
     }

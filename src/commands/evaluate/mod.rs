@@ -1,5 +1,6 @@
 //! `carom evaluate`: measure the recommender or a policy on held-out layouts.
 
+mod comparison;
 mod drawn_tables;
 mod robustness;
 mod self_play;
@@ -11,23 +12,24 @@ use std::{path::PathBuf, time::Duration};
 use clap::builder::NonEmptyStringValueParser;
 
 use self::{
+    comparison::Comparison,
     drawn_tables::DrawnTables,
     shots::Player,
-    spec::{MergeError, Part, Records, Shard, Spec, merged},
+    spec::{Part, Records, Shard, Spec, merged},
 };
 use super::{
     Failure,
     input::{minutes, note_doubts, seed, table_named, whole, whole_from},
     lookup::{bundled_policy, policy_called, skill_called},
-    output::json_line,
+    output::{json_line, line},
     recommend::coach_for,
 };
 use crate::{
     coach::{Doubt, Request, Skill},
     game::{Reward, Rule},
     learning::{Policy, evaluation::EVALUATION_SEED, policy::kept::BUNDLED},
+    platform::limit_threads,
     printing::{SOURCE, VERSION},
-    table::Table,
 };
 
 /// What goes with a search of shots, and not with the networks alone. clap does not ask for `--policy-only` beside one of these.
@@ -108,15 +110,21 @@ pub struct Args {
     #[arg(long, value_name = "COUNT", conflicts_with_all = ["policy_only", "random_search", "budget_ms"],
         value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
+    /// Threads that the recommender may use. Default: one on each processor
+    #[arg(long, value_name = "N", conflicts_with_all = ["policy_only", "random_search"], value_parser = whole(1..=1024_u16))]
+    threads: Option<u16>,
     /// Measure part K of N of the layouts only, and print what was measured as JSON for --merge.
     #[arg(long, value_name = "K/N", conflicts_with = "json")]
     shard: Option<Shard>,
     /// Measure nothing; report what the files of all parts hold together.
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = [
         "layouts", "seed", "table", "policy", "policy_only", "drawn_tables", "rule", "reward", "random_search", "skill", "doubt", "choose_doubt",
-        "self_play", "most_points", "minutes", "plan", "no_jumps", "budget_ms", "simulations", "shard",
+        "self_play", "most_points", "minutes", "plan", "no_jumps", "budget_ms", "simulations", "threads", "shard",
     ])]
     merge: Vec<PathBuf>,
+    /// With --merge, compare with what these files hold together, on the same layouts: the mean difference, with its 95 % interval.
+    #[arg(long, value_name = "FILE", num_args = 1.., requires = "merge")]
+    against: Vec<PathBuf>,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -130,11 +138,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         }
         (spec, records)
     } else {
-        merged(&args.merge).map_err(|error| match error {
-            MergeError::File { .. } => Failure::failed(error),
-            _ => Failure::wrong_input(error),
-        })?
+        merged(&args.merge)?
     };
+    if !args.against.is_empty() {
+        let comparison = Comparison::of(&(spec, records), &args.against)?;
+        return if args.json { Ok(json_line(&comparison)?) } else { line(comparison) };
+    }
     match records {
         Records::Shots(records) => shots::print(&spec, &records, args.json)?,
         Records::Innings(records) => self_play::print(&spec, &records, args.json)?,
@@ -144,6 +153,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Measures the layouts of one part, or all.
 fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
+    if let Some(threads) = args.threads {
+        limit_threads(threads.into());
+    }
     let table = table_named(&args.table)?;
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     let reward = args.reward.unwrap_or_else(|| Reward::for_rule(args.rule));
@@ -160,7 +172,11 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
                 table.name
             )));
         }
-        let policy = policy_named(&args.policy, &on, reward.rule().unwrap_or_default(), errs)?;
+        let policy = if args.policy == BUNDLED {
+            bundled_policy(&on, reward.rule().unwrap_or_default(), errs)?
+        } else {
+            policy_called(&args.policy)?
+        };
         note_doubts(&policy, &table, reward.rule());
         Player::Policy(Box::new(policy))
     } else {
@@ -209,28 +225,4 @@ fn request(args: &Args, skill: Skill) -> Request {
     let doubt = args.choose_doubt.unwrap_or(args.doubt);
     let Args { rule, plan, no_jumps, seed, .. } = *args;
     Request { rule, skill, doubt, plan, jumps: !no_jumps, budget, simulations, seed, ..Request::default() }
-}
-
-/// The bundled policy for `rule` on `table` and a player who `errs` or does not, or the one in the file.
-fn policy_named(name: &str, table: &Table, rule: Rule, errs: bool) -> Result<Policy, Failure> {
-    if name == BUNDLED { bundled_policy(table, rule, errs) } else { policy_called(name) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn unknown_tables_and_policies_are_named() {
-        assert!(table_named("snooker").unwrap_err().to_string().contains("snooker"));
-        let mut own = Table::preset("thesis").unwrap();
-        own.name = "cellar".to_owned();
-        assert!(policy_named("bundled", &own, Rule::OneCushion, true).unwrap_err().to_string().contains("cellar"));
-        assert!(
-            policy_named("no/such/file", &own, Rule::OneCushion, true)
-                .unwrap_err()
-                .to_string()
-                .contains("no/such/file")
-        );
-    }
 }

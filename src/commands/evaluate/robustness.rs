@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::spec::Spec;
+use super::spec::{Spec, layout_seed};
 use crate::{
     coach::{Doubt, Shooter, Skill, make_probability},
     commands::output::plural,
@@ -18,10 +18,10 @@ use crate::{
 const ATTEMPTS: usize = 1000;
 
 /// Two-sided 95 % of the normal distribution.
-const Z: f64 = 1.96;
+pub const Z: f64 = 1.96;
 
 /// Fewest layouts from which something is said of all others.
-const FEWEST: usize = 10;
+pub const FEWEST: usize = 10;
 
 /// The make probability over all layouts.
 #[derive(Debug, Serialize)]
@@ -34,51 +34,53 @@ pub struct Robustness {
     make_interval: Option<[f64; 2]>,
     /// Make probability that a tenth of the layouts stay below; none of fewer than [`FEWEST`].
     worst_tenth: Option<f64>,
-    /// What was said beforehand, where anything was.
+    /// What was predicted, where anything was.
     #[serde(flatten)]
-    said: Option<Said>,
+    reliability: Option<Reliability>,
     /// On each layout.
     #[serde(skip)]
     chances: Vec<f64>,
 }
 
-/// What the recommender or the networks said of their shots, against what came of them.
+/// What the recommender or the networks predicted of their shots, against what was observed.
 #[derive(Debug, Serialize)]
-pub struct Said {
-    /// The mean of what was said; where no shot was found, that is a miss.
-    claimed: f64,
-    /// What was said and what was made, by tenths of what was said; only those with a layout.
-    tenths: Vec<Tenth>,
+pub struct Reliability {
+    /// The mean of what was predicted; where no shot was found, that is a miss.
+    #[serde(rename = "claimed")]
+    predicted: f64,
+    /// By tenths of what was predicted; only those with a layout.
+    #[serde(rename = "tenths")]
+    bins: Vec<Bin>,
 }
 
-impl Said {
-    /// From what was said and made on every layout.
-    pub fn new(claimed: &[Option<f64>], made: &[f64]) -> Self {
-        let tenth = |said: f64| ((10.0 * said) as usize).min(9);
-        let tenths = (0..10).filter_map(|which| {
-            let said = claimed.iter().map(|said| said.unwrap_or(0.0)).zip(made);
-            let among: Vec<_> = said.filter(|(said, _)| tenth(*said) == which).collect();
+impl Reliability {
+    /// From what was predicted and observed on every layout.
+    pub fn new(predicted: &[Option<f64>], observed: &[f64]) -> Self {
+        let tenth = |predicted: f64| ((10.0 * predicted) as usize).min(9);
+        let bins = (0..10).filter_map(|which| {
+            let pairs = predicted.iter().map(|predicted| predicted.unwrap_or(0.0)).zip(observed);
+            let among: Vec<_> = pairs.filter(|(predicted, _)| tenth(*predicted) == which).collect();
             let mean = |sum: f64| sum / among.len() as f64;
-            (!among.is_empty()).then(|| Tenth {
+            (!among.is_empty()).then(|| Bin {
                 layouts: among.len(),
-                claimed: mean(among.iter().map(|(said, _)| said).sum()),
-                made: mean(among.iter().map(|(_, made)| **made).sum()),
+                predicted: mean(among.iter().map(|(predicted, _)| predicted).sum()),
+                observed: mean(among.iter().map(|(_, observed)| **observed).sum()),
             })
         });
-        let all: f64 = claimed.iter().flatten().sum();
-        Self { claimed: all / claimed.len().max(1) as f64, tenths: tenths.collect() }
+        let all: f64 = predicted.iter().flatten().sum();
+        Self { predicted: all / predicted.len().max(1) as f64, bins: bins.collect() }
     }
 }
 
-impl fmt::Display for Said {
+impl fmt::Display for Reliability {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "said beforehand: {:.2} %", 100.0 * self.claimed)?;
-        for Tenth { layouts, claimed, made } in &self.tenths {
+        write!(formatter, "predicted: {:.2} %", 100.0 * self.predicted)?;
+        for Bin { layouts, predicted, observed } in &self.bins {
             write!(
                 formatter,
-                "\nsaid {:.1} %, made {:.1} % ({})",
-                100.0 * claimed,
-                100.0 * made,
+                "\npredicted {:.1} %, observed {:.1} % ({})",
+                100.0 * predicted,
+                100.0 * observed,
                 plural(*layouts, "layout")
             )?;
         }
@@ -86,22 +88,32 @@ impl fmt::Display for Said {
     }
 }
 
-/// The layouts of which about the same was said.
+/// The layouts of which about the same was predicted.
 #[derive(Debug, Serialize)]
-struct Tenth {
+struct Bin {
     layouts: usize,
-    claimed: f64,
-    made: f64,
+    #[serde(rename = "claimed")]
+    predicted: f64,
+    #[serde(rename = "made")]
+    observed: f64,
 }
 
-/// The make probability of a shot; 0 where the cue has no room for it.
-pub fn chance(spec: &Spec, rule: Rule, table: &Table, layout: &Layout, skill: Skill, cue: &CueInputs) -> f64 {
+/// The make probability of a shot on the layout with number `index`; 0 where the cue has no room for it.
+pub fn chance(
+    spec: &Spec,
+    rule: Rule,
+    table: &Table,
+    (index, layout): (u32, &Layout),
+    skill: Skill,
+    cue: &CueInputs,
+) -> f64 {
     if !has_room(table, layout, cue) {
         return 0.0;
     }
-    // Another stream than the recommender's, which has this seed too.
+    // Another stream than the recommender's, which has the measurement's seed too. Errors that layouts had in common would move all
+    // their chances together, and the interval, which takes layouts as independent, would be too narrow.
     let shooter = Shooter { skill, doubt: spec.doubt };
-    make_probability(shooter, rule, table, layout, cue, ATTEMPTS, !spec.seed).rate
+    make_probability(shooter, rule, table, layout, cue, ATTEMPTS, !layout_seed(spec.seed, index)).rate
 }
 
 impl Robustness {
@@ -127,14 +139,14 @@ impl Robustness {
             make_probability: mean,
             make_interval: is_enough.then_some(interval),
             worst_tenth: is_enough.then(|| sorted[sorted.len() / 10]),
-            said: None,
+            reliability: None,
             chances,
         }
     }
 
-    /// Takes note of what was said of the shots beforehand.
-    pub fn claim(&mut self, claimed: &[Option<f64>]) {
-        self.said = Some(Said::new(claimed, &self.chances));
+    /// Compares with what was predicted of the shots.
+    pub fn compare(&mut self, predicted: &[Option<f64>]) {
+        self.reliability = Some(Reliability::new(predicted, &self.chances));
     }
 }
 
@@ -156,7 +168,7 @@ impl fmt::Display for Robustness {
             )?,
             _ => write!(formatter, "; fewer than {FEWEST} layouts say nothing of others")?,
         }
-        self.said.as_ref().map_or(Ok(()), |said| write!(formatter, "\n{said}"))
+        self.reliability.as_ref().map_or(Ok(()), |reliability| write!(formatter, "\n{reliability}"))
     }
 }
 
@@ -179,11 +191,31 @@ mod tests {
     }
 
     #[test]
-    fn what_was_said_is_set_against_what_was_made_by_tenths() {
-        let said = Said::new(&[Some(0.05), Some(0.93), Some(0.97), None, Some(1.0)], &[0.0, 1.0, 0.5, 1.0, 1.0]);
-        let tenths: Vec<_> = said.tenths.iter().map(|tenth| (tenth.layouts, tenth.made)).collect();
-        assert_eq!(tenths, [(2, 0.5), (3, 2.5 / 3.0)], "a layout without a shot is one of which nothing was said");
-        assert!((said.claimed - 2.95 / 5.0).abs() < 1e-12);
-        assert!(said.to_string().starts_with("said beforehand: 59.00 %"), "{said}");
+    fn every_layout_has_errors_and_tables_of_its_own() {
+        let layout = Layout::opening(&Table::default());
+        for doubt in [Doubt::FULL, Doubt::NONE] {
+            let spec = Spec { doubt, ..Spec::of_random_search(4) };
+            let on = |index, cue: &CueInputs| {
+                chance(&spec, Rule::StraightRail, &spec.table, (index, &layout), Skill::CLUB, cue)
+            };
+            let cue = |step| CueInputs { a: 0.0, b: 0.2, theta: 0.1, phi: 0.02 * f64::from(step), speed: 3.0 };
+            let uncertain = (-157..157).map(cue).find(|cue| (0.02..0.98).contains(&on(0, cue))).unwrap();
+            let chances: Vec<f64> = (0..4).map(|index| on(index, &uncertain)).collect();
+            assert!(chances.iter().any(|chance| *chance != chances[0]), "the same errors on each: {chances:?}");
+            assert_eq!(chances, (0..4).map(|index| on(index, &uncertain)).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn what_was_predicted_is_compared_with_what_was_observed_by_tenths() {
+        let predicted = [Some(0.05), Some(0.93), Some(0.97), None, Some(1.0)];
+        let reliability = Reliability::new(&predicted, &[0.0, 1.0, 0.5, 1.0, 1.0]);
+        let bins: Vec<_> = reliability.bins.iter().map(|bin| (bin.layouts, bin.observed)).collect();
+        assert_eq!(bins, [(2, 0.5), (3, 2.5 / 3.0)], "a layout without a shot is one of which nothing was predicted");
+        assert!((reliability.predicted - 2.95 / 5.0).abs() < 1e-12);
+        assert!(reliability.to_string().starts_with("predicted: 59.00 %"), "{reliability}");
+        // Scripts read these names.
+        let json = serde_json::to_value(&reliability).unwrap();
+        assert!(json["claimed"].is_f64() && json["tenths"][0]["made"] == 0.5, "{json}");
     }
 }

@@ -9,7 +9,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
-use super::spec::{Shard, Spec};
+use super::spec::{Shard, Spec, layout_seed};
 use crate::{
     coach::{Coach, Doubt, Inning, Request, Skill, inning},
     commands::{
@@ -99,8 +99,7 @@ pub fn play(
                 tell(format_args!("inning {number}: {}", plural(so_far.points as usize, "point")));
             }
         };
-        // Numbers of its own for each inning: parts play what the whole plays.
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(!spec.seed ^ (u64::from(index) << 32));
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(!layout_seed(spec.seed, index));
         let Inning { points, missed, simulations, elapsed, slowest } =
             inning(coach, layout, request, most, until, &mut rng, &mut say).map_err(Failure::wrong_input)?;
         tell(format_args!(

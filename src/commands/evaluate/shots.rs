@@ -8,14 +8,14 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     drawn_tables::DrawnTables,
-    robustness::{self, Robustness, Said},
-    spec::{Shard, Spec},
+    robustness::{self, Reliability, Robustness},
+    spec::{Shard, Spec, layout_seed},
 };
 use crate::{
     coach::{Coach, Request, Skill},
     commands::output::{json_line, plural},
     game::{Reward, Rule, scores},
-    learning::{Policy, Proposal, evaluation::held_out_layouts, weights::WeightsError},
+    learning::{Policy, Proposal, evaluation::held_out_layouts, policy::any_earns, weights::WeightsError},
     physics::{CueInputs, has_room},
     printing,
     statistics::SuccessRate,
@@ -74,26 +74,31 @@ impl Player {
 struct Decision {
     cue: CueInputs,
     simulations: Option<u64>,
-    claimed: Option<f64>,
+    predicted: Option<f64>,
+    /// What else the networks propose, where these play alone for what is yes or no.
+    others: Option<Vec<Proposal>>,
 }
 
 /// What was measured on one layout.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShotRecord {
     /// Its number, from 0.
     pub layout: u32,
     /// The reward of the shot without errors.
-    earned: f64,
+    pub earned: f64,
     /// Speed of the stroke, m/s.
-    speed: f64,
+    pub speed: f64,
     /// Time of the decision, s.
-    seconds: f64,
+    pub seconds: f64,
     /// Of players that search.
-    simulations: Option<u64>,
-    /// What the player said of the shot's make probability.
-    claimed: Option<f64>,
+    pub simulations: Option<u64>,
+    /// What the player predicted of the shot's make probability.
+    #[serde(rename = "claimed")]
+    pub predicted: Option<f64>,
     /// How often the player of the skill makes it.
-    chance: Option<f64>,
+    pub chance: Option<f64>,
+    /// Of networks that play alone, whether any of their proposals makes the point without errors.
+    pub best_of_k: Option<bool>,
 }
 
 /// Lets `player` decide on every layout of the part and plays what it decides.
@@ -108,14 +113,16 @@ pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: R
         let decision = decide(spec, player, rule, reward, table, layout, index);
         let seconds = start.elapsed().as_secs_f64();
         let cue = decision.cue;
+        let earned = reward.with_room(table, layout, &cue, u32::MAX);
         ShotRecord {
             layout: index,
-            earned: reward.with_room(table, layout, &cue, u32::MAX),
+            earned,
             speed: cue.speed,
             seconds,
             simulations: decision.simulations,
-            claimed: decision.claimed,
-            chance: spec.skill.map(|skill| robustness::chance(spec, rule, table, layout, skill, &cue)),
+            predicted: decision.predicted,
+            best_of_k: decision.others.map(|others| earned >= 1.0 || any_earns(table, reward, layout, &others)),
+            chance: spec.skill.map(|skill| robustness::chance(spec, rule, table, (index, layout), skill, &cue)),
         }
     })
     .collect()
@@ -130,25 +137,27 @@ fn decide(
     layout: &Layout,
     index: u32,
 ) -> Decision {
-    let shot = |cue| Decision { cue, simulations: None, claimed: None };
+    let shot = |cue| Decision { cue, simulations: None, predicted: None, others: None };
     match player {
         Player::Recommender(coach, request) => {
             coach.recommend(layout, request).map_or(shot(NO_SHOT), |advice| Decision {
                 cue: advice.cue,
                 simulations: Some(advice.simulations),
-                claimed: advice.make_probability.map(|chance| chance.rate),
+                predicted: advice.make_probability.map(|chance| chance.rate),
+                others: None,
             })
         }
         Player::Policy(policy) => {
             let skill = spec.skill.unwrap_or(Skill::PERFECT);
-            let Proposal { cue, success } = policy.proposals(table, layout, &skill)[0];
+            let mut proposals = policy.proposals(table, layout, &skill);
+            let Proposal { cue, success } = proposals.remove(0);
             // What it says of another reward, or of a player whom it is not told, is no probability of what is measured.
             let is_of_this = policy.origin().reward == reward && (skill.is_perfect() || policy.speaks_of(&skill));
-            Decision { cue, simulations: None, claimed: is_of_this.then_some(success) }
+            let others = spec.is_yes_or_no.then_some(proposals);
+            Decision { cue, simulations: None, predicted: is_of_this.then_some(success), others }
         }
         Player::RandomSearch(shots) => {
-            // Numbers of its own for each layout: parts find what the whole finds.
-            let mut rng = Xoshiro256PlusPlus::seed_from_u64(spec.seed ^ (u64::from(index) << 32));
+            let mut rng = Xoshiro256PlusPlus::seed_from_u64(layout_seed(spec.seed, index));
             shot(random_search(table, layout, rule, *shots, &mut rng))
         }
     }
@@ -185,6 +194,9 @@ struct EvaluationReport<'a> {
     /// Of rewards that are 0 or 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     success: Option<SuccessRate>,
+    /// Of networks that play alone, the share of layouts on which any of their proposals makes the point without errors.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    best_of_k: Option<f64>,
     /// Decisions a second; judging the shots is not counted.
     layouts_per_second: f64,
     slowest_ms: f64,
@@ -193,9 +205,9 @@ struct EvaluationReport<'a> {
     /// Of players that search.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulations_per_layout: Option<f64>,
-    /// What the networks say of their shots, where no skill is given.
+    /// What the networks predict of their shots, where no skill is given.
     #[serde(flatten)]
-    said: Option<Said>,
+    reliability: Option<Reliability>,
     /// How often the player of the skill makes the shots.
     #[serde(skip_serializing_if = "Option::is_none")]
     robustness: Option<Robustness>,
@@ -212,16 +224,17 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
     let mean = |of: &dyn Fn(&ShotRecord) -> f64| records.iter().map(of).sum::<f64>() / count as f64;
     let seconds: f64 = records.iter().map(|record| record.seconds).sum();
     let chances: Option<Vec<f64>> = records.iter().map(|record| record.chance).collect();
+    let best_of_k: Option<Vec<bool>> = records.iter().map(|record| record.best_of_k).collect();
     let is_searching = records.iter().any(|record| record.simulations.is_some());
-    let has_said = is_searching || records.iter().any(|record| record.claimed.is_some());
-    let claimed: Vec<_> = records.iter().map(|record| record.claimed).collect();
+    let has_predicted = is_searching || records.iter().any(|record| record.predicted.is_some());
+    let predicted: Vec<_> = records.iter().map(|record| record.predicted).collect();
     let earned: Vec<_> = records.iter().map(|record| record.earned).collect();
     // Of the player's attempts, or else of the shot itself where that is a point or none.
-    let said = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no && has_said;
+    let is_alone = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no && has_predicted;
     let robustness = spec.skill.zip(chances).map(|(skill, chances)| {
         let mut robustness = Robustness::new(skill, spec.doubt, chances);
-        if has_said {
-            robustness.claim(&claimed);
+        if has_predicted {
+            robustness.compare(&predicted);
         }
         robustness
     });
@@ -235,11 +248,12 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
         seed: spec.seed,
         mean_reward: mean(&|record| record.earned),
         success: spec.is_yes_or_no.then(|| SuccessRate::new(successes, count)),
+        best_of_k: best_of_k.map(|made| made.iter().filter(|made| **made).count() as f64 / count as f64),
         layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
         slowest_ms: 1e3 * records.iter().map(|record| record.seconds).fold(0.0, f64::max),
         hard_share: mean(&|record| f64::from(record.speed > HARD)),
         simulations_per_layout: is_searching.then(|| mean(&|record| record.simulations.unwrap_or(0) as f64)),
-        said: said.then(|| Said::new(&claimed, &earned)),
+        reliability: is_alone.then(|| Reliability::new(&predicted, &earned)),
         robustness,
     }
 }
@@ -261,76 +275,36 @@ fn print_text(out: &mut impl Write, report: &EvaluationReport<'_>, layouts: usiz
             writeln!(out, "{player}{policy} on \"{table}\": mean {measure} {:.4} over {layouts}", report.mean_reward)?;
         }
     }
+    if let Some(share) = report.best_of_k {
+        writeln!(out, "best-of-k success {:.2} %: some proposal of the networks makes the point", 100.0 * share)?;
+    }
     write!(out, "{:.0} layouts a second, the slowest took {:.2} ms", report.layouts_per_second, report.slowest_ms)?;
     match report.simulations_per_layout {
         Some(simulations) => writeln!(out, ", {simulations:.1} simulations a layout")?,
         None => writeln!(out)?,
     }
     writeln!(out, "{:.1} % of the strokes are harder than {HARD} m/s", 100.0 * report.hard_share)?;
-    report.said.as_ref().map_or(Ok(()), |said| writeln!(out, "{said}"))?;
+    report.reliability.as_ref().map_or(Ok(()), |reliability| writeln!(out, "{reliability}"))?;
     report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::coach::Doubt;
-
-    fn spec(layouts: u32) -> Spec {
-        Spec {
-            player: "random search".to_owned(),
-            policy: None,
-            checksum: None,
-            version: None,
-            networks: None,
-            table: Table::default(),
-            measure: "straight".to_owned(),
-            is_yes_or_no: true,
-            seed: 4,
-            layouts,
-            drawn_tables: false,
-            skill: None,
-            doubt: Doubt::FULL,
-            choose_doubt: None,
-            plan: false,
-            no_jumps: false,
-            budget_ms: None,
-            simulations: None,
-            random_search: Some(30),
-            most_points: None,
-        }
-    }
-
-    #[test]
-    fn parts_measure_what_the_whole_does() {
-        let spec = spec(40);
-        let player = Player::RandomSearch(30);
-        let measured = |shard: &str| {
-            let records = measure(&spec, shard.parse().unwrap(), &player, Rule::StraightRail, Reward::R3);
-            records.into_iter().map(|record| (record.layout, record.earned, record.speed)).collect::<Vec<_>>()
-        };
-        let mut parts = [measured("2/3"), measured("1/3"), measured("3/3")].concat();
-        parts.sort_by_key(|record| record.0);
-        assert_eq!(parts, measured("1/1"));
-    }
 
     #[test]
     fn a_report_counts_what_the_records_say() {
-        let spec = spec(4);
-        let record = |layout, earned, speed| ShotRecord {
-            layout,
-            earned,
-            speed,
-            seconds: 0.5,
-            simulations: None,
-            claimed: None,
-            chance: None,
+        let spec = Spec::of_random_search(4);
+        let record = |layout, earned, speed| {
+            let best_of_k = Some(speed < 6.0);
+            ShotRecord { layout, earned, speed, seconds: 0.5, best_of_k, ..ShotRecord::default() }
         };
         let records = [record(0, 1.0, 2.0), record(1, 0.0, 6.0), record(2, 1.0, 5.5), record(3, 1.0, 1.0)];
         let report = report(&spec, &records);
         let success = report.success.unwrap();
         assert_eq!((report.mean_reward, success.successes, success.trials), (0.75, 3, 4));
         assert_eq!((report.hard_share, report.layouts_per_second, report.slowest_ms), (0.5, 2.0, 500.0));
+        assert_eq!(report.best_of_k, Some(0.75));
         assert!(report.simulations_per_layout.is_none() && report.robustness.is_none());
     }
 }

@@ -8,10 +8,12 @@ use std::{
 };
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::{self_play::InningRecord, shots::ShotRecord};
 use crate::{
     coach::{Doubt, Skill},
+    commands::Failure,
     storage,
     table::Table,
 };
@@ -56,11 +58,28 @@ pub struct Spec {
 }
 
 impl Spec {
+    /// In what the layouts of another measurement differ, or what is measured on them.
+    pub fn difference_of_layouts(&self, other: &Self) -> Option<String> {
+        let of = |spec: &Self| {
+            let Self { measure, seed, layouts, drawn_tables, table, .. } = spec;
+            serde_json::json!({
+                "measure": measure, "seed": seed, "layouts": layouts, "drawn_tables": drawn_tables, "table": table
+            })
+        };
+        difference(&of(self), &of(other)).map(|(name, values)| format!("{name} {values}"))
+    }
+
     /// Takes from the specification of another part what this one, of an earlier version, does not say.
     fn learn_from(&mut self, other: &Self) {
         self.checksum = self.checksum.take().or_else(|| other.checksum.clone());
         self.version = self.version.take().or_else(|| other.version.clone());
     }
+}
+
+/// The seed of what is drawn for the layout with this number, its own: parts measure what the whole does, and luck on one layout is no
+/// luck on another.
+pub const fn layout_seed(seed: u64, index: u32) -> u64 {
+    seed ^ ((index as u64) << 32)
 }
 
 /// A part of the layouts: `k/n` is every n-th layout from the k-th on.
@@ -143,20 +162,20 @@ impl Part {
             return (own != others).then(|| format!("of {own} and of {others} parts"));
         }
         let [one, two] = [own, others].map(|spec| serde_json::to_value(spec).unwrap_or_default());
-        let mut fields = one.as_object().into_iter().flatten();
-        let differs = fields.find(|(name, value)| two[name.as_str()] != **value);
-        Some(differs.map_or_else(
-            || "other settings".to_owned(),
-            |(name, value)| {
-                let values = format!("{value} and {}", two[name.as_str()]);
-                match name.as_str() {
-                    "checksum" => format!("not by the same networks, whatever they are called (checksums {values})"),
-                    "version" => format!("by different versions of carom, {values}"),
-                    name => format!("{name} {values}"),
-                }
-            },
-        ))
+        let told = |(name, values): (String, String)| match name.as_str() {
+            "checksum" => format!("not by the same networks, whatever they are called (checksums {values})"),
+            "version" => format!("by different versions of carom, {values}"),
+            name => format!("{name} {values}"),
+        };
+        Some(difference(&one, &two).map_or_else(|| "other settings".to_owned(), told))
     }
+}
+
+/// The first field in which two objects differ, and its values.
+fn difference(one: &Value, two: &Value) -> Option<(String, String)> {
+    let mut fields = one.as_object().into_iter().flatten();
+    let (name, value) = fields.find(|(name, value)| two[name.as_str()] != **value)?;
+    Some((name.clone(), format!("{value} and {}", two[name.as_str()])))
 }
 
 /// Why parts cannot be put together.
@@ -177,6 +196,15 @@ pub enum MergeError {
     /// Parts are missing.
     #[error("part {shard} is missing; give the files of all parts")]
     Missing { shard: Shard },
+}
+
+impl From<MergeError> for Failure {
+    fn from(error: MergeError) -> Self {
+        match error {
+            MergeError::File { .. } => Self::failed(error),
+            _ => Self::wrong_input(error),
+        }
+    }
 }
 
 /// Where the contents stop being a part, without the words of the library that reads them.
@@ -244,6 +272,35 @@ impl Records {
         match self {
             Self::Shots(records) => records.sort_by_key(|record| record.layout),
             Self::Innings(records) => records.sort_by_key(|record| record.layout),
+        }
+    }
+}
+
+#[cfg(test)]
+impl Spec {
+    /// A measurement of the simplest kind.
+    pub fn of_random_search(layouts: u32) -> Self {
+        Self {
+            player: "random search".to_owned(),
+            policy: None,
+            checksum: None,
+            version: None,
+            networks: None,
+            table: Table::default(),
+            measure: "straight".to_owned(),
+            is_yes_or_no: true,
+            seed: 4,
+            layouts,
+            drawn_tables: false,
+            skill: None,
+            doubt: Doubt::FULL,
+            choose_doubt: None,
+            plan: false,
+            no_jumps: false,
+            budget_ms: None,
+            simulations: None,
+            random_search: Some(30),
+            most_points: None,
         }
     }
 }

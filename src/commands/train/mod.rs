@@ -19,7 +19,7 @@ pub(super) use self::{listing::print as print_runs, progress::line};
 use super::{
     Failure,
     input::{minutes, seed, whole, whole_from},
-    lookup::existing_run,
+    lookup::{LATEST, existing_run},
     output::tell,
 };
 use crate::{
@@ -31,7 +31,7 @@ use crate::{
         learner::StartError,
         run::{Ending, Limits, Run, RunError, discard, holds_checkpoints, seeds::is_group},
     },
-    platform::{UNFINISHED, outlive_hang_up, stop_when_told},
+    platform::{UNFINISHED, limit_threads, outlive_hang_up, stop_when_told},
     printing::{self, shell_word},
 };
 
@@ -53,8 +53,8 @@ pub struct Args {
     /// Seed of everything random: the same seed gives the same weights.
     #[arg(long, default_value_t = 1, value_parser = seed)]
     seed: u64,
-    /// Shots to play. The learning rates fall to nothing over them. The agent ddpg plays in whole rounds, of 192 shots by
-    /// default: its run ends with the first round at or beyond this number.
+    /// Shots to play. The learning rates fall to nothing over them. The agent ddpg plays rollouts, of 192 shots by
+    /// default: its run ends with the first rollout that reaches this number.
     #[arg(long, value_name = "SHOTS", default_value_t = 5_000_000, value_parser = whole_from(1_u64))]
     steps: u64,
     /// Settings of the agent that differ from its defaults, or from those of --from, as a TOML file.
@@ -94,13 +94,16 @@ pub struct Args {
     /// Seeds that are trained at the same time, a thread each.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(1..=256_u32))]
     jobs: u32,
+    /// Threads that the searches of a run may use (setting searched). Default: one on each processor
+    #[arg(long, value_name = "N", value_parser = whole(1..=1024_u16))]
+    threads: Option<u16>,
     /// Stop after this many minutes, finished or not.
     #[arg(long)]
     minutes: Option<f64>,
     /// List the runs in this folder, by default the user's, and train nothing.
     #[arg(long, value_name = "DIR", num_args = 0..=1, conflicts_with_all = [
         "agent", "reward", "table", "seed", "steps", "config", "set", "from", "evaluate_every", "evaluation_layouts", "run",
-        "continue", "seeds", "resume", "jobs", "minutes",
+        "continue", "seeds", "resume", "jobs", "threads", "minutes",
     ])]
     list: Option<Option<PathBuf>>,
     /// Print the metrics, or the list, as JSON Lines on standard output.
@@ -142,6 +145,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return listing::print(folder.as_deref(), args.json).map(drop);
     }
     let limit = args.minutes.map(minutes).transpose()?;
+    if let Some(threads) = args.threads {
+        limit_threads(threads.into());
+    }
     // The first signal waits for the iteration and a measurement that is due, saves, and measures; the second ends that.
     let stop = stop_when_told(Some(UNFINISHED)).map_err(Failure::failed)?;
     // The run can be watched and stopped from the next terminal.
@@ -149,7 +155,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let options =
         TrainOptions { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json, objective: args.objective };
     if let Some(name) = &args.resume {
-        return resume(&existing_run(name)?, args.jobs, &options);
+        let found = existing_run(name)?;
+        // The latest run may be one of several seeds, which go on together.
+        let group = found.parent().filter(|folder| name == Path::new(LATEST) && is_group(folder));
+        return resume(group.unwrap_or(&found), args.jobs, &options);
     }
     let folder = args.run.as_deref().filter(|folder| is_group(folder) || holds_checkpoints(folder));
     if let Some(folder) = folder.filter(|_| args.r#continue) {

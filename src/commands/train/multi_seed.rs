@@ -20,7 +20,7 @@ use crate::{
 /// Trains new runs with `seeds` seeds, `jobs` at a time.
 pub fn start(read: &Read, seeds: u64, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let Read { spec, weights, .. } = read;
-    let group = read.begin(|folder| Group::create(folder, spec.clone(), seeds, weights.clone())).map_err(failure)?;
+    let group = read.begin(|folder| Group::create(folder, spec.clone(), seeds, weights.as_ref())).map_err(failure)?;
     train(&group, jobs, options)
 }
 
@@ -40,11 +40,16 @@ fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fai
         }
         train_one(group, *seed, left, options).map_err(|error| format!("seed {seed}: {error}"))
     });
-    let spread = group.write_spread().map_err(failure)?;
     let finished = outcomes.iter().all(|outcome| *outcome == Ok(true));
+    let mut errors: Vec<String> = outcomes.into_iter().filter_map(Result::err).collect();
     // Whether or not it can be told: who called has to know of errors, and that this is not the end.
-    let told = tell_spread(group, spread, finished, options);
-    let errors: Vec<String> = outcomes.into_iter().filter_map(Result::err).collect();
+    let told = match group.write_spread() {
+        Ok(spread) => tell_spread(group, spread, finished, options),
+        Err(error) => {
+            errors.push(error.to_string());
+            Ok(())
+        }
+    };
     if !errors.is_empty() {
         return Err(Failure::failed(errors.join("; ")));
     }
@@ -88,7 +93,7 @@ fn train_one(group: &Group, seed: u64, limit: Option<Duration>, options: &TrainO
     for notice in notices {
         tell(format_args!("warning: seed {seed}: {notice}"));
     }
-    if run.has_result() {
+    if run.result().is_some() {
         return Ok(true);
     }
     let mut progress = Progress::new(&run, options.json, Some(seed));

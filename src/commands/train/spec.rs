@@ -19,7 +19,7 @@ use crate::{
     learning::{
         learner::{AgentKind, TrainingPlan, lay_over},
         run::{
-            Config, RunError, Schedule, Start, config_of,
+            Config, Provenance, RunError, Schedule, config_of,
             origin::Weights,
             run_name,
             seeds::{TrainingSpec, described, is_group},
@@ -101,7 +101,7 @@ struct Base {
 
 /// What the weights bring along. Their own table is not asked for where another one is named.
 fn base_of(weights: &Weights, args: &Args) -> Result<Base, Failure> {
-    let Weights { start: Start { agent, reward, table, .. }, settings, .. } = weights.clone();
+    let Weights { start: Provenance { agent, reward, table, .. }, settings, .. } = weights.clone();
     let table = match (&args.table, &weights.table) {
         (Some(name), _) => table_named(name)?,
         (None, Some(table)) => table.clone(),
@@ -109,7 +109,7 @@ fn base_of(weights: &Weights, args: &Args) -> Result<Base, Failure> {
     };
     let mut settings = settings;
     if let (Value::Object(settings), Ok(kind)) = (&mut settings, AgentKind::named(&agent)) {
-        settings.retain(|name, _| !kind.of_one_start.contains(&name.as_str()));
+        settings.retain(|name, _| !kind.not_inherited.contains(&name.as_str()));
     }
     Ok(Base { agent, reward, table, settings })
 }
@@ -142,8 +142,9 @@ pub fn same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
     // What cannot be read is told by whoever goes on with it.
     let Some((theirs, start, their_seeds)) = known_spec(folder) else { return Ok(()) };
     let as_before = source(args).ok().flatten().and_then(|source| weights_of(source)?.ok());
-    let are_same =
-        |start: &Start, weights: &Weights| *start == Start { path: start.path.clone(), ..weights.start.clone() };
+    let are_same = |start: &Provenance, weights: &Weights| {
+        *start == Provenance { path: start.path.clone(), ..weights.start.clone() }
+    };
     let as_before = as_before.filter(|weights| start.as_ref().is_some_and(|start| are_same(start, weights)));
     let base = args.from.as_ref().and(start.as_ref()).map(|_| {
         as_before.and_then(|weights| base_of(&weights, args).ok()).unwrap_or_else(|| Base {
@@ -229,7 +230,7 @@ fn is_same_source(theirs: &str, args: &Args) -> bool {
 }
 
 /// What the run or the group in the folder was started with: what it trains, whose weights, and how many seeds.
-fn known_spec(folder: &Path) -> Option<(TrainingSpec, Option<Start>, Option<u64>)> {
+fn known_spec(folder: &Path) -> Option<(TrainingSpec, Option<Provenance>, Option<u64>)> {
     if is_group(folder) {
         let (spec, seeds, from) = described(folder).ok()?;
         return Some((spec, from, Some(seeds)));

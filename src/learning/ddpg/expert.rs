@@ -19,18 +19,18 @@ use crate::{game::Reward, statistics::normal_pair, table::Layout};
 /// Strokes of its own that the expert tries beside the networks' proposals, once each and as they are meant.
 const TRIED: usize = 2048;
 
-/// Of those that make the point then, the critic's favourites take part in the race: so many, and so many of one way to look at the layout.
+/// Of those that make the point then, the critic's favourites take part in successive halving: so many, and so many of one way to look at the layout.
 const SCREENED: usize = 64;
 const SCREENED_OF_ONE_WAY: usize = 12;
 
-/// Attempts at each stroke by the end of each round of the race, and how many strokes stay for the next, so many of one way.
+/// Attempts at each stroke by the end of each round of successive halving, and how many strokes stay for the next, so many of one way.
 const ROUNDS: [(usize, usize); 3] = [(16, 24), (32, 8), (64, 6)];
 const LEFT_OF_ONE_WAY: usize = 2;
 
 /// Attempts by which the strokes that did not win are remembered.
 const AGAIN: usize = 8;
 
-/// Neighbours that are drawn around each stroke that is left, how many of all of them enter the race, and the standard deviations of the
+/// Neighbours that are drawn around each stroke that is left, how many of all of them enter successive halving, and the standard deviations of the
 /// steps to them, in halves of an action's range. The critic only picks which neighbours enter; attempts decide, so its errors cost time,
 /// not correctness.
 const NEIGHBOURS: usize = 24;
@@ -60,16 +60,16 @@ pub struct Expert<'a> {
     pub conditions: Conditions,
 }
 
-/// A stroke in the race.
+/// A stroke in successive halving.
 #[derive(Clone, Copy, Debug)]
-struct Runner {
+struct Candidate {
     observation: Observation,
     action: Action,
     earned: f64,
     attempts: usize,
 }
 
-impl Runner {
+impl Candidate {
     const fn new(observation: Observation, action: Action) -> Self {
         Self { observation, action, earned: 0.0, attempts: 0 }
     }
@@ -88,22 +88,22 @@ pub struct Found {
     pub others: Vec<Transition>,
 }
 
-/// Leaves the first `left` of runners that stand in their order, but no more than `of_one_way` that look at the layout alike; returns the
-/// others. So the race does not end between strokes that are nearly the same, and heads are shown strokes of several ways.
-fn leave(runners: &mut Vec<Runner>, left: usize, of_one_way: usize) -> Vec<Runner> {
-    let (mut stay, mut out) = (Vec::<Runner>::with_capacity(left), Vec::new());
-    for runner in runners.drain(..) {
-        let alike = stay.iter().filter(|other| other.observation == runner.observation).count();
+/// Leaves the first `left` of candidates that stand in their order, but no more than `of_one_way` that look at the layout alike; returns the
+/// others. So successive halving does not end between strokes that are nearly the same, and heads are shown strokes of several ways.
+fn leave(candidates: &mut Vec<Candidate>, left: usize, of_one_way: usize) -> Vec<Candidate> {
+    let (mut stay, mut out) = (Vec::<Candidate>::with_capacity(left), Vec::new());
+    for candidate in candidates.drain(..) {
+        let alike = stay.iter().filter(|other| other.observation == candidate.observation).count();
         let side = if stay.len() < left && alike < of_one_way { &mut stay } else { &mut out };
-        side.push(runner);
+        side.push(candidate);
     }
-    *runners = stay;
+    *candidates = stay;
     out
 }
 
 impl Expert<'_> {
-    /// Strokes that went far in the race that began with `proposals`. Each has the share of attempts in which it was made, attempts
-    /// that did not decide the race: what wins has had luck. None where no stroke ever earned anything.
+    /// Strokes that went far in successive halving that began with `proposals`. Each has the share of attempts in which it was made, attempts
+    /// that did not decide successive halving: what wins has had luck. None where no stroke ever earned anything.
     pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Result<Found> {
         let seed = rng.random();
         let tried = (0..TRIED).map(|_| {
@@ -116,49 +116,54 @@ impl Expert<'_> {
         let mut scores_as_meant = |(observation, action): &(Observation, Action)| {
             self.tables.attempt(self.reward, self.layout, (observation, *action), steady, rng) >= 1.0
         };
-        let mut runners: Vec<Runner> = all
+        let mut candidates: Vec<Candidate> = all
             .into_iter()
             .filter(&mut scores_as_meant)
-            .map(|(observation, action)| Runner::new(observation, action))
+            .map(|(observation, action)| Candidate::new(observation, action))
             .collect();
-        self.judge(&mut runners)?;
-        leave(&mut runners, SCREENED, SCREENED_OF_ONE_WAY);
+        self.judge(&mut candidates)?;
+        leave(&mut candidates, SCREENED, SCREENED_OF_ONE_WAY);
         let mut seen = Vec::new();
         for (attempts, left) in ROUNDS {
-            self.race(&mut runners, attempts, seed);
-            seen.extend(leave(&mut runners, left, LEFT_OF_ONE_WAY));
+            self.attempt(&mut candidates, attempts, seed);
+            seen.extend(leave(&mut candidates, left, LEFT_OF_ONE_WAY));
         }
         for step in STEPS {
-            let parents = runners.clone();
-            let mut children: Vec<Runner> = parents
+            let parents = candidates.clone();
+            let mut children: Vec<Candidate> = parents
                 .iter()
                 .flat_map(|parent| [parent; NEIGHBOURS])
-                .map(|parent| Runner::new(parent.observation, self.beside(parent.action, step, rng)))
+                .map(|parent| Candidate::new(parent.observation, self.beside(parent.action, step, rng)))
                 .collect();
             self.judge(&mut children)?;
             children.truncate(FAVOURITES);
-            self.race(&mut children, ROUNDS[1].0, seed);
+            self.attempt(&mut children, ROUNDS[1].0, seed);
             // Those that the critic liked in vain it has to know better.
             seen.extend(children.split_off(ROUNDS[1].1.min(children.len())));
-            runners.extend(children);
-            self.race(&mut runners, ROUNDS[2].0, seed);
-            seen.extend(leave(&mut runners, ROUNDS[2].1, LEFT_OF_ONE_WAY));
+            candidates.extend(children);
+            self.attempt(&mut candidates, ROUNDS[2].0, seed);
+            seen.extend(leave(&mut candidates, ROUNDS[2].1, LEFT_OF_ONE_WAY));
         }
-        let again = |runner: &Runner, attempts| {
-            let mut again = [Runner::new(runner.observation, runner.action)];
-            self.race(&mut again, attempts, !seed);
+        let again = |candidate: &Candidate, attempts| {
+            let mut again = [Candidate::new(candidate.observation, candidate.action)];
+            self.attempt(&mut again, attempts, !seed);
             let success = (again[0].mean() / self.reward.highest()) as f32;
-            Transition { observation: runner.observation, conditions: self.conditions, action: runner.action, success }
+            Transition {
+                observation: candidate.observation,
+                conditions: self.conditions,
+                action: candidate.action,
+                success,
+            }
         };
-        let Some(winner) = runners.first().copied().filter(|winner| winner.earned > 0.0) else {
+        let Some(winner) = candidates.first().copied().filter(|winner| winner.earned > 0.0) else {
             return Ok(Found::default());
         };
-        let (mut best, mut others) = (Vec::<Runner>::new(), seen);
-        for runner in runners {
-            let is_new_way = best.iter().all(|better| better.observation != runner.observation);
-            let is_shown = is_new_way && runner.mean() >= WORTH_SHOWING * winner.mean();
+        let (mut best, mut others) = (Vec::<Candidate>::new(), seen);
+        for candidate in candidates {
+            let is_new_way = best.iter().all(|better| better.observation != candidate.observation);
+            let is_shown = is_new_way && candidate.mean() >= WORTH_SHOWING * winner.mean();
             let strokes = if is_shown { &mut best } else { &mut others };
-            strokes.push(runner);
+            strokes.push(candidate);
         }
         let [best, others] = [(best, ROUNDS[2].0), (others, AGAIN)]
             .map(|(strokes, attempts)| strokes.iter().map(|stroke| again(stroke, attempts)).collect());
@@ -166,34 +171,35 @@ impl Expert<'_> {
     }
 
     /// Puts the critic's favourites first.
-    fn judge(&self, runners: &mut Vec<Runner>) -> Result<()> {
-        if runners.is_empty() {
+    fn judge(&self, candidates: &mut Vec<Candidate>) -> Result<()> {
+        if candidates.is_empty() {
             return Ok(());
         }
-        let seen = runners.iter().map(|runner| self.tables.seen(runner.observation, self.conditions)).collect();
-        let actions: Vec<Action> = runners.iter().map(|runner| runner.action).collect();
+        let seen =
+            candidates.iter().map(|candidate| self.tables.seen(candidate.observation, self.conditions)).collect();
+        let actions: Vec<Action> = candidates.iter().map(|candidate| candidate.action).collect();
         let observed = ObservationBatch::new(self.inputs, seen)?;
         let rows = action_rows(self.inputs.space, &actions)?;
         let logits =
             self.networks.critic.forward_frozen(&observed.with_actions(&rows)?)?.flatten_all()?.to_vec1::<f32>()?;
-        let mut liked: Vec<(Runner, f32)> = runners.drain(..).zip(logits).collect();
+        let mut liked: Vec<(Candidate, f32)> = candidates.drain(..).zip(logits).collect();
         liked.sort_by(|(_, a), (_, b)| b.total_cmp(a));
-        runners.extend(liked.into_iter().map(|(runner, _)| runner));
+        candidates.extend(liked.into_iter().map(|(candidate, _)| candidate));
         Ok(())
     }
 
     /// One round of successive halving (Karnin et al. 2013): makes attempts at every stroke until each has so many, with the same errors
     /// for all, and puts the best first.
-    fn race(&self, runners: &mut [Runner], attempts: usize, seed: u64) {
-        for runner in runners.iter_mut() {
-            for attempt in runner.attempts..attempts {
+    fn attempt(&self, candidates: &mut [Candidate], attempts: usize, seed: u64) {
+        for candidate in candidates.iter_mut() {
+            for attempt in candidate.attempts..attempts {
                 let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed.wrapping_add(attempt as u64));
-                let shot = (&runner.observation, runner.action);
-                runner.earned += self.tables.attempt(self.reward, self.layout, shot, self.conditions, &mut rng);
+                let shot = (&candidate.observation, candidate.action);
+                candidate.earned += self.tables.attempt(self.reward, self.layout, shot, self.conditions, &mut rng);
             }
-            runner.attempts = runner.attempts.max(attempts);
+            candidate.attempts = candidate.attempts.max(attempts);
         }
-        runners.sort_by(|a, b| b.mean().total_cmp(&a.mean()));
+        candidates.sort_by(|a, b| b.mean().total_cmp(&a.mean()));
     }
 
     /// A stroke as players choose it.
@@ -246,12 +252,12 @@ mod tests {
             let layout = Layout::random(&table, &mut rng);
             let conditions = Conditions { table: 0, errors: 3.7 };
             let expert = Expert { tables: &tables, reward, inputs, networks, layout: &layout, conditions };
-            let proposal = Runner::new(Observation::new(&layout, 0), expert.stroke(&mut rng));
+            let proposal = Candidate::new(Observation::new(&layout, 0), expert.stroke(&mut rng));
             let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng).unwrap();
             let winner = strokes.best.first().unwrap();
-            let mut again = [proposal, Runner::new(winner.observation, winner.action)];
-            expert.race(&mut again[..1], 100, 7);
-            expert.race(&mut again[1..], 100, 7);
+            let mut again = [proposal, Candidate::new(winner.observation, winner.action)];
+            expert.attempt(&mut again[..1], 100, 7);
+            expert.attempt(&mut again[1..], 100, 7);
             proposed += again[0].mean();
             found += again[1].mean();
             // What is said of the winner holds.
@@ -264,15 +270,15 @@ mod tests {
     fn strokes_of_several_ways_stay_in_the_race() {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
         let ways = Observation::every(&table, &Layout::random(&table, &mut rng), true);
-        let race = |numbers: &[usize], left| {
-            let mut runners: Vec<Runner> =
-                numbers.iter().map(|&number| Runner::new(ways[number], [0.0; ACTIONS])).collect();
-            let out = leave(&mut runners, left, 2);
-            let number = |runner: &Runner| ways.iter().position(|way| *way == runner.observation).unwrap();
-            [runners, out].map(|runners| runners.iter().map(number).collect::<Vec<_>>())
+        let halved = |numbers: &[usize], left| {
+            let mut candidates: Vec<Candidate> =
+                numbers.iter().map(|&number| Candidate::new(ways[number], [0.0; ACTIONS])).collect();
+            let out = leave(&mut candidates, left, 2);
+            let number = |candidate: &Candidate| ways.iter().position(|way| *way == candidate.observation).unwrap();
+            [candidates, out].map(|candidates| candidates.iter().map(number).collect::<Vec<_>>())
         };
-        assert_eq!(race(&[0, 1, 2], 2), [vec![0, 1], vec![2]]);
-        assert_eq!(race(&[5, 5, 5, 5, 1, 5, 0], 3), [vec![5, 5, 1], vec![5, 5, 5, 0]]);
-        assert_eq!(race(&[7, 7, 7], 3), [vec![7, 7], vec![7]]);
+        assert_eq!(halved(&[0, 1, 2], 2), [vec![0, 1], vec![2]]);
+        assert_eq!(halved(&[5, 5, 5, 5, 1, 5, 0], 3), [vec![5, 5, 1], vec![5, 5, 5, 0]]);
+        assert_eq!(halved(&[7, 7, 7], 3), [vec![7, 7], vec![7]]);
     }
 }

@@ -25,7 +25,7 @@ impl Default for Exploration {
 
 impl Exploration {
     /// What the agent does in place of `choice`.
-    pub fn stray(&self, space: ActionSpace, choice: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
+    pub fn perturb(&self, space: ActionSpace, choice: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
         let mut action = choice;
         let used = &mut action[..space.actions()];
         if rng.random_bool(self.uniform.clamp(0.0, 1.0)) {
@@ -53,19 +53,20 @@ mod tests {
     fn noise_has_the_promised_spread_and_stays_in_range() {
         let exploration = Exploration { noise: vec![0.1], uniform: 0.0 };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
-        let strayed: Vec<Action> =
-            (0..10_000).map(|_| exploration.stray(ActionSpace::PhiV, [0.5, 1.0, 0.0, 0.0, 0.0], &mut rng)).collect();
-        let mean = strayed.iter().map(|action| action[0]).sum::<f32>() / 10_000.0;
-        let variance = strayed.iter().map(|action| (action[0] - mean).powi(2)).sum::<f32>() / 10_000.0;
+        let perturbed: Vec<Action> =
+            (0..10_000).map(|_| exploration.perturb(ActionSpace::PhiV, [0.5, 1.0, 0.0, 0.0, 0.0], &mut rng)).collect();
+        let mean = perturbed.iter().map(|action| action[0]).sum::<f32>() / 10_000.0;
+        let variance = perturbed.iter().map(|action| (action[0] - mean).powi(2)).sum::<f32>() / 10_000.0;
         assert!((mean - 0.5).abs() < 0.004 && (variance.sqrt() - 0.1).abs() < 0.004);
-        assert!(strayed.iter().all(|action| action[1] <= 1.0));
+        assert!(perturbed.iter().all(|action| action[1] <= 1.0));
     }
 
     #[test]
     fn uniform_shots_fill_the_range() {
         let exploration = Exploration { noise: vec![0.0], uniform: 1.0 };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
-        let low = (0..1000).filter(|_| exploration.stray(ActionSpace::Full, [0.9; ACTIONS], &mut rng)[0] < 0.0).count();
+        let low =
+            (0..1000).filter(|_| exploration.perturb(ActionSpace::Full, [0.9; ACTIONS], &mut rng)[0] < 0.0).count();
         assert!((400..600).contains(&low), "{low}");
     }
 }

@@ -42,8 +42,8 @@ pub const AGENT: AgentKind = AgentKind {
         Ok(Box::new(Trainer::new(Task { plan, hyperparameters: hyperparameters(settings)? }, table)?))
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
-    of_one_start: &["new_actor"],
-    of_meaning: &["actions", "closed_form"],
+    not_inherited: &["new_actor"],
+    must_match: &["actions", "closed_form"],
 };
 
 /// What a run is started with.
@@ -118,10 +118,16 @@ impl Learner for Trainer {
         Ok(layouts.iter().map(|layout| policy.propose(&self.table, layout, &Skill::PERFECT)).collect())
     }
 
-    fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError> {
+    fn policy(
+        &self,
+        held_out_reward: f64,
+        date: &str,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Option<Vec<u8>>, WeightsError> {
         let mut policy = self.policy(held_out_reward, date)?;
         if self.is_finished() {
-            policy.origin.calibration = self.calibration()?;
+            let Some(calibration) = self.calibration(go_on)? else { return Ok(None) };
+            policy.origin.calibration = calibration;
         }
         policy.to_bytes().map(Some)
     }
@@ -182,7 +188,7 @@ mod tests {
         let mut writer = Writer::default();
         let note = teacher.save(&mut writer).unwrap();
         let checkpoint = writer.finish(&note).unwrap();
-        let policy = Learner::policy(&teacher, 0.5, "2026-11-20").unwrap().unwrap();
+        let policy = Learner::policy(&teacher, 0.5, "2026-11-20", &mut || true).unwrap().unwrap();
         let weights = |trainer: &Trainer| {
             let Networks { actor, critic, .. } = &trainer.agent.target;
             [actor, critic].map(|network| network.parameters().to_vec1::<f32>().unwrap())
@@ -206,7 +212,7 @@ mod tests {
     fn with_a_context_an_agent_begins_with_what_was_learnt_without() {
         let table = Table::default();
         let old = Policy::bundled(&table, Rule::OneCushion).unwrap().unwrap();
-        let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-22").unwrap().unwrap();
+        let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-22", &mut || true).unwrap().unwrap();
         let mut task = old_trainer(&old).task;
         task.hyperparameters.context = true;
         let mut pupil = taught(task, &file);
@@ -246,7 +252,7 @@ mod tests {
         let blind = Policy::bundled(&table, Rule::OneCushion).unwrap().unwrap();
         assert!(with_context.has_context() && !blind.has_context());
         for old in [with_context, blind] {
-            let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-25").unwrap().unwrap();
+            let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-25", &mut || true).unwrap().unwrap();
             let mut task = old_trainer(&old).task;
             (task.hyperparameters.rails_first, task.hyperparameters.context) = (true, true);
             let seeing = taught(task, &file).policy(0.0, "").unwrap();
@@ -273,7 +279,9 @@ mod tests {
         trainer.iterate().unwrap();
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("policy.safetensors");
-        std::fs::write(&path, Learner::policy(&trainer, 0.0, "2026-11-26").unwrap().unwrap()).unwrap();
+        let policy = |go_on: bool| Learner::policy(&trainer, 0.0, "2026-11-26", &mut || go_on).unwrap();
+        assert!(policy(false).is_none(), "calibration is broken off");
+        std::fs::write(&path, policy(true).unwrap()).unwrap();
         let (calibrated, critic) = (Policy::load(&path).unwrap(), trainer.policy(0.0, "").unwrap());
         let layouts = held_out_layouts(&trainer.table, 500, 1);
         let [told, promised] = [&calibrated, &critic].map(|policy| {

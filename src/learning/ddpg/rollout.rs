@@ -1,5 +1,5 @@
-//! Rollout: the shots of one iteration, near the agent's choices, its best proposals as they are, and a search's solutions; and those
-//! by which a finished run's critic is calibrated, its own choice on fresh layouts.
+//! Rollouts: exploratory shots, ranked proposals without noise, and strokes found by search; and the shots by which a finished run's
+//! critic is calibrated.
 
 use candle_core::Result;
 use rand::{RngExt, SeedableRng};
@@ -117,7 +117,7 @@ impl Trainer {
         let mut total = 0.0;
         for (scene, proposals) in scenes.iter().zip(self.judged(&self.agent.online, scenes)?) {
             if let Some((observation, choice, _)) = proposals.into_iter().max_by(|(.., a), (.., b)| a.total_cmp(b)) {
-                total += self.stray(scene, observation, choice);
+                total += self.explore(scene, observation, choice);
             }
         }
         Ok(total)
@@ -138,15 +138,15 @@ impl Trainer {
         let mut total = 0.0;
         for (index, scene) in scenes.iter().enumerate() {
             let choice = actions[index * heads + self.rng.random_range(0..heads)];
-            total += self.stray(scene, observed.seen[index].observation, choice);
+            total += self.explore(scene, observed.seen[index].observation, choice);
         }
         Ok(total)
     }
 
     /// Plays and remembers one shot near `choice`; returns its reward.
-    fn stray(&mut self, scene: &Scene, observation: Observation, choice: Action) -> f64 {
+    fn explore(&mut self, scene: &Scene, observation: Observation, choice: Action) -> f64 {
         let hyper = &self.task.hyperparameters;
-        let action = hyper.exploration.stray(hyper.actions, choice, &mut self.rng);
+        let action = hyper.exploration.perturb(hyper.actions, choice, &mut self.rng);
         self.rollout(scene, observation, action)
     }
 
@@ -162,8 +162,8 @@ impl Trainer {
     }
 
     /// Fits the calibration: the averaged networks' own choice is played on fresh layouts, half of them on the run's own table, with
-    /// errors drawn as in practice.
-    pub(super) fn calibration(&self) -> Result<Calibration> {
+    /// errors drawn as in practice. Nothing where `go_on` says no.
+    pub(super) fn calibration(&self, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Calibration>> {
         let Hyperparameters { perfect, calibrated, .. } = self.task.hyperparameters;
         let reward = self.task.plan.reward;
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.task.plan.seed ^ STREAM);
@@ -176,6 +176,9 @@ impl Trainer {
             .collect();
         let mut trials = Vec::with_capacity(calibrated);
         for scenes in scenes.chunks(AT_ONCE) {
+            if !go_on() {
+                return Ok(None);
+            }
             for ((layout, conditions), mut proposals) in scenes.iter().zip(self.judged(&self.agent.target, scenes)?) {
                 let table = self.tables.table(*conditions);
                 let has_room = |(observation, action, _): &(Observation, Action, f32)| {
@@ -193,6 +196,6 @@ impl Trainer {
                 });
             }
         }
-        Ok(Calibration::of(&trials))
+        Ok(Some(Calibration::of(&trials)))
     }
 }

@@ -12,7 +12,8 @@ pub enum Operations {
     /// The whole network as one operation, [`Fused`].
     #[default]
     Fused,
-    /// Layer by layer with candle's own operations: the same to rounding, and slower.
+    /// Layer by layer with candle's own operations: the same to rounding, and slower. (Where a number is not
+    /// finite, one operation for all may give another one: a training that has come so far is given up by its loss.)
     Plain,
 }
 

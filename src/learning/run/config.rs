@@ -52,7 +52,7 @@ impl Schedule {
 
 /// Whose weights a run started from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Start {
+pub struct Provenance {
     /// The run or the policy, as it was given.
     pub path: String,
     /// Its agent.
@@ -82,7 +82,7 @@ pub struct Config {
     /// What `git describe` says of the source of that carom; none where it was not built from a checkout.
     pub source: Option<String>,
     /// Whose weights it started from.
-    pub from: Option<Start>,
+    pub from: Option<Provenance>,
     /// When it reports and is measured.
     pub schedule: Schedule,
     /// The agent's settings.
@@ -93,7 +93,7 @@ pub struct Config {
 
 impl Config {
     /// That of a run that starts now.
-    pub fn of(learner: &dyn Learner, schedule: Schedule, from: Option<Start>) -> Self {
+    pub fn of(learner: &dyn Learner, schedule: Schedule, from: Option<Provenance>) -> Self {
         Self {
             agent: learner.agent().to_owned(),
             plan: learner.plan(),

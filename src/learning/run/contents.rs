@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    config::{Schedule, Start},
+    config::{Provenance, Schedule},
     error::{DamageReason, FORMAT},
 };
 use crate::{
@@ -36,7 +36,7 @@ struct Header {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     pub schedule: Schedule,
-    pub from: Option<Start>,
+    pub from: Option<Provenance>,
     /// What it has to report next.
     #[serde(rename = "tally")]
     pub accumulator: Accumulator,

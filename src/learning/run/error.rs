@@ -87,7 +87,8 @@ pub enum RunError {
     /// The work since the last checkpoint could not be saved.
     #[error(
         "the run could not be saved after {shots} shots: {reason}; the last checkpoint is whole: make room, then go on \
-         with: carom train --resume \"{folder}\""
+         with: carom train --resume {call}",
+        call = shell_word(folder)
     )]
     Unsaved {
         /// Shots played.
@@ -150,5 +151,8 @@ mod tests {
     fn the_command_that_goes_on_with_a_run_can_be_pasted() {
         let said = RunError::Occupied("d b/my run".to_owned()).to_string();
         assert!(said.starts_with("d b/my run already") && said.contains("--resume 'd b/my run', or"), "{said}");
+        let reason = Box::new(RunError::NotFinite(1));
+        let said = RunError::Unsaved { shots: 1, reason, folder: "r $x".to_owned() }.to_string();
+        assert!(said.ends_with("carom train --resume 'r $x'"), "{said}");
     }
 }

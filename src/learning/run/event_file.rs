@@ -13,6 +13,7 @@ use std::{
 use crc::{CRC_32_ISCSI, Crc};
 
 use super::metrics::Record;
+use crate::storage::replace;
 
 /// The file's name; `TensorBoard` finds files by a part of it.
 pub const FILE: &str = "events.out.tfevents.carom";
@@ -24,10 +25,17 @@ const CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISCSI);
 pub struct EventFile(File);
 
 impl EventFile {
-    /// A file anew, with all lines that the run has written so far.
-    pub fn create(folder: &Path, records: &[Record]) -> io::Result<Self> {
-        let file = OpenOptions::new().create(true).truncate(true).write(true).open(folder.join(FILE))?;
-        let mut events = Self(file);
+    /// The file of a run that has written these lines so far: anew, or, where some of its lines are lost, as it is, for it may have them.
+    pub fn open(folder: &Path, records: &[Record], is_whole: bool) -> io::Result<Self> {
+        let path = folder.join(FILE);
+        if is_whole || !path.exists() {
+            replace(&path, &Self::content(records))?;
+        }
+        Ok(Self(OpenOptions::new().append(true).open(path)?))
+    }
+
+    /// A file of all these lines.
+    fn content(records: &[Record]) -> Vec<u8> {
         let version = [field(WALL_TIME, DOUBLE, &now().to_le_bytes()), sized(FILE_VERSION, b"brain.Event:2")].concat();
         let mut bytes = framed(&version);
         // As if the run had gone on without a break: when its parts were played is not known.
@@ -35,8 +43,7 @@ impl EventFile {
         for record in records {
             bytes.extend(framed(&event(record, begin + record.seconds)));
         }
-        events.0.write_all(&bytes)?;
-        Ok(events)
+        bytes
     }
 
     pub fn push(&mut self, record: &Record) -> io::Result<()> {
@@ -121,10 +128,24 @@ mod tests {
     }
 
     #[test]
+    fn lines_that_the_metrics_have_lost_stay_in_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let record = Record { shots: 300, ..Record::default() };
+        let length = || std::fs::metadata(folder.path().join(FILE)).unwrap().len();
+        let open = |records: &[Record], is_whole| EventFile::open(folder.path(), records, is_whole).unwrap();
+        open(&[record.clone(), record.clone()], true);
+        let two = length();
+        open(&[], false).push(&record).unwrap();
+        assert!(length() > two);
+        open(&[record], true);
+        assert!(length() < two, "what the metrics have is all there is");
+    }
+
+    #[test]
     fn a_file_is_a_version_and_an_event_a_line() {
         let folder = tempfile::tempdir().unwrap();
         let record = Record { shots: 300, critic_loss: f64::NAN, rollout_reward: 0.25, ..Record::default() };
-        let mut file = EventFile::create(folder.path(), std::slice::from_ref(&record)).unwrap();
+        let mut file = EventFile::open(folder.path(), std::slice::from_ref(&record), true).unwrap();
         file.push(&record).unwrap();
         let bytes = std::fs::read(folder.path().join(FILE)).unwrap();
         let (mut rest, mut events) = (bytes.as_slice(), Vec::new());

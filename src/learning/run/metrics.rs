@@ -55,7 +55,8 @@ pub struct Record {
     /// Mean reward of the averaged networks' first choice on held-out layouts, without exploration.
     #[serde(rename = "eval/mean_reward", with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub held_out_reward: Option<f64>,
-    /// Share of those layouts in which any head earns at least 1: what a perfect choice among them would reach.
+    /// Share of those layouts in which any of the best proposals earns at least 1: what a perfect choice among them would reach. The name
+    /// is of a time when every head made one proposal.
     #[serde(rename = "eval/any_head", with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub best_of_k: Option<f64>,
 }
@@ -79,10 +80,7 @@ pub(super) fn notices(path: &Path, shots: u64, log_every: u64) -> Vec<String> {
     let is_torn = bytes.last().is_some_and(|byte| *byte != b'\n');
     let torn = is_torn.then(|| format!("the last line of {METRICS} is cut off and is left out"));
     let last = records(&bytes).map(|record| record.shots).filter(|last| *last <= shots).max();
-    // A checkpoint is written after all lines before it: none is missing where no line is due between the last one and it.
-    let number = |shots: u64| shots / log_every.max(1);
-    let is_missing = number(last.unwrap_or(0)) != number(shots);
-    let missing = is_missing.then(|| {
+    let missing = lacks_lines(last, shots, log_every).then(|| {
         let what = match last {
             None if !path.exists() => {
                 format!("{METRICS} is missing: there is no line of the {shots} shots played")
@@ -92,6 +90,13 @@ pub(super) fn notices(path: &Path, shots: u64, log_every: u64) -> Vec<String> {
         format!("{what}; those lines are lost, and the training goes on as if they were there")
     });
     torn.into_iter().chain(missing).collect()
+}
+
+/// Whether lines are missing after the `last` one of a run that has played so many shots. A checkpoint is written after all lines before
+/// it: none is missing where no line is due between the last one and it.
+pub(super) fn lacks_lines(last: Option<u64>, shots: u64, log_every: u64) -> bool {
+    let number = |shots: u64| shots / log_every.max(1);
+    number(last.unwrap_or(0)) != number(shots)
 }
 
 /// The sentence about a file whose last line is of `last` shots, where `shots` were played and lines are missing.

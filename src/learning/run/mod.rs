@@ -2,7 +2,8 @@
 //!
 //! A run can be killed at any moment. The order of writing sees to it that what it goes on from is complete: first the
 //! policy, then the lines of metrics, last the checkpoint; whatever is younger than the checkpoint is done again,
-//! to the same bits. A run that is stopped writes the checkpoint before it is measured, and the policy after that.
+//! to the same bits. What takes long comes after the checkpoint: the measurement and the policy of a run that is stopped, and of one
+//! that is finished the policy, which is calibrated. Its result comes last of all, and until that is there its policy is written again.
 
 mod checkpoint;
 mod config;
@@ -37,14 +38,14 @@ use self::{
     metrics::MetricsFile,
 };
 pub use self::{
-    config::{Config, Schedule, Start, run_name},
+    config::{Config, Provenance, Schedule, run_name},
     contents::agent_of_checkpoint,
     error::RunError,
     training::{Ending, Limits, Watcher},
 };
 use crate::{
     learning::{evaluation::Score, learner::Learner},
-    storage::{Lock, remove_partial_files, write_atomic},
+    storage::{self, Lock, remove_partial_files, write_atomic},
 };
 
 /// The metrics' file in a run's folder.
@@ -55,6 +56,12 @@ pub const POLICY: &str = "policy.safetensors";
 
 /// What a run has come to: it is there once the run is finished, and taken away when it goes on.
 const RESULT: &str = "result.json";
+
+/// Mean reward on the held-out layouts there, without exploration: what is to be made large.
+const REWARD: &str = "held_out_reward";
+
+/// Share of those layouts there in which any proposal earns at least 1.
+const BEST_OF_K: &str = "held_out_reach";
 
 /// All that a run writes into its folder, the lock last.
 const FILES: [&str; 11] = [
@@ -100,7 +107,7 @@ impl Run {
         folder: &Path,
         learner: Box<dyn Learner>,
         schedule: Schedule,
-        from: Option<Start>,
+        from: Option<Provenance>,
     ) -> Result<Self, RunError> {
         make_folder(folder)?;
         let lock = lock(folder)?;
@@ -152,9 +159,12 @@ impl Run {
         Ok((Self { folder, config, learner, state, checkpoints, _lock: lock }, notices))
     }
 
-    /// Whether it has played all its shots and said what it has come to.
-    pub fn has_result(&self) -> bool {
-        self.learner.is_finished() && self.folder.join(RESULT).is_file()
+    /// What it has come to, where it has played all its shots and said so.
+    pub fn result(&self) -> Option<Score> {
+        let result: serde_json::Value = json::read(&self.folder.join(RESULT), storage::SMALL).ok()?;
+        let number = |name: &str| result.get(name)?.as_f64();
+        let score = Score { mean_reward: number(REWARD)?, best_of_k: number(BEST_OF_K)? };
+        self.learner.is_finished().then_some(score)
     }
 
     /// The run's folder.
@@ -172,18 +182,19 @@ impl Run {
         self.folder.join(POLICY)
     }
 
-    /// Writes the policy, the lines that wait and the checkpoint, in this order.
+    /// Writes the policy of a run that goes on, the lines that wait and the checkpoint, in this order.
     fn save(&mut self, metrics: &mut MetricsFile, score: Option<Score>) -> Result<(), RunError> {
-        if let Some(score) = score {
-            self.write_policy(score)?;
+        if let Some(score) = score.filter(|_| !self.learner.is_finished()) {
+            self.write_policy(score, &mut || true)?;
         }
         metrics.sync().map_err(file(&self.folder.join(METRICS)))?;
         self.write_checkpoint()
     }
 
-    fn write_policy(&self, score: Score) -> Result<(), RunError> {
+    /// Writes the policy, unless `go_on` says no before it is there.
+    fn write_policy(&self, score: Score, go_on: &mut dyn FnMut() -> bool) -> Result<(), RunError> {
         let path = self.policy_path();
-        match self.learner.policy(score.mean_reward, self.config.day())? {
+        match self.learner.policy(score.mean_reward, self.config.day(), go_on)? {
             Some(bytes) => write_atomic(&path, &bytes).map_err(file(&path)),
             None => Ok(()),
         }

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{
     checkpoint::{self, Checkpoints, Loaded},
-    config::Start,
+    config::Provenance,
     error::{RunError, advice, file},
 };
 use crate::{
@@ -24,7 +24,7 @@ use crate::{
 /// Weights to start from, and what is known of them.
 #[derive(Clone, Debug)]
 pub struct Weights {
-    pub start: Start,
+    pub start: Provenance,
     /// The settings of the agent that has them.
     pub settings: Value,
     /// Its table, where the file has more of it than its name.
@@ -57,7 +57,7 @@ impl Weights {
     fn of_policy(path: String, bytes: Vec<u8>) -> Result<Self, RunError> {
         let policy = Policy::of_file(&bytes, &path)?;
         let origin = policy.origin();
-        let start = Start {
+        let start = Provenance {
             path: path.clone(),
             // The one agent whose policy has a file of its own.
             agent: "ddpg".to_owned(),
@@ -75,7 +75,7 @@ impl Weights {
         let notice = loaded.notice();
         let Loaded { learner, bytes, .. } = loaded;
         let plan = learner.plan();
-        let start = Start {
+        let start = Provenance {
             path: path.display().to_string(),
             agent: learner.agent().to_owned(),
             table: learner.table().name.clone(),
@@ -99,7 +99,7 @@ impl Weights {
             )));
         }
         let own = learner.settings();
-        for name in AgentKind::named(found)?.of_meaning {
+        for name in AgentKind::named(found)?.must_match {
             let [known, asked] = [&self.settings, &own].map(|settings| &settings[*name]);
             if known != asked {
                 return Err(refuse(format!("they were learnt with {name} = {known}, and the run has {asked}")));

@@ -55,6 +55,10 @@ impl Request {
     /// # Errors
     /// A sentence that names what is not understood, and what would be.
     pub fn take(folder: &Path) -> Option<Result<Self, String>> {
+        // Who opens the file first and writes later has not asked yet.
+        if fs::metadata(folder.join(FILE)).ok()?.len() == 0 {
+            return None;
+        }
         // Away first: another request may come while this one is read.
         let taken = folder.join(TAKEN);
         fs::rename(folder.join(FILE), &taken).ok()?;
@@ -86,6 +90,11 @@ mod tests {
         assert_eq!(Request::take(folder.path()), None);
         Request::GoOn.send(folder.path()).unwrap();
         assert_eq!(Request::take(folder.path()), Some(Ok(Request::GoOn)));
+        // As a shell does whose command takes its time.
+        let mut slow = fs::File::create(folder.path().join(FILE)).unwrap();
+        assert_eq!(Request::take(folder.path()), None);
+        io::Write::write_all(&mut slow, b"stop\n").unwrap();
+        assert_eq!(Request::take(folder.path()), Some(Ok(Request::Stop)));
         fs::write(folder.path().join(FILE), "puase\u{1b}\n").unwrap();
         let said = Request::take(folder.path()).unwrap().unwrap_err();
         let accepted = "accepted are \"pause\", \"go on\", \"stop\", \"abandon\"";

@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use super::{
     METRICS, Run, RunError,
-    config::{Schedule, Start},
+    config::{Provenance, Schedule},
     error::file,
     holds_checkpoints, json, metrics,
     origin::Weights,
@@ -67,13 +67,13 @@ impl TrainingSpec {
 #[derive(Debug, Serialize, Deserialize)]
 struct GroupFile {
     seeds: u64,
-    from: Option<Start>,
+    from: Option<Provenance>,
     #[serde(flatten)]
     spec: TrainingSpec,
 }
 
 /// What the group in `folder` trains, with how many seeds, and from whose weights.
-pub fn described(folder: &Path) -> Result<(TrainingSpec, u64, Option<Start>), RunError> {
+pub fn described(folder: &Path) -> Result<(TrainingSpec, u64, Option<Provenance>), RunError> {
     let path = folder.join(FILE);
     let GroupFile { seeds, spec, from } = json::read(&path, storage::SMALL).map_err(file(&path))?;
     Ok((spec, seeds, from))
@@ -85,7 +85,7 @@ pub struct Group {
     folder: PathBuf,
     spec: TrainingSpec,
     seeds: u64,
-    weights: Option<Weights>,
+    from: Option<Provenance>,
     _lock: Lock,
 }
 
@@ -94,31 +94,25 @@ impl Group {
     ///
     /// # Errors
     /// [`RunError::Occupied`] where it holds runs already, and whatever [`TrainingSpec::start`] would refuse.
-    pub fn create(folder: &Path, spec: TrainingSpec, seeds: u64, weights: Option<Weights>) -> Result<Self, RunError> {
+    pub fn create(folder: &Path, spec: TrainingSpec, seeds: u64, weights: Option<&Weights>) -> Result<Self, RunError> {
         // What is refused is refused before anything is written.
-        spec.untrained(spec.plan.seed, weights.as_ref())?;
+        spec.untrained(spec.plan.seed, weights)?;
         super::make_folder(folder)?;
         let lock = super::lock(folder)?;
         // Killed before the next file was written, the same command writes this one again.
-        super::refuse_taken(folder, weights.as_ref().map(|_| WEIGHTS))?;
-        if let Some(weights) = &weights {
+        super::refuse_taken(folder, weights.map(|_| WEIGHTS))?;
+        if let Some(weights) = weights {
             weights.write(&folder.join(WEIGHTS))?;
         }
-        let note = GroupFile { seeds, from: weights.as_ref().map(|weights| weights.start.clone()), spec };
+        let note = GroupFile { seeds, from: weights.map(|weights| weights.start.clone()), spec };
         json::write(&folder.join(FILE), &note)?;
-        Ok(Self { folder: folder.to_owned(), spec: note.spec, seeds, weights, _lock: lock })
+        Ok(Self { folder: folder.to_owned(), spec: note.spec, seeds, from: note.from, _lock: lock })
     }
 
     /// The group in `folder`.
     pub fn resume(folder: &Path) -> Result<Self, RunError> {
         let (spec, seeds, from) = described(folder)?;
-        let lock = super::lock(folder)?;
-        let mut weights = None;
-        if let Some(start) = from {
-            // Under what was known of them when the file was copied.
-            weights.insert(Weights::load(&folder.join(WEIGHTS))?).start = start;
-        }
-        Ok(Self { folder: folder.to_owned(), spec, seeds, weights, _lock: lock })
+        Ok(Self { folder: folder.to_owned(), spec, seeds, from, _lock: super::lock(folder)? })
     }
 
     pub fn folder(&self) -> &Path {
@@ -138,7 +132,13 @@ impl Group {
         if holds_checkpoints(&folder) {
             return Run::resume(&folder);
         }
-        Ok((self.spec.start(&folder, seed, self.weights.as_ref())?, Vec::new()))
+        // Seeds that have begun need the weights no more.
+        let mut weights = None;
+        if let Some(start) = &self.from {
+            // Under what was known of them when the file was copied.
+            weights.insert(Weights::load(&self.folder.join(WEIGHTS))?).start = start.clone();
+        }
+        Ok((self.spec.start(&folder, seed, weights.as_ref())?, Vec::new()))
     }
 
     fn member(&self, seed: u64) -> PathBuf {

@@ -124,6 +124,42 @@ fn a_run_that_is_stopped_saves_before_it_is_measured() {
     assert_eq!(Run::resume(folder.path()).unwrap().0.learner().shots(), 48);
 }
 
+#[test]
+fn a_finished_run_is_saved_before_it_is_calibrated_and_stops_meanwhile() {
+    let (folder, whole) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let mut run = small_run(folder.path());
+    let asked = Cell::new(0);
+    // After ten iterations, at the second look of the calibration.
+    let stop = || asked.replace(asked.get() + 1) == 11;
+    let ending = run.train(&Limits { time: None, stop: &stop }, &mut Told::default()).unwrap();
+    assert!(matches!(ending, Ending::Stopped(_)) && run.learner().is_finished() && run.result().is_none());
+    drop(run);
+    let mut run = Run::resume(folder.path()).unwrap().0;
+    assert_eq!((run.learner().shots(), is_finished(finish(&mut run).0)), (160, true));
+    assert!(run.result().is_some());
+    finish(&mut small_run(whole.path()));
+    let policy = |folder: &Path| fs::read(folder.join(POLICY)).unwrap();
+    assert!(policy(folder.path()) == policy(whole.path()), "it is calibrated as if it had not been stopped");
+}
+
+#[test]
+fn a_finished_run_that_is_asked_again_says_what_it_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let ending = finish(&mut small_run(folder.path())).0;
+    let path = |name: &str| folder.path().join(name);
+    let result = fs::read_to_string(path(RESULT)).unwrap().replace(VERSION, "0.0.1");
+    fs::write(path(RESULT), &result).unwrap();
+    fs::remove_file(path(METRICS)).unwrap();
+    let events = fs::read(path(event_file::FILE)).unwrap();
+    assert_eq!(finish(&mut Run::resume(folder.path()).unwrap().0).0, ending);
+    assert_eq!(fs::read_to_string(path(RESULT)).unwrap(), result);
+    assert!(fs::read(path(event_file::FILE)).unwrap() == events, "the second copy of the curves");
+    // What says nothing is written anew.
+    fs::write(path(RESULT), "{}").unwrap();
+    assert_eq!(finish(&mut Run::resume(folder.path()).unwrap().0).0, ending);
+    assert!(fs::read_to_string(path(RESULT)).unwrap().contains(VERSION));
+}
+
 /// What each warning said, and the checkpoint that was there then.
 struct Witness(PathBuf, Vec<(String, Vec<u8>)>);
 

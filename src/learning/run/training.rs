@@ -8,13 +8,13 @@ use std::{
 use serde_json::json;
 
 use super::{
-    METRICS, RESULT, Run, RunError, Schedule,
+    BEST_OF_K, METRICS, RESULT, REWARD, Run, RunError, Schedule,
     error::file,
     event_file::EventFile,
     examples::Examples,
     heartbeat::Heartbeat,
     json,
-    metrics::{MetricsFile, Record},
+    metrics::{self, MetricsFile, Record},
     request::Request,
     status::Phase,
 };
@@ -83,24 +83,29 @@ impl Run {
     pub fn train(&mut self, limits: &Limits<'_>, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
         let path = self.folder.join(METRICS);
         let (metrics, records) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
-        let events = EventFile::create(&self.folder, &records).ok();
+        let (last, shots) = (records.last().map(|record| record.shots), self.learner.shots());
+        let is_whole = !metrics::lacks_lines(last, shots, self.state.schedule.log_every);
+        // A finished run has no more lines.
+        let events =
+            if self.learner.is_finished() { None } else { EventFile::open(&self.folder, &records, is_whole).ok() };
         let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
         if !self.learner.is_finished() {
             // A finished run whose last checkpoint was lost goes on from the one before.
             let _ = fs::remove_file(self.folder.join(RESULT));
         }
         let before = records.last().map_or(0.0, |record| record.seconds);
-        let last = (before, self.learner.shots());
-        let clock = Clock { start: Instant::now(), before, paused: Duration::ZERO, last };
+        let clock = Clock { start: Instant::now(), before, paused: Duration::ZERO, last: (before, shots) };
         let mut heartbeat = Heartbeat::new(&self.folder);
-        heartbeat.status.logged = records.last().map_or(0, |record| record.shots);
+        heartbeat.status.logged = last.unwrap_or(0);
         let mut reporting = Reporting { metrics, events, clock, heartbeat, layouts, watcher };
         let ending = self.iterate_until(limits, &mut reporting).and_then(|ending| {
             // It may have been given up during the last measurement, after which nothing else is asked for.
             if Request::take(&self.folder) == Some(Ok(Request::Abandon)) {
                 return Ok(Ending::Abandoned);
             }
-            if let Ending::Finished(score) = ending {
+            if let Ending::Finished(score) = ending
+                && self.result() != Some(score)
+            {
                 self.write_result(score)?;
             }
             Ok(ending)
@@ -123,21 +128,25 @@ impl Run {
             // Those of the last iteration beyond the plan included.
             "shots": learner.shots(),
             "updates": learner.progress().updates,
-            // Mean reward on the held-out layouts, without exploration: what is to be made large.
-            "held_out_reward": score.mean_reward,
-            // Share of those layouts in which any proposal earns at least 1.
-            "held_out_reach": score.best_of_k,
+            REWARD: score.mean_reward,
+            BEST_OF_K: score.best_of_k,
         });
         json::write(&self.folder.join(RESULT), &result)
     }
 
     fn iterate_until(&mut self, limits: &Limits<'_>, reporting: &mut Reporting<'_>) -> Result<Ending, RunError> {
         if self.learner.is_finished() {
-            let score = self.measure(reporting, Phase::Measuring)?;
-            if !self.policy_path().exists() {
-                self.write_policy(score)?;
-            }
-            return Ok(Ending::Finished(score));
+            let Some(score) = self.result() else {
+                let score = self.measure(reporting, Phase::Measuring)?;
+                return self.finish(score, limits, reporting);
+            };
+            // By this program's own simulator it might be another number.
+            reporting.heartbeat.status.held_out_reward = Some(score.mean_reward);
+            return if self.policy_path().exists() {
+                Ok(Ending::Finished(score))
+            } else {
+                self.finish(score, limits, reporting)
+            };
         }
         let mut saved = Instant::now();
         loop {
@@ -157,7 +166,7 @@ impl Run {
                 // Nothing waits for the measurement, which may take long: whoever cannot wait ends it by a second signal.
                 self.save(&mut reporting.metrics, None).map_err(|reason| self.unsaved(reason))?;
                 let score = self.measure(reporting, Phase::Stopping)?;
-                self.write_policy(score).map_err(|reason| self.unsaved(reason))?;
+                self.write_policy(score, &mut || true).map_err(|reason| self.unsaved(reason))?;
                 return Ok(Ending::Stopped(score));
             }
             let score = self.iterate(reporting)?;
@@ -165,13 +174,31 @@ impl Run {
                 let done = self.save(&mut reporting.metrics, score);
                 saved = Instant::now();
                 match (done, score.filter(|_| self.learner.is_finished())) {
-                    (Ok(()), Some(score)) => return Ok(Ending::Finished(score)),
+                    (Ok(()), Some(score)) => return self.finish(score, limits, reporting),
                     (Ok(()), None) => {}
                     (Err(reason), Some(_)) => return Err(self.unsaved(reason)),
                     (Err(reason), None) => reporting.warn_of_checkpoint(&reason, self.learner.shots()),
                 }
             }
         }
+    }
+
+    /// Writes the policy of a run that has played its last shot and is saved. Its calibration may take minutes; a run that is stopped
+    /// meanwhile begins it again when it goes on.
+    fn finish(&self, score: Score, limits: &Limits<'_>, reporting: &mut Reporting<'_>) -> Result<Ending, RunError> {
+        let mut ending = Ending::Finished(score);
+        let mut go_on = || {
+            reporting.heartbeat.beat(Phase::Measuring, self.learner.as_ref(), reporting.clock.seconds());
+            let request = reporting.request();
+            if request == Some(Request::Abandon) {
+                ending = Ending::Abandoned;
+            } else if request == Some(Request::Stop) || (limits.stop)() {
+                ending = Ending::Stopped(score);
+            }
+            matches!(ending, Ending::Finished(_))
+        };
+        self.write_policy(score, &mut go_on).map_err(|reason| self.unsaved(reason))?;
+        Ok(ending)
     }
 
     /// Saves and waits for the next request, which is never another pause.

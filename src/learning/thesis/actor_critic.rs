@@ -145,7 +145,7 @@ impl ActorCritic {
     }
 
     /// Learns from now on at `share` of its learning rate.
-    pub fn slow_down(&mut self, share: f64) {
+    pub fn set_rate_share(&mut self, share: f64) {
         for optimiser in &mut self.optimisers {
             optimiser.set_learning_rate(share * self.rates.adam.learning_rate);
         }

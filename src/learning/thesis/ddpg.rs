@@ -173,13 +173,13 @@ impl PlainDdpgSettings {
     }
 
     /// What is left after `shots` of something of which `last` is left in the end.
-    fn left(&self, last: f64, shots: u64) -> f64 {
+    fn decayed(&self, last: f64, shots: u64) -> f64 {
         last.powf((shots as f64 / self.falls_over as f64).min(1.0))
     }
 
     fn guidance(&self, lessons: usize, shots: u64) -> Guidance {
         let [first, last] = self.cloning_width;
-        let width = first * self.left(last / first, shots);
+        let width = first * self.decayed(last / first, shots);
         let speed = (SPEED_WIDTH * width).min(WIDEST);
         let Self { climbing, cloning, range_pull: pull, .. } = *self;
         Guidance { climbing, lessons, cloning, width: [width, speed], pull }
@@ -225,7 +225,7 @@ struct PlainDdpgState {
 impl PlainDdpg {
     fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
         let settings = &self.settings;
-        self.networks.slow_down(settings.left(settings.learning_rate_falls_to, self.shots));
+        self.networks.set_rate_share(settings.decayed(settings.learning_rate_falls_to, self.shots));
         let mut drawn = self.lessons.sample(settings.lesson_rows(), rng);
         let lessons = drawn.len();
         drawn.extend(self.replay.sample(settings.batch.saturating_sub(lessons), rng));
@@ -259,7 +259,7 @@ impl Agent for PlainDdpg {
     fn progress(&self) -> Progress {
         let settings = &self.settings;
         let [rate, noise] =
-            [settings.learning_rate_falls_to, settings.noise_falls_to].map(|last| settings.left(last, self.shots));
+            [settings.learning_rate_falls_to, settings.noise_falls_to].map(|last| settings.decayed(last, self.shots));
         Progress {
             updates: u64::from(self.networks.updates()),
             learning_rate: rate * settings.learning_rate,
@@ -270,7 +270,7 @@ impl Agent for PlainDdpg {
 
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
         self.noise = self.settings.noise.step(self.noise, rng);
-        let left = self.settings.left(self.settings.noise_falls_to, self.shots) as f32;
+        let left = self.settings.decayed(self.settings.noise_falls_to, self.shots) as f32;
         let mut choice = self.best(seen)?;
         for (value, noise) in choice.action.iter_mut().zip(self.noise) {
             *value += left * noise;

@@ -52,8 +52,8 @@ pub const fn kind_of<A: Agent + 'static>() -> AgentKind {
             settings.validate()?;
             Ok(Box::new(TrainingLoop { agent: A::restore(settings, reader, agent)?, state }))
         },
-        of_one_start: &[],
-        of_meaning: &["canonical"],
+        not_inherited: &[],
+        must_match: &["canonical"],
     }
 }
 
@@ -131,7 +131,9 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
         let play = |layout| {
             let choice = self.agent.best(&self.state.game.observation(layout))?;
-            let reward = self.state.game.reward_of(layout, choice.action);
+            let State { plan, game, .. } = &self.state;
+            // As every other agent is measured: on a table with room for the cue, a stroke without any earns nothing.
+            let reward = plan.reward.with_room(&game.table, layout, &cue_inputs(choice.action), u32::MAX);
             Ok((reward, reward >= 1.0))
         };
         Ok(Score::of(&layouts.iter().map(play).collect::<candle_core::Result<Vec<_>>>()?))
@@ -143,7 +145,12 @@ impl<A: Agent> Learner for TrainingLoop<A> {
         layouts.iter().map(shot).collect()
     }
 
-    fn policy(&self, _held_out_reward: f64, _date: &str) -> Result<Option<Vec<u8>>, WeightsError> {
+    fn policy(
+        &self,
+        _held_out_reward: f64,
+        _date: &str,
+        _go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Option<Vec<u8>>, WeightsError> {
         Ok(None)
     }
 

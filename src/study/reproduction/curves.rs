@@ -3,12 +3,13 @@
 use candle_core::Error;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
+use serde_json::Value;
 
 use super::figures::{Figure, Measure, Reading};
 use crate::{
     game::Reward,
     learning::{
-        evaluation::{HELD_OUT_SEED, held_out_layouts},
+        evaluation::{EVALUATION_SEED, held_out_layouts},
         learner::{AgentKind, Iteration, Learner, StartError, TrainingPlan},
         run::Accumulator,
         thesis::carom::{Carom, Episode},
@@ -19,7 +20,7 @@ use crate::{
 /// Shots over which a point of a curve is the mean (4.4.2: intervals of 10,000 episodes).
 pub const INTERVAL: u64 = 10_000;
 
-/// Layouts on which an agent is examined once it has learnt.
+/// Layouts on which an agent is examined once it has learnt: other ones than training measures itself on, which choose settings.
 pub const EXAMINED: usize = 10_000;
 
 /// Means over an interval.
@@ -58,14 +59,14 @@ pub struct Curve {
 }
 
 /// What to train: figures of the same training share its curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Training {
     /// The agent's name.
     pub agent: &'static str,
     /// What is rewarded.
     pub reward: Reward,
-    /// What an episode is.
-    pub reading: Reading,
+    /// The agent's settings, whatever the figure calls them.
+    pub settings: Value,
     /// Shots to play.
     pub shots: u64,
     /// Seed of everything random.
@@ -74,8 +75,9 @@ pub struct Training {
 
 impl Training {
     /// The training of a figure.
-    pub const fn of(figure: &Figure, reading: Reading, shots: u64, seed: u64) -> Self {
-        Self { agent: figure.agent, reward: figure.reward, reading, shots: reading.shots(shots), seed }
+    pub fn of(figure: &Figure, reading: Reading, shots: u64, seed: u64) -> Self {
+        let shots = reading.shots(shots);
+        Self { agent: figure.agent, reward: figure.reward, settings: reading.settings(shots), shots, seed }
     }
 
     /// Trains. `played` is told of shots as they are played, and says whether to go on; without that there is no curve.
@@ -85,7 +87,7 @@ impl Training {
     pub fn run(&self, table: &Table, played: &dyn Fn(u64) -> bool) -> Result<Option<Curve>, StartError> {
         let agent = AgentKind::named(self.agent).map_err(StartError::settings)?;
         let plan = TrainingPlan { reward: self.reward, seed: self.seed, shots: self.shots };
-        let mut learner = (agent.start)(plan, table.clone(), &self.reading.settings(self.shots))?;
+        let mut learner = (agent.start)(plan, table.clone(), &self.settings)?;
         let mut curve = Curve::default();
         while !learner.is_finished() {
             match interval(learner.as_mut(), played) {
@@ -98,7 +100,7 @@ impl Training {
                 }
             }
         }
-        curve.held_out = Some(learner.score(&held_out_layouts(table, EXAMINED, HELD_OUT_SEED))?.mean_reward);
+        curve.held_out = Some(learner.score(&held_out_layouts(table, EXAMINED, EVALUATION_SEED))?.mean_reward);
         Ok(Some(curve))
     }
 }
@@ -125,7 +127,7 @@ pub fn random_play(table: &Table, reward: Reward, seed: u64) -> f64 {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let game = Carom::new(table.clone(), reward, Episode::OneShot);
     let mut shot = |layout: &Layout| game.reward_of(layout, [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0)]);
-    held_out_layouts(table, EXAMINED, HELD_OUT_SEED).iter().map(&mut shot).sum::<f64>() / EXAMINED as f64
+    held_out_layouts(table, EXAMINED, EVALUATION_SEED).iter().map(&mut shot).sum::<f64>() / EXAMINED as f64
 }
 
 #[cfg(test)]

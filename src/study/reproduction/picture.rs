@@ -26,7 +26,7 @@ pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> io::R
         let ending = if curve.broke_down.is_some() { " (broke down)" } else { "" };
         let spot = |x, y| Spot { x, y, ..Spot::default() };
         let points = curve.points.iter().map(|point| spot(point.shots as f64 / 1000.0, point.of(figure.measure)));
-        let name = if seed == 0 { format!("{}{ending}", reading.name) } else { String::new() };
+        let name = if seed == figure.seeds[0] { format!("{}{ending}", reading.name) } else { String::new() };
         series.push(Series { name, color: reading.color, mark: Mark::Line, points: points.collect() });
     }
     for (value, color, name) in [(random, GREY, "random play"), (figure.thesis, RUST, "the thesis")] {

@@ -7,8 +7,8 @@ use std::{
 };
 
 use super::{
-    curves::{Curve, Training, random_play},
-    figures::{Figure, Measure},
+    curves::{Curve, Point, Training, random_play},
+    figures::{Figure, Measure, Reading},
 };
 use crate::{learning::learner::StartError, platform::parallel, table::Table};
 
@@ -32,10 +32,20 @@ pub struct Session {
 pub struct Drawn {
     /// The figure.
     pub figure: Figure,
+    /// The seed that was asked for.
+    pub seed: u64,
     /// A curve for each of [`Figure::curves`].
     pub curves: Vec<Curve>,
     /// Mean reward of random play.
     pub random: f64,
+}
+
+impl Drawn {
+    /// Every curve with what it reads and its seed.
+    fn curves(&self) -> impl Iterator<Item = (&'static Reading, u64, &Curve)> {
+        let named = self.figure.curves().zip(&self.curves);
+        named.map(|((reading, more), curve)| (reading, self.seed.wrapping_add(more), curve))
+    }
 }
 
 /// Why figures could not be drawn.
@@ -97,7 +107,7 @@ impl Session {
             for (figure, curves) in complete {
                 let random = random_play(&self.table, figure.reward, self.seed);
                 let mut hand_over = hand_over.lock().unwrap_or_else(PoisonError::into_inner);
-                hand_over(&Drawn { figure, curves, random })?;
+                hand_over(&Drawn { figure, seed: self.seed, curves, random })?;
             }
             Ok(())
         })
@@ -111,8 +121,9 @@ impl Session {
         curves: &[Option<Curve>],
         left: &mut Vec<Figure>,
     ) -> Vec<(Figure, Vec<Curve>)> {
-        let curve =
-            |training| trainings.iter().position(|known| *known == training).and_then(|index| curves[index].clone());
+        let curve = |training: Training| {
+            trainings.iter().position(|known| *known == training).and_then(|index| curves[index].clone())
+        };
         let mut complete = Vec::new();
         left.retain(|figure| {
             let Some(curves) = self.trainings_of(figure).map(curve).collect::<Option<Vec<_>>>() else { return true };
@@ -123,40 +134,81 @@ impl Session {
     }
 }
 
-/// The names of a figure's curves.
-fn names(figure: &Figure) -> impl Iterator<Item = String> {
-    let seeds = figure.seeds;
-    figure.curves().map(move |(reading, seed)| {
-        if seeds == 1 { reading.name.to_owned() } else { format!("{} ({} of {seeds} seeds)", reading.name, seed + 1) }
-    })
-}
-
 /// All points of a figure's curves as CSV.
 pub fn csv(drawn: &Drawn) -> String {
-    let mut text = "episode,shots,mean_reward,mean_q,loss\n".to_owned();
-    for (name, curve) in names(&drawn.figure).zip(&drawn.curves) {
-        for point in &curve.points {
+    let mut text = "curve,seed,shots,mean_reward,mean_q,loss\n".to_owned();
+    for (reading, seed, curve) in drawn.curves() {
+        for Point { shots, mean_reward, mean_q, loss } in &curve.points {
             // Writing to a string cannot fail.
-            let _ =
-                writeln!(text, "{name},{},{:.5},{:.5},{:.6}", point.shots, point.mean_reward, point.mean_q, point.loss);
+            let _ = writeln!(text, "{},{seed},{shots},{mean_reward:.5},{mean_q:.5},{loss:.6}", reading.name);
         }
     }
     text
 }
 
-/// One line for each curve of a figure of rewards: where it ended, and what the agent then earns without exploration.
+/// One line for each curve of a figure of rewards: where it ended, and what the agent then earns without exploration; and for
+/// curves of several seeds what these come to.
 pub fn summary(drawn: &Drawn) -> Vec<String> {
-    let Drawn { figure, curves, random } = drawn;
-    let lines = names(figure).zip(curves).map(|(name, curve)| {
+    let Drawn { figure, random, .. } = drawn;
+    let held_out = |curve: &Curve| curve.held_out.filter(|_| figure.measure == Measure::MeanReward);
+    let of_curve = |(reading, seed, curve): (&Reading, u64, &Curve)| {
         let last = curve.points.last().map_or(f64::NAN, |point| point.of(figure.measure));
-        let mut line = format!("{}, {name}: {} {last:.3} at last", figure.title, figure.measure.label());
-        if let Some(reward) = curve.held_out.filter(|_| figure.measure == Measure::MeanReward) {
+        let (title, name, measure) = (figure.title, reading.name, figure.measure.label());
+        let mut line = format!("{title}, {name}, seed {seed}: {measure} {last:.3} at last");
+        if let Some(reward) = held_out(curve) {
             let _ = write!(line, ", {reward:.3} without exploration, random play {random:.3}");
         }
         if let Some(reason) = &curve.broke_down {
             let _ = write!(line, "; the training broke down: {reason}");
         }
         line
-    });
-    lines.collect()
+    };
+    let of_seeds = |reading: &Reading| {
+        let of_reading = drawn.curves().filter(|(other, ..)| other.name == reading.name);
+        let rewards: Vec<f64> = of_reading.filter_map(|(.., curve)| held_out(curve)).collect();
+        let [mean, deviation] = mean_and_deviation(&rewards)?;
+        let (title, name, seeds) = (figure.title, reading.name, rewards.len());
+        Some(format!(
+            "{title}, {name}, {seeds} seeds: mean {mean:.3} without exploration, standard deviation {deviation:.3}"
+        ))
+    };
+    drawn.curves().map(of_curve).chain(figure.readings.iter().filter_map(of_seeds)).collect()
+}
+
+/// The mean of several numbers and their standard deviation.
+fn mean_and_deviation(numbers: &[f64]) -> Option<[f64; 2]> {
+    let count = numbers.len() as f64;
+    let mean = numbers.iter().sum::<f64>() / count;
+    let squares: f64 = numbers.iter().map(|number| (number - mean).powi(2)).sum();
+    (numbers.len() > 1).then(|| [mean, (squares / (count - 1.0)).sqrt()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn session(names: &[&str]) -> Session {
+        let figures = names.iter().map(|name| Figure::named(name).unwrap()).collect();
+        Session { figures, shots: Some(1000), seed: 1, threads: 1, table: Table::default() }
+    }
+
+    #[test]
+    fn figures_share_a_training_whatever_they_call_it() {
+        // Three curves each, and the one of one shot is that of noise 0.03 with seed 1.
+        assert_eq!(session(&["23", "24"]).trainings().len(), 3);
+        assert_eq!(session(&["23", "noise"]).trainings().len(), 3 + 12 - 1);
+    }
+
+    #[test]
+    fn seeds_that_chose_the_settings_are_not_those_that_are_reported() {
+        let session = session(&["future-work"]);
+        assert!(session.trainings().iter().all(|training| training.seed > 3));
+        let curve = |seed: u32| Curve { held_out: Some(0.01 * f64::from(seed)), ..Curve::default() };
+        let curves = session.trainings().iter().map(|training| curve(training.seed as u32)).collect();
+        let drawn = Drawn { figure: session.figures[0], seed: 1, curves, random: 0.007 };
+        let said = summary(&drawn);
+        assert!(said[0].contains("the thesis' agent, seed 4") && said[0].contains("0.040 without"), "{said:?}");
+        let last = said.last().unwrap();
+        assert!(last.contains("both, 5 seeds: mean 0.060 without exploration, standard deviation 0.016"), "{last}");
+    }
 }

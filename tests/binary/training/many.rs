@@ -78,6 +78,31 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     assert!(single.err.contains("--resume"), "{}", single.err);
 }
 
+#[test]
+fn the_latest_run_goes_on_together_with_the_other_seeds() {
+    let folder = folder();
+    let here = folder.path();
+    unfinished(here, &format!("{SHORT} --run carom/runs/group --seeds 2 --minutes 0.0001"));
+    done(here, "train --resume latest");
+    let spread = fs::read_to_string(here.join("carom/runs/group/seeds.csv")).unwrap();
+    assert!(spread.lines().last().unwrap().starts_with("640,2,"), "{spread}");
+}
+
+#[test]
+fn what_went_wrong_with_a_seed_is_told_where_the_spread_cannot_be_written_either() {
+    let folder = folder();
+    let here = folder.path();
+    done(here, "train --config small.toml --steps 64 --evaluation-layouts 5 --run group --seeds 2");
+    for name in ["checkpoint.safetensors", "checkpoint-previous.safetensors"] {
+        fs::write(here.join("group/seed-2").join(name), "").unwrap();
+    }
+    fs::remove_file(here.join("group/seeds.csv")).unwrap();
+    fs::create_dir(here.join("group/seeds.csv")).unwrap();
+    let failed = carom(here, "train --resume group");
+    let words = ["seed 2: no checkpoint in ", "seeds.csv cannot be used"];
+    assert!(failed.code == Some(1) && words.iter().all(|words| failed.err.contains(words)), "{}", failed.err);
+}
+
 /// A scheduler asks with the same command again, days later: by then the run that the weights came from may be gone.
 #[test]
 fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
@@ -106,6 +131,11 @@ fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
         done(here, &line("one"));
         fs::rename(here.join("away"), here.join("one")).unwrap();
     }
+    // Nobody needs them once every seed has begun.
+    let (weights, away) = (here.join("group/from.safetensors"), here.join("away"));
+    fs::rename(&weights, &away).unwrap();
+    done(here, "train --resume group --objective");
+    fs::rename(&away, &weights).unwrap();
     // Killed after its first file was written.
     fs::remove_file(here.join("group/seeds.json")).unwrap();
     fs::remove_file(here.join("group/seeds.csv")).unwrap();

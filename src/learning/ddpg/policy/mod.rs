@@ -4,7 +4,7 @@ pub mod calibration;
 pub mod file;
 pub mod kept;
 
-use std::{iter::once, sync::Arc};
+use std::sync::Arc;
 
 use self::file::Origin;
 pub(in crate::learning) use self::file::bundled_bytes;
@@ -63,7 +63,7 @@ impl Policy {
 
     /// Whether it has practised on tables like this one.
     pub fn knows(&self, table: &Table) -> bool {
-        if self.has_context() { knows(table) } else { self.origin.table == table.name }
+        self.origin.table == table.name || (self.has_context() && knows(table))
     }
 
     /// The stroke that the critic likes best for a player of this skill; only one with a context asks whose it is.
@@ -119,14 +119,17 @@ impl Policy {
         for layouts in layouts.chunks(64) {
             for (layout, proposals) in layouts.iter().zip(self.proposals_for(table, layouts, &Skill::PERFECT)) {
                 let first = reward.with_room(table, layout, &proposals[0].cue, u32::MAX);
-                // On the `thesis` table a few proposals would take all the time, and next to none of those earn anything.
-                let value = |proposal: &Proposal| reward.with_room(table, layout, &proposal.cue, CONTACT_STEPS);
-                let any = once(first).chain(proposals[1..].iter().map(value)).any(|earned| earned >= 1.0);
-                played.push((first, any));
+                played.push((first, first >= 1.0 || any_earns(table, reward, layout, &proposals[1..])));
             }
         }
         Score::of(&played)
     }
+}
+
+/// Whether any of the proposals earns at least one.
+pub fn any_earns(table: &Table, reward: Reward, layout: &Layout, proposals: &[Proposal]) -> bool {
+    // On the `thesis` table a few proposals would take all the time, and next to none of those earn anything.
+    proposals.iter().any(|proposal| reward.with_room(table, layout, &proposal.cue, CONTACT_STEPS) >= 1.0)
 }
 
 #[cfg(test)]
@@ -174,6 +177,15 @@ mod tests {
         let has_room: Vec<bool> = made.map(|proposal| has_room(&table, &layouts[0], &proposal.cue)).collect();
         assert!(has_room.contains(&false) && !has_room.contains(&true), "another policy wants another layout");
         assert_eq!(policy.score(&table, reward, layouts).best_of_k, 0.0);
+    }
+
+    #[test]
+    fn a_policy_knows_the_table_that_it_was_trained_on() {
+        let (table, thesis) = (Table::default(), Table::preset("thesis").unwrap());
+        let mut policy = Policy::bundled_for(&table, Rule::ThreeCushion, true).unwrap().unwrap();
+        assert!(policy.has_context() && policy.knows(&table) && !policy.knows(&thesis));
+        policy.origin.table = "thesis".to_owned();
+        assert!(policy.knows(&thesis));
     }
 
     #[test]

@@ -1,0 +1,105 @@
+//! Two measurements on the same layouts, compared layout by layout: what is alike on both does not blur the difference.
+
+use std::{fmt, path::PathBuf};
+
+use serde::Serialize;
+
+use super::{
+    robustness::{FEWEST, Z},
+    shots::ShotRecord,
+    spec::{Records, Spec, merged},
+};
+use crate::commands::{Failure, output::plural};
+
+/// By how much one measurement is better than another.
+#[derive(Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    /// What is compared: the make probability where both measured it, else the reward without errors.
+    compared: &'static str,
+    layouts: usize,
+    /// The mean of the differences.
+    difference: f64,
+    /// Its 95 % interval, from their spread; none of too few layouts, nor where all differences are the same.
+    difference_interval: Option<[f64; 2]>,
+    /// Layouts on which the first is better, and on which it is worse.
+    better: usize,
+    worse: usize,
+}
+
+impl Comparison {
+    /// Of the whole that the first files hold with that of the `others`.
+    pub fn of((spec, records): &(Spec, Records), others: &[PathBuf]) -> Result<Self, Failure> {
+        let (other, theirs) = merged(others)?;
+        let (Records::Shots(own), Records::Shots(theirs)) = (records, &theirs) else {
+            return Err(Failure::wrong_input("innings of self-play are not compared: only one shot a layout is"));
+        };
+        if let Some(what) = spec.difference_of_layouts(&other) {
+            return Err(Failure::wrong_input(format_args!(
+                "only measurements on the same layouts are compared: {what}"
+            )));
+        }
+        // Of players who err differently the shots alone say the same of both.
+        let is_same_player = (spec.skill, spec.doubt) == (other.skill, other.doubt);
+        Ok(Self::between(own, theirs, is_same_player))
+    }
+
+    /// Of records of the same layouts, in the same order.
+    fn between(own: &[ShotRecord], theirs: &[ShotRecord], is_same_player: bool) -> Self {
+        let pairs = || own.iter().zip(theirs);
+        let chances = pairs().map(|(own, theirs)| Some(own.chance? - theirs.chance?)).collect::<Option<Vec<f64>>>();
+        let (compared, differences) = match chances.filter(|_| is_same_player) {
+            Some(differences) => ("make_probability", differences),
+            None => ("reward", pairs().map(|(own, theirs)| own.earned - theirs.earned).collect()),
+        };
+        let count = differences.len() as f64;
+        let mean = differences.iter().sum::<f64>() / count.max(1.0);
+        let squares = differences.iter().map(|difference| (difference - mean).powi(2)).sum::<f64>();
+        let spread = Z * (squares / (count - 1.0).max(1.0) / count.max(1.0)).sqrt();
+        let says_something = differences.len() >= FEWEST && spread > 0.0;
+        Self {
+            compared,
+            layouts: differences.len(),
+            difference: mean,
+            difference_interval: says_something.then_some([mean - spread, mean + spread]),
+            better: differences.iter().filter(|difference| **difference > 0.0).count(),
+            worse: differences.iter().filter(|difference| **difference < 0.0).count(),
+        }
+    }
+}
+
+impl fmt::Display for Comparison {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { layouts, difference, better, worse, .. } = self;
+        let compared = if self.compared == "reward" { "mean reward" } else { "make probability" };
+        write!(formatter, "{compared} against the other on the same {}: {difference:+.4}", plural(*layouts, "layout"))?;
+        match self.difference_interval {
+            Some([low, high]) => write!(formatter, " (95 % interval {low:+.4} to {high:+.4})")?,
+            None => write!(formatter, " (too little to say anything of other layouts)")?,
+        }
+        write!(formatter, ", better on {better}, worse on {worse}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_alike_on_both_does_not_blur_the_difference() {
+        let record = |layout: u32, chance| ShotRecord { layout, chance, ..ShotRecord::default() };
+        // Layouts differ by up to 0.6, and the first is better by 0.05 or 0.07 on each.
+        let of = |more: f64, less: f64| -> Vec<ShotRecord> {
+            let chance =
+                |layout: u32| 0.2 + 0.006 * f64::from(layout) + if layout.is_multiple_of(2) { more } else { less };
+            (0..100).map(|layout| record(layout, Some(chance(layout)))).collect()
+        };
+        let (own, theirs) = (of(0.05, 0.07), of(0.0, 0.0));
+        let Comparison { difference, difference_interval, better, worse, .. } =
+            Comparison::between(&own, &theirs, true);
+        let [low, high] = difference_interval.unwrap();
+        assert!((difference - 0.06).abs() < 1e-12 && (high - low - 0.00394).abs() < 1e-4, "{low} to {high}");
+        assert_eq!((better, worse), (100, 0));
+        assert_eq!(Comparison::between(&own, &own, true).difference_interval, None, "the same shots");
+        assert_eq!(Comparison::between(&own, &theirs, false).compared, "reward");
+    }
+}
