@@ -398,7 +398,7 @@ fn one_odd_mark_of_a_single_stroke_leaves_the_others_to_count() {
     let (table, doubt) = base();
     let mut trial = exact(&table).into_iter().find(|(_, trial)| trial.test.name == "slow-roll").unwrap();
     let drift = trial.1.test.marks.iter().position(|mark| mark.name == "drift").unwrap();
-    trial.1.readings.iter_mut().find(|reading| reading.mark == drift).unwrap().value += 0.3;
+    trial.1.readings.iter_mut().find(|reading| reading.mark == drift).unwrap().value += 1.0;
     let found = calibrate("club", &table, &doubt, &[trial]).unwrap();
     assert_eq!((found.misread().len(), found.left_out.len()), (1, 0), "{:?}", found.verdicts);
     assert!(!found.is_contradictory());

@@ -91,9 +91,12 @@ impl PositionArgs {
             opening.validate(&table).map_err(Failure::wrong_input)?;
             return Ok((table, opening));
         };
-        Layout::parse(text, &table).map_err(Failure::wrong_input)?;
-        // What is wrong with places is said in the unit in which they were typed.
-        let layout = opening.with_positions(text, &table, CueBall::White, 0).map_err(Failure::wrong_input)?;
+        let layout = Layout::parse(text, &table).map_err(Failure::wrong_input)?;
+        if layout.validate(&table).is_err() {
+            // What is wrong with diamonds is said in diamonds. Numbers without a unit are metres, whoever else may mean diamonds with them.
+            opening.with_positions(text, &table, CueBall::White, 0).map_err(Failure::wrong_input)?;
+            layout.validate(&table).map_err(Failure::wrong_input)?;
+        }
         Ok((table, layout))
     }
 }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::{
     Event, EventKind, Observer, Rail,
     chatter::{Chatters, chatter_end},
-    contacts::{close_gaps, is_in_corner, put_at_cushion, touching},
+    contacts::{PAIRS_OF, close_gaps, is_in_corner, put_at_cushion, touching},
     engine::{Ball, Engine, Meeting, SAME_TIME, only},
     guards::BOUNCE,
     savings::Savings,
@@ -38,7 +38,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let Ball { rail_after, rail, segment, .. } = &self.balls[index];
         let (rail_after, rail, meets_two) =
             (*rail_after, *rail, is_in_corner(&self.constants, segment.position_after(*rail_after)));
-        if (self.is_crowded(now) || meets_two) && self.collide_at_once(now)? {
+        if (self.is_crowded(now) || meets_two || self.touches_another(index, now)) && self.collide_at_once(now)? {
             return ControlFlow::Continue(());
         }
         let n = rail.normal();
@@ -132,6 +132,17 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.launch(second, now, &b);
         self.tell_impact(now, EventKind::BallBall(first, second), told)?;
         self.look_ahead(now, self.with_freed(freed.is_some(), changed))
+    }
+
+    /// Whether a ball that meets a cushion touches another ball: with that one it may meet a rounding later, which nothing has foreseen.
+    #[inline(always)]
+    fn touches_another(&self, index: usize, now: f64) -> bool {
+        let place = |ball: usize| {
+            let segment = &self.balls[ball].segment;
+            segment.position_after(now - segment.start)
+        };
+        let (here, near) = (place(index), self.constants.diameter + self.constants.tolerance.touching);
+        PAIRS_OF[index].iter().any(|&(_, other)| here.distance_squared(place(other)) <= near * near)
     }
 
     /// Whether other impacts may happen at this very moment, or too many have.

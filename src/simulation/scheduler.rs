@@ -154,9 +154,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.resting.as_ref().is_some_and(|resting| resting.holds_together((first, second))) {
             return;
         }
-        // What is met together with something else may be met a rounding after it.
-        let moment = self.constants.tolerance.moment;
-        let horizon = (self.times[first].min(self.times[second]) - now + moment).min(LONGEST);
+        let horizon = (self.times[first].min(self.times[second]) - now).min(LONGEST);
         match balls_ahead::<S>(&self.constants, a, b, now, horizon, may_rest) {
             Ahead::Nothing => {}
             Ahead::Meeting(after) => {

@@ -1,6 +1,6 @@
 //! What is wrong with the values of a table's models, if anything.
 
-use super::{Rail, Table, models::Fade};
+use super::{Rail, RailModel, Table, models::Fade};
 
 /// The steepest slope that courses are computed for, as a share of `mu_r g`, which is where balls would roll by themselves, and of `mu_s g`,
 /// below which slides do not end by themselves.
@@ -41,7 +41,10 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
     };
     // The nose touches the ball between its equator and well below its top.
     let height = |value: f64| (*radius..=1.6 * *radius).contains(&value);
+    // In steps, the friction of a rougher cloth would drive the ball: it would gain energy.
+    let is_steady = rail.model != RailModel::Mathavan || table.sliding_friction <= 1.0;
     let mut checks = vec![
+        ("mu_s", table.sliding_friction, is_steady, "0.0001 to 1 where the rails are Mathavan's"),
         ("c1", table.rolling_growth, (0.0..=1.0).contains(&table.rolling_growth), "0 to 1 per second"),
         (
             "tilt",
@@ -111,6 +114,10 @@ mod tests {
             let refused = Table::from_toml(&text.replacen(from, to, 1)).unwrap_err();
             assert!(matches!(refused, TableError::Value { key: found, .. } if found == key), "{to}: {refused}");
         }
+        let mathavan = text.replace("model = \"smooth\"", "model = \"mathavan\"");
+        assert!(Table::from_toml(&mathavan).is_ok());
+        let rough = Table::from_toml(&mathavan.replace("mu_s = 0.203", "mu_s = 1.1")).unwrap_err().to_string();
+        assert!(rough.contains("mu_s = 1.1; accepted is 0.0001 to 1 where the rails are Mathavan's"), "{rough}");
         let unknown = text.replace("model = \"smooth\"", "model = \"rubber\"");
         let message = Table::from_toml(&unknown).unwrap_err().to_string();
         assert!(message.contains("rubber") && message.contains("mathavan"), "{message}");

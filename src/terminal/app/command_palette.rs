@@ -193,7 +193,7 @@ mod tests {
         let keys = |typed| found(typed).into_iter().map(|command| command.keys).collect::<Vec<_>>();
         assert_eq!(keys("smaller step"), ["-"]);
         assert_eq!(keys("yellow"), ["2", "2"], "before a shot is watched, and from it");
-        assert_eq!(keys("player"), ["S"]);
+        assert_eq!(keys("player"), ["S", "F8"], "the glossary has the player's words");
         assert_eq!(keys("white yellow"), ["Tab", "Shift-Tab", "1", "2", "3"], "by what they do together");
     }
 

@@ -83,7 +83,7 @@ fn it_is_told_to_end_wherever_it_is() {
         (&["?"], "Placing the balls"),
         (&["d", "/", "half"], "The half ball"),
         (&["d", "a"], "the code of a position"),
-        (&["d", "\r", " "], "the shot is running"),
+        (&["d", "\r", " ", " "], "the shot is running"),
         (&["t", "n"], "Enter"),
         (&[press_the_white_ball], "white at x -5"),
         (&["\r"], "Esc"),
@@ -185,7 +185,7 @@ fn an_exam_that_was_interrupted_is_gone_on_with() {
     first.wait_for("Enter begins");
     first.send("\r");
     first.wait_for("exercise 1 of 20:");
-    first.send(" ");
+    first.send("  ");
     first.wait_for("to the end");
     first.send("\r");
     first.wait_for("next");
@@ -200,7 +200,7 @@ fn an_exam_that_was_interrupted_is_gone_on_with() {
     second.wait_for("white at x -710.0 mm, y 82.5 mm");
     second.send("d");
     second.wait_for("The half ball");
-    second.send("\r ");
+    second.send("\r  ");
     second.wait_for("to the end");
     second.send("q");
     assert!(second.assert_left_without_trace().success());

@@ -29,7 +29,7 @@ pub fn played() -> Player {
 #[test]
 fn the_library_of_own_positions() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left");
-    none.shows(&["0: My positions", "You have saved no position yet.", "a position from a code"]);
+    none.shows(&["0: My positions", "You have saved no position yet.", "a adds a position"]);
     check("library_played", &played().press("Left"));
     let long = Player::at_library(TRUE_COLOUR, &many(), &[]).press("Left End");
     long.shows(&["60: My positions", "▸ Position number 60 of a ", "you: not tried yet", "#opening"]);
@@ -279,7 +279,7 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
 #[test]
 fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_them() {
     let folder = tempfile::tempdir().unwrap();
-    Store::new(&places(folder.path())).keep_skill(Skill::CLUB.scaled(1.1)).unwrap();
+    Store::new(&places(folder.path())).keep_skill(Skill::level(4.35)).unwrap();
     let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
     let own = player.store().own_skill().unwrap().unwrap().skill;
     player.says("player: me by my notes");

@@ -55,9 +55,7 @@ fn results_of_a_real_table_and_strokes_of_the_program_stand_apart() {
     let positions = [exercise("opening", "From the opening")];
     let library = Player::at_library(TRUE_COLOUR, &positions, &sessions).press("Left");
     library.shows(&["table", "here", "27/37", "1/4", "table: 27 of 37", "here: 1 of 4"]);
-    let open = library.press("Enter");
-    open.shows(&["in all: table 27/37, here 1/4"]);
-    let record = open.press("r");
+    let record = library.press("Enter r");
     record.shows(&["27 of 37, 73 %", "1 of 4, 25 %", "here  free repetition", "table free repetition"]);
 }
 

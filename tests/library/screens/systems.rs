@@ -90,7 +90,7 @@ fn an_example_is_without_the_players_balls_and_a_shot_that_no_system_describes_i
 fn the_line_below_tells_the_number_of_the_shot_itself_too() {
     let balls = "0.840,-0.320 -0.270,-0.550 -0.180,-0.630";
     let text = advised(Player::with(ASCII), balls, "0.25,0.3,3,146.4,2.4").press("y").text(200, 60);
-    assert!(text.contains("on this table 19, this shot at 17"), "{text}");
+    assert!(text.contains("the same on this table, this shot at 17"), "{text}");
 }
 
 #[test]

@@ -105,7 +105,7 @@ fn a_match_against_the_coach_begins_from_anywhere_and_goes_on_where_it_was_left(
     let again = player.press("F5 F9");
     assert_eq!(session(&again).id, begun.id);
     Player::new().press(": a g a i n s t Enter").is_silent_on("What can be done here");
-    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter F2 F9");
+    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter F2 F9");
     exam.warns("an exam is under way; leave it before a match");
 }
 

@@ -1,9 +1,8 @@
 //! The state of the coach's screen: the balls, the coach's advice on them, and the clock of a shot's playback.
 //!
-//! [`actions`] is what each key does to it, [`request`] how the coach is asked, [`dragging`] what the mouse does to balls,
-//! [`saving`] how they are saved as a position, [`positions`] how they are typed, [`question`] what is asked for that;
-//! [`lesson`] teaches diamond systems, [`own_stroke`] is the player's own stroke, [`spectators`] are others who
-//! look on.
+//! [`actions`] is what each key does to it, [`request`] how the coach is asked, [`dragging`] what the mouse does to balls, [`saving`]
+//! how they are saved, [`positions`] how they are typed, [`question`] what is asked for that; [`lesson`] teaches diamond systems,
+//! [`own_stroke`] is the player's own stroke, [`spectators`] are others who look on.
 
 mod actions;
 mod advised;
@@ -34,11 +33,6 @@ use crate::{
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
         CoachQuery, Proposal, SavedSession, Settings, Shot, Terms,
-        pages::coach::{
-            dragging::Drag,
-            question::Question,
-            request::{Pending, Studying},
-        },
         shot::{History, Playback, placing::STEPS},
         ui::Message,
         words::step_words,
@@ -46,6 +40,9 @@ use crate::{
 };
 
 pub use advised::{AdviceState, Choice};
+use dragging::Drag;
+use question::Question;
+use request::{Pending, Studying};
 use spectators::Company;
 pub use spectators::Followed;
 
