@@ -34,6 +34,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn play_alone(&mut self, index: usize, now: &mut f64) -> ControlFlow<()> {
         let others = PAIRS_OF[index].map(|(_, other)| self.balls[other].segment.position);
         let constants = &{ self.constants };
+        let near = (constants.diameter + constants.tolerance.touching).powi(2);
         let mut ball = self.balls[index].alone();
         loop {
             self.turns += 1;
@@ -48,9 +49,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 let mut state = segment.state_after(constants, *rail_after);
                 put_at_cushion(constants, n, &mut state.position);
                 let impulse = self.law.cushions.at(*rail).resolve(constants.radius, n, &mut state);
-                // What might be part of a chatter, meets two cushions at once, or leaves the cloth.
+                // What might be part of a chatter, meets two cushions or a ball at once, or leaves the cloth.
                 if state.velocity.dot(n) <= constants.tolerance.slow_bounce
                     || is_in_corner(constants, state.position)
+                    || others.iter().any(|other| state.position.distance_squared(*other) <= near)
                     || impulse.climb > constants.lifts
                 {
                     break;

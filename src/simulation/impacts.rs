@@ -6,7 +6,7 @@ use super::{
     Event, EventKind, Observer, Rail,
     chatter::{Chatters, chatter_end},
     contacts::{PAIRS_OF, close_gaps, is_in_corner, put_at_cushion, touching},
-    engine::{Ball, Engine, Meeting, SAME_TIME, only},
+    engine::{Ball, ContactMode, Engine, Meeting, SAME_TIME, only},
     guards::BOUNCE,
     savings::Savings,
 };
@@ -137,6 +137,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Whether a ball that meets a cushion touches another ball: with that one it may meet a rounding later, which nothing has foreseen.
     #[inline(always)]
     fn touches_another(&self, index: usize, now: f64) -> bool {
+        // What rests knows its own contacts.
+        if self.resting.is_some() || self.balls[index].mode != ContactMode::Free {
+            return false;
+        }
         let place = |ball: usize| {
             let segment = &self.balls[ball].segment;
             segment.position_after(now - segment.start)

@@ -13,8 +13,8 @@ pub struct Tolerance {
     /// Gaps below this are contact, m. Coordinates are rounded to `ε L / 4`, gaps to a few times that. Larger: real gaps
     /// are closed too early. Smaller: contacts are lost.
     pub touching: f64,
-    /// Impacts that follow each other within this time may be at one moment, s: the gaps then tell which of them are. The slowest bounce
-    /// that is followed closes a gap that counts as none meanwhile. Smaller: rounding decides whether balls are struck together or in turn.
+    /// Impacts that follow each other within this time may be at one moment, s: the gaps then tell which of them are. A ball of
+    /// 2e-2 √(gR) closes a gap that counts as none meanwhile. Smaller: rounding decides whether balls are struck together or in turn.
     /// Larger: the gaps are asked in vain.
     pub moment: f64,
     /// A gap that stays above this is not closed by any rounding, m. Smaller: a prediction that is rounded otherwise than

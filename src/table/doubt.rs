@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, sync::LazyLock};
 
 use serde::{Deserialize, Serialize};
 
-use super::{JUDGED, OneRail, Rail, RailModel, Table};
+use super::{JUDGED, OneRail, Rail, RailModel, Table, flaws::roughest};
 use crate::statistics::cholesky;
 
 const MATCH: &str = include_str!("match_doubt.toml");
@@ -84,7 +84,12 @@ pub(super) const CONSTANTS: [Constant; 22] = [
         },
         (0.0, 10.0),
     ),
-    constant("mu_s", |table| Some(table.sliding_friction), |table, value| table.sliding_friction = value, (0.01, 1e3)),
+    constant(
+        "mu_s",
+        |table| Some(table.sliding_friction),
+        |table, value| table.sliding_friction = value.min(roughest(table.rail.model)),
+        (0.01, 1e3),
+    ),
     constant("mu_r", |table| Some(table.rolling_friction), |table, value| table.rolling_friction = value, (1e-3, 1e3)),
     constant("c1", |table| Some(table.rolling_growth), |table, value| table.rolling_growth = value, (0.0, 1.0)),
     constant(
@@ -225,6 +230,7 @@ impl TableDoubt {
     pub(super) fn under(&self, law: &OtherLaw, table: &Table) -> (Table, Self) {
         let mut other = table.clone();
         other.rail.model = law.model;
+        other.sliding_friction = table.sliding_friction.min(roughest(law.model));
         other.rail.kappa = table.rail.kappa.filter(|_| law.model == RailModel::Smooth);
         for constant in &CONSTANTS {
             if let Some(value) = law.values.get(constant.name) {

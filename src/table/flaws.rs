@@ -18,6 +18,12 @@ pub(super) fn rubs(value: f64) -> bool {
 /// What [`rubs`] accepts.
 pub(super) const RUBS: &str = "0 to below 1, where the forces of a contact are unique";
 
+/// The largest `mu_s` that goes with rails of this model. In the steps of Mathavan's law the friction of a rougher cloth would drive the
+/// ball: it would gain energy.
+pub(super) const fn roughest(model: RailModel) -> f64 {
+    if matches!(model, RailModel::Mathavan) { 1.0 } else { f64::INFINITY }
+}
+
 /// The steepest slope that is accepted, m/s².
 pub fn steepest_tilt(table: &Table) -> f64 {
     STEEPEST * table.rolling_friction.min(table.sliding_friction) * table.gravity
@@ -41,10 +47,13 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
     };
     // The nose touches the ball between its equator and well below its top.
     let height = |value: f64| (*radius..=1.6 * *radius).contains(&value);
-    // In steps, the friction of a rougher cloth would drive the ball: it would gain energy.
-    let is_steady = rail.model != RailModel::Mathavan || table.sliding_friction <= 1.0;
     let mut checks = vec![
-        ("mu_s", table.sliding_friction, is_steady, "0.0001 to 1 where the rails are Mathavan's"),
+        (
+            "mu_s",
+            table.sliding_friction,
+            table.sliding_friction <= roughest(rail.model),
+            "0.0001 to 1 where the rails are Mathavan's",
+        ),
         ("c1", table.rolling_growth, (0.0..=1.0).contains(&table.rolling_growth), "0 to 1 per second"),
         (
             "tilt",

@@ -57,9 +57,11 @@ pub const fn rule_word(rule: Rule) -> &'static str {
 
 /// The user at the table, by where the skill comes from; a skill with a name is nobody's in particular.
 fn user_word(skill: Skill) -> &'static str {
-    // What notes give is a level's errors so many hundredths of times; what is set has any average.
+    // What notes give is a multiple of a level's errors in hundredths; what is set has any average.
     let hundredths = (100.0 * skill.scale()).round() / 100.0;
-    if Skill::level(hundredths) == skill && skill.as_average().is_none() { "me by my notes" } else { "me as set" }
+    // By its words: a file has degrees, which come back as nearly the same radians.
+    let is_noted = skill.as_average().is_none() && Skill::level(hundredths).to_string() == skill.to_string();
+    if is_noted { "me by my notes" } else { "me as set" }
 }
 
 /// The name of a skill that has one.
@@ -71,6 +73,11 @@ pub fn named_skill(skill: Skill) -> Option<&'static str> {
 pub fn skill_word(skill: Skill) -> String {
     let own = || format!("{}: {}", user_word(skill), average_words(skill));
     named_skill(skill).map_or_else(own, str::to_owned)
+}
+
+/// The same of somebody else.
+pub fn others_skill_word(skill: Skill) -> String {
+    named_skill(skill).map_or_else(|| format!("average {}", average_words(skill)), str::to_owned)
 }
 
 /// The same in fewer, without the average.

@@ -30,6 +30,8 @@ pub struct Report<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     play: Option<[Play; 2]>,
     #[serde(skip)]
+    is_daily: bool,
+    #[serde(skip)]
     found: &'a Calibration,
 }
 
@@ -43,7 +45,10 @@ struct Missing {
 impl<'a> Report<'a> {
     /// What is told of a calibration.
     pub fn new(found: &'a Calibration, entries: &Entries, odd: &[Oddity], play: Option<[Play; 2]>) -> Self {
-        let missing = if play.is_some() { missing_today(entries) } else { entries.missing() };
+        let is_daily = play.is_some();
+        let missing = if is_daily { missing_today(entries) } else { entries.missing() };
+        // What one of the two tests of a day would say is not known without it.
+        let play = play.filter(|_| missing.is_empty());
         Self {
             table: &found.table,
             constants: &found.constants,
@@ -55,6 +60,7 @@ impl<'a> Report<'a> {
             odd: odd.iter().map(Oddity::to_string).collect(),
             contradictory: found.is_contradictory(),
             play,
+            is_daily,
             found,
         }
     }
@@ -86,8 +92,10 @@ impl<'a> Report<'a> {
             line(format_args!("not entered yet: {}", all.join(", ")))?;
         }
         if let Some([before, now]) = &self.play {
-            // What one of the two tests would say is not known without it.
-            return if self.missing.is_empty() { line(format_args!("today {}", now.against(before))) } else { Ok(()) };
+            line(format_args!("today {}", now.against(before)))?;
+        }
+        if self.is_daily {
+            return Ok(());
         }
         let told: Vec<String> =
             self.next.iter().take(NEXT).map(|next| format!("{} ({:.1} bits)", next.test, next.bits)).collect();

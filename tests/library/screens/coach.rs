@@ -313,7 +313,7 @@ fn without_colours_letters_tell_everything() {
         let player = player.press("v v").studied();
         let signs = [
             "Margins",
-            "4.37 right  2.31 left",
+            "4.33 right  2.31 left",
             "speed   1.51 softer wide harder",
             "# point",
             "- one ball",
@@ -322,7 +322,7 @@ fn without_colours_letters_tell_everything() {
         let text = player.is_plain().text(120, 40);
         assert!(signs.iter().all(|sign| text.contains(sign)), "{text}");
         let text = player.text(80, 24);
-        assert!(text.contains("side  R4.37  L2.31") && text.contains("# point - one ball"), "{text}");
+        assert!(text.contains("side  R4.33  L2.31") && text.contains("# point - one ball"), "{text}");
         player.is_silent_on("too few");
         let plan = player.press("v");
         plan.is_plain().shows(&["now  94 % yellow, ", "next 100 % very hard"]);

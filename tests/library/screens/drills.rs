@@ -32,10 +32,10 @@ fn the_library_of_own_positions() {
     none.shows(&["0: My positions", "You have saved no position yet.", "a adds a position"]);
     check("library_played", &played().press("Left"));
     let long = Player::at_library(TRUE_COLOUR, &many(), &[]).press("Left End");
-    long.shows(&["60: My positions", "▸ Position number 60 of a ", "you: not tried yet", "#opening"]);
+    long.shows(&["60: My positions", "▸ Position number 60 of a", "you: not tried yet", "#opening"]);
     assert!(!long.text(80, 24).contains("Position number 40 of"), "the list is scrolled");
     let plain = Player::at_library(ASCII, &many(), &[]).press("Left End Up");
-    plain.is_plain().shows(&["> Position number 59 of a ", "Position number 60 of a "]);
+    plain.is_plain().shows(&["> Position number 59 of a", "Position number 60 of a"]);
 }
 
 #[test]

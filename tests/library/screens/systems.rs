@@ -58,13 +58,13 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
         let player = with_model_shot(Player::with(ASCII), name).press("Esc");
         let player = player.press("y");
         player.shows(&[&format!("{system} - for this shot")]);
-        // Where the shot is gone, its numbers go too.
+        // Where the shot is gone, its numbers go too, and the balls that are moved are seen.
         let moved = player.press("1 S-Up");
-        moved.shows(&[&format!("{system} - an example")]);
-        let mut player = moved.press("u");
+        moved.is_silent_on(&format!("{system} - "));
+        let mut player = moved.press("u y");
         player.shows(&[&format!("{system} - for this shot")]);
         player.app.paste("2d,0.5d 6d,2d 4d,3.5d");
-        player.shows(&[&format!("{system} - an example")]);
+        player.is_silent_on(&format!("{system} - "));
     }
 }
 

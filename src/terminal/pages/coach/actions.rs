@@ -177,6 +177,7 @@ impl CoachPage {
 
     /// Leaves the shot, which is paused, and a stroke of the player's own beside it.
     fn place_balls(&mut self) {
+        self.leave_example();
         self.own_stroke = None;
         self.playback.pause();
         self.mode = Mode::Placing;

@@ -74,7 +74,9 @@ impl CoachPage {
             || lesson.is_of_shot != current.is_some()
             || current.is_some_and(|guide| *guide != lesson.guide);
         if is_other {
-            self.lesson = self.lesson_on(system_of(&lesson.guide));
+            // Beside an example no balls are drawn, so that one does not come unasked.
+            let was_of_shot = lesson.is_of_shot;
+            self.lesson = self.lesson_on(system_of(&lesson.guide)).filter(|lesson| lesson.is_of_shot || !was_of_shot);
         }
     }
 

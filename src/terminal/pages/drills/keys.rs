@@ -312,7 +312,7 @@ pub const RESULT: &[Binding<A, W>] = &[
 #[rustfmt::skip]
 pub const RECORD: &[Binding<A, W>] = &[
     bind(Record, W::OfExercise, &[letter('a', A::Scope)], Some(("all or one", 1)), "the record of all exercises, or of this one"),
-    bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as my skill, and play with it"),
+    bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as yours, by your notes, and play with it"),
     bind(Record, W::Always, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))], Some(("scroll", 2)), "earlier sessions").each(&[
         "earlier sessions, by one line", "later sessions, by one line", "earlier sessions, by ten lines", "later sessions, by ten lines",
         ]),

@@ -14,7 +14,7 @@ use crate::{
 
 /// Points of the first run that is asked for, and innings of the first game.
 const FIRST_RUN: u32 = 5;
-const FIRST_GAME: u32 = 10;
+pub(super) const FIRST_GAME: u32 = 10;
 /// Why a key does nothing before the result of a stroke was seen.
 pub(super) const IS_RUNNING: &str = "the shot is running; Enter skips to its end";
 /// What is said before a stroke is played that nobody has set.

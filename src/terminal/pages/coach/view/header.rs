@@ -11,7 +11,7 @@ use crate::{
         CoachAction, Mode,
         pages::coach::{CoachPage, keys::COACH},
         ui::{Ui, end_of},
-        words::{fixed, rule_word, short_skill_word, skill_word},
+        words::{fixed, others_skill_word, rule_word, short_skill_word, skill_word},
     },
 };
 
@@ -71,7 +71,7 @@ fn question(coach: &CoachPage, has_plan: bool, has_average: bool, ui: &Ui) -> Li
             String::new()
         } else {
             let table = end_of(&coach.table().name, TABLE, ui.caps);
-            format!(": {table}, {}, {}", rule_word(query.rule), skill_word(query.skill))
+            format!(": {table}, {}, {}", rule_word(query.rule), others_skill_word(query.skill))
         };
         let whose = Span::styled(format!(" following {}", followed.name), ui.theme.accent());
         return Line::from(vec![whose, Span::styled(words, ui.theme.text())]);

@@ -315,18 +315,18 @@ fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
     let aim = spell(&shot.words.aim(coach.units), ui.caps);
     // The systems count on the wood behind the noses.
     let at_noses = format!("{}, nose to nose.", aim.trim_end_matches('.'));
-    let aim = if columns(&at_noses) <= room { at_noses } else { aim };
+    let alone = if columns(&at_noses) <= room { at_noses.clone() } else { aim.clone() };
     let is_counted = coach.what_if().is_none() && coach.lesson.as_ref().is_none_or(|lesson| lesson.is_of_shot);
-    let Some(guide) = coach.guide().filter(|_| is_counted) else { return aim };
+    let Some(guide) = coach.guide().filter(|_| is_counted) else { return alone };
     let named = guide.shot_words();
     // What the sum comes to is where to aim.
     let brief = match guide {
         Guide::System(applied) => named.replacen(&format!(", aim at {}", applied.aim()), "", 1),
         Guide::Shift(_) => guide.to_string(),
     };
-    let tries = [format!("{aim} {named}"), named, brief, guide.to_string()];
+    let tries = [format!("{at_noses} {named}"), format!("{aim} {named}"), named, brief, guide.to_string()];
     let fits = tries.into_iter().find(|words| columns(words) <= room);
-    fits.unwrap_or(aim)
+    fits.unwrap_or(alone)
 }
 
 /// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.

@@ -210,10 +210,12 @@ fn draw_nothing(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
         match (drills.catalogue.elsewhere(), &drills.question) {
             (0, _) => "No exercise matches. 0 lists all.".to_owned(),
             (elsewhere, question) => {
-                let place =
-                    filter.category.map_or_else(|| "this grade".to_owned(), |category| category.title().to_owned());
+                let place = match (filter.category, filter.grade) {
+                    (Some(category), None) => format!("in {}", category.title()),
+                    _ => "here".to_owned(),
+                };
                 let key = if question.is_some() { "Enter" } else { "0" };
-                format!("None in {place}; {elsewhere} elsewhere: {key} lists them.")
+                format!("None {place}; {elsewhere} elsewhere: {key} lists them.")
             }
         }
     };

@@ -75,7 +75,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
         return Message::plain("nothing is played yet");
     }
     Message::plain(match &drills.records.estimate {
-        Estimate::Known(Some(_), _) => "w takes the estimated skill as my skill",
+        Estimate::Known(Some(_), _) => "w takes the estimated skill as yours",
         Estimate::Working => "the skill is being estimated",
         _ => "",
     })
