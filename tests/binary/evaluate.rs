@@ -62,9 +62,7 @@ fn two_measurements_on_the_same_layouts_are_compared_layout_by_layout() {
     let apart = chance("") - chance(" --policy match-three-cushion");
     assert!((compared["difference"].as_f64().unwrap() - apart).abs() < 1e-9, "{compared}");
     let text = asked(&["evaluate", "--merge", &context, "--against", &flawless]).output().unwrap().stdout;
-    assert!(
-        String::from_utf8(text).unwrap().starts_with("make probability against the other on the same 40 layouts: +")
-    );
+    assert!(String::from_utf8(text).unwrap().starts_with("difference of make probability on the same 40 layouts: +"));
     let elsewhere = part(other.path(), &line.replace("40", "41"), "1/1");
     let refused = asked(&["evaluate", "--merge", &context, "--against", &elsewhere]).output().unwrap();
     let said = String::from_utf8(refused.stderr).unwrap();

@@ -201,7 +201,7 @@ impl Log {
     fn read(&mut self) -> Result<(), Failure> {
         let (mut refused, mut lacked_undo) = (0, false);
         while let Some(text) = ask("make, miss or undo: ")? {
-            if matches!(&text, Ok(text) if text.is_empty()) {
+            if text.as_ref().is_ok_and(String::is_empty) {
                 continue;
             }
             match text.and_then(|text| Word::read(&text)) {

@@ -46,7 +46,7 @@ pub fn play(
             _ => {
                 let Some(text) = ask("shot a,b,theta,phi,V or coach: ")? else { break };
                 lines += 1;
-                if matches!(&text, Ok(text) if text.is_empty()) {
+                if text.as_ref().is_ok_and(String::is_empty) {
                     continue;
                 }
                 text.and_then(|text| text.parse())

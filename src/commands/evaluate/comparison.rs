@@ -9,7 +9,10 @@ use super::{
     shots::ShotRecord,
     spec::{Records, Spec, merged},
 };
-use crate::commands::{Failure, output::plural};
+use crate::{
+    commands::{Failure, output::plural},
+    statistics::mean_and_deviation,
+};
 
 /// By how much one measurement is better than another.
 #[derive(Debug, PartialEq, Serialize)]
@@ -51,10 +54,8 @@ impl Comparison {
             Some(differences) => ("make_probability", differences),
             None => ("reward", pairs().map(|(own, theirs)| own.earned - theirs.earned).collect()),
         };
-        let count = differences.len() as f64;
-        let mean = differences.iter().sum::<f64>() / count.max(1.0);
-        let squares = differences.iter().map(|difference| (difference - mean).powi(2)).sum::<f64>();
-        let spread = Z * (squares / (count - 1.0).max(1.0) / count.max(1.0)).sqrt();
+        let (mean, deviation) = mean_and_deviation(&differences);
+        let spread = Z * deviation.unwrap_or(0.0) / (differences.len() as f64).sqrt();
         let says_something = differences.len() >= FEWEST && spread > 0.0;
         Self {
             compared,
@@ -71,7 +72,7 @@ impl fmt::Display for Comparison {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { layouts, difference, better, worse, .. } = self;
         let compared = if self.compared == "reward" { "mean reward" } else { "make probability" };
-        write!(formatter, "{compared} against the other on the same {}: {difference:+.4}", plural(*layouts, "layout"))?;
+        write!(formatter, "difference of {compared} on the same {}: {difference:+.4}", plural(*layouts, "layout"))?;
         match self.difference_interval {
             Some([low, high]) => write!(formatter, " (95 % interval {low:+.4} to {high:+.4})")?,
             None => write!(formatter, " (too little to say anything of other layouts)")?,

@@ -10,7 +10,7 @@ use crate::{
     commands::output::plural,
     game::Rule,
     physics::{CueInputs, has_room},
-    statistics::SuccessRate,
+    statistics::{SuccessRate, mean_and_deviation},
     table::{Layout, Table},
 };
 
@@ -119,14 +119,12 @@ pub fn chance(
 impl Robustness {
     /// From the make probability on every layout; there is at least one.
     pub fn new(skill: Skill, doubt: Doubt, chances: Vec<f64>) -> Self {
-        let count = chances.len().max(1) as f64;
-        let mean = chances.iter().sum::<f64>() / count;
-        let variance = chances.iter().map(|chance| (chance - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
-        let spread = Z * (variance / count).sqrt();
+        let (count, (mean, deviation)) = (chances.len() as f64, mean_and_deviation(&chances));
+        let spread = Z * deviation.unwrap_or(0.0) / count.sqrt();
         let mut sorted = chances.clone();
         sorted.sort_by(f64::total_cmp);
         // Where every shot is made, or missed, each layout says no more than one attempt.
-        let interval = if variance > 0.0 {
+        let interval = if spread > 0.0 {
             [(mean - spread).max(0.0), (mean + spread).min(1.0)]
         } else {
             let alike = SuccessRate::new((mean * count).round() as usize, chances.len());

@@ -17,6 +17,7 @@ use super::{
 };
 use crate::{
     learning::learner::{AgentKind, Learner, TrainingPlan},
+    statistics::mean_and_deviation,
     storage::{self, Lock, write_atomic},
     table::Table,
 };
@@ -192,20 +193,10 @@ pub struct Spread {
 
 impl Spread {
     fn of(shots: u64, rewards: &[f64]) -> Self {
-        let count = rewards.len() as f64;
         let min = rewards.iter().copied().fold(f64::INFINITY, f64::min);
         let max = rewards.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        // The mean of equal rewards is that reward, whatever rounding makes of their sum.
-        let mean = (rewards.iter().sum::<f64>() / count).max(min).min(max);
-        let squares = rewards.iter().map(|reward| (reward - mean).powi(2)).sum::<f64>();
-        Self {
-            shots,
-            seeds: rewards.len(),
-            mean,
-            sd: (rewards.len() > 1).then(|| (squares / (count - 1.0)).sqrt()),
-            min,
-            max,
-        }
+        let (mean, sd) = mean_and_deviation(rewards);
+        Self { shots, seeds: rewards.len(), mean, sd, min, max }
     }
 }
 

@@ -104,7 +104,7 @@ impl Run {
                 return Ok(Ending::Abandoned);
             }
             if let Ending::Finished(score) = ending
-                && self.result() != Some(score)
+                && self.result().is_none()
             {
                 self.write_result(score)?;
             }

@@ -12,7 +12,7 @@ use crate::{
         evaluation::{EVALUATION_SEED, held_out_layouts},
         learner::{AgentKind, Iteration, Learner, StartError, TrainingPlan},
         run::Accumulator,
-        thesis::carom::{Carom, Episode},
+        thesis::carom::cue_inputs,
     },
     table::{Layout, Table},
 };
@@ -125,8 +125,10 @@ fn interval(learner: &mut dyn Learner, played: &dyn Fn(u64) -> bool) -> Result<O
 /// Mean reward of random play on the layouts on which agents are examined: any direction, any speed.
 pub fn random_play(table: &Table, reward: Reward, seed: u64) -> f64 {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let game = Carom::new(table.clone(), reward, Episode::OneShot);
-    let mut shot = |layout: &Layout| game.reward_of(layout, [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0)]);
+    let mut shot = |layout: &Layout| {
+        let cue = cue_inputs([rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0)]);
+        reward.with_room(table, layout, &cue, u32::MAX)
+    };
     held_out_layouts(table, EXAMINED, EVALUATION_SEED).iter().map(&mut shot).sum::<f64>() / EXAMINED as f64
 }
 

@@ -10,7 +10,7 @@ use super::{
     curves::{Curve, Point, Training, random_play},
     figures::{Figure, Measure, Reading},
 };
-use crate::{learning::learner::StartError, platform::parallel, table::Table};
+use crate::{learning::learner::StartError, platform::parallel, statistics::mean_and_deviation, table::Table};
 
 /// What is to be drawn, and from how long a practice.
 #[derive(Clone, Debug)]
@@ -166,21 +166,14 @@ pub fn summary(drawn: &Drawn) -> Vec<String> {
     let of_seeds = |reading: &Reading| {
         let of_reading = drawn.curves().filter(|(other, ..)| other.name == reading.name);
         let rewards: Vec<f64> = of_reading.filter_map(|(.., curve)| held_out(curve)).collect();
-        let [mean, deviation] = mean_and_deviation(&rewards)?;
+        let (mean, deviation) = mean_and_deviation(&rewards);
+        let deviation = deviation?;
         let (title, name, seeds) = (figure.title, reading.name, rewards.len());
         Some(format!(
             "{title}, {name}, {seeds} seeds: mean {mean:.3} without exploration, standard deviation {deviation:.3}"
         ))
     };
     drawn.curves().map(of_curve).chain(figure.readings.iter().filter_map(of_seeds)).collect()
-}
-
-/// The mean of several numbers and their standard deviation.
-fn mean_and_deviation(numbers: &[f64]) -> Option<[f64; 2]> {
-    let count = numbers.len() as f64;
-    let mean = numbers.iter().sum::<f64>() / count;
-    let squares: f64 = numbers.iter().map(|number| (number - mean).powi(2)).sum();
-    (numbers.len() > 1).then(|| [mean, (squares / (count - 1.0)).sqrt()])
 }
 
 #[cfg(test)]
