@@ -31,7 +31,7 @@ pub struct Comparison {
 
 impl Comparison {
     /// Of the whole that the first files hold with that of the `others`.
-    pub fn of((spec, records): &(Spec, Records), others: &[PathBuf]) -> Result<Self, Failure> {
+    pub fn of(spec: &Spec, records: &Records, others: &[PathBuf]) -> Result<Self, Failure> {
         let (other, theirs) = merged(others)?;
         let (Records::Shots(own), Records::Shots(theirs)) = (records, &theirs) else {
             return Err(Failure::wrong_input("innings of self-play are not compared: only one shot a layout is"));

@@ -141,7 +141,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         merged(&args.merge)?
     };
     if !args.against.is_empty() {
-        let comparison = Comparison::of(&(spec, records), &args.against)?;
+        let comparison = Comparison::of(&spec, &records, &args.against)?;
         return if args.json { Ok(json_line(&comparison)?) } else { line(comparison) };
     }
     match records {

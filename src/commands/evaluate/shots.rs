@@ -121,7 +121,7 @@ pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: R
             seconds,
             simulations: decision.simulations,
             predicted: decision.predicted,
-            best_of_k: decision.others.map(|others| earned >= 1.0 || any_earns(table, reward, layout, &others)),
+            best_of_k: decision.others.map(|others| any_earns(table, reward, layout, earned, &others)),
             chance: spec.skill.map(|skill| robustness::chance(spec, rule, table, (index, layout), skill, &cue)),
         }
     })
@@ -141,10 +141,9 @@ fn decide(
     match player {
         Player::Recommender(coach, request) => {
             coach.recommend(layout, request).map_or(shot(NO_SHOT), |advice| Decision {
-                cue: advice.cue,
                 simulations: Some(advice.simulations),
                 predicted: advice.make_probability.map(|chance| chance.rate),
-                others: None,
+                ..shot(advice.cue)
             })
         }
         Player::Policy(policy) => {
@@ -154,7 +153,7 @@ fn decide(
             // What it says of another reward, or of a player whom it is not told, is no probability of what is measured.
             let is_of_this = policy.origin().reward == reward && (skill.is_perfect() || policy.speaks_of(&skill));
             let others = spec.is_yes_or_no.then_some(proposals);
-            Decision { cue, simulations: None, predicted: is_of_this.then_some(success), others }
+            Decision { predicted: is_of_this.then_some(success), others, ..shot(cue) }
         }
         Player::RandomSearch(shots) => {
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(layout_seed(spec.seed, index));
@@ -230,7 +229,7 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
     let predicted: Vec<_> = records.iter().map(|record| record.predicted).collect();
     let earned: Vec<_> = records.iter().map(|record| record.earned).collect();
     // Of the player's attempts, or else of the shot itself where that is a point or none.
-    let is_alone = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no && has_predicted;
+    let compares_shots = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no && has_predicted;
     let robustness = spec.skill.zip(chances).map(|(skill, chances)| {
         let mut robustness = Robustness::new(skill, spec.doubt, chances);
         if has_predicted {
@@ -253,7 +252,7 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
         slowest_ms: 1e3 * records.iter().map(|record| record.seconds).fold(0.0, f64::max),
         hard_share: mean(&|record| f64::from(record.speed > HARD)),
         simulations_per_layout: is_searching.then(|| mean(&|record| record.simulations.unwrap_or(0) as f64)),
-        reliability: is_alone.then(|| Reliability::new(&predicted, &earned)),
+        reliability: compares_shots.then(|| Reliability::new(&predicted, &earned)),
         robustness,
     }
 }

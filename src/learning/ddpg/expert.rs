@@ -125,7 +125,7 @@ impl Expert<'_> {
         leave(&mut candidates, SCREENED, SCREENED_OF_ONE_WAY);
         let mut seen = Vec::new();
         for (attempts, left) in ROUNDS {
-            self.attempt(&mut candidates, attempts, seed);
+            self.halving_round(&mut candidates, attempts, seed);
             seen.extend(leave(&mut candidates, left, LEFT_OF_ONE_WAY));
         }
         for step in STEPS {
@@ -137,16 +137,16 @@ impl Expert<'_> {
                 .collect();
             self.judge(&mut children)?;
             children.truncate(FAVOURITES);
-            self.attempt(&mut children, ROUNDS[1].0, seed);
+            self.halving_round(&mut children, ROUNDS[1].0, seed);
             // Those that the critic liked in vain it has to know better.
             seen.extend(children.split_off(ROUNDS[1].1.min(children.len())));
             candidates.extend(children);
-            self.attempt(&mut candidates, ROUNDS[2].0, seed);
+            self.halving_round(&mut candidates, ROUNDS[2].0, seed);
             seen.extend(leave(&mut candidates, ROUNDS[2].1, LEFT_OF_ONE_WAY));
         }
         let again = |candidate: &Candidate, attempts| {
             let mut again = [Candidate::new(candidate.observation, candidate.action)];
-            self.attempt(&mut again, attempts, !seed);
+            self.halving_round(&mut again, attempts, !seed);
             let success = (again[0].mean() / self.reward.highest()) as f32;
             Transition {
                 observation: candidate.observation,
@@ -190,7 +190,7 @@ impl Expert<'_> {
 
     /// One round of successive halving (Karnin et al. 2013): makes attempts at every stroke until each has so many, with the same errors
     /// for all, and puts the best first.
-    fn attempt(&self, candidates: &mut [Candidate], attempts: usize, seed: u64) {
+    fn halving_round(&self, candidates: &mut [Candidate], attempts: usize, seed: u64) {
         for candidate in candidates.iter_mut() {
             for attempt in candidate.attempts..attempts {
                 let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed.wrapping_add(attempt as u64));
@@ -256,8 +256,8 @@ mod tests {
             let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng).unwrap();
             let winner = strokes.best.first().unwrap();
             let mut again = [proposal, Candidate::new(winner.observation, winner.action)];
-            expert.attempt(&mut again[..1], 100, 7);
-            expert.attempt(&mut again[1..], 100, 7);
+            expert.halving_round(&mut again[..1], 100, 7);
+            expert.halving_round(&mut again[1..], 100, 7);
             proposed += again[0].mean();
             found += again[1].mean();
             // What is said of the winner holds.
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn strokes_of_several_ways_stay_in_the_race() {
+    fn strokes_of_several_ways_stay_among_the_candidates() {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
         let ways = Observation::every(&table, &Layout::random(&table, &mut rng), true);
         let halved = |numbers: &[usize], left| {

@@ -146,12 +146,13 @@ fn take<B: Copy + PartialEq, W: Copy>(
     }));
 }
 
-/// The keys of a page that lies over the screen, while one does. What opens it closes it.
+/// The keys of a page that lies over the screen, while one does.
 #[rustfmt::skip]
 const OVERLAY: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Overlay, &[key(Esc, A::CloseOverlay), letter('?', A::CloseOverlay), letter('q', A::CloseOverlay),
-        key(Enter, A::CloseOverlay), key(F(1), A::CloseOverlay), key(F(6), A::CloseOverlay), key(F(8), A::CloseOverlay)],
-        Some(("close", 1)), "close this page"),
+        key(Enter, A::CloseOverlay)], Some(("close", 1)), "close this page"),
+    bind(Program, Condition::Overlay, &[key(F(1), A::OpenHelp), key(F(6), A::OpenMessages), key(F(8), A::OpenGlossary)], None,
+        "the help, the messages or the glossary in its place; what has opened it closes it"),
     bind(Program, Condition::Overlay, &[key(Down, A::ScrollOverlay(1)), key(Up, A::ScrollOverlay(-1)), letter('j', A::ScrollOverlay(1)),
         letter('k', A::ScrollOverlay(-1)), key(PageDown, A::ScrollOverlay(10)), key(PageUp, A::ScrollOverlay(-10)),
         key(End, A::ScrollOverlay(i16::MAX)), key(Home, A::ScrollOverlay(i16::MIN))], Some(("scroll", 2)), "scroll this page"),

@@ -283,7 +283,7 @@ impl App {
             Action::CloseOverlay => self.close_overlay(),
             Action::ScrollOverlay(lines) => {
                 self.overlay = self.overlay.map(|(page, top)| {
-                    let end = view::help_end(self, page, self.area);
+                    let end = view::overlay_end(self, page, self.area);
                     (page, top.min(end).saturating_add_signed(lines).min(end))
                 });
             }

@@ -13,7 +13,7 @@ use crate::terminal::{
 };
 
 /// Lines of the help that a notch of the wheel scrolls.
-const HELP_LINES: i16 = 3;
+const OVERLAY_LINES: i16 = 3;
 
 impl App {
     /// The mouse was used somewhere on the screen that was drawn last.
@@ -60,7 +60,7 @@ impl App {
             return self.update(Action::PaletteLine(isize::from(notch)));
         }
         if self.overlay.is_some() {
-            return self.update(Action::ScrollOverlay(i16::from(notch) * HELP_LINES));
+            return self.update(Action::ScrollOverlay(i16::from(notch) * OVERLAY_LINES));
         }
         match self.target(event)? {
             Pointed::Page(Target::Table(_)) => {

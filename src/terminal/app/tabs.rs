@@ -3,7 +3,11 @@
 use crate::terminal::{App, Effect, Overlay, PageId};
 
 impl App {
+    /// Opens the page over the screen, in place of another one; the same once more closes it.
     pub(super) fn lay_over(&mut self, page: Overlay) {
+        if self.overlay.is_some_and(|(open, _)| open == page) {
+            return self.close_overlay();
+        }
         self.command_palette = None;
         self.overlay = Some((page, 0));
         if page == Overlay::Messages {

@@ -109,7 +109,7 @@ impl Settings {
         // A number with a decimal comma is none of TOML's.
         let number = typed_number(typed).filter(|_| typed.contains(',')).map(|number| number.to_string());
         let number = number.as_deref().unwrap_or(typed);
-        for value in [typed, &quoted(typed), number, &quoted(number)] {
+        for value in [typed, &quoted(typed), number] {
             let mut settings = self.clone();
             if read::take_value(&mut settings, entry, value).is_some() {
                 if settings.table != self.table {

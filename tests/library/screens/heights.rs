@@ -34,7 +34,7 @@ fn the_side_view_is_drawn_at_every_size_and_with_letters_alone_and_goes_again() 
 }
 
 #[test]
-fn where_nothing_jumps_the_key_says_how_high_the_highest_hop_is() {
+fn where_nothing_jumps_the_key_says_so() {
     let player = taken_over(TRUE_COLOUR, Some(Flight::default())).press("i");
     player.shows(&["no ball jumps in this shot"]).is_silent_on("Side view");
     let flat = taken_over(TRUE_COLOUR, None).press("i");

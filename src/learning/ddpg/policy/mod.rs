@@ -119,17 +119,17 @@ impl Policy {
         for layouts in layouts.chunks(64) {
             for (layout, proposals) in layouts.iter().zip(self.proposals_for(table, layouts, &Skill::PERFECT)) {
                 let first = reward.with_room(table, layout, &proposals[0].cue, u32::MAX);
-                played.push((first, first >= 1.0 || any_earns(table, reward, layout, &proposals[1..])));
+                played.push((first, any_earns(table, reward, layout, first, &proposals[1..])));
             }
         }
         Score::of(&played)
     }
 }
 
-/// Whether any of the proposals earns at least one.
-pub fn any_earns(table: &Table, reward: Reward, layout: &Layout, proposals: &[Proposal]) -> bool {
+/// Whether any of the proposals earns at least one, where the first earns so much and the `others` are these.
+pub fn any_earns(table: &Table, reward: Reward, layout: &Layout, first: f64, others: &[Proposal]) -> bool {
     // On the `thesis` table a few proposals would take all the time, and next to none of those earn anything.
-    proposals.iter().any(|proposal| reward.with_room(table, layout, &proposal.cue, CONTACT_STEPS) >= 1.0)
+    first >= 1.0 || others.iter().any(|proposal| reward.with_room(table, layout, &proposal.cue, CONTACT_STEPS) >= 1.0)
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ use crate::terminal::{
 };
 
 pub use self::{
-    help::end as help_end,
+    help::end as overlay_end,
     target::{Pointed, pointed_at},
 };
 

@@ -153,9 +153,8 @@ impl DrillsPage {
         self.message = Some(match (taken_back, session.attempts.last()) {
             (Some(attempt), _) => Message::plain(format!("taken back: {}, {now}", what(&attempt))),
             // The first one may be a mistake: until then strokes were played here.
-            (None, Some(_)) if record.tried == 1 => {
-                let noted = what(&session.attempts[0]);
-                Message::plain(format!("noted for a real table: {noted}, {now}; u takes it back"))
+            (None, Some(first)) if record.tried == 1 => {
+                Message::plain(format!("noted for a real table: {}, {now}; u takes it back", what(first)))
             }
             (None, Some(last)) if last.made => Message::good(format!("noted: made, {now}")),
             (None, Some(_)) => Message::plain(format!("noted: missed, {now}")),

@@ -210,6 +210,11 @@ impl Turn {
         matches!(self.stage, Stage::Waiting)
     }
 
+    /// The model shot while it is shown, except where it is the coach's own turn: then its stroke is the one that is set.
+    pub fn shown_model(&self) -> Option<&ModelShot> {
+        self.hint().filter(|_| !self.is_with_coach())
+    }
+
     /// Whether a stroke of the coach's is to come, or is watched.
     pub fn is_with_coach(&self) -> bool {
         self.is_coachs_turn() || self.watched().is_some_and(Watched::is_by_coach)

@@ -98,7 +98,7 @@ pub fn draw_margins(
             let told = fixed(unit.speed().0 * shot.cue.speed, 1);
             let x = inner.x + half + 1;
             let room = usize::from(inner.right().saturating_sub(x));
-            let mut words = format!("{told}, {}", lengths_words(shot.words.table_lengths));
+            let mut words = format!("{told} {speed}, {}", lengths_words(shot.words.table_lengths));
             if columns(&words) > room {
                 words = format!("{told} {speed}");
             }

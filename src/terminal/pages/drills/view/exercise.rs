@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use crate::{
     coach::words::{LengthUnit, TipUnit},
     terminal::{
-        Capabilities, ModelShot, Shot,
+        Capabilities, Shot,
         pages::drills::{
             AimLine, DrillsPage, ModelShotState, Turn,
             turn_actions::IS_RUNNING,
@@ -33,7 +33,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let (panes, side) = if profile.is_some() { panes.with_side_view() } else { (panes, Rect::ZERO) };
     let what_if = turn.what_if();
     let aim_line = turn.aim_line();
-    let spots = match (what_if, shown_model(turn), &aim_line) {
+    let spots = match (what_if, turn.shown_model(), &aim_line) {
         // Beside the model shot the whole way is drawn, and while it is shown its own.
         (Some(_), ..) | (None, None, None) => Vec::new(),
         (None, Some(model_shot), _) => cue_spots(turn, model_shot.advice.cue.phi, ui.theme, ui.caps),
@@ -75,16 +75,11 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     status_line(turn, drills.units.length)
 }
 
-/// The model shot while it is shown, except where it is the coach's own turn: then its stroke is the one that is set.
-fn shown_model(turn: &Turn) -> Option<&ModelShot> {
-    turn.hint().filter(|_| !turn.is_with_coach())
-}
-
 /// Draws the stroke's numbers, where the tip meets the ball, and what is seen behind it or how it spins; while the model shot is shown
 /// its own tip and hit.
 fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, panes: &Panes, ui: &mut Ui) {
     panels::draw_stroke(turn, drills.units, drills.is_in_numbers, panes.stroke, ui);
-    if let Some(model_shot) = shown_model(turn) {
+    if let Some(model_shot) = turn.shown_model() {
         let whose = if model_shot.is_own { "Model" } else { "Coach" };
         let cue = Some(&model_shot.advice.cue);
         draw_titled_tip(format!("{whose} tip"), cue, &turn.table, panes.tip, ui);

@@ -88,7 +88,7 @@ pub fn draw_task(
         if let Some(aim_line) = aim_line {
             let met = aim_line_words(aim_line, turn.cue_ball, turn.table.diamond(), units);
             // What the model shot meets stands beside it.
-            let met = if turn.hint().is_some() && !turn.is_with_coach() { format!("yours: {met}") } else { met };
+            let met = if turn.shown_model().is_some() { format!("yours: {met}") } else { met };
             paragraphs.push((met, ui.theme.accent()));
             match turn.least_elevation() {
                 Ok(LeastElevation { theta, over: Some(over) }) => {
