@@ -24,6 +24,7 @@ mod risk;
 mod scatter;
 mod search;
 mod self_play;
+mod spoken;
 pub mod systems;
 mod technique;
 #[cfg(test)]
@@ -45,6 +46,7 @@ pub use request::{Request, Shooter};
 pub use risk::{Cause, Risk};
 pub use scatter::{Scatter, scatter};
 pub use self_play::{Inning, inning};
+pub use spoken::{SpokenError, SpokenStroke};
 pub use technique::{Cushion, PATTERNS, Pattern, Technique};
 pub use verdict::{Miss, Passed, Verdict};
 pub use why::{Difference, Kiss, Why, why};

@@ -21,7 +21,6 @@ use super::{
 use crate::{
     game::{Reward, Rule},
     learning::{Policy, policy::file::Origin},
-    physics::{CueError, CueInputs},
     printing,
     storage::{self, LONGEST_LINE, NextLine, Places, next_line},
     table::{CueBall, Layout, PRESETS, Table, TableError},
@@ -99,28 +98,6 @@ impl PositionArgs {
         }
         Ok((table, layout))
     }
-}
-
-/// A stroke as it is typed, `"a,b,theta,phi,V"`. What is refused is named as it was typed: it is computed in radians, and a number
-/// that is none has no square.
-///
-/// # Errors
-/// What is no stroke, or has an input outside its range.
-pub fn shot_typed(text: &str) -> Result<CueInputs, Failure> {
-    let cue = CueInputs::parse(text).map_err(Failure::wrong_input)?;
-    cue.validate().map_err(|error| {
-        let (name, accepted) = match error {
-            CueError::Range { name, accepted, .. } => (name, accepted),
-            CueError::Tip { a, offset, .. } if !offset.is_finite() => {
-                (if (a * a).is_finite() { "b" } else { "a" }, "-1 to 1 ball radii")
-            }
-            error => return Failure::wrong_input(error),
-        };
-        let typed = ["a", "b", "theta", "phi", "V"].into_iter().zip(text.split(','));
-        let value = typed.into_iter().find(|(input, _)| *input == name).map_or("", |(_, value)| value.trim());
-        Failure::wrong_input(format_args!("{name} = {value} is outside its range; accepted is {accepted}"))
-    })?;
-    Ok(cue)
 }
 
 /// What reads a whole number in a range. Whatever else is given is refused by that range: clap tells of none where a number that
@@ -251,26 +228,6 @@ mod tests {
         assert!(said("2,0 0,0 0.5,0").contains("accepted are |x| <= 1.3892"));
         assert!(said("2,3 5,1 6,3").ends_with("in metres from the middle, or diamonds like 2d,0.5d"));
         assert!(said("0,0 0.5,0").contains("0,0 0.5,0"), "one place is missing");
-    }
-
-    #[test]
-    fn a_stroke_that_is_refused_is_told_as_it_was_typed() {
-        let said = |text: &str| shot_typed(text).unwrap_err().to_string();
-        let outside = |value: &str| format!("{value} is outside its range; accepted is ");
-        for (text, value) in [
-            ("0,0,0,1e6,3", "phi = 1e6"),
-            ("0,0,0,1e400,3", "phi = 1e400"),
-            ("0,0, 90 ,0,3", "theta = 90"),
-            ("0,0,0,0,1e9", "V = 1e9"),
-            ("nan,0,0,0,3", "a = nan"),
-            ("0,-inf,0,0,3", "b = -inf"),
-            ("1e200,0,0,0,3", "a = 1e200"),
-        ] {
-            assert!(said(text).starts_with(&outside(value)), "{}", said(text));
-        }
-        assert!(said("0.9,0.9,0,0,3").contains("misses the ball"));
-        assert!(said("0,0,0").contains("is not a shot"));
-        assert!(shot_typed("0,0.2,5,12.5,3").is_ok());
     }
 
     #[test]

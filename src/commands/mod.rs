@@ -21,6 +21,7 @@ mod reproduce;
 mod simulate;
 mod table;
 mod train;
+mod typed_stroke;
 mod watch;
 
 use std::{any::TypeId, error::Error, ffi::OsString, io::Write};

@@ -18,7 +18,7 @@ const GAME: &str = "game";
 ///
 /// A miss ends an inning, and the next begins where the balls lie; with --both or --against-coach it is the other side's, which plays
 /// with the other ball. Strokes are read line by line from the standard input:
-/// "a,b,theta,phi,V", or the word coach. At the end average and high run are printed.
+/// words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the word coach. At the end average and high run are printed.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion.

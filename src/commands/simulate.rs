@@ -8,9 +8,10 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Failure, bounded,
-    input::{ByTable, PositionArgs, answer_lines, shot_typed},
+    input::{ByTable, PositionArgs, answer_lines},
     output::{impulse_words, tell, units},
     question::{Key, Keys},
+    typed_stroke::TypedStroke,
 };
 use crate::{
     coach::{Verdict, jump_words, words::LengthUnit},
@@ -33,7 +34,7 @@ pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion. In a batch, of lines that name no `rule`.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
-    /// The shot: "a,b,theta,phi,V" in ball radii, degrees and m/s.
+    /// The shot: "a,b,theta,phi,V" in ball radii, degrees and m/s, or words like "red 1/2 right, 1.5 left, 3 lengths".
     #[arg(long, allow_hyphen_values = true, required_unless_present = "batch")]
     shot: Option<String>,
     /// Print one JSON object.
@@ -336,7 +337,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let (table, layout) = args.position.read()?;
     // clap demands a shot where there is no batch.
-    let cue = shot_typed(args.shot.as_deref().unwrap_or_default())?;
+    let cue = TypedStroke::read(args.shot.as_deref().unwrap_or_default())?.on(&table, &layout, CueBall::White)?;
     let played = play(&table, &layout, &cue, steps)?;
     let miscue = cue.is_miscue(&table);
     if miscue {

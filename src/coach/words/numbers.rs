@@ -3,7 +3,7 @@
 use crate::coach::aim::{FULL, THICK, THIN};
 
 /// Sixteenths of a ball as players say them, from a graze to full.
-const SIXTEENTHS: [&str; 17] = [
+pub const SIXTEENTHS: [&str; 17] = [
     "a graze",
     "very thin",
     "an eighth full",
@@ -23,6 +23,9 @@ const SIXTEENTHS: [&str; 17] = [
     "full",
 ];
 
+/// Whole numbers up to ten.
+pub const NUMBERS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+
 /// How much of a ball is hit, to a sixteenth, in words; and whether it is the very middle, which has no side.
 pub fn fullness_words(fullness: f64) -> (&'static str, bool) {
     let sixteenths = (16.0 * fullness.clamp(0.0, 1.0)).round() as usize;
@@ -41,8 +44,7 @@ pub fn fullness_word(fullness: f64) -> &'static str {
 
 /// A whole number in words up to ten.
 pub fn number_word(number: u32) -> String {
-    const WORDS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
-    WORDS.get(number as usize).map_or_else(|| number.to_string(), |word| (*word).to_owned())
+    NUMBERS.get(number as usize).map_or_else(|| number.to_string(), |word| (*word).to_owned())
 }
 
 /// So many half tips, in words: "half a tip", "two and a half tips".

@@ -20,7 +20,7 @@ use crate::{
 pub struct TryArgs {
     /// The exercise: its name, its title, or the beginning of either.
     name: String,
-    /// The stroke that is meant: "a,b,theta,phi,V" in radii, degrees and m/s, or "coach".
+    /// The stroke that is meant: "a,b,theta,phi,V" in radii, degrees and m/s, words like "red 1/2 right, 1.5 left, 3 lengths", or "coach".
     #[arg(long, allow_hyphen_values = true)]
     shot: String,
     /// Attempts at it.
@@ -35,7 +35,7 @@ pub struct TryArgs {
 
 /// Play an exercise until it was made so many times in a row.
 ///
-/// Strokes are read line by line from the standard input: "a,b,theta,phi,V", or the word coach.
+/// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the word coach.
 #[derive(Debug, clap::Args)]
 pub struct RunArgs {
     /// The exercise: its name, its title, or the beginning of either.
@@ -58,7 +58,7 @@ pub struct RunArgs {
 
 /// Take an exam: twenty exercises, one attempt each.
 ///
-/// Strokes are read line by line from the standard input: "a,b,theta,phi,V", or the word coach.
+/// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the word coach.
 #[derive(Debug, clap::Args)]
 pub struct ExamArgs {
     /// How hard: 1, 2 or 3.

@@ -7,13 +7,13 @@ use crate::{
     coach::Skill,
     commands::{
         Failure,
-        input::{seed, shot_typed, whole},
+        input::{seed, whole},
         lookup::skill_called,
         output::{tell, whom_words},
+        typed_stroke::TypedStroke,
     },
     drills::{Exercise, Goal, Session, Venue},
     game::Rule,
-    physics::CueInputs,
 };
 
 /// The word for the coach's shot in the place of one's own.
@@ -60,7 +60,7 @@ impl PlayOptions {
 #[derive(Clone, Copy, Debug)]
 pub enum StrokeInput {
     /// The player's.
-    Own(CueInputs),
+    Own(TypedStroke),
     /// The coach's.
     Coach,
 }
@@ -72,8 +72,8 @@ impl std::str::FromStr for StrokeInput {
         if text == COACH {
             return Ok(Self::Coach);
         }
-        let cue = shot_typed(text)
+        let stroke = TypedStroke::read(text)
             .map_err(|error| Failure::wrong_input(format_args!("{error}, or \"{COACH}\" for the coach's shot")))?;
-        Ok(Self::Own(cue))
+        Ok(Self::Own(stroke))
     }
 }

@@ -4,15 +4,16 @@ use super::Workspace;
 use crate::{
     commands::{
         Failure,
-        input::{bundled_table, shot_typed},
+        input::bundled_table,
         output::{line, tell},
+        typed_stroke::TypedStroke,
     },
     drills::{
         Exercise, LONGEST_POINT, LONGEST_TITLE, LibraryError, bare_tag, check, decode, encode, store::StoreError,
     },
     game::{Rule, scores},
     physics::has_room,
-    table::Layout,
+    table::{CueBall, Layout},
 };
 
 /// Save a position of one's own.
@@ -36,7 +37,7 @@ pub struct SaveArgs {
     /// A word to find it by, with or without #; may be given several times.
     #[arg(long = "tag", value_parser = tag)]
     tags: Vec<String>,
-    /// A shot that makes it: "a,b,theta,phi,V".
+    /// A shot that makes it: "a,b,theta,phi,V", or in words.
     #[arg(long, allow_hyphen_values = true)]
     shot: Option<String>,
     /// The table: "match", "textbook" or "thesis".
@@ -88,9 +89,10 @@ pub fn tag(text: &str) -> Result<String, String> {
 
 pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     let table = bundled_table(&args.table)?;
-    let shot = args.shot.as_deref().map(shot_typed).transpose()?;
-    shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
     let layout = Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?;
+    let typed = args.shot.as_deref().map(TypedStroke::read).transpose()?;
+    let shot = typed.map(|typed| typed.on(&table, &layout, CueBall::White)).transpose()?;
+    shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
     let position = Exercise::own(&args.name, args.rule, &table.name, layout);
     let typed = args.title.as_deref().map(str::trim).filter(|title| !title.is_empty());
     let title = typed.map_or(position.title, str::to_owned);

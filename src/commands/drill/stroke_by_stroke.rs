@@ -175,11 +175,13 @@ impl<'a> StrokeByStroke<'a> {
     /// Plays one stroke; when its result is printed, it is safe on the disk. `false` where the coach is asked for a stroke and finds no point.
     pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: StrokeInput) -> Result<bool, Failure> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
-        let by_coach = matches!(stroke, StrokeInput::Coach);
         let cue_ball = self.session.cue_ball_now();
-        if let StrokeInput::Own(cue) = &stroke {
-            check(table, cue).map_err(Failure::wrong_input)?;
-        }
+        let typed = match stroke {
+            StrokeInput::Own(typed) => Some(typed.on(table, layout, cue_ball)?),
+            StrokeInput::Coach => None,
+        };
+        typed.as_ref().map_or(Ok(()), |cue| check(table, cue)).map_err(Failure::wrong_input)?;
+        let by_coach = typed.is_none();
         let own = if by_coach { None } else { self.own(layout) };
         let advice = match own {
             Some(cue) if self.compares => {
@@ -188,11 +190,7 @@ impl<'a> StrokeByStroke<'a> {
             _ if by_coach || self.compares => self.advice(table, layout)?,
             _ => None,
         };
-        let meant = match (stroke, advice) {
-            (StrokeInput::Own(cue), _) => cue,
-            (StrokeInput::Coach, Some(advice)) => advice.cue,
-            (StrokeInput::Coach, None) => return Ok(false),
-        };
+        let Some(meant) = typed.or(advice.map(|advice| advice.cue)) else { return Ok(false) };
         let played = self.session.play(meant, by_coach).map_err(Failure::wrong_input)?;
         let raised = self.session.attempts.last().and_then(|attempt| attempt.meant).unwrap_or(meant);
         let is_raised = raised != meant;

@@ -40,6 +40,8 @@ pub enum Command {
     First(String),
     /// A shot.
     Shot,
+    /// A stroke of the player's own, in these words.
+    Try(String),
     /// The next of the other shots.
     Other,
     /// How often each of the shots is made.
@@ -73,6 +75,10 @@ pub enum Command {
 /// What may be said, and what it does.
 const HELP: &[(&str, &str)] = &[
     ("shot", "ask the coach for a shot; ask and an empty line do the same"),
+    (
+        "try red 1/2 right, 1.5 left, 2 up, 3 lengths",
+        "a stroke of your own: the ball and how full, side, height and speed, or the line of the cue like to 3.2 bottom; what you do not say is as in the shot that is spoken of",
+    ),
     ("other", "the next of the other shots; so does next"),
     ("chances", "how often each of the shots is made"),
     ("why", "why the first of the shots leads"),
@@ -118,6 +124,7 @@ impl FromStr for Command {
         let words: Vec<&str> = line.split_whitespace().collect();
         Ok(match words[..] {
             [] | ["shot" | "ask"] => Self::Shot,
+            ["try", ..] => Self::Try(line.trim_start()["try".len()..].to_owned()),
             ["other" | "next"] => Self::Other,
             ["numbers"] => Self::Numbers,
             ["system"] => Self::System,

@@ -17,8 +17,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
     coach::{
-        Coach, FirstMet, Kind, Pattern, Request, Sensitivity, ShotWords, Skill, Technique, Units, Verdict, Why, aim,
-        systems::guide, why,
+        Coach, FirstMet, Pattern, Request, Sensitivity, ShotWords, Skill, SpokenStroke, Technique, Units, Verdict, Why,
+        aim, judge, systems::guide, why,
     },
     game::Point,
     physics::CueInputs,
@@ -37,7 +37,8 @@ use crate::{
 #[derive(Clone, Copy, Debug)]
 struct Found {
     cue: CueInputs,
-    kind: Option<Kind>,
+    /// Whether it is the best attempt of a search that found no point.
+    is_attempt: bool,
     rate: Option<SuccessRate>,
     /// How often the point after it is made, where that is known.
     next: Option<f64>,
@@ -69,6 +70,9 @@ pub struct Beginning {
     /// What decides about random layouts.
     pub seed: u64,
 }
+
+/// Attempts at a stroke of the player's own by which it is told how often it is made.
+const JUDGED: usize = 1000;
 
 /// What is said to a line: what it asked for, or why it is refused.
 type Answer = Result<String, String>;
@@ -201,7 +205,7 @@ impl Conversation {
             }
             Command::PlanNow => speech::plan(self.request.plan, self.shots.get(self.chosen).and_then(|shot| shot.next)),
             Command::Chances => self.about_the_shot(|talk, _| {
-                let of = |shot: &Found| speech::chance(shot.kind, shot.rate, talk.request.skill).join(" ");
+                let of = |shot: &Found| speech::chance(shot.is_attempt, shot.rate, talk.request.skill).join(" ");
                 let line = |(number, shot): (usize, &Found)| format!("Shot {number}. {}", of(shot));
                 Ok((1..).zip(&talk.shots).map(line).collect::<Vec<_>>().join("\n"))
             })?,
@@ -210,6 +214,7 @@ impl Conversation {
                 Ok(format!("The first shot. {}", why.words(talk.cue_ball(), talk.units)))
             })?,
             Command::Shot => self.ask()?,
+            Command::Try(words) => self.try_stroke(&words)?,
             Command::Other if self.shots.len() > 1 => {
                 self.chosen = (self.chosen + 1) % self.shots.len();
                 self.describe()?
@@ -279,11 +284,15 @@ impl Conversation {
         let shooter = self.request.shooter();
         self.why =
             why(shooter, self.request.rule, self.table(), self.layout(), &advice, 0).ok().filter(|_| advice.solved);
-        let best =
-            Found { cue: advice.cue, kind: advice.kind, rate: advice.make_probability, next: advice.next_probability };
+        let best = Found {
+            cue: advice.cue,
+            is_attempt: advice.kind.is_none(),
+            rate: advice.make_probability,
+            next: advice.next_probability,
+        };
         let others = advice.alternatives.iter().map(|shot| Found {
             cue: shot.cue,
-            kind: Some(shot.kind),
+            is_attempt: false,
             rate: shot.make_probability,
             next: shot.next_probability,
         });
@@ -296,6 +305,26 @@ impl Conversation {
             others => format!("There are {others} other shots."),
         };
         Ok(format!("{}{next}\n{others}", self.describe()?))
+    }
+
+    /// Tells of a stroke of the player's own, in these words.
+    fn try_stroke(&mut self, words: &str) -> Answer {
+        let before = self.shots.get(self.chosen).map(|shot| shot.cue);
+        let read = SpokenStroke::read(words);
+        let said = read.and_then(|said| said.stroke(self.table(), self.layout(), self.cue_ball(), before.as_ref()));
+        let cue = said.map_err(|error| error.to_string())?;
+        let Request { rule, seed, .. } = self.request;
+        let has_errors = !self.request.skill.is_perfect();
+        let rate =
+            has_errors.then(|| judge(self.request.shooter(), rule, self.table(), self.layout(), &cue, 0..JUDGED, seed));
+        let found = Found { cue, is_attempt: false, rate, next: None };
+        let verdict = Verdict::of(rule, self.table(), self.layout(), &self.recorded(&found)?);
+        if self.shots.is_empty() {
+            self.why = None;
+        }
+        self.shots.push(found);
+        self.chosen = self.shots.len() - 1;
+        Ok(format!("{}\n{}.", self.describe()?, verdict.words(self.cue_ball(), self.units.length)))
     }
 
     /// The shot that is spoken of.
@@ -313,10 +342,10 @@ impl Conversation {
                     pattern.map(|pattern| format!("Pattern: {}: {}.", pattern.name, pattern.course_of(&technique))),
                 );
             }
-            lines.extend(speech::chance(shot.kind, shot.rate, talk.request.skill));
+            lines.extend(speech::chance(shot.is_attempt, shot.rate, talk.request.skill));
             let why = talk.why.as_ref().filter(|_| talk.chosen == 0);
             lines.extend(why.map(|why| why.words(cue_ball, units)));
-            let system = recording.filter(|_| shot.kind.is_some()).and_then(|shot| guide(talk.table(), &shot));
+            let system = recording.filter(|_| !shot.is_attempt).and_then(|shot| guide(talk.table(), &shot));
             lines.extend(system.map(|system| format!("{}.", system.shot_words())));
             Ok(lines.join("\n"))
         })

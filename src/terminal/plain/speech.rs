@@ -2,7 +2,7 @@
 
 use crate::{
     coach::{
-        Aim, Growth, Input, Kind, Margin, Skill, jump_words,
+        Aim, Growth, Input, Margin, Skill, jump_words,
         systems::Guide,
         words::{LengthUnit, TIP, TipUnit, Units},
     },
@@ -125,8 +125,8 @@ pub fn words(table: &Table, unit: LengthUnit) -> String {
 }
 
 /// How often the player makes a shot; that it makes no point, where it makes none.
-pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill) -> Vec<String> {
-    let none = kind.is_none().then(|| "No point was found; this is the best attempt.".to_owned());
+pub fn chance(is_attempt: bool, rate: Option<SuccessRate>, skill: Skill) -> Vec<String> {
+    let none = is_attempt.then(|| "No point was found; this is the best attempt.".to_owned());
     let rate = rate.map(|rate| {
         let [middle, low, high] = [rate.rate, rate.low, rate.high].map(percent);
         format!("{} makes it {middle} percent of the time, between {low} and {high}.", player(skill))

@@ -3,8 +3,9 @@
 use std::mem::{Discriminant, discriminant};
 
 use crate::{
+    coach::{SpokenError, SpokenStroke},
     physics::{CueInputs, with_room},
-    table::{Layout, Table},
+    table::{CueBall, Layout, Table},
     terminal::shot::{History, aiming},
 };
 
@@ -24,6 +25,12 @@ pub enum StrokeChange {
     /// Strikes faster by m/s.
     Faster(f64),
 }
+
+/// What asks for a stroke in words.
+pub const SAY: &str = "your stroke, or what changes of it (red 1/2 right, 1.5 left, 2 up, 3 lengths): ";
+
+/// Longest text that says a stroke, bytes: the coach's own words have 400.
+pub const LONGEST: usize = 600;
 
 /// Why a stroke stays as it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -78,6 +85,16 @@ impl OwnStroke {
             self.strokes.push(next);
         }
         self.changed_by = changed_by;
+        Ok(())
+    }
+
+    /// Sets the stroke as a player with `cue_ball` says it; what is not said stays as it is.
+    ///
+    /// # Errors
+    /// What is not understood, or cannot be played; the stroke stays as it is.
+    pub fn say(&mut self, words: &str, table: &Table, layout: &Layout, cue_ball: CueBall) -> Result<(), SpokenError> {
+        let cue = SpokenStroke::read(words)?.stroke(table, layout, cue_ball, Some(self.cue()))?;
+        self.set(cue);
         Ok(())
     }
 

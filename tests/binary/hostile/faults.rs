@@ -37,7 +37,8 @@ fn a_stroke_of_a_saved_position_that_is_none_is_refused_by_what_is_accepted() {
     for wrong in ["foo", "coach"] {
         let said = drill(home.path(), &["save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", wrong]);
         assert_eq!(said.code, Some(2));
-        assert!(said.err.contains(&format!("\"{wrong}\" is not a shot; write \"a,b,theta,phi,V\"")), "{}", said.err);
+        assert!(said.err.contains(&format!("\"{wrong}\" is not understood; accepted are")), "{}", said.err);
+        assert!(said.err.contains("\"a,b,theta,phi,V\""), "{}", said.err);
         assert!(!said.err.contains("for the coach"), "{}", said.err);
     }
 }

@@ -7,7 +7,7 @@ fn a_game_begins_with_who_plays_and_no_word_is_broken_at_the_end_of_a_line() {
     let mut command = carom();
     command.args(["play", "--rule", "3c", "--skill", "0,6"]);
     let mut session = Session::start_command(command, 60, 24);
-    session.wait_for("shot a,b,theta,phi,V or coach: ");
+    session.wait_for("shot in words, a,b,theta,phi,V, or coach: ");
     let shown = session.screen().contents();
     let beginning = "For a player of skill \"average=0.6\" under the rule\n\
                      three-cushion; --skill and --rule choose others. The\n\

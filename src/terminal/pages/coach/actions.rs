@@ -120,6 +120,7 @@ impl CoachPage {
             Action::WhatIf => return self.take_over(),
             Action::LeaveStroke => self.leave_own_stroke(),
             Action::Stroke(change) => return self.change_stroke(change),
+            Action::TypeStroke => self.ask_stroke(),
             Action::StrokeBack => return self.travel_stroke(OwnStroke::undo),
             Action::StrokeAgain => return self.travel_stroke(OwnStroke::redo),
             // The app goes on with what was practised.

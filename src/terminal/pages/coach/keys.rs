@@ -83,6 +83,8 @@ pub enum CoachAction {
     WhatIf,
     /// Changes that stroke.
     Stroke(StrokeChange),
+    /// Asks for that stroke in a player's words.
+    TypeStroke,
     /// Takes the last change of the stroke back.
     StrokeBack,
     /// Makes it again.
@@ -272,6 +274,9 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Always, [
     bind(Stroke, W::Always, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
         "take the balls as your stroke leaves them, for the next one"),
 ], [
+    bind(Stroke, W::Always, &[letter('t', A::TypeStroke)], Some(("type", 1)),
+        "type your stroke, or what changes of it, as players say it: red 1/2 right, 1.5 left, 2 up, 3 lengths")
+        .known_as("words say fullness tips lengths aim"),
     bind(Stroke, W::StrokeChanged, &[letter('u', A::StrokeBack), letter('z', A::StrokeBack)], Some(("undo", 1)),
         "take the last change of the stroke back"),
     bind(Stroke, W::PlayedOn, &[letter('u', A::Undo), letter('z', A::Undo)], Some(("undo", 1)), "put the balls back where your last stroke was played"),

@@ -8,8 +8,12 @@ use crate::{
     table::{Layout, Table},
     terminal::{
         CoachJob, CoachQuery, Effect,
-        pages::{Page, coach::CoachPage},
-        shot::{OwnStroke, StrokeChange, WhatIf, aiming, what_if::Situation},
+        pages::{
+            Page,
+            coach::{CoachPage, question::Question},
+        },
+        shot::{OwnStroke, StrokeChange, WhatIf, aiming, stroke::LONGEST, what_if::Situation},
+        ui::TextField,
     },
 };
 
@@ -121,6 +125,21 @@ impl CoachPage {
             Ok(()) => self.strike(stroke),
             Err(error) => self.refuse(error),
         }
+    }
+
+    /// Asks for the player's own stroke in words.
+    pub(super) fn ask_stroke(&mut self) {
+        self.playback.pause();
+        self.question = Some(Question::Stroke(TextField::new(LONGEST)));
+    }
+
+    /// Sets the player's own stroke as `words` say it, or says why not.
+    pub(super) fn say_stroke(&mut self, words: &str) -> Result<Option<Effect>, String> {
+        let (table, layout, cue_ball) = (Arc::clone(&self.history.present().table), *self.layout(), self.cue_ball());
+        let Some(own) = &self.own_stroke else { return Ok(None) };
+        let mut stroke = own.stroke.clone();
+        stroke.say(words, &table, &layout, cue_ball).map_err(|error| error.to_string())?;
+        Ok(self.strike(stroke))
     }
 
     /// Sets the player's own stroke as it was before its last change, or after it again.

@@ -16,7 +16,7 @@ impl Page for CoachPage {
 
     fn field_mut(&mut self) -> Option<&mut TextField> {
         match self.question.as_mut()? {
-            Question::Positions(typed) | Question::Title(typed, _) => Some(typed),
+            Question::Positions(typed) | Question::Stroke(typed) | Question::Title(typed, _) => Some(typed),
             Question::Replace(_) => None,
         }
     }

@@ -8,6 +8,7 @@ use crate::{
             Page,
             coach::{CoachPage, saving::named},
         },
+        shot::stroke::SAY,
         ui::TextField,
     },
 };
@@ -17,6 +18,8 @@ use crate::{
 pub enum Question {
     /// Where the balls are to lie, as far as it is typed.
     Positions(TextField),
+    /// The player's own stroke in words, as far as it is typed.
+    Stroke(TextField),
     /// What the position that is saved is to be called, and tags, as far as they are typed.
     Title(TextField, Box<Exercise>),
     /// Whether the position of the same name may be replaced.
@@ -35,6 +38,7 @@ impl Question {
                      or a share code: "
                 )
             }
+            Self::Stroke(_) => SAY.to_owned(),
             Self::Title(..) => "save the balls as (a title, and #tags if you like): ".to_owned(),
             Self::Replace(exercise) => {
                 format!("there is a position called {} already; replace it?", exercise.name)
@@ -45,7 +49,7 @@ impl Question {
     /// The text that is typed, where some is.
     pub const fn field(&self) -> Option<&TextField> {
         match self {
-            Self::Positions(typed) | Self::Title(typed, _) => Some(typed),
+            Self::Positions(typed) | Self::Stroke(typed) | Self::Title(typed, _) => Some(typed),
             Self::Replace(_) => None,
         }
     }
@@ -57,6 +61,7 @@ impl CoachPage {
         let question = self.question.take()?;
         let done = match &question {
             Question::Positions(typed) => self.take_typed(typed.text()).map(|()| None),
+            Question::Stroke(typed) => self.say_stroke(typed.text()),
             Question::Title(typed, position) => {
                 named(typed.text(), position).map(|exercise| Some(self.save(exercise, false)))
             }

@@ -7,7 +7,7 @@ use crate::{
         DrillAction as Action, DrillCondition, DrillContext, DrillTask, Effect,
         pages::{
             Page,
-            drills::{Balls, DrillsPage, Question, RepetitionOptions, Turn, question::LONGEST},
+            drills::{Balls, DrillsPage, Question, RepetitionOptions, Turn, question::LONGEST, turn_actions::some},
         },
         ui::{Message, TextField},
         words::player_words,
@@ -257,7 +257,11 @@ impl DrillsPage {
                 }
                 return None;
             }
-            Question::Code(typed) => self.decoded(typed.text()),
+            Question::Code(typed) => self.decoded(typed.text()).map(|exercise| save(exercise, false)),
+            Question::Stroke(typed) => {
+                let said = self.turn.as_mut()?.say_stroke(typed.text());
+                said.map(some).map_err(|error| error.to_string())
+            }
             Question::Replace(exercise) => return save(exercise.clone(), true),
             Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),
             Question::Leave(..) => {
@@ -270,14 +274,11 @@ impl DrillsPage {
             }
             Question::GiveUp(action, ..) => return self.act(*action),
         };
-        match answer {
-            Ok(exercise) => save(exercise, false),
-            Err(sentence) => {
-                // What was typed stays, to be mended.
-                self.question = Some(question);
-                self.refuse(sentence)
-            }
-        }
+        answer.unwrap_or_else(|sentence| {
+            // What was typed stays, to be mended.
+            self.question = Some(question);
+            self.refuse(sentence)
+        })
     }
 
     fn decoded(&self, typed: &str) -> Result<Box<Exercise>, String> {

@@ -51,6 +51,8 @@ pub enum DrillAction {
     ToCoach,
     /// Changes the stroke that is set.
     Stroke(StrokeChange),
+    /// Asks for the stroke in a player's words.
+    TypeStroke,
     /// Takes the model shot over into the stroke, beside which it stays on the table.
     WhatIf,
     /// Takes the model shot off the table again.
@@ -263,6 +265,9 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Playable, &[letter(' ', A::Play)], Some(("play", 1)), "play the stroke, with the player's errors"),
     bind(Stroke, W::Set, &[key(Enter, A::Play)], None, "play the stroke, once it was changed"),
 ], [
+    bind(Stroke, W::Aiming, &[letter('t', A::TypeStroke)], Some(("type", 1)),
+        "type your stroke, or what changes of it, as players say it: red 1/2 right, 1.5 left, 2 up, 3 lengths")
+        .known_as("words say fullness tips lengths aim"),
     bind(Stroke, W::ModelShot, &[letter('v', A::Hint)], Some(("hint", 1)),
         "show the model shot, and hide it; the attempt then counts as one with a hint"),
     bind(Stroke, W::Adoptable, &[letter('w', A::WhatIf)], Some(("what if", 1)),

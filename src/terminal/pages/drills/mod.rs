@@ -310,7 +310,7 @@ impl Page for DrillsPage {
 
     fn field_mut(&mut self) -> Option<&mut TextField> {
         match self.question.as_mut()? {
-            Question::Search { typed, .. } | Question::Code(typed) => Some(typed),
+            Question::Search { typed, .. } | Question::Code(typed) | Question::Stroke(typed) => Some(typed),
             _ => None,
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::{
     drills::Exercise,
-    terminal::{DrillAction, ui::TextField},
+    terminal::{DrillAction, shot::stroke::SAY, ui::TextField},
 };
 
 /// Longest text that is typed or pasted, bytes: a code of many lines that a chat has wrapped fits.
@@ -22,6 +22,8 @@ pub enum Question {
     },
     /// A share code.
     Code(TextField),
+    /// The stroke in words.
+    Stroke(TextField),
     /// Whether the position of the same name may be replaced.
     Replace(Box<Exercise>),
     /// Whether the position of this name may be removed.
@@ -39,6 +41,7 @@ impl Question {
         match self {
             Self::Search { .. } => "find: ".to_owned(),
             Self::Code(_) => "paste or type the code of a position: ".to_owned(),
+            Self::Stroke(_) => SAY.to_owned(),
             Self::Replace(exercise) => {
                 format!("there is a position called {} already; replace it?", exercise.name)
             }
@@ -56,7 +59,7 @@ impl Question {
     /// The text that is typed, where some is.
     pub fn field(&self) -> Option<&TextField> {
         match self {
-            Self::Search { typed, .. } | Self::Code(typed) => Some(typed),
+            Self::Search { typed, .. } | Self::Code(typed) | Self::Stroke(typed) => Some(typed),
             _ => None,
         }
     }

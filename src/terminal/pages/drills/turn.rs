@@ -9,7 +9,7 @@ use std::sync::{
 
 use crate::{
     coach::{
-        Skill,
+        Skill, SpokenError,
         words::{LengthUnit, no_jump_words},
     },
     drills::{Attempt, Exercise, ExerciseError, Goal, Session, Venue},
@@ -143,6 +143,12 @@ impl Turn {
     /// Changes the stroke.
     pub(super) fn change_stroke(&mut self, change: StrokeChange) -> Result<Vec<DrillTask>, TipSlips> {
         self.stroke.change(change, &self.table, &self.layout)?;
+        Ok(self.compare())
+    }
+
+    /// Sets the stroke as `words` say it.
+    pub(super) fn say_stroke(&mut self, words: &str) -> Result<Vec<DrillTask>, SpokenError> {
+        self.stroke.say(words, &self.table, &self.layout, self.cue_ball)?;
         Ok(self.compare())
     }
 

@@ -6,8 +6,8 @@ use crate::{
     terminal::{
         DrillAction as Action, DrillCondition as Condition, DrillContext, DrillTask, Effect, ModelShot,
         pages::drills::{DrillsPage, ModelShotState, Question, Stage, Turn},
-        shot::OwnStroke,
-        ui::Message,
+        shot::{OwnStroke, stroke},
+        ui::{Message, TextField},
         words::player_words,
     },
 };
@@ -146,6 +146,7 @@ impl DrillsPage {
                 Ok(tasks) => return some(tasks),
                 Err(error) => self.message = Some(Message::warning(error.to_string())),
             },
+            Action::TypeStroke => self.question = Some(Question::Stroke(TextField::new(stroke::LONGEST))),
             Action::StrokeBack => return some(turn.travel(OwnStroke::undo)),
             Action::StrokeAgain => return some(turn.travel(OwnStroke::redo)),
             Action::WhatIf => return some(turn.take_over()),
@@ -318,6 +319,6 @@ impl DrillsPage {
 }
 
 /// What is to be done, if anything is.
-fn some(tasks: Vec<DrillTask>) -> Option<Effect> {
+pub(super) fn some(tasks: Vec<DrillTask>) -> Option<Effect> {
     (!tasks.is_empty()).then_some(Effect::Drill(tasks))
 }

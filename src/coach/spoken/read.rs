@@ -1,0 +1,275 @@
+//! The parts of a text that says a stroke.
+
+use super::{Mark, Speed, SpokenError, SpokenStroke, tips};
+use crate::{
+    coach::{
+        RailPoint,
+        words::{NUMBERS, SIXTEENTHS},
+    },
+    simulation::Rail,
+    table::BALL_NAMES,
+};
+
+/// Fullness by other words than those in sixteenths.
+const FULLNESS: [(&str, f64); 2] = [("thin", 0.25), ("thick", 0.75)];
+
+/// Table lengths by the words for them, the longer words first.
+const PACES: [(&str, f64); 5] = [("very soft", 1.0), ("very hard", 5.0), ("soft", 2.0), ("medium", 3.0), ("hard", 4.0)];
+
+/// What a text says.
+pub fn read(text: &str) -> Result<SpokenStroke, SpokenError> {
+    let mut said = SpokenStroke::default();
+    for line in text.lines() {
+        // The coach's lines that follow from the stroke: the course, the pattern and the reason.
+        let line = line.trim().to_lowercase();
+        if line.contains(" \u{2013} ") || ["pattern:", "why:"].iter().any(|begin| line.starts_with(begin)) {
+            continue;
+        }
+        for part in parts(&line) {
+            let twice = |what| SpokenError::Twice(what, part.clone());
+            read_part(&part, &mut said, twice)?;
+        }
+    }
+    if said == SpokenStroke::default() { Err(SpokenError::Nothing) } else { Ok(said) }
+}
+
+/// The parts of a line, divided by commas, semicolons, brackets and full stops; those within numbers do not divide.
+fn parts(line: &str) -> Vec<String> {
+    let letters: Vec<char> = line.replace('\u{bd}', ".5").chars().collect();
+    let digit = |index: usize| letters.get(index).is_some_and(char::is_ascii_digit);
+    let mut parts = vec![String::new()];
+    for (index, &letter) in letters.iter().enumerate() {
+        let within =
+            matches!(letter, ',' | '.') && digit(index + 1) && (letter == '.' || index > 0 && digit(index - 1));
+        match letter {
+            ',' | '.' if within => parts.last_mut().unwrap_or(&mut String::new()).push('.'),
+            ',' | ';' | '(' | ')' | '.' => parts.push(String::new()),
+            letter => parts.last_mut().unwrap_or(&mut String::new()).push(letter),
+        }
+    }
+    let words = |part: &String| part.split_whitespace().collect::<Vec<_>>().join(" ");
+    parts.iter().map(words).filter(|part| !part.is_empty()).collect()
+}
+
+/// Reads one part into `said`.
+fn read_part(
+    part: &str,
+    said: &mut SpokenStroke,
+    twice: impl Fn(&'static str) -> SpokenError + Copy,
+) -> Result<(), SpokenError> {
+    let not_understood = || SpokenError::Part(part.to_owned());
+    // "Bottom long rail first at 3, then red": which cushions come between, the stroke says.
+    let part = match part.strip_prefix("then ") {
+        Some(rail) if rail_named(rail).is_some() => return Ok(()),
+        Some(part) => part,
+        None => part,
+    };
+    if let Some((from, to)) = line_of_cue(part) {
+        if let Some(from) = from {
+            set(&mut said.from, Some(mark(from).ok_or_else(not_understood)?), twice("where the cue comes from"))?;
+        }
+        return set(&mut said.to, Some(mark(to).ok_or_else(not_understood)?), twice("where the cue points"));
+    }
+    if let Some((rail, diamond)) = part.split_once(" first at ") {
+        let point = rail_named(rail).zip(diamond.parse().ok());
+        let (rail, diamond) = point.ok_or_else(not_understood)?;
+        return set(&mut said.rail, Some(RailPoint { rail, diamond }), twice("the first cushion"));
+    }
+    if let Some(speed) = speed(part) {
+        return set(&mut said.speed, Some(speed), twice("the speed"));
+    }
+    if let Some((_, lengths)) = PACES.into_iter().find(|(word, _)| part == *word) {
+        return set(&mut said.pace, Some(lengths), twice("the speed"));
+    }
+    if let Some(degrees) = elevation(part) {
+        return set(&mut said.elevation, Some(f64::to_radians(degrees)), twice("the cue's elevation"));
+    }
+    let (colour, rest) = colour(part);
+    set(&mut said.colour, colour, twice("the ball"))?;
+    if rest.is_empty() {
+        return Ok(());
+    }
+    if let Some((fullness, left)) = fullness(&rest) {
+        set(&mut said.fullness, Some(fullness), twice("how full"))?;
+        return set(&mut said.left, left, twice("the side of the ball"));
+    }
+    let (side, height) = tip(part).filter(|_| colour.is_none()).ok_or_else(not_understood)?;
+    set(&mut said.side, side, twice("side"))?;
+    set(&mut said.height, height, twice("height"))
+}
+
+/// Sets what has not been said yet.
+fn set<T>(place: &mut Option<T>, value: Option<T>, twice: SpokenError) -> Result<(), SpokenError> {
+    match (place.is_some(), value) {
+        (true, Some(_)) => Err(twice),
+        (_, Some(value)) => {
+            *place = Some(value);
+            Ok(())
+        }
+        (_, None) => Ok(()),
+    }
+}
+
+/// Where a line of the cue comes from, if that is said, and where it leads: "cue from 2.8 on the left short rail to 1.65 on the right
+/// one", "to 1.65 right", "left 2.8 → right 1.65", "through 2 top".
+fn line_of_cue(part: &str) -> Option<(Option<&str>, &str)> {
+    let arrow = part.split_once('\u{2192}').or_else(|| part.split_once("->"));
+    let part = part.strip_prefix("cue ").or_else(|| part.strip_prefix("aim ")).unwrap_or(part);
+    match arrow.or_else(|| part.strip_prefix("from ")?.split_once(" to ")) {
+        Some((from, to)) => Some((Some(from), to)),
+        None => Some((None, part.strip_prefix("to ").or_else(|| part.starts_with("through ").then_some(part))?)),
+    }
+}
+
+/// A point on a cushion: "1.65 on the right short rail", "right 1.65", "2 top on the wood". A line goes through a diamond, and to a nose.
+fn mark(text: &str) -> Option<Mark> {
+    let through = text.trim().strip_prefix("through ");
+    let (text, wood) = match through.unwrap_or(text.trim()).split_once("wood") {
+        Some((text, "")) => (text, true),
+        Some(_) => return None,
+        None => (through.unwrap_or(text.trim()), false),
+    };
+    let number = text.split_whitespace().find_map(|word| word.parse::<f64>().ok())?;
+    let point = RailPoint { rail: rail_named(text)?, diamond: number };
+    Some(Mark { point, on_wood: wood || through.is_some() })
+}
+
+/// The one rail that is named in a text.
+fn rail_named(text: &str) -> Option<Rail> {
+    let named = |rail: &Rail| text.split_whitespace().any(|word| word == rail.name());
+    let mut rails = Rail::ALL.into_iter().filter(named);
+    rails.next().filter(|_| rails.next().is_none())
+}
+
+/// "3.5 lengths", "4 table lengths", "medium 2.9", "2.3 m/s".
+fn speed(part: &str) -> Option<Speed> {
+    let (number, unit) = part.split_once(' ')?;
+    let paced = PACES.into_iter().find_map(|(word, _)| part.strip_prefix(word)?.trim().parse().ok());
+    match (paced, number.parse().ok()) {
+        (Some(lengths), _) => Some(Speed::Lengths(lengths)),
+        (None, Some(number)) => match unit {
+            "length" | "lengths" | "table length" | "table lengths" => Some(Speed::Lengths(number)),
+            "m/s" => Some(Speed::Cue(number)),
+            "ft/s" => Some(Speed::Cue(0.3048 * number)),
+            _ => None,
+        },
+        (None, None) => None,
+    }
+}
+
+/// The elevation of the cue, degrees: "level cue", "cue raised 20°", "20 degrees".
+fn elevation(part: &str) -> Option<f64> {
+    if part.contains("level") {
+        return Some(0.0);
+    }
+    let text = part.strip_prefix("cue ").unwrap_or(part);
+    let raised = text.strip_prefix("raised ");
+    let text = raised.unwrap_or(text).trim_start_matches("by ");
+    let number = ["degrees", "degree", "\u{b0}"].into_iter().find_map(|unit| text.strip_suffix(unit));
+    number.or(raised)?.trim().parse().ok()
+}
+
+/// The colour that is named in a part, by its place among white, yellow and red, and what else the part says.
+fn colour(part: &str) -> (Option<usize>, String) {
+    let named = |word: &str| BALL_NAMES.iter().position(|name| *name == word);
+    let is_other = |word: &&str| named(word).is_none() && !["the", "ball"].contains(word);
+    let rest = part.split_whitespace().filter(is_other).collect::<Vec<_>>().join(" ");
+    (part.split_whitespace().find_map(named), rest)
+}
+
+/// How full a ball is hit, and whether on its left: "half full on the right", "1/2 right", "full".
+fn fullness(text: &str) -> Option<(f64, Option<bool>)> {
+    let (text, left) = match (text.strip_suffix("left"), text.strip_suffix("right")) {
+        (Some(text), _) => (text, Some(true)),
+        (_, Some(text)) => (text, Some(false)),
+        _ => (text, None),
+    };
+    let text = bare(text);
+    let sixteenths = SIXTEENTHS.iter().position(|words| bare(words) == text).map(|index| index as f64 / 16.0);
+    let others = || FULLNESS.into_iter().find(|(word, _)| *word == text).map(|(_, fullness)| fullness);
+    let fraction = || {
+        let (part, whole) = text.split_once('/')?;
+        let [part, whole] = [part, whole].map(|number| number.parse::<u8>().ok().map(f64::from));
+        Some(part? / whole?)
+    };
+    let share = || text.strip_suffix('%')?.trim().parse::<f64>().ok().map(|percent| 0.01 * percent);
+    let fullness = sixteenths.or_else(others).or_else(fraction).or_else(share)?;
+    (0.0..=1.0).contains(&fullness).then_some((fullness, left))
+}
+
+/// The words for how full a ball is hit without those that may be left out.
+fn bare(text: &str) -> String {
+    let mut words: Vec<&str> =
+        text.split_whitespace().filter(|word| !["a", "an", "on", "the"].contains(word)).collect();
+    if words.len() > 1 {
+        words.pop_if(|word| *word == "full");
+    }
+    words.join(" ")
+}
+
+/// Words beside a number of tips that say nothing more.
+const PASSED_OVER: [&str; 9] = ["of", "running", "reverse", "english", "side", "centre", "center", "tip", "tips"];
+
+/// The place of the tip, to the left and up, radii: "1.5 left", "two tips of running right at 2 o'clock", "a little above centre",
+/// "no side", "2 tips at 1:30".
+fn tip(part: &str) -> Option<(Option<f64>, Option<f64>)> {
+    match part {
+        "centre ball" | "center ball" | "centre" | "center" => return Some((Some(0.0), Some(0.0))),
+        "no side" | "no english" => return Some((Some(0.0), None)),
+        "centre height" | "center height" => return Some((None, Some(0.0))),
+        _ => {}
+    }
+    let (part, hour) = match part.split_once(" at ") {
+        Some((part, hour)) => (part, Some(hour_named(hour)?)),
+        None => (part, None),
+    };
+    let way = |word: &str| match word {
+        "left" => Some((1.0, 0.0)),
+        "right" => Some((-1.0, 0.0)),
+        "up" | "above" | "high" | "follow" => Some((0.0, 1.0)),
+        "down" | "below" | "low" | "draw" => Some((0.0, -1.0)),
+        _ => None,
+    };
+    let words: Vec<&str> = part.split_whitespace().filter(|word| !PASSED_OVER.contains(word)).collect();
+    let mut ways = words.iter().filter_map(|word| way(word));
+    let (left, up) = match (ways.next(), hour) {
+        (Some(way), _) => way,
+        (None, Some(hour)) => (-f64::sin(hour), f64::cos(hour)),
+        (None, None) => return None,
+    };
+    if ways.next().is_some() {
+        return None;
+    }
+    let number: Vec<&str> = words.iter().filter(|word| way(word).is_none()).copied().collect();
+    let offset = tips(number_named(&number.join(" "))?);
+    let along = |share: f64| (share != 0.0).then_some(share * offset);
+    Some((along(left), along(up)))
+}
+
+/// A number of tips: "1.5", "two", "one and a half", "half a", "a little".
+fn number_named(text: &str) -> Option<f64> {
+    let whole = |word: &str| {
+        let named = NUMBERS.iter().position(|number| *number == word).map(|number| number as f64);
+        named.or_else(|| word.parse().ok()).filter(|number| (0.0..=20.0).contains(number))
+    };
+    match text {
+        "a little" | "half" | "half a" | "1/2" => Some(0.5),
+        "a" => Some(1.0),
+        _ => match text.strip_suffix(" and a half") {
+            Some(text) => Some(whole(text)? + 0.5),
+            None => whole(text),
+        },
+    }
+}
+
+/// An hour of the clock's face as an angle from its top, clockwise, rad: "2 o'clock", "half past 1 o'clock", "1:30".
+fn hour_named(text: &str) -> Option<f64> {
+    let text = text.trim_end_matches(" o'clock");
+    let (hour, minutes) = match (text.strip_prefix("half past "), text.split_once(':')) {
+        (Some(hour), _) => (hour, 30.0),
+        (None, Some((hour, minutes))) => (hour, minutes.parse::<u8>().ok().filter(|minutes| *minutes < 60)?.into()),
+        (None, None) => (text, 0.0),
+    };
+    let hour = hour.parse::<u8>().ok().filter(|hour| (1..=12).contains(hour))?;
+    Some(30_f64.to_radians() * (f64::from(hour) + minutes / 60.0))
+}

@@ -1,0 +1,114 @@
+//! Strokes that are said, and read.
+
+use super::*;
+use crate::{simulation::Rail, table::Table};
+
+/// The opening on the default table: red is straight ahead of the spots, yellow beside the cue ball.
+fn layout(table: &Table) -> Layout {
+    Layout::parse("2d,2d 6d,3d 6d,1d", table).unwrap()
+}
+
+fn stroke(text: &str, before: Option<&CueInputs>) -> Result<CueInputs, SpokenError> {
+    let table = Table::default();
+    SpokenStroke::read(text)?.stroke(&table, &layout(&table), CueBall::White, before)
+}
+
+#[test]
+fn a_ball_is_met_as_it_is_said_whatever_the_side_and_the_cue() {
+    let table = Table::default();
+    for (text, ball, fullness, left) in [
+        ("red 1/2 right, 3 lengths", 2, 0.5, false),
+        ("yellow three eighths left, 3 left, 2 up, 5 lengths", 1, 0.375, true),
+        (
+            "Red, half full on the left; two tips of right at 2 o'clock, one tip above centre; soft (2 table lengths), level cue.",
+            2,
+            0.5,
+            true,
+        ),
+        ("thin right, the red ball, 1,5 left, cue raised 15°, 2.5 m/s", 2, 0.25, false),
+        ("hard, red a graze on the left", 2, 0.02, true),
+        ("red 40 % right, medium 2.9", 2, 0.4, false),
+    ] {
+        let cue = stroke(text, None).unwrap();
+        let hit = aim(&table, &layout(&table), &cue).unwrap().hit.unwrap();
+        assert_eq!((hit.ball, hit.left), (ball, left), "{text}");
+        assert!((hit.fullness - fullness).abs() < 2e-4, "{text}: {hit:?}");
+    }
+    let full = stroke("red full, 3 lengths", None).unwrap();
+    assert!(aim(&table, &layout(&table), &full).unwrap().hit.unwrap().fullness > 0.999);
+}
+
+#[test]
+fn tips_lengths_degrees_and_lines_are_read() {
+    let table = Table::default();
+    let read = |text: &str| stroke(&format!("to 2 right, {text}"), None).unwrap();
+    let near = |value: f64, wanted: f64| assert!((value - wanted).abs() < 1e-9, "{value}, not {wanted}");
+    for (text, a, b) in [
+        ("1.5 left, 2 up, soft", 0.15, 0.2),
+        ("1\u{bd} tips of running right, a little below centre, soft", -0.15, -0.05),
+        ("left one and a half, draw 1, soft", 0.15, -0.1),
+        ("2 tips at 3 o'clock, soft", -0.2, 0.0),
+        ("no side, half a tip high, soft", 0.0, 0.05),
+        ("centre ball, soft", 0.0, 0.0),
+    ] {
+        let cue = read(text);
+        near(cue.a, a);
+        near(cue.b, b);
+    }
+    let clock = read("2 tips at 1:30, soft");
+    near(clock.a, -0.2 * 0.5_f64.sqrt());
+    near(clock.b, 0.2 * 0.5_f64.sqrt());
+    assert!((table_lengths(&table, read("3.5 lengths").speed).unwrap() - 3.5).abs() < 1e-3);
+    assert_eq!(read("soft (2.2 table lengths)").speed, read("2.2 lengths").speed, "the number says more than the word");
+    near(read("raised 20, 10 ft/s").speed, 3.048);
+    near(read("20 degrees, soft").theta, 20_f64.to_radians());
+    near(stroke("to 2 right, 3 lengths", None).unwrap().phi, 0.0);
+    near(stroke("left 2 \u{2192} right 2, 3 lengths", None).unwrap().phi, 0.0);
+    let [nose, wood] = ["to 4 top, soft", "through 4 top, soft"].map(|text| stroke(text, None).unwrap().phi);
+    near(nose.tan(), 1.0);
+    near(wood.tan(), 2.225 / 2.0);
+    let first = stroke("bottom long rail first at 3.5, then red, half full on the left, soft", None).unwrap();
+    let technique = crate::coach::Technique::of(&table, &layout(&table), &first).unwrap();
+    let met = technique.before.first().unwrap_or_else(|| technique.between.first().unwrap());
+    assert!(met.rail == Rail::Bottom && (met.diamond - 3.5).abs() < 0.02, "{met:?}");
+}
+
+#[test]
+fn what_is_not_said_stays_as_it_was() {
+    let table = Table::default();
+    let before = stroke("red 1/2 right, 1 left, 2 up, 3 lengths", None).unwrap();
+    let softer = stroke("soft", Some(&before)).unwrap();
+    assert!(softer.speed < before.speed);
+    assert_eq!((softer.a, softer.b, softer.phi), (before.a, before.b, before.phi));
+    let fuller = stroke("3/4 right", Some(&before)).unwrap();
+    let hit = aim(&table, &layout(&table), &fuller).unwrap().hit.unwrap();
+    assert!(hit.ball == 2 && (hit.fullness - 0.75).abs() < 2e-4 && fuller.speed == before.speed);
+}
+
+#[test]
+fn what_cannot_be_read_or_played_is_named() {
+    for (text, named) in [
+        ("red somehow", "\"red somehow\" is not understood"),
+        ("to 3.2", "\"to 3.2\" is not understood"),
+        ("red 9/8 left, soft", "\"red 9/8 left\" is not understood"),
+        ("1 left up, soft", "\"1 left up\" is not understood"),
+        ("red 1/2 left, yellow 1/2 left, soft", "the ball is said twice, last as \"yellow 1/2 left\""),
+        ("red 1/2 left, 1 left, 2 right, soft", "side is said twice, last as \"2 right\""),
+        ("white 1/2 left, soft", "white is the cue ball"),
+        ("1 left, soft", "where to aim is missing"),
+        ("red, soft", "where to aim is missing"),
+        ("red 1/2, soft", "on which side of the ball is missing"),
+        ("red 1/2 left", "how hard is missing"),
+        ("red 1/2 left, 900 lengths", "900 lengths"),
+        ("red 1/2 left, 9 left, soft", "the tip at a = 0.9"),
+        (" ; ,", "no stroke is said"),
+    ] {
+        let error = stroke(text, None).unwrap_err().to_string();
+        assert!(error.contains(named), "{text}: {error}");
+    }
+    let table = Table::default();
+    let behind = Layout::parse("1d,2d 4d,2d 7d,2d", &table).unwrap();
+    let hidden = SpokenStroke::read("red full, hard").unwrap();
+    let error = hidden.stroke(&table, &behind, CueBall::White, None).unwrap_err();
+    assert_eq!(error, SpokenError::NotMet("red"));
+}

@@ -1,0 +1,108 @@
+//! A stroke as it is typed: its five inputs, or in a player's words.
+
+use super::Failure;
+use crate::{
+    coach::{SpokenError, SpokenStroke},
+    physics::{CueError, CueInputs},
+    table::{CueBall, Layout, Table},
+};
+
+/// A stroke as it is typed.
+#[derive(Clone, Copy, Debug)]
+pub enum TypedStroke {
+    /// By its inputs.
+    Inputs(CueInputs),
+    /// In words, which mean a stroke only where balls lie.
+    Said(SpokenStroke),
+}
+
+impl TypedStroke {
+    /// Reads `"a,b,theta,phi,V"`, or words like `"red 1/2 right, 1.5 left, 3 lengths"`.
+    ///
+    /// # Errors
+    /// What is no stroke, or has an input outside its range.
+    pub fn read(text: &str) -> Result<Self, Failure> {
+        let parts = || text.split(',');
+        let numbers = parts().filter(|part| part.trim().parse::<f64>().is_ok()).count();
+        let has_words = text.contains(char::is_alphabetic) && 2 * numbers <= parts().count();
+        if !has_words {
+            return inputs(text).map(Self::Inputs);
+        }
+        SpokenStroke::read(text).map(Self::Said).map_err(|error| match error {
+            SpokenError::Part(_) => Failure::wrong_input(format_args!(
+                "{error}; or the inputs \"a,b,theta,phi,V\" like \"0,0.2,5,12.5,3\" (radii, degrees, m/s)"
+            )),
+            error => Failure::wrong_input(error),
+        })
+    }
+
+    /// The stroke where the balls lie so, for who plays with `cue_ball`.
+    ///
+    /// # Errors
+    /// What words leave out, or what cannot be played.
+    pub fn on(self, table: &Table, layout: &Layout, cue_ball: CueBall) -> Result<CueInputs, Failure> {
+        match self {
+            Self::Inputs(cue) => Ok(cue),
+            Self::Said(said) => said.stroke(table, layout, cue_ball, None).map_err(Failure::wrong_input),
+        }
+    }
+}
+
+/// The inputs of a stroke. What is refused is named as it was typed: it is computed in radians, and a number that is none has no
+/// square.
+fn inputs(text: &str) -> Result<CueInputs, Failure> {
+    let cue = CueInputs::parse(text).map_err(Failure::wrong_input)?;
+    cue.validate().map_err(|error| {
+        let (name, accepted) = match error {
+            CueError::Range { name, accepted, .. } => (name, accepted),
+            CueError::Tip { a, offset, .. } if !offset.is_finite() => {
+                (if (a * a).is_finite() { "b" } else { "a" }, "-1 to 1 ball radii")
+            }
+            error => return Failure::wrong_input(error),
+        };
+        let typed = ["a", "b", "theta", "phi", "V"].into_iter().zip(text.split(','));
+        let value = typed.into_iter().find(|(input, _)| *input == name).map_or("", |(_, value)| value.trim());
+        Failure::wrong_input(format_args!("{name} = {value} is outside its range; accepted is {accepted}"))
+    })?;
+    Ok(cue)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(text: &str) -> String {
+        TypedStroke::read(text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_stroke_that_is_refused_is_told_as_it_was_typed() {
+        let outside = |value: &str| format!("{value} is outside its range; accepted is ");
+        for (text, value) in [
+            ("0,0,0,1e6,3", "phi = 1e6"),
+            ("0,0,0,1e400,3", "phi = 1e400"),
+            ("0,0, 90 ,0,3", "theta = 90"),
+            ("0,0,0,0,1e9", "V = 1e9"),
+            ("nan,0,0,0,3", "a = nan"),
+            ("0,-inf,0,0,3", "b = -inf"),
+            ("1e200,0,0,0,3", "a = 1e200"),
+        ] {
+            assert!(said(text).starts_with(&outside(value)), "{}", said(text));
+        }
+        assert!(said("0.9,0.9,0,0,3").contains("misses the ball"));
+        assert!(["0,0,0", "0,0,fast,0,3", "", ",,,"].iter().all(|text| said(text).contains("is not a shot")));
+        assert!(matches!(TypedStroke::read("0,0.2,5,12.5,3"), Ok(TypedStroke::Inputs(_))));
+    }
+
+    #[test]
+    fn words_are_a_stroke_where_the_balls_lie() {
+        let table = Table::default();
+        let layout = Layout::parse("2d,2d 6d,3d 6d,1d", &table).unwrap();
+        let on = |text: &str, cue_ball| TypedStroke::read(text).unwrap().on(&table, &layout, cue_ball);
+        let cue = on("yellow full, 3 lengths", CueBall::White).unwrap();
+        assert_eq!(cue, on("white full, 3 lengths", CueBall::Yellow).unwrap());
+        assert!((cue.phi - (layout.balls[1] - layout.balls[0]).to_angle()).abs() < 1e-3);
+        assert!(on("yellow full, soft", CueBall::Yellow).unwrap_err().to_string().contains("yellow is the cue ball"));
+        assert!(said("hit it").contains("a,b,theta,phi,V") && said("hit it").contains("red 1/2 right"));
+    }
+}
