@@ -14,7 +14,7 @@ use super::Failure;
 use crate::{
     coach::{Skill, Units, words::LengthUnit},
     game::Rule,
-    physics::Impulse,
+    physics::{CueInputs, Impulse},
     printing::{self, OneLine},
     storage::{LONGEST_LINE, NextLine, folder_state, next_line},
     terminal::Settings,
@@ -55,6 +55,18 @@ pub fn ask(words: &str) -> Result<Option<Result<String, Failure>>, Failure> {
 /// A line on the standard output; a text of several is shown as one.
 pub fn line(text: impl Display) -> Result<(), Failure> {
     Ok(writeln!(printing::stdout(), "{}", OneLine(text))?)
+}
+
+/// A shot as the command line takes it.
+pub fn shot_text(cue: &CueInputs) -> String {
+    let CueInputs { a, b, theta, speed, .. } = *cue;
+    format!("{a:.4},{b:.4},{:.3},{},{speed:.3}", theta.to_degrees(), cue.phi_text(3))
+}
+
+/// How often a player of this skill makes a shot, with the 95 % interval.
+pub fn chance_words(skill: Skill, rate: f64, [low, high]: [f64; 2]) -> String {
+    let [rate, low, high] = [rate, low, high].map(|share| 100.0 * share);
+    format!("a player of skill \"{skill}\" makes it {rate:.1} % of the time ({low:.1} to {high:.1} %)")
 }
 
 /// The end of a command that has refused so many lines of its input. A person at a terminal has seen why and has typed others; a

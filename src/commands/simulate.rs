@@ -9,12 +9,13 @@ use serde::{Deserialize, Serialize};
 use super::{
     Failure, bounded,
     input::{ByTable, PositionArgs, answer_lines},
-    output::{impulse_words, tell, units},
+    lookup::skill_called,
+    output::{chance_words, impulse_words, shot_text, tell, units},
     question::{Key, Keys},
     typed_stroke::TypedStroke,
 };
 use crate::{
-    coach::{Verdict, jump_words, words::LengthUnit},
+    coach::{Doubt, Shooter, Skill, Verdict, jump_words, make_probability, words::LengthUnit},
     game::Rule,
     physics::{CueInputs, Impulse, LeastElevation, NoRoom, SpatialState, has_room, least_elevation},
     printing::{self, fixed, number},
@@ -22,6 +23,9 @@ use crate::{
     study::{Stepped, Steps},
     table::{BALL_NAMES, BALLS, CueBall, Layout, Table},
 };
+
+/// Attempts by which it is told how often a player makes the shot.
+const ATTEMPTS: usize = 4000;
 
 /// The time step that is taken where none is given, s: some hundred pictures a second.
 const DEFAULT_STEP: f64 = 0.01;
@@ -37,6 +41,10 @@ pub struct Args {
     /// The shot: "a,b,theta,phi,V" in ball radii, degrees and m/s, or words like "red 1/2 right, 1.5 left, 3 lengths".
     #[arg(long, allow_hyphen_values = true, required_unless_present = "batch")]
     shot: Option<String>,
+    /// Say how often this player makes the shot: perfect, expert, world-class, national, club, beginner, own, an average at
+    /// three-cushion like 0.6, or standard errors.
+    #[arg(long, conflicts_with = "batch", value_parser = skill_called)]
+    skill: Option<Skill>,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -237,6 +245,14 @@ struct SimulateAnswer {
     /// Cushions that the cue ball met before the second object ball; absent where it does not meet both.
     #[serde(skip_serializing_if = "Option::is_none")]
     cushions_before_second: Option<u32>,
+    /// The stroke, where it was said in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cue: Option<CueInputs>,
+    /// How often the player of `--skill` makes it, with the 95 % interval.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    make_probability: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    make_interval: Option<[f64; 2]>,
     /// What the stroke gave the cue ball.
     impulse: GivenImpulse,
     events: Vec<PlacedEvent>,
@@ -307,6 +323,9 @@ impl SimulateAnswer {
             point: verdict.is_made(),
             foul: verdict.foul(CueBall::White),
             cushions_before_second: verdict.tally.met_both().then_some(verdict.tally.cushions_before_second),
+            cue: None,
+            make_probability: None,
+            make_interval: None,
             miscue,
             cue_room,
             impulse: GivenImpulse::of(recording.impulse()),
@@ -337,7 +356,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let (table, layout) = args.position.read()?;
     // clap demands a shot where there is no batch.
-    let cue = TypedStroke::read(args.shot.as_deref().unwrap_or_default())?.on(&table, &layout, CueBall::White)?;
+    let typed = TypedStroke::read(args.shot.as_deref().unwrap_or_default())?;
+    let cue = typed.on(&table, &layout, CueBall::White)?;
+    if matches!(typed, TypedStroke::Said(_)) {
+        tell(format_args!("note: the shot is \"{}\"", shot_text(&cue)));
+    }
     let played = play(&table, &layout, &cue, steps)?;
     let miscue = cue.is_miscue(&table);
     if miscue {
@@ -353,11 +376,27 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         tell(format_args!("note: {note}"));
     }
     let verdict = Verdict::of(args.rule, &table, &layout, &played.0);
+    let chance = args.skill.map(|skill| {
+        let shooter = Shooter { skill, doubt: Doubt::FULL };
+        let rate = make_probability(shooter, args.rule, &table, &layout, &cue, ATTEMPTS, 0);
+        (skill, rate.rate, [rate.low, rate.high])
+    });
     let mut out = printing::stdout().exact(args.json);
     if args.json {
-        printing::json_line(&mut out, &SimulateAnswer::of(&played, &verdict, miscue, cue_room, &args.at))?;
-    } else {
-        describe(&mut out, args, &played, &verdict)?;
+        printing::json_line(
+            &mut out,
+            &SimulateAnswer {
+                cue: matches!(typed, TypedStroke::Said(_)).then_some(cue),
+                make_probability: chance.map(|(_, rate, _)| rate),
+                make_interval: chance.map(|(.., interval)| interval),
+                ..SimulateAnswer::of(&played, &verdict, miscue, cue_room, &args.at)
+            },
+        )?;
+        return Ok(());
+    }
+    describe(&mut out, args, &played, &verdict)?;
+    if let Some((skill, rate, interval)) = chance {
+        writeln!(out, "{}", chance_words(skill, rate, interval))?;
     }
     Ok(())
 }

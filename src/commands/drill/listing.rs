@@ -5,14 +5,14 @@ use serde::Serialize;
 use super::{
     Workspace,
     positions::tag,
-    score::{Score, shot_text, words},
+    score::{Score, words},
 };
 use crate::{
     coach::ShotWords,
     commands::{
         Failure,
         input::whole,
-        output::{json_line, line, print_table, units},
+        output::{json_line, line, print_table, shot_text, units},
     },
     drills::{Category, Exercise, Filter, Record, encode},
     table::{BALL_NAMES, CueBall},

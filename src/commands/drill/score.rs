@@ -1,10 +1,10 @@
-//! Scores, shots and moments as they are printed.
+//! Scores, layouts and moments as they are printed.
 
 use std::time::{Duration, UNIX_EPOCH};
 
 use serde::Serialize;
 
-use crate::{commands::output::plural, drills::Record, physics::CueInputs, printing::moment, table::Layout};
+use crate::{commands::output::plural, drills::Record, printing::moment, table::Layout};
 
 /// A record in JSON.
 #[derive(Clone, Debug, Serialize)]
@@ -65,12 +65,6 @@ pub fn words(record: &Record) -> String {
 /// Unix time as `2026-11-20T14:30:05Z`.
 pub fn time(seconds: u64) -> String {
     moment(UNIX_EPOCH + Duration::from_secs(seconds))
-}
-
-/// A shot as the command line takes it.
-pub fn shot_text(cue: &CueInputs) -> String {
-    let CueInputs { a, b, theta, speed, .. } = *cue;
-    format!("{a:.4},{b:.4},{:.3},{},{speed:.3}", theta.to_degrees(), cue.phi_text(3))
 }
 
 /// A layout as the command line takes it, to 0.1 mm.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{
     options::{PlayOptions, StrokeInput},
-    score::{Score, layout_text, shot_text, words},
+    score::{Score, layout_text, words},
 };
 use crate::{
     coach::{
@@ -16,7 +16,7 @@ use crate::{
     commands::{
         Failure,
         input::ByTable,
-        output::{json_line, line, plural, tell, units},
+        output::{json_line, line, plural, shot_text, tell, units},
         recommend::coach_for,
     },
     drills::{

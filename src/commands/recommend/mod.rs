@@ -22,7 +22,7 @@ use super::{
     Failure,
     input::{ByTable, PositionArgs, answer_lines, note_doubts, seed, whole, whole_from},
     lookup::{policy_called, skill_called},
-    output::{impulse_words, units, whom_words},
+    output::{chance_words, impulse_words, units, whom_words},
     question::{Key, Keys},
 };
 use crate::{
@@ -406,13 +406,7 @@ fn told_chance(told: Option<f64>, skill: Skill) -> String {
 fn words(shot: &Shot, args: &Args) -> String {
     let description = shot.kind.map(|kind| kind.words(units().length)).unwrap_or_default();
     match (shot.make_probability, shot.make_interval) {
-        (Some(rate), Some([low, high])) => format!(
-            "{description}; a player of skill \"{}\" makes it {:.1} % of the time ({:.1} to {:.1} %)",
-            args.skill,
-            100.0 * rate,
-            100.0 * low,
-            100.0 * high
-        ),
+        (Some(rate), Some(interval)) => format!("{description}; {}", chance_words(args.skill, rate, interval)),
         _ => description,
     }
 }
