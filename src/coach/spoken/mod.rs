@@ -26,6 +26,9 @@ const ACCURACY: f64 = 1e-4;
 /// tried behind a cushion.
 const STEPS: i32 = 40;
 
+/// How far from what is said the fullness may be where just that is not possible, ball diameters: as far as players tell it.
+const NEARLY: f64 = 0.0625;
+
 /// How exactly the place of a cushion that comes before any ball is said, diamonds.
 const SAID_TO: f64 = 0.06;
 
@@ -228,8 +231,8 @@ fn nearest(
     known.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, cue)| cue)
 }
 
-/// The stroke that meets a ball so that the cue ball's line passes its middle by so many ball diameters on its left; `None` where none was
-/// found. Squirt, and the swerve of a raised cue, are in what is tried.
+/// The stroke that meets a ball so that the cue ball's line passes its middle by so many ball diameters on its left, or nearly so; `None` where
+/// none was found. Squirt, and the swerve of a raised cue, are in what is tried.
 fn aim_at(
     table: &Table,
     layout: &Layout,
@@ -239,7 +242,8 @@ fn aim_at(
 ) -> Result<Option<CueInputs>, ShotError> {
     let way = layout.balls[ball] - layout.balls[0];
     let lever = way.length() / (2.0 * table.radius);
-    let mut phi = way.to_angle() + (wanted / lever).clamp(-1.0, 1.0).asin() - squirt(table, side);
+    let geometric = way.to_angle() + (wanted / lever).clamp(-1.0, 1.0).asin() - squirt(table, side);
+    let mut phi = geometric;
     for _ in 0..STEPS {
         let cue = at(phi);
         match passed(table, layout, ball, &cue)? {
@@ -249,7 +253,8 @@ fn aim_at(
             None => phi -= 0.01 * wanted.signum() / lever,
         }
     }
-    Ok(None)
+    // Just there the other ball may be in the way: as near as it leaves room.
+    Ok(nearest(table, layout, (ball, wanted), geometric, NEARLY / lever, at))
 }
 
 /// The speed of the cue at which a ball runs so many table lengths, m/s.
