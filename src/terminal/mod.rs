@@ -75,7 +75,7 @@ pub use tasks::{
     onlooker::{Onlooker, Seen, SeenTable},
     recommender::{CoachAnswer, CoachJob, CoachNews, CoachWorker},
     reel::{Reel, ReplayShot},
-    training::{FollowSlot, KeepOutcome, Keeping, Launch, Subscriptions, TrainerFailure, TrainingReport},
+    training::{FollowSlot, Keeping, Launch, Subscriptions, TrainerFailure, TrainingReport},
 };
 pub use terms::Terms;
 pub use ui::{

@@ -45,7 +45,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     info!(version = FULL_VERSION, caps = ?app.caps, "the screen opens");
     let (to_screen, events) = events::open()?;
     let session = TerminalGuard::start(app.mouse)?;
-    let tasks = Tasks::new(to_screen);
+    let tasks = Tasks::new(to_screen)?;
     let remembered = (None, Instant::now());
     let ticked = Instant::now();
     let showing = Showing::new(places.shown.clone());
@@ -250,7 +250,7 @@ impl Runner {
             Some(Effect::Quit) => return Ok(Next::Quit),
             Some(Effect::Suspend) => self.suspend()?,
             Some(Effect::Ask(job)) => {
-                let is_asked = self.tasks.ask(job)?;
+                let is_asked = self.tasks.ask(job);
                 if !is_asked {
                     self.app.coach_lost();
                 }
@@ -260,8 +260,8 @@ impl Runner {
             Some(Effect::Keep(keeping)) => self.tasks.keep(*keeping)?,
             Some(Effect::LoadPolicy(folder)) => self.tasks.load_policy(folder)?,
             Some(Effect::Drill(tasks)) => self.tasks.practise(tasks)?,
-            Some(Effect::Settings(task)) => self.tasks.set(*task)?,
-            Some(Effect::Calibrate(tasks)) => self.tasks.calibrate(tasks)?,
+            Some(Effect::Settings(task)) => self.tasks.set(*task),
+            Some(Effect::Calibrate(tasks)) => self.tasks.calibrate(tasks),
             Some(Effect::Copy(text)) => self.session.copy(&text)?,
             None => {}
         }

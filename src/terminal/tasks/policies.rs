@@ -8,7 +8,7 @@ use crate::{
         policy::kept::{self, KeepError},
         run::POLICY,
     },
-    terminal::{KeepOutcome, Keeping, tasks::training::NO_POLICY},
+    terminal::{Keeping, tasks::training::NO_POLICY},
 };
 
 /// The policy of the run in `folder`.
@@ -23,18 +23,18 @@ pub fn load(folder: &Path) -> Result<Arc<Policy>, String> {
     Policy::load(&path).map(Arc::new).map_err(|error| error.to_string())
 }
 
-/// Keeps a policy where policies are kept, or says that its name is taken.
+/// Keeps a policy where policies are kept; `false` where its name is taken.
 ///
 /// # Errors
 /// A sentence where there is none, or the copy cannot be written.
-pub fn keep(keeping: &Keeping) -> Result<KeepOutcome, String> {
+pub fn keep(keeping: &Keeping) -> Result<bool, String> {
     let Keeping { from, folder, name, replace } = keeping;
     if !from.exists() {
         return Err(NO_POLICY.to_owned());
     }
     match kept::keep(folder, from, name, *replace) {
-        Ok(_) => Ok(KeepOutcome::Done),
-        Err(KeepError::Taken(_)) => Ok(KeepOutcome::Taken),
+        Ok(_) => Ok(true),
+        Err(KeepError::Taken(_)) => Ok(false),
         Err(error) => Err(error.to_string()),
     }
 }

@@ -82,15 +82,6 @@ pub struct Keeping {
     pub replace: bool,
 }
 
-/// What has come of keeping a policy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum KeepOutcome {
-    /// It is kept.
-    Done,
-    /// The name is taken.
-    Taken,
-}
-
 /// A report from the training page's background tasks. Where it failed, a sentence says why.
 #[derive(Debug)]
 pub enum TrainingReport {
@@ -106,8 +97,8 @@ pub enum TrainingReport {
     HasPolicy(PathBuf, bool),
     /// A run was asked for something.
     Sent(Request, Result<(), String>),
-    /// A policy was to be kept.
-    Kept(Keeping, Result<KeepOutcome, String>),
+    /// A policy was to be kept: whether it is, or its name is taken.
+    Kept(Keeping, Result<bool, String>),
     /// The policy of the run in a folder.
     Policy(PathBuf, Result<Arc<Policy>, String>),
 }
