@@ -211,7 +211,7 @@ impl App {
 
     /// The same program with the way back to where the last session ended.
     #[must_use]
-    pub fn with_saved_session(mut self, last: Option<SavedSession<'static>>) -> Self {
+    pub fn with_saved_session(mut self, last: Option<SavedSession>) -> Self {
         self.coach.offer(last);
         self
     }
@@ -248,7 +248,7 @@ impl App {
     }
 
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
-    pub fn saved_session(&self) -> Option<SavedSession<'_>> {
+    pub fn saved_session(&self) -> Option<SavedSession> {
         // An exam, a game and a match are gone on with whatever was done after them.
         let is_open = |session: &&Session| self.screen == PageId::Drills || session.is_exam();
         self.coach.saved_session(self.drills.unfinished().filter(is_open), self.drills.open_game())

@@ -90,7 +90,7 @@ struct Runner {
     /// Whether the terminal is taken again already when the signal comes that tells of it.
     has_come_back: bool,
     /// What was last remembered of the session, and when.
-    remembered: (Option<SavedSession<'static>>, Instant),
+    remembered: (Option<SavedSession>, Instant),
     /// Whether that could not be done.
     forgotten: bool,
     /// What was last written into the log.
@@ -169,7 +169,6 @@ impl Runner {
             self.remembered.1 = Instant::now();
             return;
         }
-        let last = last.map(SavedSession::into_owned);
         if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.places.last)) {
             // Once: the next session will have nothing to go on from, and nothing more comes of saying it again.
             if !std::mem::replace(&mut self.forgotten, true) {

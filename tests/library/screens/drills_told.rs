@@ -6,7 +6,7 @@ use super::{
 };
 use carom::{
     drills::{Goal, Session, Venue},
-    terminal::{DrillContext, KeyContext, SavedSession},
+    terminal::{DrillContext, KeyContext},
 };
 use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
 
@@ -34,7 +34,7 @@ fn a_match_that_was_left_is_there_at_the_next_start_too() {
     left.says("the match is kept; Enter on the exercise goes on with it, c on the coach's page at the next start");
     let left = left.press("Esc");
     assert_eq!(left.app.place(), KeyContext::Coach);
-    let last = left.app.saved_session().map(SavedSession::into_owned).unwrap();
+    let last = left.app.saved_session().unwrap();
     assert!(last.practice.as_ref().is_some_and(|practice| practice.is_match() && practice.attempts.len() == 1));
     let mut next = Player::new();
     next.app = next.app.with_saved_session(Some(last));
