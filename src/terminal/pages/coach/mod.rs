@@ -94,15 +94,8 @@ pub enum InfoPanel {
 }
 
 impl InfoPanel {
-    /// The one after it; after the last the first.
-    const fn next(self) -> Self {
-        match self {
-            Self::Shot => Self::Chances,
-            Self::Chances => Self::Margins,
-            Self::Margins => Self::Plan,
-            Self::Plan => Self::Shot,
-        }
-    }
+    /// All of them, in the order in which the key turns to them.
+    const ALL: [Self; 4] = [Self::Shot, Self::Chances, Self::Margins, Self::Plan];
 }
 
 /// The state of the coach's screen.
