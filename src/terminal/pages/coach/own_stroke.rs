@@ -172,7 +172,7 @@ mod tests {
         physics::CueInputs,
         statistics::SuccessRate,
         table::{Layout, Table},
-        terminal::{Advice, CoachAction as Action, CoachAnswer, CoachNews, Proposal, Shot},
+        terminal::{Advice, CoachAction as Action, CoachAnswer, CoachNews, Proposal, Shot, shot::PlaybackKey},
     };
     use std::sync::atomic::Ordering;
 
@@ -216,7 +216,7 @@ mod tests {
         };
         assert_eq!(tell(&mut page, first.id, 10), None);
         assert_eq!(tell(&mut page, second.id, 70), Some(0.7));
-        assert!(page.update(Action::PlayPause).is_none(), "playing asks nothing");
+        assert!(page.update(Action::Playback(PlaybackKey::Toggle)).is_none(), "playing asks nothing");
         assert!(page.playback.playing && page.shot().unwrap().cue.speed > 2.55, "the player's own is played");
     }
 

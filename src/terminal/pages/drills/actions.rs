@@ -49,9 +49,7 @@ impl DrillsPage {
             Action::OpenFilms => self.open_films(),
             Action::Open if self.page() == DrillContext::Films => return self.open_film(0),
             Action::Filmed(shots) => return self.open_film(shots),
-            Action::PlayPause | Action::Event(_) | Action::Pace(_) if self.page() == DrillContext::Film => {
-                self.film.watch(action);
-            }
+            Action::Playback(key) if self.page() == DrillContext::Film => self.film.watch(key),
             Action::Category(step) => self.catalogue.choose_category(step),
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
             Action::All if self.catalogue.elsewhere() > 0 => self.catalogue.look_everywhere(),

@@ -3,9 +3,9 @@
 use crate::{
     study::filmed::FilmedShot,
     terminal::{
-        DrillAction, FilmReplay,
+        FilmReplay,
         shot::{
-            Playback,
+            Playback, PlaybackKey,
             film::{Listed, listed},
         },
     },
@@ -69,13 +69,9 @@ impl FilmsScreen {
     }
 
     /// Does what a key asks of the shot that is watched.
-    pub fn watch(&mut self, action: DrillAction) {
-        let Some(Ok(played)) = &self.played else { return };
-        let (events, duration) = (played.shot.recording.events(), played.replay.duration());
-        match action {
-            DrillAction::Event(steps) => self.playback.step(steps, events, duration),
-            DrillAction::Pace(steps) => self.playback.change_speed(steps),
-            _ => self.playback.toggle(duration),
+    pub fn watch(&mut self, key: PlaybackKey) {
+        if let Some(Ok(played)) = &self.played {
+            self.playback.act(key, played.shot.recording.events(), played.replay.duration());
         }
     }
 

@@ -6,7 +6,7 @@ use crate::{
     terminal::{
         DrillAction as Action, DrillCondition as Condition, DrillContext, DrillTask, Effect, ModelShot,
         pages::drills::{DrillsPage, ModelShotState, Question, Stage, Turn},
-        shot::OwnStroke,
+        shot::{OwnStroke, PlaybackKey},
         ui::Message,
         words::player_words,
     },
@@ -152,7 +152,7 @@ impl DrillsPage {
             Action::LeaveWhatIf => turn.leave_what_if(),
             Action::Play => return self.play(),
             Action::Next => return self.next(),
-            Action::PlayPause | Action::Event(_) | Action::Pace(_) => self.watch(action),
+            Action::Playback(key) => self.watch(key),
             Action::Hint => {
                 turn.leave_what_if();
                 turn.shows_hint = !turn.shows_hint;
@@ -263,16 +263,10 @@ impl DrillsPage {
         }
     }
 
-    fn watch(&mut self, action: Action) {
+    fn watch(&mut self, key: PlaybackKey) {
         let Some(watched) = self.turn.as_mut().and_then(Turn::watched_mut) else { return };
         let Some(shot) = watched.outcome.shot.clone() else { return };
-        let (events, duration) = (shot.recording.events(), shot.recording.duration());
-        match action {
-            Action::PlayPause => watched.playback.toggle(duration),
-            Action::Event(steps) => watched.playback.step(steps, events, duration),
-            Action::Pace(steps) => watched.playback.change_speed(steps),
-            _ => {}
-        }
+        watched.playback.act(key, shot.recording.events(), shot.recording.duration());
         watched.settle();
     }
 
