@@ -5,7 +5,6 @@ pub mod calibration;
 pub mod drills;
 pub mod event;
 pub mod onlooker;
-mod policies;
 mod polling;
 mod practice;
 pub mod recommender;
@@ -229,7 +228,7 @@ impl Tasks {
     /// As [`Tasks::new`].
     pub fn keep(&mut self, keeping: Keeping) -> io::Result<()> {
         self.write("keep", move || {
-            let outcome = policies::keep(&keeping);
+            let outcome = keeping.keep();
             Some(TrainingReport::Kept(keeping, outcome))
         })
     }
@@ -240,7 +239,7 @@ impl Tasks {
     /// As [`Tasks::new`].
     pub fn load_policy(&self, folder: PathBuf) -> io::Result<()> {
         self.spawn("policy", move || {
-            let policy = policies::load(&folder);
+            let policy = training::load_policy(&folder);
             Some(TrainingReport::Policy(folder, policy))
         })?;
         Ok(())

@@ -9,7 +9,8 @@ use std::{
 use crate::{
     learning::{
         Policy,
-        run::{follow::Update, list::Listing, request::Request},
+        policy::kept::{self, KeepError},
+        run::{POLICY, follow::Update, list::Listing, request::Request},
     },
     terminal::Reel,
 };
@@ -80,6 +81,35 @@ pub struct Keeping {
     pub name: String,
     /// Whether a policy that has the name already may be replaced.
     pub replace: bool,
+}
+
+impl Keeping {
+    /// Keeps it; `false` where its name is taken.
+    ///
+    /// # Errors
+    /// A sentence where there is none, or the copy cannot be written.
+    pub fn keep(&self) -> Result<bool, String> {
+        if !self.from.exists() {
+            return Err(NO_POLICY.to_owned());
+        }
+        match kept::keep(&self.folder, &self.from, &self.name, self.replace) {
+            Ok(_) => Ok(true),
+            Err(KeepError::Taken(_)) => Ok(false),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+}
+
+/// The policy of the run in `folder`, for the coach.
+///
+/// # Errors
+/// A sentence where there is none, or none that can be used.
+pub fn load_policy(folder: &Path) -> Result<Arc<Policy>, String> {
+    let path = folder.join(POLICY);
+    if !path.exists() {
+        return Err(NO_POLICY.to_owned());
+    }
+    Policy::load(&path).map(Arc::new).map_err(|error| error.to_string())
 }
 
 /// A report from the training page's background tasks. Where it failed, a sentence says why.
