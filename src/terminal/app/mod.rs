@@ -307,7 +307,7 @@ impl App {
                 self.turn_to(PageId::Drills);
                 let effect = self.drills.resume(practice, self.coach.query.skill);
                 // One that was open waits until all others were gone on with.
-                self.coach.left_exams.splice(0..0, self.drills.take_left_exam());
+                self.coach.left_exams.splice(0..0, self.drills.left_exam.take());
                 return Some(effect);
             }
             Action::Coach(action) => {
@@ -321,8 +321,8 @@ impl App {
             }
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
-                let balls = self.drills.take_for_coach();
-                self.coach.left_exams.extend(self.drills.take_left_exam());
+                let balls = self.drills.for_coach.take();
+                self.coach.left_exams.extend(self.drills.left_exam.take());
                 if balls.is_some() || self.drills.is_left() {
                     self.open(PageId::Coach);
                 }
@@ -343,7 +343,7 @@ impl App {
                 if self.calibration.is_left {
                     return self.open(PageId::Coach);
                 }
-                return match self.calibration.take_for_use() {
+                return match self.calibration.for_use.take() {
                     Some(path) => Some(self.use_table(path)),
                     None => effect,
                 };

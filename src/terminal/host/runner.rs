@@ -108,7 +108,7 @@ impl Runner {
             self.tasks.subscribe(self.app.subscriptions())?;
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
             // A toast goes by itself: one picture more, and no other.
-            let toast = self.app.toast_time().map(|left| self.ticked + Duration::from_secs_f64(left));
+            let toast = self.app.toasts.left().map(|left| self.ticked + Duration::from_secs_f64(left));
             let writing = self.forgets().into_iter().chain(self.showing.due(&self.app));
             let first = match pace.wake(interval).into_iter().chain(toast).chain(writing).min() {
                 // Nothing moves: no timer, no processor time, no bytes.
@@ -193,7 +193,7 @@ impl Runner {
 
     /// Writes refusals and failures down that were shown.
     fn write_down(&mut self) {
-        for text in self.app.take_unwritten() {
+        for text in self.app.toasts.take_unwritten() {
             // A key that is held is refused again and again.
             if self.written == text {
                 continue;

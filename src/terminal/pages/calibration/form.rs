@@ -91,11 +91,6 @@ impl Form {
         &self.fields[self.field].1
     }
 
-    /// The same, to be changed.
-    pub fn typed_mut(&mut self) -> &mut TextField {
-        &mut self.fields[self.field].1
-    }
-
     /// The stroke as it is typed.
     ///
     /// # Errors

@@ -124,7 +124,7 @@ impl CoachPage {
             Action::NextInfoPanel => self.info = neighbour(&InfoPanel::ALL, self.info, 1),
             Action::Shot(shots) => self.choose(|advised| advised.turn(shots)),
             Action::Show(shot) => self.choose(|advised| advised.show(shot)),
-            Action::WhatIf => return self.take_over(),
+            Action::WhatIf => return self.take_over(0),
             Action::LeaveStroke => self.leave_own_stroke(),
             Action::Stroke(change) => return self.change_stroke(change),
             Action::StrokeBack => return self.travel_stroke(OwnStroke::undo),
@@ -279,7 +279,10 @@ impl CoachPage {
 
     /// Whatever has changed, what goes with the shot is of the one that is shown now.
     fn renew(&mut self) {
-        self.forget_own_stroke();
+        // A stroke that is about other balls, another question or another shot is forgotten.
+        if self.what_if().is_none() {
+            self.own_stroke = None;
+        }
         self.renew_lesson();
     }
 }

@@ -66,11 +66,6 @@ impl AdviceState {
         &self.choices[self.chosen]
     }
 
-    /// The same, to be completed.
-    pub fn choice_mut(&mut self) -> &mut Choice {
-        &mut self.choices[self.chosen]
-    }
-
     /// Shows the shot at this place, or the last one.
     pub fn show(&mut self, shot: usize) {
         self.chosen = shot.min(self.choices.len() - 1);

@@ -27,7 +27,7 @@ impl DrillsPage {
             DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
             DrillCondition::Sought => refuse(!self.catalogue.is_sought(), "no words are looked for"),
             DrillCondition::NotSought => refuse(self.catalogue.is_sought(), "Esc ends the search first"),
-            DrillCondition::OfExercise => refuse(!self.records.has_exercise(), "this record is of all exercises"),
+            DrillCondition::OfExercise => refuse(self.records.exercise.is_none(), "this record is of all exercises"),
             DrillCondition::Filmed => refuse(self.film.played().is_none(), "there is no filmed shot on the table yet"),
             DrillCondition::Estimated => {
                 refuse(self.records.skill().is_none(), "there is no estimate of your skill yet")
@@ -43,7 +43,10 @@ impl DrillsPage {
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.back(),
-            Action::Line(lines) if self.page() == DrillContext::Record => self.scroll_records(lines),
+            Action::Line(lines) if self.page() == DrillContext::Record => {
+                let all = self.book.sessions_of(self.records.scope()).len();
+                self.records.scroll(lines, all);
+            }
             Action::Line(lines) if self.page() == DrillContext::Films => self.film.move_mark(lines),
             Action::Line(lines) => self.catalogue.move_mark(lines),
             Action::OpenFilms => self.open_films(),
@@ -196,11 +199,6 @@ impl DrillsPage {
         self.records.open(name);
         // Another program may have noted something.
         Effect::Drill(vec![self.load()])
-    }
-
-    fn scroll_records(&mut self, lines: isize) {
-        let all = self.book.sessions_of(self.records.scope()).len();
-        self.records.scroll(lines, all);
     }
 
     fn share(&mut self) -> Option<Effect> {

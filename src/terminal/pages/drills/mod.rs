@@ -120,15 +120,16 @@ pub struct DrillsPage {
     /// The table that the settings say: a bundled one or a file.
     of_settings: String,
     options: RepetitionOptions,
-    for_coach: Option<Balls>,
+    /// Balls that are to go to the coach's table, until they are taken.
+    pub for_coach: Option<Balls>,
     /// The coach's rule when the library was opened last.
     opened_for: Option<Rule>,
     /// The level of the exam that was chosen last.
     exam_level: u8,
     /// The pages one has come through; the last one is open.
     pages: Vec<DrillContext>,
-    /// An exam that was left before its end.
-    left_exam: Option<Session>,
+    /// An exam that was left before its end, until it is taken.
+    pub left_exam: Option<Session>,
     /// Runs, games and matches that were left before their end, one an exercise; opening that goes on with it.
     left: Vec<Session>,
     rng: Xoshiro256PlusPlus,
@@ -234,16 +235,6 @@ impl DrillsPage {
         self.pages.is_empty()
     }
 
-    /// The exam that was left before its end; asked once.
-    pub const fn take_left_exam(&mut self) -> Option<Session> {
-        self.left_exam.take()
-    }
-
-    /// Balls that are to go to the coach's table; asked once.
-    pub const fn take_for_coach(&mut self) -> Option<Balls> {
-        self.for_coach.take()
-    }
-
     /// The page that is open.
     pub fn page(&self) -> DrillContext {
         self.pages.last().copied().unwrap_or(DrillContext::Library)
@@ -283,7 +274,7 @@ impl DrillsPage {
 
     /// Who plays in the exercise that is open, or would in another: an exam stays with whom it was begun.
     pub fn skill(&self) -> Skill {
-        self.turn.as_ref().map_or(self.player.skill, Turn::skill)
+        self.turn.as_ref().map_or(self.player.skill, |turn| turn.session.skill)
     }
 
     /// Opens the list of filmed shots.

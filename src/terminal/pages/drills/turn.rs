@@ -8,10 +8,7 @@ use std::sync::{
 };
 
 use crate::{
-    coach::{
-        Skill,
-        words::{LengthUnit, no_jump_words},
-    },
+    coach::words::{LengthUnit, no_jump_words},
     drills::{Attempt, Exercise, ExerciseError, Goal, Session, Venue},
     game::Point,
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
@@ -152,20 +149,10 @@ impl Turn {
         self.compare()
     }
 
-    /// Whether the stroke can be set as it was before its last change, and after it again.
-    pub(super) const fn can_travel(&self) -> (bool, bool) {
-        self.stroke.can_travel()
-    }
-
     /// Whether the stroke is the one that the page began with, of the player's own, which nobody was warned of: once.
     pub(super) fn takes_warning(&mut self) -> bool {
-        let warns = self.is_aiming() && !self.is_coachs_turn() && !self.can_travel().0;
+        let warns = self.is_aiming() && !self.is_coachs_turn() && !self.stroke.can_travel().0;
         warns && !std::mem::replace(&mut self.is_warned, true)
-    }
-
-    /// Whose strokes are played.
-    pub const fn skill(&self) -> Skill {
-        self.session.skill
     }
 
     /// Whether an exam is under way or over.

@@ -84,12 +84,12 @@ impl Turn {
                 .or_else(|| self.disabled_reason(Condition::Aiming))
                 .or_else(|| self.disabled_reason(Condition::Alone)),
             (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not beside your stroke"),
-            (Stage::Aiming, Condition::StrokeChanged) => refuse(!self.can_travel().0, "the stroke is unchanged"),
+            (Stage::Aiming, Condition::StrokeChanged) => refuse(!self.stroke.can_travel().0, "the stroke is unchanged"),
             (Stage::Aiming, Condition::Set) => {
-                refuse(!self.can_travel().0, "the stroke is unchanged; Space twice plays it all the same")
+                refuse(!self.stroke.can_travel().0, "the stroke is unchanged; Space twice plays it all the same")
             }
             (Stage::Aiming, Condition::StrokeUndone) => {
-                refuse(!self.can_travel().1, "no change of the stroke was taken back")
+                refuse(!self.stroke.can_travel().1, "no change of the stroke was taken back")
             }
             (_, Condition::StrokeChanged | Condition::Set | Condition::StrokeUndone) => {
                 self.disabled_reason(Condition::Aiming)
@@ -149,12 +149,12 @@ impl DrillsPage {
             Action::StrokeBack => return some(turn.travel(OwnStroke::undo)),
             Action::StrokeAgain => return some(turn.travel(OwnStroke::redo)),
             Action::WhatIf => return some(turn.take_over()),
-            Action::LeaveWhatIf => turn.leave_what_if(),
+            Action::LeaveWhatIf => turn.what_if = None,
             Action::Play => return self.play(),
             Action::Next => return self.next(),
             Action::Playback(key) => self.watch(key),
             Action::Hint => {
-                turn.leave_what_if();
+                turn.what_if = None;
                 turn.shows_hint = !turn.shows_hint;
                 turn.text_page = 0;
                 turn.with_hint |= turn.shows_hint && turn.is_aiming();
@@ -216,7 +216,7 @@ impl DrillsPage {
 
     /// Whether another player is to play the open exercise. Who has begun an exam or a run plays it to its end.
     fn is_for_another(&self) -> bool {
-        let is_other = |turn: &Turn| !turn.is_exam() && !turn.is_under_way() && turn.skill() != self.player.skill;
+        let is_other = |turn: &Turn| !turn.is_exam() && !turn.is_under_way() && turn.session.skill != self.player.skill;
         self.turn.as_ref().is_some_and(is_other)
     }
 
