@@ -115,7 +115,7 @@ impl App {
             coach: CoachPage::new(table, layout, seed)?,
             training: TrainingPage::new(Places::of_this_user()),
             drills: DrillsPage::new(Places::of_this_user(), seed),
-            settings: SettingsPage::new(Settings::path(), Places::of_this_user(), bindings::key_pages()),
+            settings: SettingsPage::new(Places::of_this_user(), bindings::key_pages()),
             calibration: CalibrationPage::new(Places::of_this_user()),
             pending_table: None,
             in_force: Settings::default(),
@@ -150,7 +150,7 @@ impl App {
         Ok(app)
     }
 
-    /// The same program with its runs and policies elsewhere.
+    /// The same program with the player's files elsewhere.
     #[must_use]
     pub fn with_places(mut self, places: Places) -> Self {
         self.training.folder.clone_from(&places.runs);
@@ -164,8 +164,7 @@ impl App {
     /// The same program for the player who sits there.
     #[must_use]
     pub fn with_seat(self, seat: &Seat) -> Self {
-        let file = seat.places.settings.clone();
-        let mut app = self.with_places(seat.places.clone()).with_settings_file(file);
+        let mut app = self.with_places(seat.places.clone());
         app.is_guest = seat.is_guest;
         app.coach.player.clone_from(&seat.player);
         app.training.is_guest = seat.is_guest;
@@ -192,13 +191,6 @@ impl App {
         self.in_force = settings.clone();
         self.mouse = settings.mouse;
         self.choose_theme(settings.theme);
-        self
-    }
-
-    /// The same program with its settings in another file.
-    #[must_use]
-    pub fn with_settings_file(mut self, path: PathBuf) -> Self {
-        self.settings.path = path;
         self
     }
 

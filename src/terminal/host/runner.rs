@@ -249,7 +249,7 @@ impl Runner {
             Some(Effect::Quit) => return Ok(Next::Quit),
             Some(Effect::Suspend) => self.suspend()?,
             Some(Effect::Ask(job)) => {
-                let is_asked = self.tasks.ask(job);
+                let is_asked = self.tasks.coach.give(job);
                 if !is_asked {
                     self.app.coach_lost();
                 }
@@ -259,7 +259,7 @@ impl Runner {
             Some(Effect::Keep(keeping)) => self.tasks.keep(*keeping)?,
             Some(Effect::LoadPolicy(folder)) => self.tasks.load_policy(folder)?,
             Some(Effect::Drill(tasks)) => self.tasks.practise(tasks)?,
-            Some(Effect::Settings(task)) => self.tasks.set(*task),
+            Some(Effect::Settings(task)) => _ = self.tasks.settings.give(*task),
             Some(Effect::Calibrate(tasks)) => self.tasks.calibrate(tasks),
             Some(Effect::Copy(text)) => self.session.copy(&text)?,
             None => {}

@@ -57,11 +57,11 @@ pub struct Tasks {
     followed: [Option<Poll>; 2],
     shown: Option<Poll>,
     /// The coach's thread.
-    coach: Worker<Box<CoachJob>>,
+    pub coach: Worker<Box<CoachJob>>,
     /// The thread that plays strokes and writes files for the drills.
     practice: Worker<DrillTask>,
     /// The thread of the settings' file.
-    settings: Worker<SettingsTask>,
+    pub settings: Worker<SettingsTask>,
     /// The thread that keeps what is measured at a table, and that of what follows from it.
     kept: Worker<CalibrationTask>,
     judged: Worker<CalibrationTask>,
@@ -110,11 +110,6 @@ impl Tasks {
             is_closing,
             to_screen,
         })
-    }
-
-    /// Asks the coach; `false` if its thread is gone.
-    pub fn ask(&self, job: Box<CoachJob>) -> bool {
-        self.coach.give(job)
     }
 
     /// Starts to find out what is wanted now, and stops what is not wanted any more.
@@ -169,11 +164,6 @@ impl Tasks {
             }
         }
         Ok(())
-    }
-
-    /// Reads or changes the settings' file, one task after the other.
-    pub fn set(&self, task: SettingsTask) {
-        self.settings.give(task);
     }
 
     /// Does tasks of the calibration's page. What is found out of the newest entries keeps no others waiting.
