@@ -90,7 +90,7 @@ impl DrillsPage {
 
     fn back(&mut self) {
         let is_exercise = self.page() == DrillContext::Exercise;
-        let exam = self.turn.as_mut().filter(|turn| is_exercise && turn.is_exam() && !turn.session.is_over());
+        let exam = self.turn.as_mut().filter(|turn| is_exercise && turn.session.is_exam() && !turn.session.is_over());
         if let Some(exam) = exam {
             exam.finish_watching();
             // One that has not begun is left as it is.
@@ -194,7 +194,7 @@ impl DrillsPage {
     fn open_records(&mut self) -> Effect {
         self.pages.push(DrillContext::Record);
         // Games and matches from an exercise are no repetitions of it.
-        let is_repeated = |turn: &&Turn| !turn.is_exam() && !turn.session.is_game();
+        let is_repeated = |turn: &&Turn| !turn.session.is_exam() && !turn.session.is_game();
         let name = self.turn.as_ref().filter(is_repeated).map(|turn| turn.exercise.name.clone());
         self.records.open(name);
         // Another program may have noted something.

@@ -219,7 +219,7 @@ impl DrillsPage {
     /// stroke.
     pub fn unfinished(&self) -> Option<&Session> {
         let Some(turn) = &self.turn else { return self.left.last() };
-        let has_begun = !turn.is_exam() || !turn.session.attempts.is_empty();
+        let has_begun = !turn.session.is_exam() || !turn.session.attempts.is_empty();
         Some(&turn.session).filter(|session| has_begun && !session.is_over())
     }
 

@@ -155,11 +155,6 @@ impl Turn {
         warns && !std::mem::replace(&mut self.is_warned, true)
     }
 
-    /// Whether an exam is under way or over.
-    pub fn is_exam(&self) -> bool {
-        self.session.is_exam()
-    }
-
     /// Whether a run, a game or a match has begun and is not over: another session would end it.
     pub(super) fn is_under_way(&self) -> bool {
         let newest = self.newest();

@@ -67,7 +67,7 @@ impl Turn {
                 Some(watched) if watched.is_settled => refuse(when == Condition::Running, "the shot is at its end"),
                 Some(_) => refuse(when == Condition::Ended, IS_RUNNING),
             },
-            (_, Condition::Free | Condition::Restart | Condition::Counted) if self.is_exam() => {
+            (_, Condition::Free | Condition::Restart | Condition::Counted) if self.session.is_exam() => {
                 Some("an exam is under way; Esc leaves it")
             }
             // Another session would take the stroke off the table with its result; a run asks first and shows it then.
@@ -75,7 +75,7 @@ impl Turn {
             (_, Condition::Counted) => {
                 refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
             }
-            (_, Condition::ModelShot) => refuse(self.is_exam(), "an exam gives no hints")
+            (_, Condition::ModelShot) => refuse(self.session.is_exam(), "an exam gives no hints")
                 .or(refuse(matches!(self.model_shot, ModelShotState::Pending), "the coach is still thinking"))
                 .or(refuse(self.model_shot().is_none(), "the coach has found no shot that makes the point")),
             (_, Condition::Alone) => refuse(self.what_if().is_some(), "Esc takes the model shot off the table first"),
@@ -216,7 +216,8 @@ impl DrillsPage {
 
     /// Whether another player is to play the open exercise. Who has begun an exam or a run plays it to its end.
     fn is_for_another(&self) -> bool {
-        let is_other = |turn: &Turn| !turn.is_exam() && !turn.is_under_way() && turn.session.skill != self.player.skill;
+        let is_other =
+            |turn: &Turn| !turn.session.is_exam() && !turn.is_under_way() && turn.session.skill != self.player.skill;
         self.turn.as_ref().is_some_and(is_other)
     }
 
@@ -255,7 +256,7 @@ impl DrillsPage {
         let turn = self.turn.as_mut()?;
         match next {
             Some((table, layout)) => turn.place(table, layout).then(|| Effect::Drill(turn.ask())),
-            None if turn.is_exam() => {
+            None if turn.session.is_exam() => {
                 self.pages = vec![DrillContext::Library, DrillContext::Result];
                 None
             }

@@ -155,7 +155,9 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
         (false, ModelShotState::Known(_)) if turn.shows_hint => {
             "this is the coach's shot; the attempt counts as one with a hint"
         }
-        (false, ModelShotState::Known(_)) if turn.is_exam() || turn.session.is_match() => "set the stroke and play it",
+        (false, ModelShotState::Known(_)) if turn.session.is_exam() || turn.session.is_match() => {
+            "set the stroke and play it"
+        }
         (false, ModelShotState::Known(_)) => "set the stroke and play it; at a real table: m made, n missed",
     })
 }
