@@ -167,24 +167,6 @@ mod tests {
     }
 
     #[test]
-    fn what_others_write_meanwhile_stays() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("config.toml");
-        let mut file = SettingsFile::default();
-        file.run(&task(&path, None));
-        fs::write(&path, "speed = 2.0\n").unwrap();
-        let settings = file.run(&task(&path, theme("light"))).settings.unwrap();
-        assert_eq!((settings.speed, settings.theme), (2.0, ThemeName::Light));
-        fs::write(&path, "speed = \n").unwrap();
-        let report = file.run(&task(&path, theme("mono")));
-        assert!(report.troubles[0].contains("this change lasts until the program ends"), "{report:?}");
-        assert_eq!(fs::read_to_string(&path).unwrap(), "speed = \n");
-        fs::remove_file(&path).unwrap();
-        let settings = file.run(&task(&path, theme("light"))).settings.unwrap();
-        assert_eq!((settings.speed, settings.theme), (Settings::default().speed, ThemeName::Light), "made anew");
-    }
-
-    #[test]
     fn a_damaged_file_is_named_with_its_line_and_left_as_it_is() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("config.toml");

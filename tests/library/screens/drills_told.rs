@@ -63,7 +63,11 @@ fn results_of_a_real_table_and_strokes_of_the_program_stand_apart() {
 fn a_search_that_finds_nothing_in_a_category_offers_the_others_and_esc_ends_it_first() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left /").type_in("natural");
     none.says("None in My positions; ").says(" elsewhere: Enter lists them.");
+    let elsewhere = none.app.drills.catalogue.elsewhere();
     let found = none.press("Enter");
+    let catalogue = &found.app.drills.catalogue;
+    assert_eq!((catalogue.found().len(), catalogue.filter.category, catalogue.elsewhere()), (elsewhere, None, 0));
+    assert!(elsewhere > 1, "{elsewhere}");
     found.shows(&[": \"natural\"", "Esc end search"]);
     let all = found.press("Esc");
     assert_eq!(all.app.place(), KeyContext::Drill(DrillContext::Library));

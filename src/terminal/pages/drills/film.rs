@@ -82,16 +82,3 @@ impl FilmsScreen {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn beyond_the_last_shot_and_the_first_nothing_is_fitted_again() {
-        let mut films = FilmsScreen::default();
-        assert!(films.begin(0).is_some() && films.begin(-1).is_none());
-        films.move_mark(isize::MAX);
-        assert!(films.begin(1).is_none() && films.begin(0).is_some() && films.begin(-1).is_some());
-    }
-}
