@@ -26,7 +26,6 @@ use ratatui::{
 };
 
 use crate::{
-    coach::Skill,
     drills::Session,
     storage::Places,
     table::{Layout, LayoutError, Table},
@@ -230,13 +229,6 @@ impl App {
         let draft = self.calibration.draft()?;
         let is_told = self.draft_at_start.as_ref() == Some(&draft);
         Some(StrokeDraft { is_told, ..draft })
-    }
-
-    /// The same program for a player whose own skill is known.
-    #[must_use]
-    pub const fn with_own_skill(mut self, own: Option<Skill>) -> Self {
-        self.coach.own = own;
-        self
     }
 
     /// What the next session may go on from; `None` where nothing has been done that is worth it.

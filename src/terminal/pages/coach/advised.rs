@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use crate::{
     coach::{Recommendation, Why},
-    physics::CueInputs,
     terminal::{Advice, CoachQuery, Proposal, ShotAnalysis, pages::around},
 };
 
@@ -54,11 +53,6 @@ impl AdviceState {
     /// The first of the attempts by which the shot that is shown was judged.
     pub fn judged_from(&self) -> usize {
         self.found.as_ref().filter(|_| self.chosen == 0).map_or(0, |found| found.judged_from)
-    }
-
-    /// Its strokes, the recommended one first.
-    pub fn strokes(&self) -> Vec<CueInputs> {
-        self.choices.iter().map(|choice| choice.proposal.shot.cue).collect()
     }
 
     /// The one that is shown.

@@ -44,7 +44,8 @@ pub struct Studying {
 impl CoachPage {
     pub(super) fn ask(&mut self) -> Effect {
         self.playback.pause();
-        let former = self.advised().map_or_else(Vec::new, AdviceState::strokes);
+        let former = self.advised().into_iter().flat_map(|advised| &advised.choices);
+        let former = former.map(|choice| choice.proposal.shot.cue).collect();
         let job = CoachJob { former, ..self.job(None) };
         let (cancel, query) = (Arc::clone(&job.cancel), job.query.clone());
         self.pending = Some(Pending { id: job.id, cancel, query, waited: 0.0, so_far: None });

@@ -190,11 +190,6 @@ impl DrillsPage {
         Effect::Drill(tasks)
     }
 
-    /// Says that an exercise is on `table`, where the settings say another one.
-    fn other_table_words(&self, table: &str) -> Option<String> {
-        other_table_words(table, &self.of_settings)
-    }
-
     /// Reads what is on the disk.
     pub fn load(&self) -> DrillTask {
         DrillTask::Load(Box::new(self.places.clone()))

@@ -11,7 +11,7 @@ use crate::{
     coach::words::{LengthUnit, no_jump_words},
     drills::{Attempt, Exercise, ExerciseError, Goal, Session, Venue},
     game::Point,
-    physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
+    physics::CueInputs,
     table::{CueBall, Layout, Table},
     terminal::{
         AdviceTask, AttemptOutcome, DrillTask, ModelShot, PlayTask, Shot,
@@ -127,14 +127,6 @@ impl Turn {
     /// The stroke as it will be meant when it is played: rails and balls behind raise the cue that is set lower.
     pub fn raised_stroke(&self) -> CueInputs {
         self.stroke.raised(&self.table, &self.layout)
-    }
-
-    /// How low the cue can be held for the stroke that is set.
-    ///
-    /// # Errors
-    /// Where it has no room at all.
-    pub fn least_elevation(&self) -> Result<LeastElevation, NoRoom> {
-        least_elevation(&self.table, &self.layout, self.stroke())
     }
 
     /// Changes the stroke.

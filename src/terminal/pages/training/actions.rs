@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::{
     learning::{
         policy::kept::KeepError,
-        run::{follow::Condition as RunCondition, request::Request},
+        run::{POLICY, follow::Condition as RunCondition, request::Request},
     },
     storage::is_name,
     terminal::{
@@ -216,7 +216,7 @@ impl TrainingPage {
     }
 
     fn keep(&self, name: String, replace: bool) -> Effect {
-        let from = self.watch.as_ref().map(Watch::policy).unwrap_or_default();
+        let from = self.watch.as_ref().map(|watch| watch.folder().join(POLICY)).unwrap_or_default();
         let folder = self.places.policies.clone();
         Effect::Keep(Box::new(Keeping { from, folder, name, replace }))
     }

@@ -1,11 +1,10 @@
 //! A run that is watched, perhaps beside another one.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::{
     game::Reward,
     learning::run::{
-        POLICY,
         follow::{Condition, Followed},
         status::Phase,
     },
@@ -132,11 +131,6 @@ impl Watch {
             Condition::Unknown | Condition::Missing => Some("there is no run yet"),
             Condition::Removed => Some("the run has been removed"),
         }
-    }
-
-    /// Where its policy is, if the agent has one that the coach can use.
-    pub fn policy(&self) -> PathBuf {
-        self.folder().join(POLICY)
     }
 
     /// What stands in the way of the run, or what can be done now, in a sentence; and whether that is bad news.
