@@ -21,7 +21,7 @@ const LONGEST_SHOT: f64 = 120.0;
 /// What is seen of somebody else's table.
 pub type Seen = Sight<SeenTable>;
 
-/// What is said where the table of the player `name` is [`Seen::Damaged`].
+/// What is said where the table of the player `name` is [`Sight::Damaged`].
 pub fn damage_words(name: &str) -> String {
     format!("The table of {name} cannot be read: it is damaged, or of another version of carom.")
 }
