@@ -75,7 +75,7 @@ pub use tasks::{
     onlooker::{Onlooker, Seen, SeenTable},
     recommender::{CoachAnswer, CoachJob, CoachNews, CoachWorker},
     reel::{Reel, ReplayShot},
-    training::{FollowSlot, KeepOutcome, Keeping, Launch, Subscriptions, TrainerFailure, TrainingReport},
+    training::{FollowSlot, Keeping, Launch, Subscriptions, TrainerFailure, TrainingReport},
 };
 pub use terms::Terms;
 pub use ui::{
@@ -127,11 +127,13 @@ fn with_what_was_left(app: App, places: &Places) -> App {
     let last = SavedSession::load_or_put_aside(&places.last);
     let draft = StrokeDraft::read_or_put_aside(&places.draft);
     let [of_session, of_draft] = [last.as_ref().err().cloned(), draft.as_ref().err().cloned()];
-    app.with_saved_session(last.unwrap_or_default())
+    let mut app = app
+        .with_saved_session(last.unwrap_or_default())
         .with_draft(draft.unwrap_or_default())
-        .with_own_skill(own.map(|own| own.skill))
         .with_notice(of_session.as_deref())
-        .with_notice(of_draft.as_deref())
+        .with_notice(of_draft.as_deref());
+    app.coach.own = own.map(|own| own.skill);
+    app
 }
 
 /// The coach as a conversation in lines, on the standard input and output, for the player whose files are at `places`. Returns how many

@@ -116,14 +116,14 @@ impl ShownShot {
 }
 
 /// What is to be seen in the folder of a player.
-#[derive(Debug)]
-pub enum Sight {
+#[derive(Clone, Debug)]
+pub enum Sight<T> {
     /// Nothing: the player shows no table, or is not there, which is none of anybody's business.
     Nothing,
     /// A file that cannot be read.
     Damaged,
-    /// A table, and how long ago it was written.
-    Table(Box<ShownTable>, Duration),
+    /// A table.
+    Table(Box<T>),
 }
 
 impl ShownTable {
@@ -160,8 +160,8 @@ impl ShownTable {
         storage::replace(&folder.join(FILE), &serde_json::to_vec(self)?)
     }
 
-    /// What is to be seen in `folder`.
-    pub fn look(folder: &Path) -> Sight {
+    /// What is to be seen in `folder`, and how long ago it was written.
+    pub fn look(folder: &Path) -> Sight<(Self, Duration)> {
         // The lock of a process that was killed is gone, whatever it has left.
         if Lock::is_held(folder) == Some(false) {
             return Sight::Nothing;
@@ -173,7 +173,7 @@ impl ShownTable {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Sight::Nothing,
             Err(_) => Sight::Damaged,
             Ok(bytes) => match serde_json::from_slice::<Self>(&bytes) {
-                Ok(shown) if shown.is_sound() => Sight::Table(Box::new(shown), age),
+                Ok(shown) if shown.is_sound() => Sight::Table(Box::new((shown, age))),
                 _ => Sight::Damaged,
             },
         }
@@ -242,12 +242,13 @@ mod tests {
         let lock = Lock::take(folder.path()).unwrap();
         assert!(matches!(ShownTable::look(folder.path()), Sight::Nothing));
         shown().write(folder.path()).unwrap();
-        let Sight::Table(seen, age) = ShownTable::look(folder.path()) else { panic!("nothing is seen") };
+        let Sight::Table(found) = ShownTable::look(folder.path()) else { panic!("nothing is seen") };
+        let (seen, age) = *found;
         let cue = |shown: &ShownTable| shown.shot.unwrap().cue;
         // Directions are written in degrees.
         assert!((cue(&seen).phi - cue(&shown()).phi).abs() < 1e-14 && age < Duration::from_secs(60));
         let shot = seen.shot.map(|shot| ShownShot { cue: cue(&shown()), ..shot });
-        assert_eq!(ShownTable { shot, ..*seen }, shown());
+        assert_eq!(ShownTable { shot, ..seen }, shown());
         let size = fs::metadata(folder.path().join(FILE)).unwrap().len();
         assert!((100..LARGEST / 32).contains(&size), "{size}");
         drop(lock);

@@ -26,7 +26,6 @@ use ratatui::{
 };
 
 use crate::{
-    coach::Skill,
     drills::Session,
     storage::Places,
     table::{Layout, LayoutError, Table},
@@ -115,7 +114,7 @@ impl App {
             coach: CoachPage::new(table, layout, seed)?,
             training: TrainingPage::new(Places::of_this_user()),
             drills: DrillsPage::new(Places::of_this_user(), seed),
-            settings: SettingsPage::new(Settings::path(), Places::of_this_user(), bindings::key_pages()),
+            settings: SettingsPage::new(Places::of_this_user(), bindings::key_pages()),
             calibration: CalibrationPage::new(Places::of_this_user()),
             pending_table: None,
             in_force: Settings::default(),
@@ -150,7 +149,7 @@ impl App {
         Ok(app)
     }
 
-    /// The same program with its runs and policies elsewhere.
+    /// The same program with the player's files elsewhere.
     #[must_use]
     pub fn with_places(mut self, places: Places) -> Self {
         self.training.folder.clone_from(&places.runs);
@@ -164,8 +163,7 @@ impl App {
     /// The same program for the player who sits there.
     #[must_use]
     pub fn with_seat(self, seat: &Seat) -> Self {
-        let file = seat.places.settings.clone();
-        let mut app = self.with_places(seat.places.clone()).with_settings_file(file);
+        let mut app = self.with_places(seat.places.clone());
         app.is_guest = seat.is_guest;
         app.coach.player.clone_from(&seat.player);
         app.training.is_guest = seat.is_guest;
@@ -195,13 +193,6 @@ impl App {
         self
     }
 
-    /// The same program with its settings in another file.
-    #[must_use]
-    pub fn with_settings_file(mut self, path: PathBuf) -> Self {
-        self.settings.path = path;
-        self
-    }
-
     /// The same program, which asks `detect` what the terminal can show whenever that is set otherwise.
     #[must_use]
     pub fn with_detection(mut self, detect: fn(&Settings) -> Capabilities) -> Self {
@@ -211,7 +202,7 @@ impl App {
 
     /// The same program with the way back to where the last session ended.
     #[must_use]
-    pub fn with_saved_session(mut self, last: Option<SavedSession<'static>>) -> Self {
+    pub fn with_saved_session(mut self, last: Option<SavedSession>) -> Self {
         self.coach.offer(last);
         self
     }
@@ -240,15 +231,8 @@ impl App {
         Some(StrokeDraft { is_told, ..draft })
     }
 
-    /// The same program for a player whose own skill is known.
-    #[must_use]
-    pub const fn with_own_skill(mut self, own: Option<Skill>) -> Self {
-        self.coach.own = own;
-        self
-    }
-
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
-    pub fn saved_session(&self) -> Option<SavedSession<'_>> {
+    pub fn saved_session(&self) -> Option<SavedSession> {
         // An exam, a game and a match are gone on with whatever was done after them.
         let is_open = |session: &&Session| self.screen == PageId::Drills || session.is_exam();
         self.coach.saved_session(self.drills.unfinished().filter(is_open), self.drills.open_game())
@@ -307,7 +291,7 @@ impl App {
                 self.turn_to(PageId::Drills);
                 let effect = self.drills.resume(practice, self.coach.query.skill);
                 // One that was open waits until all others were gone on with.
-                self.coach.left_exams.splice(0..0, self.drills.take_left_exam());
+                self.coach.left_exams.splice(0..0, self.drills.left_exam.take());
                 return Some(effect);
             }
             Action::Coach(action) => {
@@ -321,8 +305,8 @@ impl App {
             }
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
-                let balls = self.drills.take_for_coach();
-                self.coach.left_exams.extend(self.drills.take_left_exam());
+                let balls = self.drills.for_coach.take();
+                self.coach.left_exams.extend(self.drills.left_exam.take());
                 if balls.is_some() || self.drills.is_left() {
                     self.open(PageId::Coach);
                 }
@@ -343,7 +327,7 @@ impl App {
                 if self.calibration.is_left {
                     return self.open(PageId::Coach);
                 }
-                return match self.calibration.take_for_use() {
+                return match self.calibration.for_use.take() {
                     Some(path) => Some(self.use_table(path)),
                     None => effect,
                 };

@@ -9,6 +9,7 @@ use crate::terminal::{
         view::{Pointed, pointed_at},
     },
     pages::{Target, coach::view::table_mapping},
+    shot::PlaybackKey,
     ui::ball_at,
 };
 
@@ -64,7 +65,7 @@ impl App {
         }
         match self.target(event)? {
             Pointed::Page(Target::Table(_)) => {
-                let faster = Action::Coach(CoachAction::Pace(-isize::from(notch)));
+                let faster = Action::Coach(CoachAction::Playback(PlaybackKey::Pace(-isize::from(notch))));
                 // A notch may be an accident: where no shot plays, nothing is said.
                 let is_watched = self.disabled_reason(Condition::Coach(CoachCondition::Watching)).is_none();
                 if is_watched { self.perform(Ok(faster)) } else { None }

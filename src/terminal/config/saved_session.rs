@@ -1,6 +1,6 @@
 //! Where the last session ended, so that the next one can go on from there.
 
-use std::{borrow::Cow, io, path::Path};
+use std::{io, path::Path};
 
 use serde::{Deserialize, Serialize};
 
@@ -25,13 +25,12 @@ struct Header {
     version: u32,
 }
 
-/// What is remembered of a session. What is large is borrowed from the screens until it is written down: whether anything has
-/// changed since is asked at every wake.
+/// What is remembered of a session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SavedSession<'a> {
+pub struct SavedSession {
     version: u32,
     /// The table.
-    pub table: Cow<'a, Table>,
+    pub table: Table,
     /// Where the balls lay.
     pub layout: Layout,
     /// Which of them was the cue ball.
@@ -49,24 +48,18 @@ pub struct SavedSession<'a> {
     pub settings: Option<Terms>,
     /// What was practised, where that was on the screen and not over.
     #[serde(default)]
-    pub practice: Option<Cow<'a, Session>>,
+    pub practice: Option<Session>,
     /// Sessions before it that nobody has gone on with since, the latest first: a key that was pressed by mistake at the start
     /// does not take the place of what was there.
-    #[serde(default, skip_serializing_if = "<[_]>::is_empty")]
-    former: Cow<'a, [SavedSession<'static>]>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    former: Vec<Self>,
 }
 
-impl<'a> SavedSession<'a> {
+impl SavedSession {
     /// What is to be remembered of the screens.
-    pub fn new(
-        table: &'a Table,
-        layout: Layout,
-        cue_ball: CueBall,
-        Terms { rule, skill, plan, .. }: Terms,
-        practice: Option<&'a Session>,
-    ) -> Self {
-        let (table, practice) = (Cow::Borrowed(table), practice.map(Cow::Borrowed));
-        let (settings, former) = (None, Cow::Borrowed(&[][..]));
+    pub fn new(table: Table, layout: Layout, cue_ball: CueBall, terms: Terms, practice: Option<Session>) -> Self {
+        let Terms { rule, skill, plan, .. } = terms;
+        let (settings, former) = (None, Vec::new());
         Self { version: VERSION, table, layout, cue_ball, rule, skill, plan, settings, practice, former }
     }
 
@@ -83,23 +76,9 @@ impl<'a> SavedSession<'a> {
 
     /// The same, followed by former sessions that were not gone on with, the latest first.
     #[must_use]
-    pub fn followed_by(mut self, former: Cow<'a, [SavedSession<'static>]>) -> Self {
-        self.former = match former {
-            Cow::Borrowed(former) => Cow::Borrowed(&former[..former.len().min(MOST_FORMER)]),
-            Cow::Owned(mut former) => {
-                former.truncate(MOST_FORMER);
-                Cow::Owned(former)
-            }
-        };
-        self
-    }
-
-    /// The same with nothing borrowed.
-    pub fn into_owned(self) -> SavedSession<'static> {
-        let Self { version, table, layout, cue_ball, rule, skill, plan, settings, practice, former } = self;
-        let practice = practice.map(|practice| Cow::Owned(practice.into_owned()));
-        let (table, former) = (Cow::Owned(table.into_owned()), Cow::Owned(former.into_owned()));
-        SavedSession { version, table, layout, cue_ball, rule, skill, plan, settings, practice, former }
+    pub fn followed_by(self, mut former: Vec<Self>) -> Self {
+        former.truncate(MOST_FORMER);
+        Self { former, ..self }
     }
 
     /// What the file says; nothing where there is none.
@@ -119,7 +98,7 @@ impl<'a> SavedSession<'a> {
 
     /// The same on the table that it means now, if the balls can lie there.
     fn checked(mut self) -> Result<Self, String> {
-        self.table = Cow::Owned(renewed(self.table.into_owned()));
+        self.table = renewed(self.table);
         self.layout.validate(&self.table).map_err(|error| format!("it is damaged: {error}"))?;
         Ok(self)
     }
@@ -140,11 +119,11 @@ impl<'a> SavedSession<'a> {
     }
 
     /// It, then the former sessions, each by itself. What was practised in several is gone on with in the latest.
-    pub fn with_former(mut self) -> Vec<SavedSession<'static>> {
-        let former = std::mem::take(&mut self.former).into_owned();
-        let mut sessions = vec![self.into_owned()];
-        for mut session in former.into_iter().flat_map(SavedSession::checked) {
-            let practised = |session: &SavedSession| session.practice.as_ref().map(|practice| practice.id.clone());
+    pub fn with_former(mut self) -> Vec<Self> {
+        let former = std::mem::take(&mut self.former);
+        let mut sessions = vec![self];
+        for mut session in former.into_iter().flat_map(Self::checked) {
+            let practised = |session: &Self| session.practice.as_ref().map(|practice| practice.id.clone());
             if sessions.iter().any(|later| practised(later) == practised(&session)) {
                 session.practice = None;
             }
@@ -176,9 +155,10 @@ fn renewed(table: Table) -> Table {
 mod tests {
     use super::*;
 
-    fn session(table: &Table) -> SavedSession<'_> {
+    fn session(table: Table) -> SavedSession {
         let terms = Terms { rule: Rule::OneCushion, skill: Skill::CLUB, plan: false, first: FirstMet::Any };
-        SavedSession::new(table, Layout::opening(table), CueBall::White, terms, None)
+        let layout = Layout::opening(&table);
+        SavedSession::new(table, layout, CueBall::White, terms, None)
     }
 
     #[test]
@@ -186,8 +166,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("state/last.json");
         assert_eq!(SavedSession::load(&path), Ok(None));
-        let table = Table::default();
-        let last = session(&table);
+        let last = session(Table::default());
         let refused = |what: &str| {
             let said = SavedSession::load(&path).unwrap_err();
             assert!(said.starts_with(what), "{said}");
@@ -206,8 +185,8 @@ mod tests {
         impossible.layout.balls[1] = impossible.layout.balls[0];
         impossible.save(&path).unwrap();
         refused("it is damaged");
-        let mut endless = session(&table);
-        endless.table.to_mut().sliding_friction = 0.0;
+        let mut endless = session(Table::default());
+        endless.table.sliding_friction = 0.0;
         endless.save(&path).unwrap();
         refused("it is damaged");
         std::fs::write(&path, "{").unwrap();
@@ -222,8 +201,7 @@ mod tests {
     fn a_session_of_an_older_version_does_not_say_what_was_set_then() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("last.json");
-        let table = Table::default();
-        let last = session(&table);
+        let last = session(Table::default());
         last.save(&path).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(!text.contains("settings"), "as older versions wrote it: {text}");
@@ -237,15 +215,14 @@ mod tests {
     fn former_sessions_are_kept_with_the_last_one_as_long_as_nobody_goes_on_with_them() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("last.json");
-        let table = Table::default();
         let by = |number: u32| {
-            let mut session = session(&table).into_owned();
+            let mut session = session(Table::default());
             session.layout.balls[2].y = 0.05 * f64::from(number);
             session
         };
         for number in 1..=9 {
             let former = SavedSession::load(&path).unwrap().map_or_else(Vec::new, SavedSession::with_former);
-            by(number).followed_by(Cow::Borrowed(&former)).save(&path).unwrap();
+            by(number).followed_by(former).save(&path).unwrap();
         }
         let kept = SavedSession::load(&path).unwrap().unwrap().with_former();
         assert_eq!(kept, (1..=9).rev().take(1 + MOST_FORMER).map(by).collect::<Vec<_>>());
@@ -257,8 +234,8 @@ mod tests {
         let path = folder.path().join("last.json");
         let on = |textbook: &str, name: &str| {
             let table = Table { name: name.to_owned(), ..Table::preset(textbook).unwrap() };
-            session(&table).save(&path).unwrap();
-            SavedSession::load(&path).unwrap().unwrap().table.into_owned()
+            session(table).save(&path).unwrap();
+            SavedSession::load(&path).unwrap().unwrap().table
         };
         assert_eq!(on("textbook", "match"), Table::default());
         assert_eq!(on("thesis", "match").length, Table::preset("thesis").unwrap().length, "somebody's own");

@@ -45,7 +45,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     info!(version = FULL_VERSION, caps = ?app.caps, "the screen opens");
     let (to_screen, events) = events::open()?;
     let session = TerminalGuard::start(app.mouse)?;
-    let tasks = Tasks::new(to_screen);
+    let tasks = Tasks::new(to_screen)?;
     let remembered = (None, Instant::now());
     let ticked = Instant::now();
     let showing = Showing::new(places.shown.clone());
@@ -90,7 +90,7 @@ struct Runner {
     /// Whether the terminal is taken again already when the signal comes that tells of it.
     has_come_back: bool,
     /// What was last remembered of the session, and when.
-    remembered: (Option<SavedSession<'static>>, Instant),
+    remembered: (Option<SavedSession>, Instant),
     /// Whether that could not be done.
     forgotten: bool,
     /// What was last written into the log.
@@ -108,7 +108,7 @@ impl Runner {
             self.tasks.subscribe(self.app.subscriptions())?;
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
             // A toast goes by itself: one picture more, and no other.
-            let toast = self.app.toast_time().map(|left| self.ticked + Duration::from_secs_f64(left));
+            let toast = self.app.toasts.left().map(|left| self.ticked + Duration::from_secs_f64(left));
             let writing = self.forgets().into_iter().chain(self.showing.due(&self.app));
             let first = match pace.wake(interval).into_iter().chain(toast).chain(writing).min() {
                 // Nothing moves: no timer, no processor time, no bytes.
@@ -169,7 +169,6 @@ impl Runner {
             self.remembered.1 = Instant::now();
             return;
         }
-        let last = last.map(SavedSession::into_owned);
         if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.places.last)) {
             // Once: the next session will have nothing to go on from, and nothing more comes of saying it again.
             if !std::mem::replace(&mut self.forgotten, true) {
@@ -194,7 +193,7 @@ impl Runner {
 
     /// Writes refusals and failures down that were shown.
     fn write_down(&mut self) {
-        for text in self.app.take_unwritten() {
+        for text in self.app.toasts.take_unwritten() {
             // A key that is held is refused again and again.
             if self.written == text {
                 continue;
@@ -250,7 +249,7 @@ impl Runner {
             Some(Effect::Quit) => return Ok(Next::Quit),
             Some(Effect::Suspend) => self.suspend()?,
             Some(Effect::Ask(job)) => {
-                let is_asked = self.tasks.ask(job)?;
+                let is_asked = self.tasks.coach.give(job);
                 if !is_asked {
                     self.app.coach_lost();
                 }
@@ -260,8 +259,8 @@ impl Runner {
             Some(Effect::Keep(keeping)) => self.tasks.keep(*keeping)?,
             Some(Effect::LoadPolicy(folder)) => self.tasks.load_policy(folder)?,
             Some(Effect::Drill(tasks)) => self.tasks.practise(tasks)?,
-            Some(Effect::Settings(task)) => self.tasks.set(*task)?,
-            Some(Effect::Calibrate(tasks)) => self.tasks.calibrate(tasks)?,
+            Some(Effect::Settings(task)) => _ = self.tasks.settings.give(*task),
+            Some(Effect::Calibrate(tasks)) => self.tasks.calibrate(tasks),
             Some(Effect::Copy(text)) => self.session.copy(&text)?,
             None => {}
         }

@@ -5,18 +5,23 @@ use crate::coach::words::LengthUnit;
 use std::time::Instant;
 
 fn talk(lines: &str) -> String {
-    talk_of(None, lines)
+    talk_of(None, &Settings { think_ms: 1_000, ..Settings::default() }, lines)
 }
 
-/// With a player whose own skill this is.
-fn talk_of(own: Option<Skill>, lines: &str) -> String {
+/// With a player whose own skill this is, under these settings.
+fn talk_of(own: Option<Skill>, settings: &Settings, lines: &str) -> String {
     let table = Table::default();
     let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
     let mut output = Vec::new();
-    let settings = Settings { think_ms: 1_000, ..Settings::default() };
     let beginning = Beginning { layout, own, seed: 1 };
-    converse(Coach::new(table), beginning, &settings, lines.as_bytes(), &mut output, "").unwrap();
+    converse(Coach::new(table), beginning, settings, lines.as_bytes(), &mut output, "").unwrap();
     String::from_utf8(output).unwrap()
+}
+
+fn assert_told(said: &str, all: &[&str]) {
+    for words in all {
+        assert!(said.contains(words), "{words}: {said}");
+    }
 }
 
 #[test]
@@ -29,18 +34,19 @@ fn a_line_that_is_too_long_is_refused_and_the_talk_goes_on() {
 #[test]
 fn a_shot_is_told_its_margins_its_course_and_its_end() {
     let said = talk("shot\nnumbers\nmargins\ntell\ngo on\nundo\nquit\nwhere");
-    for words in [
-        "percent of the time, between",
-        "hits yellow",
-        "table lengths), ",
-        "Pattern: ",
-        "\nPoint: ",
-        "Direction: up to",
-        "white meets yellow.",
-        "all balls lie still",
-    ] {
-        assert!(said.contains(words), "{words}: {said}");
-    }
+    assert_told(
+        &said,
+        &[
+            "percent of the time, between",
+            "hits yellow",
+            "table lengths), ",
+            "Pattern: ",
+            "\nPoint: ",
+            "Direction: up to",
+            "white meets yellow.",
+            "all balls lie still",
+        ],
+    );
     assert!(!said.contains(['%', '\u{b0}']), "signs are words: {said}");
     let first = "White lies at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
     assert_eq!(said.matches(first).count(), 2, "at the start and after undo, but not after quit: {said}");
@@ -48,19 +54,13 @@ fn a_shot_is_told_its_margins_its_course_and_its_end() {
 
 #[test]
 fn distances_and_speeds_are_told_in_the_unit_of_the_settings() {
-    let table = Table::default();
-    let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
     let units = Units { length: LengthUnit::Feet, ..Units::default() };
     let settings = Settings { think_ms: 1_000, units, ..Settings::default() };
-    let (mut output, beginning) = (Vec::new(), Beginning { layout, own: None, seed: 1 });
-    let lines = b"words\nshot\nnumbers\nmargins\ntell\n";
-    converse(Coach::new(table), beginning, &settings, &lines[..], &mut output, "").unwrap();
-    let said = String::from_utf8(output).unwrap();
-    for words in
-        ["-19.69 and 0.00 inches from the middle", "0.121 inches each", "feet a second, ", "feet a second softer"]
-    {
-        assert!(said.contains(words), "{words}: {said}");
-    }
+    let said = talk_of(None, &settings, "words\nshot\nnumbers\nmargins\ntell\n");
+    assert_told(
+        &said,
+        &["-19.69 and 0.00 inches from the middle", "0.121 inches each", "feet a second, ", "feet a second softer"],
+    );
     assert!(!said.contains("m/s") && !said.contains("metres a second"), "{said}");
     assert!(!said.contains("millimetres"), "{said}");
 }
@@ -103,18 +103,19 @@ fn the_reasons_take_no_longer_than_a_short_search() {
 #[test]
 fn a_filmed_shot_is_told_beside_its_simulation() {
     let said = talk("film\nfilm 90\nfilm 91\nwhere");
-    for words in [
-        "There are 91 filmed shots",
-        "Shot 90 of the film: a point, ",
-        "fitted on the first 2 seconds",
-        "\n1 second: from the film",
-        "5 seconds: from the film, in centimetres: white ",
-        "all balls lie still: white ",
-        "There is no filmed shot 91",
-        "White lies at 2.59 diamonds along and 2.00 up, -500 and 0",
-    ] {
-        assert!(said.contains(words), "{words}: {said}");
-    }
+    assert_told(
+        &said,
+        &[
+            "There are 91 filmed shots",
+            "Shot 90 of the film: a point, ",
+            "fitted on the first 2 seconds",
+            "\n1 second: from the film",
+            "5 seconds: from the film, in centimetres: white ",
+            "all balls lie still: white ",
+            "There is no filmed shot 91",
+            "White lies at 2.59 diamonds along and 2.00 up, -500 and 0",
+        ],
+    );
 }
 
 #[test]
@@ -133,27 +134,23 @@ fn the_other_player_has_the_other_ball_and_every_colour_is_told_right() {
 fn the_skill_that_is_kept_plays_and_where_none_is_that_is_said() {
     assert!(talk("skill own").contains("No skill of your own is kept yet"));
     let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
-    let said = talk_of(own.parse().ok(), "skill own\nskill 0.6\nshot\nskill 7\n");
-    for words in [
-        "You average 2.02, by your notes.",
-        "The player averages 0.6 points an inning at three-cushion.",
-        "\nA player who averages 0.6 makes it ",
-        "accepted are 0.1 to 2.5 points an inning at three-cushion, or world-class",
-    ] {
-        assert!(said.contains(words), "{words}: {said}");
-    }
+    let settings = Settings { think_ms: 1_000, ..Settings::default() };
+    let said = talk_of(own.parse().ok(), &settings, "skill own\nskill 0.6\nshot\nskill 7\n");
+    assert_told(
+        &said,
+        &[
+            "You average 2.02, by your notes.",
+            "The player averages 0.6 points an inning at three-cushion.",
+            "\nA player who averages 0.6 makes it ",
+            "accepted are 0.1 to 2.5 points an inning at three-cushion, or world-class",
+        ],
+    );
 }
 
 #[test]
 fn the_players_two_skills_are_told_apart_by_where_they_come_from() {
-    let table = Table::default();
-    let of = |own| {
-        let settings = Settings { think_ms: 300, skill: "0.6".parse().unwrap(), ..Settings::default() };
-        let beginning = Beginning { layout: Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap(), own, seed: 1 };
-        let mut output = Vec::new();
-        converse(Coach::new(table.clone()), beginning, &settings, &b"skill own\nshot\n"[..], &mut output, "").unwrap();
-        String::from_utf8(output).unwrap()
-    };
+    let settings = Settings { think_ms: 300, skill: "0.6".parse().unwrap(), ..Settings::default() };
+    let of = |own| talk_of(own, &settings, "skill own\nshot\n");
     assert!(of(None).contains("You average 0.6, as set.\n"));
     let said = of(Some(Skill::level(7.83)));
     assert!(said.contains("You average 0.18, by your notes.\n"), "{said}");
@@ -164,11 +161,15 @@ fn the_players_two_skills_are_told_apart_by_where_they_come_from() {
 fn why_chances_and_plan_are_answered_in_sentences_without_the_course_again() {
     assert!(talk("why").contains("There is no shot yet") && talk("chances").contains("There is no shot yet"));
     let said = talk("skill club\nshot\nwhy\nchances\nplan\nplan off\nplan");
-    for words in
-        ["The first shot. It is made ", "Shot 1. A club player makes it ", "\nThe next point ", "Say plan on to change"]
-    {
-        assert!(said.contains(words), "{words}: {said}");
-    }
+    assert_told(
+        &said,
+        &[
+            "The first shot. It is made ",
+            "Shot 1. A club player makes it ",
+            "\nThe next point ",
+            "Say plan on to change",
+        ],
+    );
     let reasons = said.lines().find(|line| line.starts_with("It is made ")).unwrap();
     assert!(!reasons.contains(';') && !said.contains("cushions in all") && !said.contains(" and more."), "{said}");
 }
@@ -178,17 +179,18 @@ fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
     let said = talk(
         "tell\nother\ngo on\nmove white left 0\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nmove red right 9000\nfirst white\nrule one-cushion\n",
     );
-    for words in [
-        "no shot yet",
-        "no other shot",
-        "nothing to take back",
-        "fly",
-        "0.0000 m apart",
-        "It stops there, in contact with yellow.",
-        "It stops there, at the rail.",
-        "\"white\" cannot be met first; use any, yellow, red, cushion",
-        "The rule is one-cushion",
-    ] {
-        assert!(said.contains(words), "{words}: {said}");
-    }
+    assert_told(
+        &said,
+        &[
+            "no shot yet",
+            "no other shot",
+            "nothing to take back",
+            "fly",
+            "0.0000 m apart",
+            "It stops there, in contact with yellow.",
+            "It stops there, at the rail.",
+            "\"white\" cannot be met first; use any, yellow, red, cushion",
+            "The rule is one-cushion",
+        ],
+    );
 }

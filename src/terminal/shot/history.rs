@@ -72,19 +72,4 @@ mod tests {
         while history.undo() {}
         assert_eq!((*history.present(), history.future.len()), (5, LONGEST));
     }
-
-    #[test]
-    fn undo_and_redo_walk_the_same_way() {
-        let mut history = History::new(1);
-        history.push(2);
-        history.push(3);
-        assert!(history.undo() && history.undo() && !history.undo());
-        assert_eq!(*history.present(), 1);
-        assert!(history.redo());
-        assert_eq!(*history.present(), 2);
-        history.push(9);
-        assert!(!history.redo());
-        assert!(history.undo());
-        assert_eq!(*history.present(), 2);
-    }
 }

@@ -17,7 +17,7 @@ use glam::DVec2;
 
 pub use self::{
     history::History,
-    playback::Playback,
+    playback::{Playback, PlaybackKey},
     profile::Profile,
     spin::Spin,
     stroke::{OwnStroke, StrokeChange},

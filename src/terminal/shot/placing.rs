@@ -93,14 +93,6 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn a_free_ball_goes_all_the_way() {
-        let table = Table::default();
-        let moved = slide(&table, &Layout::opening(&table), 0, DVec2::new(0.1, 0.0));
-        assert_eq!(moved.stopped, None);
-        assert!((moved.layout.balls[0].x - -0.61).abs() < 1e-12);
-    }
-
-    #[test]
     fn a_ball_stops_in_contact_with_another_even_if_the_step_would_jump_over_it() {
         let table = Table::preset("textbook").unwrap();
         let moved = slide(&table, &Layout::opening(&table), 0, DVec2::new(0.0, 0.5));

@@ -9,6 +9,21 @@ const REAL: usize = 3;
 /// each costs bytes on a slow link.
 const READOUT_INTERVAL: f64 = 0.1;
 
+/// What a key asks of the clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PlaybackKey {
+    /// Plays or pauses the shot.
+    Toggle,
+    /// Steps to another event, the next where positive.
+    Event(isize),
+    /// Plays faster where positive, else slower.
+    Pace(isize),
+    /// Goes to the stroke.
+    ToStart,
+    /// Goes to where the balls lie still.
+    ToEnd,
+}
+
 /// Where playback stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Playback {
@@ -42,6 +57,17 @@ impl Playback {
     /// The next higher speed, or the next lower one where negative.
     pub fn change_speed(&mut self, steps: isize) {
         self.speed = self.speed.saturating_add_signed(steps).min(SPEEDS.len() - 1);
+    }
+
+    /// Does what a key asks in a shot of these `events` and this `duration`.
+    pub fn act(&mut self, key: PlaybackKey, events: &[Event], duration: f64) {
+        match key {
+            PlaybackKey::Toggle => self.toggle(duration),
+            PlaybackKey::Event(steps) => self.step(steps, events, duration),
+            PlaybackKey::Pace(steps) => self.change_speed(steps),
+            PlaybackKey::ToStart => self.jump(0.0),
+            PlaybackKey::ToEnd => self.jump(duration),
+        }
     }
 
     /// Plays, or pauses; at the end it plays from the start.

@@ -203,6 +203,9 @@ mod tests {
         assert_eq!(*stroke.cue(), first);
         assert!(stroke.redo());
         assert_eq!((*stroke.cue(), stroke.can_travel()), (turned, (true, true)));
+        stroke.change(StrokeChange::Faster(0.2), &table, &layout).unwrap();
+        assert!(!stroke.redo() && stroke.undo(), "a new change is followed by no other");
+        assert_eq!(*stroke.cue(), turned);
     }
 
     #[test]

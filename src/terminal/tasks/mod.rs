@@ -5,7 +5,6 @@ pub mod calibration;
 pub mod drills;
 pub mod event;
 pub mod onlooker;
-mod policies;
 mod polling;
 mod practice;
 pub mod recommender;
@@ -57,15 +56,15 @@ pub struct Tasks {
     list: Option<Poll>,
     followed: [Option<Poll>; 2],
     shown: Option<Poll>,
-    /// The coach's thread; like those below it starts with its first task.
-    coach: Option<Worker<Box<CoachJob>>>,
+    /// The coach's thread.
+    pub coach: Worker<Box<CoachJob>>,
     /// The thread that plays strokes and writes files for the drills.
-    practice: Option<Worker<DrillTask>>,
+    practice: Worker<DrillTask>,
     /// The thread of the settings' file.
-    settings: Option<Worker<SettingsTask>>,
+    pub settings: Worker<SettingsTask>,
     /// The thread that keeps what is measured at a table, and that of what follows from it.
-    kept: Option<Worker<CalibrationTask>>,
-    judged: Option<Worker<CalibrationTask>>,
+    kept: Worker<CalibrationTask>,
+    judged: Worker<CalibrationTask>,
     /// Threads that write something, each once.
     writing: Vec<JoinHandle<()>>,
     /// Set when answers are no longer wanted.
@@ -73,38 +72,44 @@ pub struct Tasks {
 }
 
 impl Tasks {
-    /// Nothing is wanted yet.
-    pub fn new(to_screen: Sender<Event>) -> Self {
-        Self {
-            to_screen,
+    /// Nothing is wanted yet. A screen that is gone needs no answers.
+    ///
+    /// # Errors
+    /// A thread that could not be started, here and below.
+    pub fn new(to_screen: Sender<Event>) -> io::Result<Self> {
+        let is_closing: Arc<AtomicBool> = Arc::default();
+        let (answers, mut coach) = (to_screen.clone(), CoachWorker::default());
+        let coach = Worker::start("coach", move |job: Box<CoachJob>| {
+            if !job.cancel.load(Ordering::Relaxed) {
+                coach.answer(&job, |answer| drop(answers.send(Event::Answer(answer))));
+            }
+        })?;
+        let (reports, mut practice, closing) = (to_screen.clone(), PracticeWorker::default(), Arc::clone(&is_closing));
+        let practice = Worker::start("practice", move |task: DrillTask| {
+            if task.writes() || !closing.load(Ordering::Relaxed) {
+                practice.work(task, &reports);
+            }
+        })?;
+        let (reports, mut file) = (to_screen.clone(), SettingsFile::default());
+        let set = move |task| drop(reports.send(Event::Settings(file.run(&task))));
+        let calibrate = || {
+            let reports = to_screen.clone();
+            move |task: CalibrationTask| drop(reports.send(Event::Calibration(task.run())))
+        };
+        Ok(Self {
             subscriptions: Subscriptions::default(),
             list: None,
             followed: [None, None],
             shown: None,
-            coach: None,
-            practice: None,
-            settings: None,
-            kept: None,
-            judged: None,
+            coach,
+            practice,
+            settings: Worker::start("settings", set)?,
+            kept: Worker::start("calibration", calibrate())?,
+            judged: Worker::of_the_newest("calibrate", calibrate())?,
             writing: Vec::new(),
-            is_closing: Arc::default(),
-        }
-    }
-
-    /// Asks the coach; `false` if its thread is gone.
-    ///
-    /// # Errors
-    /// A thread that could not be started.
-    pub fn ask(&mut self, job: Box<CoachJob>) -> io::Result<bool> {
-        let to_screen = self.to_screen.clone();
-        let mut coach = CoachWorker::default();
-        let work = move |job: Box<CoachJob>| {
-            if !job.cancel.load(Ordering::Relaxed) {
-                // A screen that is gone needs no answer.
-                coach.answer(&job, |answer| drop(to_screen.send(Event::Answer(answer))));
-            }
-        };
-        Ok(started(&mut self.coach, || Worker::start("coach", work))?.give(job))
+            is_closing,
+            to_screen,
+        })
     }
 
     /// Starts to find out what is wanted now, and stops what is not wanted any more.
@@ -112,34 +117,21 @@ impl Tasks {
     /// # Errors
     /// A thread that could not be started.
     pub fn subscribe(&mut self, subscriptions: Subscriptions) -> io::Result<()> {
-        if subscriptions == self.subscriptions {
-            return Ok(());
-        }
-        if subscriptions.runs != self.subscriptions.runs {
-            // What is dropped stops.
-            self.list = None;
-            if let Some(folder) = subscriptions.runs.clone() {
-                self.list = Some(Poll::start("runs", LIST_INTERVAL, self.to_screen.clone(), list(folder))?);
-            }
-        }
-        if subscriptions.shown != self.subscriptions.shown {
-            self.shown = None;
-            if let Some(folder) = subscriptions.shown.clone() {
-                let mut onlooker = Onlooker::new(folder);
-                let look = move || onlooker.look().map(Event::Shown);
-                self.shown = Some(Poll::start("onlooker", FOLLOW_INTERVAL, self.to_screen.clone(), look)?);
-            }
-        }
+        let before = std::mem::replace(&mut self.subscriptions, subscriptions);
+        let (now, to_screen) = (&self.subscriptions, &self.to_screen);
+        renew(&mut self.list, [&before.runs, &now.runs], |folder| {
+            Poll::start("runs", LIST_INTERVAL, to_screen.clone(), list(folder))
+        })?;
+        renew(&mut self.shown, [&before.shown, &now.shown], |folder| {
+            let mut onlooker = Onlooker::new(folder);
+            Poll::start("onlooker", FOLLOW_INTERVAL, to_screen.clone(), move || onlooker.look().map(Event::Shown))
+        })?;
         for (n, slot) in FollowSlot::ALL.into_iter().enumerate() {
-            if subscriptions.followed[n] != self.subscriptions.followed[n] {
-                self.followed[n] = None;
-                if let Some(folder) = subscriptions.followed[n].clone() {
-                    let look = follow(slot, folder, self.to_screen.clone())?;
-                    self.followed[n] = Some(Poll::start("follower", FOLLOW_INTERVAL, self.to_screen.clone(), look)?);
-                }
-            }
+            renew(&mut self.followed[n], [&before.followed[n], &now.followed[n]], |folder| {
+                let look = follow(slot, folder, to_screen.clone())?;
+                Poll::start("follower", FOLLOW_INTERVAL, to_screen.clone(), look)
+            })?;
         }
-        self.subscriptions = subscriptions;
         Ok(())
     }
 
@@ -160,69 +152,34 @@ impl Tasks {
     /// Does tasks of the drill screens, one after the other. What takes long and writes nothing keeps no others waiting.
     ///
     /// # Errors
-    /// As [`Tasks::train`].
-    pub fn practise(&mut self, tasks: Vec<DrillTask>) -> io::Result<()> {
+    /// As [`Tasks::new`].
+    pub fn practise(&self, tasks: Vec<DrillTask>) -> io::Result<()> {
         for task in tasks {
-            let (to_screen, mut practice) = (self.to_screen.clone(), PracticeWorker::default());
             if matches!(task, DrillTask::Estimate(..)) {
+                let (to_screen, mut practice) = (self.to_screen.clone(), PracticeWorker::default());
                 thread::Builder::new().name("estimate".into()).spawn(move || practice.work(task, &to_screen))?;
-                continue;
+            } else {
+                // A thread that has ended has sent its last report.
+                self.practice.give(task);
             }
-            let is_closing = Arc::clone(&self.is_closing);
-            let work = move |task: DrillTask| {
-                if task.writes() || !is_closing.load(Ordering::Relaxed) {
-                    practice.work(task, &to_screen);
-                }
-            };
-            // A thread that has ended has sent its last report.
-            started(&mut self.practice, || Worker::start("practice", work))?.give(task);
         }
-        Ok(())
-    }
-
-    /// Reads or changes the settings' file, one task after the other.
-    ///
-    /// # Errors
-    /// As [`Tasks::train`].
-    pub fn set(&mut self, task: SettingsTask) -> io::Result<()> {
-        let (to_screen, mut file) = (self.to_screen.clone(), SettingsFile::default());
-        // A screen that is gone needs no answer.
-        let work = move |task| drop(to_screen.send(Event::Settings(file.run(&task))));
-        started(&mut self.settings, || Worker::start("settings", work))?.give(task);
         Ok(())
     }
 
     /// Does tasks of the calibration's page. What is found out of the newest entries keeps no others waiting.
-    ///
-    /// # Errors
-    /// As [`Tasks::train`].
-    pub fn calibrate(&mut self, tasks: Vec<CalibrationTask>) -> io::Result<()> {
+    pub fn calibrate(&self, tasks: Vec<CalibrationTask>) {
         for task in tasks {
-            let to_screen = self.to_screen.clone();
-            // A screen that is gone needs no answer.
-            let work = move |task: CalibrationTask| drop(to_screen.send(Event::Calibration(task.run())));
-            let worker = if task.writes() {
-                started(&mut self.kept, || Worker::start("calibration", work))?
-            } else {
-                started(&mut self.judged, || Worker::of_the_newest("calibrate", work))?
-            };
+            let worker = if task.writes() { &self.kept } else { &self.judged };
             worker.give(task);
         }
-        Ok(())
     }
 
     /// Waits until what the player has noted, set or asked of a run is on the disk: the screen may close before.
     pub fn finish(self) {
         self.is_closing.store(true, Ordering::Relaxed);
-        if let Some(practice) = self.practice {
-            practice.finish();
-        }
-        if let Some(kept) = self.kept {
-            kept.finish();
-        }
-        if let Some(settings) = self.settings {
-            settings.finish();
-        }
+        self.practice.finish();
+        self.kept.finish();
+        self.settings.finish();
         for thread in self.writing {
             // A panic there was reported when it happened.
             let _ = thread.join();
@@ -232,7 +189,7 @@ impl Tasks {
     /// Starts a process that trains.
     ///
     /// # Errors
-    /// A thread that could not be started, here and below.
+    /// As [`Tasks::new`].
     pub fn train(&self, launch: Launch) -> io::Result<()> {
         let (hand_over, started) = channel::<Result<Trainer, TrainerFailure>>();
         let Launch { arguments, folder } = launch;
@@ -248,7 +205,7 @@ impl Tasks {
     /// Asks a run for something.
     ///
     /// # Errors
-    /// As [`Tasks::train`].
+    /// As [`Tasks::new`].
     pub fn send(&mut self, request: Request, folder: PathBuf) -> io::Result<()> {
         self.write("request", move || {
             Some(TrainingReport::Sent(request, request.send(&folder).map_err(|error| error.to_string())))
@@ -258,10 +215,10 @@ impl Tasks {
     /// Keeps a policy under a name.
     ///
     /// # Errors
-    /// As [`Tasks::train`].
+    /// As [`Tasks::new`].
     pub fn keep(&mut self, keeping: Keeping) -> io::Result<()> {
         self.write("keep", move || {
-            let outcome = policies::keep(&keeping);
+            let outcome = keeping.keep();
             Some(TrainingReport::Kept(keeping, outcome))
         })
     }
@@ -269,10 +226,10 @@ impl Tasks {
     /// Reads the policy of the run in `folder`.
     ///
     /// # Errors
-    /// As [`Tasks::train`].
+    /// As [`Tasks::new`].
     pub fn load_policy(&self, folder: PathBuf) -> io::Result<()> {
         self.spawn("policy", move || {
-            let policy = policies::load(&folder);
+            let policy = training::load_policy(&folder);
             Some(TrainingReport::Policy(folder, policy))
         })?;
         Ok(())
@@ -301,16 +258,18 @@ impl Tasks {
     }
 }
 
-/// The worker, which is started where there is none.
-///
-/// # Errors
-/// A thread that could not be started.
-fn started<T>(worker: &mut Option<Worker<T>>, start: impl FnOnce() -> io::Result<Worker<T>>) -> io::Result<&Worker<T>> {
-    let known = match worker.take() {
-        Some(known) => known,
-        None => start()?,
-    };
-    Ok(worker.insert(known))
+/// Where another folder is wanted than before, or none, ends the poll and starts one for that.
+fn renew(
+    poll: &mut Option<Poll>,
+    [before, now]: [&Option<PathBuf>; 2],
+    start: impl FnOnce(PathBuf) -> io::Result<Poll>,
+) -> io::Result<()> {
+    if before != now {
+        // What is dropped stops.
+        *poll = None;
+        *poll = now.clone().map(start).transpose()?;
+    }
+    Ok(())
 }
 
 /// Lists the runs, and reports where anything has changed.
@@ -382,7 +341,7 @@ mod tests {
     #[test]
     fn what_a_key_has_just_begun_is_done_before_the_program_ends() {
         let (to_screen, events) = channel();
-        let mut tasks = Tasks::new(to_screen);
+        let mut tasks = Tasks::new(to_screen).unwrap();
         let home = tempfile::tempdir().unwrap();
         tasks.send(Request::Stop, home.path().to_owned()).unwrap();
         tasks.finish();
@@ -392,7 +351,7 @@ mod tests {
     #[test]
     fn what_writes_nothing_does_not_keep_the_program_from_ending() {
         let (to_screen, events) = channel();
-        let mut tasks = Tasks::new(to_screen);
+        let tasks = Tasks::new(to_screen).unwrap();
         let film = || DrillTask::Film(Box::new(bundled().swap_remove(0)));
         let home = tempfile::tempdir().unwrap();
         tasks.practise(vec![DrillTask::Load(Box::new(Places::under(home.path())))]).unwrap();

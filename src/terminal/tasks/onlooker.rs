@@ -19,17 +19,9 @@ const MOST: u32 = 20_000;
 const LONGEST_SHOT: f64 = 120.0;
 
 /// What is seen of somebody else's table.
-#[derive(Clone, Debug)]
-pub enum Seen {
-    /// They show none.
-    Nothing,
-    /// It cannot be read.
-    Damaged,
-    /// The table.
-    Table(Box<SeenTable>),
-}
+pub type Seen = Sight<SeenTable>;
 
-/// What is said where the table of the player `name` is [`Seen::Damaged`].
+/// What is said where the table of the player `name` is [`Sight::Damaged`].
 pub fn damage_words(name: &str) -> String {
     format!("The table of {name} cannot be read: it is damaged, or of another version of carom.")
 }
@@ -68,7 +60,7 @@ impl Onlooker {
         let sight = ShownTable::look(&self.folder);
         let is_known = match (&sight, &self.before) {
             (Sight::Nothing, Some(Seen::Nothing)) | (Sight::Damaged, Some(Seen::Damaged)) => true,
-            (Sight::Table(shown, _), Some(Seen::Table(seen))) => **shown == seen.shown,
+            (Sight::Table(found), Some(Seen::Table(seen))) => found.0 == seen.shown,
             _ => false,
         };
         if is_known {
@@ -77,9 +69,10 @@ impl Onlooker {
         let seen = match sight {
             Sight::Nothing => Seen::Nothing,
             Sight::Damaged => Seen::Damaged,
-            Sight::Table(shown, age) => {
+            Sight::Table(found) => {
+                let (shown, age) = *found;
                 let shot = self.record(&shown);
-                Seen::Table(Box::new(SeenTable { shown: *shown, age, shot }))
+                Seen::Table(Box::new(SeenTable { shown, age, shot }))
             }
         };
         self.before = Some(seen.clone());

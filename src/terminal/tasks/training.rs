@@ -9,7 +9,8 @@ use std::{
 use crate::{
     learning::{
         Policy,
-        run::{follow::Update, list::Listing, request::Request},
+        policy::kept::{self, KeepError},
+        run::{POLICY, follow::Update, list::Listing, request::Request},
     },
     terminal::Reel,
 };
@@ -82,13 +83,33 @@ pub struct Keeping {
     pub replace: bool,
 }
 
-/// What has come of keeping a policy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum KeepOutcome {
-    /// It is kept.
-    Done,
-    /// The name is taken.
-    Taken,
+impl Keeping {
+    /// Keeps it; `false` where its name is taken.
+    ///
+    /// # Errors
+    /// A sentence where there is none, or the copy cannot be written.
+    pub fn keep(&self) -> Result<bool, String> {
+        if !self.from.exists() {
+            return Err(NO_POLICY.to_owned());
+        }
+        match kept::keep(&self.folder, &self.from, &self.name, self.replace) {
+            Ok(_) => Ok(true),
+            Err(KeepError::Taken(_)) => Ok(false),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+}
+
+/// The policy of the run in `folder`, for the coach.
+///
+/// # Errors
+/// A sentence where there is none, or none that can be used.
+pub fn load_policy(folder: &Path) -> Result<Arc<Policy>, String> {
+    let path = folder.join(POLICY);
+    if !path.exists() {
+        return Err(NO_POLICY.to_owned());
+    }
+    Policy::load(&path).map(Arc::new).map_err(|error| error.to_string())
 }
 
 /// A report from the training page's background tasks. Where it failed, a sentence says why.
@@ -106,8 +127,8 @@ pub enum TrainingReport {
     HasPolicy(PathBuf, bool),
     /// A run was asked for something.
     Sent(Request, Result<(), String>),
-    /// A policy was to be kept.
-    Kept(Keeping, Result<KeepOutcome, String>),
+    /// A policy was to be kept: whether it is, or its name is taken.
+    Kept(Keeping, Result<bool, String>),
     /// The policy of the run in a folder.
     Policy(PathBuf, Result<Arc<Policy>, String>),
 }

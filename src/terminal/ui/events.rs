@@ -23,38 +23,28 @@ const WIDE: u16 = 29;
 /// Columns of an event's words and of how soon it comes.
 const WAIT: u16 = 34;
 
-/// Events to be listed.
-#[derive(Clone, Copy, Debug)]
-pub struct ListedEvents<'a> {
-    /// The shot.
-    pub recording: &'a Recording,
-    /// Those of its events.
-    pub events: &'a [Event],
-    /// In what heights and distances are told.
-    pub unit: LengthUnit,
+/// What happens, in no more than `room` columns if there are words so short; of a jump also how high and how far.
+fn words_of(event: Event, recording: &Recording, unit: LengthUnit, room: usize, ui: &Ui) -> String {
+    let words = event_words(event.kind, ui.theme.cue_ball);
+    let Some(jump) = recording.jump_begun_by(&event) else { return words };
+    let height = height_words(jump.height, unit);
+    let name = ui.theme.names()[jump.ball];
+    let all =
+        [format!("{words} ({})", jump_words(&jump, unit)), format!("{words} {height}"), format!("{name} {height} up")];
+    all.into_iter().find(|words| words.len() <= room).unwrap_or(words)
 }
 
-impl ListedEvents<'_> {
-    /// What happens, in no more than `room` columns if there are words so short; of a jump also how high and how far.
-    fn words(&self, event: Event, room: usize, ui: &Ui) -> String {
-        let words = event_words(event.kind, ui.theme.cue_ball);
-        let jump = self.recording.jump_begun_by(&event);
-        let Some(jump) = jump else { return words };
-        let height = height_words(jump.height, self.unit);
-        let name = ui.theme.names()[jump.ball];
-        let all = [
-            format!("{words} ({})", jump_words(&jump, self.unit)),
-            format!("{words} {height}"),
-            format!("{name} {height} up"),
-        ];
-        all.into_iter().find(|words| words.len() <= room).unwrap_or(words)
-    }
-}
-
-/// Draws the panel: the stroke, then `events`, called `name`, with the one at `time` marked and in view. No time: the shot is not
-/// being watched.
-pub fn draw_events(name: &str, listed: Option<ListedEvents>, time: Option<f64>, area: Rect, ui: &mut Ui) {
-    let events = listed.map_or(&[][..], |listed| listed.events);
+/// Draws the panel: the stroke, then those events of a recorded shot that are `listed`, called `name`, with the one at `time` marked
+/// and in view. No time: the shot is not being watched.
+pub fn draw_events(
+    name: &str,
+    listed: Option<(&Recording, &[Event])>,
+    time: Option<f64>,
+    unit: LengthUnit,
+    area: Rect,
+    ui: &mut Ui,
+) {
+    let events = listed.map_or(&[][..], |(_, events)| events);
     // Row 0 is the stroke.
     let present = time.map_or(0, |time| passed(events, time));
     let mut title = vec![Span::styled(name.to_owned(), ui.theme.text())];
@@ -62,7 +52,7 @@ pub fn draw_events(name: &str, listed: Option<ListedEvents>, time: Option<f64>, 
         title.push(Span::styled(format!(" {present}/{}", events.len()), ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
-    let Some(listed) = listed.filter(|_| !inner.is_empty()) else { return };
+    let Some((recording, _)) = listed.filter(|_| !inner.is_empty()) else { return };
     let is_narrow = inner.width < WIDE;
     let (end, start, decimals) = if is_narrow { NARROW_COLUMNS } else { COLUMNS };
     let room = usize::from(inner.width.saturating_sub(start));
@@ -70,7 +60,8 @@ pub fn draw_events(name: &str, listed: Option<ListedEvents>, time: Option<f64>, 
     let first = present.saturating_sub(rows / 3).min((events.len() + 1).saturating_sub(rows));
     for (n, row) in (first..=events.len()).zip(inner.y..inner.bottom()) {
         let event = n.checked_sub(1).map(|n| events[n]);
-        let (at, words) = event.map_or((0.0, "stroke".to_owned()), |event| (event.time, listed.words(event, room, ui)));
+        let told = |event: Event| (event.time, words_of(event, recording, unit, room, ui));
+        let (at, words) = event.map_or((0.0, "stroke".to_owned()), told);
         let words = if is_narrow {
             words.trim_end_matches(" rail").replace("contact begins", "touches").replace("contact ends", "is free")
         } else {

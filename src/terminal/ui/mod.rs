@@ -26,7 +26,7 @@ use ratatui::{buffer::Buffer, text::Span};
 
 pub use self::{
     canvas::{Canvas, Ink},
-    events::{ListedEvents, draw_events},
+    events::draw_events,
     field::{Dot, draw_field, face_in, spot_mark},
     hit::{draw_hit_panel, draw_spin_or_hit},
     input::{TextField, Typed, is_typed},
@@ -42,7 +42,7 @@ pub use self::{
     text::{columns, cut, end_of, ending, shorten, spell, wrap, wrap_by, write_right},
     theme::Theme,
     tip::{draw_face, draw_tip, draw_titled_tip, tip_rows},
-    what_if::{Beside, draw_what_if},
+    what_if::draw_what_if,
 };
 use crate::terminal::{
     Capabilities, Keys,

@@ -23,24 +23,25 @@ pub fn grapheme_columns(grapheme: &str) -> usize {
 
 /// As much of the beginning of `text` as fits into `room` columns.
 pub fn beginning(text: &str, room: usize) -> &str {
-    let mut taken = 0;
-    let mut fits = |grapheme: &str| {
-        taken += grapheme_columns(grapheme);
-        taken <= room
-    };
+    let mut fits = filling(room);
     let end = text.grapheme_indices(true).find(|(_, grapheme)| !fits(grapheme));
     &text[..end.map_or(text.len(), |(end, _)| end)]
 }
 
 /// As much of the end of `text` as fits into `room` columns.
 pub fn ending(text: &str, room: usize) -> &str {
-    let mut taken = 0;
-    let mut fits = |grapheme: &str| {
-        taken += grapheme_columns(grapheme);
-        taken <= room
-    };
+    let mut fits = filling(room);
     let last_hidden = text.grapheme_indices(true).rev().find(|(_, grapheme)| !fits(grapheme));
     &text[last_hidden.map_or(0, |(start, grapheme)| start + grapheme.len())..]
+}
+
+/// Whether one character after the other still fits into `room` columns with those before it.
+fn filling(room: usize) -> impl FnMut(&str) -> bool {
+    let mut taken = 0;
+    move |grapheme| {
+        taken += grapheme_columns(grapheme);
+        taken <= room
+    }
 }
 
 /// The first `rows` lines; the last of them says by its end if there are more.

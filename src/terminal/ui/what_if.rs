@@ -4,7 +4,6 @@ use ratatui::{layout::Rect, text::Span};
 
 use crate::{
     coach::Units,
-    table::CueBall,
     terminal::{
         shot::WhatIf,
         ui::{Ui, draw_title, spell, write_paragraphs},
@@ -12,22 +11,9 @@ use crate::{
     },
 };
 
-/// Whose shot the stroke stands beside, and how they are told.
-#[derive(Clone, Copy, Debug)]
-pub struct Beside {
-    /// The word for whose shot it is.
-    pub advisor: &'static str,
-    /// How often the player makes that, where it is known.
-    pub made: Option<f64>,
-    /// Who plays.
-    pub cue_ball: CueBall,
-    /// The units of lengths.
-    pub units: Units,
-}
-
-/// Draws the panel.
-pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) {
-    let Beside { advisor, made, cue_ball, units } = *beside;
+/// Draws the panel of a stroke beside a shot of the `advisor`, of which the player makes the share `made`, where that is known.
+pub fn draw_what_if(what_if: &WhatIf, advisor: &'static str, made: Option<f64>, units: Units, area: Rect, ui: &mut Ui) {
+    let cue_ball = ui.theme.cue_ball;
     let mut title = vec![Span::styled("You", ui.theme.ball(0))];
     let own = match what_if.made {
         Some(rate) => format!(" {} %", percent(rate.rate)),

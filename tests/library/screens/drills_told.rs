@@ -6,7 +6,7 @@ use super::{
 };
 use carom::{
     drills::{Goal, Session, Venue},
-    terminal::{DrillContext, KeyContext, SavedSession},
+    terminal::{DrillContext, KeyContext},
 };
 use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
 
@@ -34,7 +34,7 @@ fn a_match_that_was_left_is_there_at_the_next_start_too() {
     left.says("the match is kept; Enter on the exercise goes on with it, c on the coach's page at the next start");
     let left = left.press("Esc");
     assert_eq!(left.app.place(), KeyContext::Coach);
-    let last = left.app.saved_session().map(SavedSession::into_owned).unwrap();
+    let last = left.app.saved_session().unwrap();
     assert!(last.practice.as_ref().is_some_and(|practice| practice.is_match() && practice.attempts.len() == 1));
     let mut next = Player::new();
     next.app = next.app.with_saved_session(Some(last));
@@ -63,7 +63,11 @@ fn results_of_a_real_table_and_strokes_of_the_program_stand_apart() {
 fn a_search_that_finds_nothing_in_a_category_offers_the_others_and_esc_ends_it_first() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left /").type_in("natural");
     none.says("None in My positions; ").says(" elsewhere: Enter lists them.");
+    let elsewhere = none.app.drills.catalogue.elsewhere();
     let found = none.press("Enter");
+    let catalogue = &found.app.drills.catalogue;
+    assert_eq!((catalogue.found().len(), catalogue.filter.category, catalogue.elsewhere()), (elsewhere, None, 0));
+    assert!(elsewhere > 1, "{elsewhere}");
     found.shows(&[": \"natural\"", "Esc end search"]);
     let all = found.press("Esc");
     assert_eq!(all.app.place(), KeyContext::Drill(DrillContext::Library));

@@ -79,7 +79,8 @@ fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
     let player = watching(TRUE_COLOUR).wait(1.0).press("]");
     player.says("filmed shot 4").is_silent_on("filmed shot 2 ");
     let player = player.press("[ [ [");
-    player.says("filmed shot 0");
+    player.says("filmed shot 0").says("this is the first filmed shot");
+    list(TRUE_COLOUR).press("End Enter ]").says("filmed shot 180").says("this is the last filmed shot");
     let mut player = player.press("Esc");
     assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films));
     // Two are asked for before the first is there.

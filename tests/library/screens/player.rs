@@ -105,9 +105,9 @@ impl Player {
         let file = folder.path().join("config.toml");
         let (settings, complaints) = Settings::load(&file);
         let app = App::new(table.clone(), Layout::opening(table), caps, 7).unwrap();
-        let app = app.with_places(places(folder.path())).with_settings(&settings).with_complaints(&file, &complaints);
+        let told = Places { settings: "/home/player/.config/carom/config.toml".into(), ..places(folder.path()) };
         Self {
-            app: app.with_settings_file("/home/player/.config/carom/config.toml".into()),
+            app: app.with_places(told).with_settings(&settings).with_complaints(&file, &complaints),
             asked: None,
             study: None,
             judged: None,
@@ -225,7 +225,7 @@ impl Player {
             Effect::Copy(text) => self.copied.push(text),
             Effect::Drill(tasks) => self.run(tasks),
             Effect::Settings(mut task) => {
-                task.path = self.path("config.toml");
+                task.places.settings = self.path("config.toml");
                 let report = self.settings.run(&task);
                 if let Some(effect) = self.app.receive_settings(report) {
                     self.take(effect);

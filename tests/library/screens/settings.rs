@@ -150,6 +150,9 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     player.says("this change lasts until the program ends; ").says("was not written: ");
     assert_eq!(player.settings_text(), "theme = \n");
     assert_eq!(player.app.settings.settings.theme.name(), "light");
+    fs::remove_file(player.path("config.toml")).unwrap();
+    let player = player.press("Right");
+    assert_eq!(Settings::load(&player.path("config.toml")).0.theme.name(), "high-contrast", "made anew");
 }
 
 #[test]

@@ -153,7 +153,7 @@ fn carom_watch_has_no_tabs() {
 #[test]
 fn another_player_on_the_coachs_page_leaves_a_stroke_that_is_watched_its_result() {
     let watched = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space").wait(0.1);
-    let first = watched.app.drills.turn.as_ref().unwrap().skill();
+    let first = watched.app.drills.turn.as_ref().unwrap().session.skill;
     let back = watched.press("F2 S").press("F3");
     let chosen = back.app.coach.query.skill;
     assert_ne!(chosen, first);
@@ -162,9 +162,9 @@ fn another_player_on_the_coachs_page_leaves_a_stroke_that_is_watched_its_result(
     ended.says("No point: ").says("0 of 1 made");
     let next = ended.press("Enter");
     next.says("set the stroke").says("no attempt yet");
-    assert_eq!(next.app.drills.turn.as_ref().unwrap().skill(), chosen);
+    assert_eq!(next.app.drills.turn.as_ref().unwrap().session.skill, chosen);
     // Where the result was seen already, the other one begins at once.
     let seen = next.press("Space Enter F2 S F3");
     seen.says("set the stroke").says("no attempt yet");
-    assert_eq!(seen.app.drills.turn.as_ref().unwrap().skill(), seen.app.coach.query.skill);
+    assert_eq!(seen.app.drills.turn.as_ref().unwrap().session.skill, seen.app.coach.query.skill);
 }

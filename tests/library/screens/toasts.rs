@@ -40,10 +40,10 @@ fn they_go_in_their_time_by_one_picture_and_answers_with_the_next_key() {
     let player = Player::new().press("u");
     player.warns("there is nothing to take back");
     assert_eq!(player.app.frame_interval(), None, "nothing moves while it is read");
-    let time = player.app.toast_time().unwrap();
+    let time = player.app.toasts.left().unwrap();
     assert!((4.0..8.0).contains(&time), "{time}");
     let gone = player.wait(time);
-    assert_eq!((gone.app.toast_time(), gone.app.toasts.shown.len()), (None, 0));
+    assert_eq!((gone.app.toasts.left(), gone.app.toasts.shown.len()), (None, 0));
     assert_eq!(gone.picture(80, 24), Player::new().picture(80, 24), "nothing is left of it");
     let player = refused(gone.press("u"), &[0]).press("Left");
     assert!(!player.is_toast("there is nothing to take back"));
@@ -57,8 +57,8 @@ fn what_fails_elsewhere_is_told_wherever_one_is_and_can_be_read_again() {
     let failure = TrainerFailure { process: None, sentence: "the disk is full".to_owned() };
     player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(NAME), failure));
     player.warns("the disk is full");
-    assert_eq!(player.app.take_unwritten().len(), 1, "it goes to the log, once");
-    assert!(player.app.take_unwritten().is_empty());
+    assert_eq!(player.app.toasts.take_unwritten().len(), 1, "it goes to the log, once");
+    assert!(player.app.toasts.take_unwritten().is_empty());
     let player = player.wait(60.0).press("F6");
     let text = player.text(120, 40);
     assert!(text.contains("the disk is full") && text.contains("carom.log"), "{text}");

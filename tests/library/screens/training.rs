@@ -20,8 +20,7 @@ use carom::{
     },
     table::Table,
     terminal::{
-        App, CoachWorker, Effect, FollowSlot, KeepOutcome, KeyContext, Launch, TrainerFailure, TrainingContext,
-        TrainingReport,
+        App, CoachWorker, Effect, FollowSlot, KeyContext, Launch, TrainerFailure, TrainingContext, TrainingReport,
     },
 };
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -380,21 +379,19 @@ fn a_policy_is_kept_under_a_name() {
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     assert_eq!((keeping.folder.as_path(), keeping.name.as_str()), (Path::new("/policies"), "aq"));
     assert_eq!(keeping.from, Path::new(RUNS).join(NAME).join("policy.safetensors"));
-    let player = player.report(TrainingReport::Kept(*keeping, Ok(KeepOutcome::Taken)));
+    let player = player.report(TrainingReport::Kept(*keeping, Ok(false)));
     player.says("there are networks called aq already; replace them?");
     let mut player = player.press("y");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     assert!(keeping.replace);
-    player
-        .report(TrainingReport::Kept(*keeping, Ok(KeepOutcome::Done)))
-        .says("kept; use them by: carom recommend --policy aq");
+    player.report(TrainingReport::Kept(*keeping, Ok(true))).says("kept; use them by: carom recommend --policy aq");
 }
 
 #[test]
 fn a_name_that_is_taken_is_told_where_something_else_is_asked_meanwhile() {
     let mut player = Player::watching(TRUE_COLOUR).press("k Enter S");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
-    let player = player.report(TrainingReport::Kept(*keeping, Ok(KeepOutcome::Taken)));
+    let player = player.report(TrainingReport::Kept(*keeping, Ok(false)));
     player.warns("is not saved: there is another of this name");
     player.says("measure it, save it and end it?");
 }

@@ -31,7 +31,7 @@ impl CalibrationPage {
                 let is_entered = sheet.entries.as_ref().is_some_and(|entries| !entries.trials.is_empty());
                 (is_entered || sheet.trouble.is_some(), "nothing is entered yet")
             }
-            Condition::Undo => (sheet.can_undo(), "nothing to undo yet; Delete removes the marked stroke"),
+            Condition::Undo => (!sheet.back.is_empty(), "nothing to undo yet; Delete removes the marked stroke"),
             Condition::Found if sheet.is_asking() => (false, "the values are being worked out; one moment"),
             Condition::Found if !sheet.odd(&self.table).is_empty() => {
                 (false, "an entry looks wrong (see values): edit or delete it first")
@@ -77,7 +77,7 @@ impl CalibrationPage {
                 return Some(self.edit(edit, false));
             }
             Action::Undo => {
-                let edit = match self.sheet_mut().undo()? {
+                let edit = match self.sheet_mut().back.pop()? {
                     Back::Edit(edit) => edit,
                     Back::Turn(test) => {
                         let is_out = self.sheet_mut().turn(test);

@@ -71,7 +71,8 @@ pub struct CalibrationPage {
     is_daily: bool,
     /// The file of the table that was saved last.
     pub saved: Option<PathBuf>,
-    for_use: Option<PathBuf>,
+    /// The file of a table that is to be played on, until it is taken.
+    pub for_use: Option<PathBuf>,
     /// Whether one has gone back.
     pub is_left: bool,
 }
@@ -138,11 +139,6 @@ impl CalibrationPage {
 
     const fn sheet_mut(&mut self) -> &mut Sheet {
         if self.is_daily { &mut self.daily } else { &mut self.all }
-    }
-
-    /// The file of a table that is to be played on; asked once.
-    pub const fn take_for_use(&mut self) -> Option<PathBuf> {
-        self.for_use.take()
     }
 
     /// The key context.
@@ -254,7 +250,7 @@ impl Page for CalibrationPage {
         match self.question.as_mut()? {
             // What is on its way to the disk stays as it is.
             Question::Marks(form) if form.is_sent => None,
-            Question::Marks(form) => Some(form.typed_mut()),
+            Question::Marks(form) => Some(&mut form.fields[form.field].1),
             Question::Name(field) => Some(field),
             _ => None,
         }

@@ -40,7 +40,7 @@ pub struct Sheet {
     /// The marked stroke of that test; the last one where it is none.
     stroke: Option<usize>,
     /// Changes that take those back that were made here.
-    back: Vec<Back>,
+    pub back: Vec<Back>,
     /// Tests that the player does not want to play.
     left_out: Vec<&'static str>,
     /// The number of the last question about the entries, and of the last that was answered.
@@ -190,16 +190,6 @@ impl Sheet {
         }
     }
 
-    /// Whether a change was made here that can be taken back.
-    pub const fn can_undo(&self) -> bool {
-        !self.back.is_empty()
-    }
-
-    /// What takes the last change back that was made here.
-    pub fn undo(&mut self) -> Option<Back> {
-        self.back.pop()
-    }
-
     /// What is odd about entries that count, as a file may hold them that was written by hand.
     pub fn odd(&self, table: &Table) -> Vec<Oddity> {
         let mut odd = self.entries.as_ref().map_or_else(Vec::new, |entries| entries.trials(table).1);
@@ -295,7 +285,7 @@ mod tests {
             sheet.take(entries, Some((Edit::TakeOut(count - 1, entry.clone()), false)));
         };
         sheet.take(Entries::default(), None);
-        assert!(!sheet.can_undo());
+        assert!(sheet.back.is_empty());
         add(&mut sheet, 1);
         assert_eq!((sheet.test().name, sheet.stroke()), ("slow-roll", 0));
         sheet.move_mark(1);
@@ -304,8 +294,8 @@ mod tests {
         add(&mut sheet, 2);
         assert_eq!(sheet.test().name, "lag", "slow-back is left out");
         assert_eq!(sheet.count(), (2, 19));
-        assert_eq!(sheet.undo(), Some(Back::Edit(Edit::TakeOut(1, entry.clone()))));
-        assert_eq!(sheet.undo(), Some(Back::Turn("slow-back")));
+        assert_eq!(sheet.back.pop(), Some(Back::Edit(Edit::TakeOut(1, entry.clone()))));
+        assert_eq!(sheet.back.pop(), Some(Back::Turn("slow-back")));
     }
 
     #[test]

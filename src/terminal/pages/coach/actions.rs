@@ -5,14 +5,17 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::{
-    coach::words::no_jump_words,
-    game::Point,
+    coach::{FirstMet, words::no_jump_words},
+    game::{Point, Rule},
     table::{BALLS, CueBall, Layout, Opening, Side},
     terminal::{
-        CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode, Terms,
-        pages::coach::{CoachPage, Snapshot},
+        CoachAction as Action, CoachCondition, CoachQuery, Effect, InfoPanel, Mode, Terms,
+        pages::{
+            coach::{CoachPage, Snapshot},
+            neighbour, next_skill,
+        },
         shot::{
-            OwnStroke, Profile,
+            OwnStroke, PlaybackKey, Profile,
             placing::{self, STEPS},
         },
         ui::Message,
@@ -69,6 +72,7 @@ impl CoachPage {
     }
 
     fn act(&mut self, action: Action) -> Option<Effect> {
+        let terms = self.query.terms();
         match action {
             // The keys are for colours.
             Action::Select(ball) => self.select(self.cue_ball().ordered([0, 1, 2])[ball]),
@@ -98,10 +102,13 @@ impl CoachPage {
             Action::PlaceBalls => self.place_balls(),
             Action::Continue if self.what_if().is_some() => return self.play_on(),
             Action::Continue => return self.go_on(),
-            Action::NextRule => self.next_rule(),
-            Action::NextSkill => self.next_skill(),
-            Action::TurnPlan => self.turn_plan(),
-            Action::NextFirstMet => self.next_first_met(),
+            Action::NextRule => self.ask_for(Terms { rule: neighbour(&Rule::ALL, terms.rule, 1), ..terms }),
+            Action::NextSkill => {
+                let skill = next_skill(terms.skill, self.own, self.of_settings.skill);
+                self.ask_for(Terms { skill, ..terms });
+            }
+            Action::TurnPlan => self.ask_for(Terms { plan: !terms.plan, ..terms }),
+            Action::NextFirstMet => self.ask_for(Terms { first: neighbour(&FirstMet::ALL, terms.first, 1), ..terms }),
             Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
             Action::TurnEvents => {
                 self.has_all_events = !self.has_all_events;
@@ -114,10 +121,10 @@ impl CoachPage {
                 self.message =
                     Some(Message::plain("without a shot the panel tells where the balls lie; Enter asks the coach"));
             }
-            Action::NextInfoPanel => self.info = self.info.next(),
+            Action::NextInfoPanel => self.info = neighbour(&InfoPanel::ALL, self.info, 1),
             Action::Shot(shots) => self.choose(|advised| advised.turn(shots)),
             Action::Show(shot) => self.choose(|advised| advised.show(shot)),
-            Action::WhatIf => return self.take_over(),
+            Action::WhatIf => return self.take_over(0),
             Action::LeaveStroke => self.leave_own_stroke(),
             Action::Stroke(change) => return self.change_stroke(change),
             Action::TypeStroke => self.ask_stroke(),
@@ -128,7 +135,9 @@ impl CoachPage {
             Action::Bundled => {
                 self.take_query(&self.table().clone(), CoachQuery { policy: None, ..self.query.clone() });
             }
-            other => self.play(other),
+            Action::Playback(key) => self.play(key),
+            // The app opens another page.
+            Action::OpenDrills | Action::OpenFilms | Action::OpenTraining => {}
         }
         None
     }
@@ -156,19 +165,11 @@ impl CoachPage {
         }
     }
 
-    fn play(&mut self, action: Action) {
+    fn play(&mut self, key: PlaybackKey) {
         let Some(shot) = self.shot().cloned() else { return };
         self.leave_example();
-        let (events, duration) = (self.events(&shot), shot.recording.duration());
         self.mode = Mode::Watching;
-        match action {
-            Action::PlayPause => self.playback.toggle(duration),
-            Action::Event(steps) => self.playback.step(steps, &events, duration),
-            Action::ToStart => self.playback.jump(0.0),
-            Action::ToEnd => self.playback.jump(duration),
-            Action::Pace(steps) => self.playback.change_speed(steps),
-            _ => {}
-        }
+        self.playback.act(key, &self.events(&shot), shot.recording.duration());
     }
 
     fn select(&mut self, ball: usize) {
@@ -279,7 +280,10 @@ impl CoachPage {
 
     /// Whatever has changed, what goes with the shot is of the one that is shown now.
     fn renew(&mut self) {
-        self.forget_own_stroke();
+        // A stroke that is about other balls, another question or another shot is forgotten.
+        if self.what_if().is_none() {
+            self.own_stroke = None;
+        }
         self.renew_lesson();
     }
 }

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use crate::{
     coach::{Recommendation, Why},
-    physics::CueInputs,
     terminal::{Advice, CoachQuery, Proposal, ShotAnalysis, pages::around},
 };
 
@@ -56,19 +55,9 @@ impl AdviceState {
         self.found.as_ref().filter(|_| self.chosen == 0).map_or(0, |found| found.judged_from)
     }
 
-    /// Its strokes, the recommended one first.
-    pub fn strokes(&self) -> Vec<CueInputs> {
-        self.choices.iter().map(|choice| choice.proposal.shot.cue).collect()
-    }
-
     /// The one that is shown.
     pub fn choice(&self) -> &Choice {
         &self.choices[self.chosen]
-    }
-
-    /// The same, to be completed.
-    pub fn choice_mut(&mut self) -> &mut Choice {
-        &mut self.choices[self.chosen]
     }
 
     /// Shows the shot at this place, or the last one.

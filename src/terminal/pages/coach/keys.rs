@@ -8,10 +8,14 @@ use crate::terminal::{
         Section::{Balls, Program, Shot},
         bind, ctrl, key, letter,
     },
-    shot::{StrokeChange, stroke::stroke_keys},
+    shot::{
+        PlaybackKey::{self, Event, Pace, ToEnd, ToStart, Toggle},
+        StrokeChange,
+        stroke::stroke_keys,
+    },
 };
 
-use CoachAction as A;
+use CoachAction::{self as A, Playback as P};
 use CoachCondition as W;
 
 /// What a key does on the coach's screen.
@@ -43,16 +47,8 @@ pub enum CoachAction {
     Recommend,
     /// Stops asking.
     Cancel,
-    /// Plays or pauses the shot.
-    PlayPause,
-    /// Steps to another event, the next where positive.
-    Event(isize),
-    /// Goes to the stroke.
-    ToStart,
-    /// Goes to where the balls lie still.
-    ToEnd,
-    /// Plays faster where positive, else slower.
-    Pace(isize),
+    /// Plays the shot or steps through it.
+    Playback(PlaybackKey),
     /// Leaves the shot, to move balls again.
     PlaceBalls,
     /// Takes the balls as the shot leaves them.
@@ -151,7 +147,7 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("ask", 1)), "ask the coach for a shot"),
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled networks again, as at the start"),
-    bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
+    bind(Shot, W::Shot, &[letter(' ', P(Toggle))], Some(("play", 1)), "play and pause the shot"),
     bind(Shot, W::Choice, &[letter('[', A::Shot(-1)), letter(']', A::Shot(1))], Some(("shots", 2)),
         "step through the shots that the coach lists")
         .each(&["show the one before of the coach's shots", "show the next of the coach's shots"]),
@@ -205,16 +201,16 @@ pub const COACH: &[Binding<A, W>] = &[
         Some(("step", 2)), "choose a smaller or larger step").each(&["choose a smaller step", "choose a larger step"]),
     bind(Balls, W::Placing, &[letter('D', A::TurnQuarters)], None,
         "steps of quarter diamonds, or of millimetres again").known_as("snap grid"),
-    bind(Shot, W::Shot, &[letter(',', A::Event(-1)), letter('.', A::Event(1))],
+    bind(Shot, W::Shot, &[letter(',', P(Event(-1))), letter('.', P(Event(1)))],
         Some(("event", 2)), "step from event to event")
         .each(&["step to the event before", "step to the next event"]),
-    bind(Shot, W::Watching, &[key(Left, A::Event(-1)), key(Right, A::Event(1))], None,
+    bind(Shot, W::Watching, &[key(Left, P(Event(-1))), key(Right, P(Event(1)))], None,
         "step from event to event while a shot is watched")
         .each(&["step to the event before", "step to the next event"]),
-    bind(Shot, W::Watching, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
-        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], Some(("speed", 2)), "play slower or faster")
+    bind(Shot, W::Watching, &[letter('-', P(Pace(-1))), letter('+', P(Pace(1))), letter('=', P(Pace(1))),
+        key(Down, P(Pace(-1))), key(Up, P(Pace(1)))], Some(("speed", 2)), "play slower or faster")
         .each(&["play slower", "play faster"]),
-    bind(Shot, W::Shot, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('0', A::ToStart), letter('$', A::ToEnd)],
+    bind(Shot, W::Shot, &[key(Home, P(ToStart)), key(End, P(ToEnd)), letter('0', P(ToStart)), letter('$', P(ToEnd))],
         None, "to the stroke, to the end").each(&["to the stroke", "to the end of the shot"]),
     bind(Shot, W::Shot, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
         "go on with the balls as the shot leaves them, with the next shot of the plan"),
@@ -267,7 +263,7 @@ pub const FOLLOW: &[Binding<A, W>] = &[
 /// A stroke of the player's own.
 #[rustfmt::skip]
 pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Always, [
-    bind(Stroke, W::Always, &[letter(' ', A::PlayPause), key(Enter, A::PlayPause)], Some(("play", 1)),
+    bind(Stroke, W::Always, &[letter(' ', P(Toggle)), key(Enter, P(Toggle))], Some(("play", 1)),
         "play and pause your stroke"),
     bind(Stroke, W::Always, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("leave", 1)),
         "leave your stroke; the coach's shot stays as it was"),
@@ -282,12 +278,12 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Always, [
     bind(Stroke, W::PlayedOn, &[letter('u', A::Undo), letter('z', A::Undo)], Some(("undo", 1)), "put the balls back where your last stroke was played"),
     bind(Stroke, W::StrokeUndone, &[letter('U', A::StrokeAgain), letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)],
         Some(("redo", 1)), "make a change of the stroke again that was taken back"),
-    bind(Stroke, W::Always, &[letter(',', A::Event(-1)), letter('.', A::Event(1))], Some(("event", 2)),
+    bind(Stroke, W::Always, &[letter(',', P(Event(-1))), letter('.', P(Event(1)))], Some(("event", 2)),
         "step from event to event").each(&["step to the event before", "step to the next event"]),
 ], [
-    bind(Stroke, W::Always, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('$', A::ToEnd)], None,
+    bind(Stroke, W::Always, &[key(Home, P(ToStart)), key(End, P(ToEnd)), letter('$', P(ToEnd))], None,
         "to the stroke, to the end").each(&["to the stroke", "to the end of the shot"]),
-    bind(Stroke, W::Always, &[letter('<', A::Pace(-1)), letter('>', A::Pace(1))], None, "play slower or faster")
+    bind(Stroke, W::Always, &[letter('<', P(Pace(-1))), letter('>', P(Pace(1)))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),
     bind(Stroke, W::Always, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
     bind(Stroke, W::Always, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise"),

@@ -18,7 +18,7 @@ mod saving;
 mod spectators;
 pub mod view;
 
-use std::{borrow::Cow, sync::Arc, time::Duration};
+use std::{sync::Arc, time::Duration};
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -94,15 +94,8 @@ pub enum InfoPanel {
 }
 
 impl InfoPanel {
-    /// The one after it; after the last the first.
-    const fn next(self) -> Self {
-        match self {
-            Self::Shot => Self::Chances,
-            Self::Chances => Self::Margins,
-            Self::Margins => Self::Plan,
-            Self::Plan => Self::Shot,
-        }
-    }
+    /// All of them, in the order in which the key turns to them.
+    const ALL: [Self; 4] = [Self::Shot, Self::Chances, Self::Margins, Self::Plan];
 }
 
 /// The state of the coach's screen.
@@ -145,7 +138,7 @@ pub struct CoachPage {
     /// What was asked for at the start.
     of_start: Terms,
     /// Where the last sessions ended that were not gone on with, the last one first.
-    before: Vec<SavedSession<'static>>,
+    before: Vec<SavedSession>,
     /// Whether one of them was gone on with.
     has_gone_back: bool,
     /// Exams that were left before their end, until they are gone on with; the last one is the latest.
@@ -213,13 +206,13 @@ impl CoachPage {
 
     /// Asks for what the last session asked for at its end, but for what has been set otherwise since; and offers to go on from
     /// where it ended, and those before it that were not gone on with, as far as that is somewhere else.
-    pub fn offer(&mut self, last: Option<SavedSession<'static>>) {
+    pub fn offer(&mut self, last: Option<SavedSession>) {
         if let Some((last, set)) = last.as_ref().and_then(|last| Some((last, last.settings?))) {
             self.query = self.query.with(self.of_settings.with_change([set, last.terms()]));
         }
         self.of_start = self.query.terms();
         let is_elsewhere = |last: &SavedSession| {
-            last.layout != *self.layout() || *last.table != *self.table() || last.practice.is_some()
+            last.layout != *self.layout() || last.table != *self.table() || last.practice.is_some()
         };
         let mut before = last.map_or_else(Vec::new, SavedSession::with_former);
         before.retain(is_elsewhere);
@@ -236,31 +229,23 @@ impl CoachPage {
 
     /// What the next session may go on from, with what is practised, or the exam or `game` that waits to be gone on with; `None` while
     /// nothing is and the balls lie as at the start.
-    pub fn saved_session<'a>(
-        &'a self,
-        practised: Option<&'a Session>,
-        game: Option<&'a Session>,
-    ) -> Option<SavedSession<'a>> {
-        let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
+    pub fn saved_session(&self, practised: Option<&Session>, game: Option<&Session>) -> Option<SavedSession> {
         let is_begun = self.is_begun() || practised.or(game).is_some() || !self.left_exams.is_empty();
         if self.followed().is_some() || !is_begun {
             return None;
         }
-        let of_before = self.before.first().and_then(|before| before.practice.as_deref());
+        let of_before = self.before.first().and_then(|before| before.practice.as_ref());
         let mut exams = practised.into_iter().chain(self.left_exams.iter().rev()).chain(of_before);
         let practice = exams.find(|session| session.is_exam()).or(practised).or(game);
-        let ended =
-            |practice| SavedSession::new(table, layout, cue_ball, self.query.terms(), practice).under(self.of_settings);
+        let ended = |practice: Option<&Session>| {
+            let (table, terms) = (self.table().clone(), self.query.terms());
+            SavedSession::new(table, *self.layout(), self.cue_ball(), terms, practice.cloned()).under(self.of_settings)
+        };
         // One a session: any other exam or game that was left is as if one before had ended there.
         let others = self.left_exams.iter().rev().chain(game);
         let others = others.filter(|other| practice.is_none_or(|practice| practice.id != other.id));
-        let others: Vec<_> = others.map(|other| ended(Some(other)).into_owned()).collect();
-        let former = if others.is_empty() {
-            Cow::Borrowed(&self.before[..])
-        } else {
-            Cow::Owned([&others[..], &self.before].concat())
-        };
-        Some(ended(practice).followed_by(former))
+        let former = others.map(|other| ended(Some(other))).chain(self.before.iter().cloned());
+        Some(ended(practice).followed_by(former.collect()))
     }
 
     /// Whether anything has been done since the start.
@@ -286,7 +271,7 @@ impl CoachPage {
         let more = if self.before.is_empty() { "" } else { "; c goes back to the one before" };
         let said = format!("this is where {which} session ended{its_rule}; Enter asks the coach{more}");
         self.message = Some(Message::good(said));
-        last.practice.map(Cow::into_owned)
+        last.practice
     }
 
     /// Lets the coach think no longer than that, whatever is set.

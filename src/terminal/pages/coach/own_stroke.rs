@@ -50,13 +50,8 @@ impl CoachPage {
         self.own_stroke.as_ref().map_or((false, false), |own| own.stroke.can_travel())
     }
 
-    /// Takes the coach's shot over into the player's own stroke; without one that is aimed full at a ball.
-    pub(super) fn take_over(&mut self) -> Option<Effect> {
-        self.take_over_after(0)
-    }
-
-    /// The same after so many strokes of the player's own.
-    fn take_over_after(&mut self, played_on: usize) -> Option<Effect> {
+    /// Takes the coach's shot over into the player's own stroke, after so many of them; without one that is aimed full at a ball.
+    pub(super) fn take_over(&mut self, played_on: usize) -> Option<Effect> {
         let situation = self.situation();
         let (cue, what_if) = if let Some(coach) = self.proposal().map(|proposal| Arc::clone(&proposal.shot)) {
             (coach.cue, Ok(WhatIf::new(coach, situation)))
@@ -90,14 +85,14 @@ impl CoachPage {
         }
         let played_on = self.played_on() + 1;
         self.place(end);
-        self.take_over_after(played_on)
+        self.take_over(played_on)
     }
 
     /// Puts the balls back where the last stroke of the player's own was played.
     pub(super) fn play_back(&mut self) -> Option<Effect> {
         let played_on = self.played_on().checked_sub(1)?;
         self.undo();
-        self.take_over_after(played_on)
+        self.take_over(played_on)
     }
 
     /// Leaves the player's own stroke; the coach's shot stays as it was.
@@ -107,13 +102,6 @@ impl CoachPage {
             self.watch_from_the_stroke();
         } else {
             self.rest();
-        }
-    }
-
-    /// Forgets a stroke that is about other balls, another question or another shot of the coach.
-    pub(super) fn forget_own_stroke(&mut self) {
-        if self.what_if().is_none() {
-            self.own_stroke = None;
         }
     }
 
@@ -191,7 +179,7 @@ mod tests {
         physics::CueInputs,
         statistics::SuccessRate,
         table::{Layout, Table},
-        terminal::{Advice, CoachAction as Action, CoachAnswer, CoachNews, Proposal, Shot},
+        terminal::{Advice, CoachAction as Action, CoachAnswer, CoachNews, Proposal, Shot, shot::PlaybackKey},
     };
     use std::sync::atomic::Ordering;
 
@@ -235,7 +223,7 @@ mod tests {
         };
         assert_eq!(tell(&mut page, first.id, 10), None);
         assert_eq!(tell(&mut page, second.id, 70), Some(0.7));
-        assert!(page.update(Action::PlayPause).is_none(), "playing asks nothing");
+        assert!(page.update(Action::Playback(PlaybackKey::Toggle)).is_none(), "playing asks nothing");
         assert!(page.playback.playing && page.shot().unwrap().cue.speed > 2.55, "the player's own is played");
     }
 

@@ -6,8 +6,7 @@ use std::sync::{
 };
 
 use crate::{
-    coach::{Cause, FirstMet, Why},
-    game::Rule,
+    coach::{Cause, Why},
     physics::CueInputs,
     table::BALLS,
     terminal::{
@@ -15,7 +14,6 @@ use crate::{
         pages::{
             Page,
             coach::{Choice, CoachPage, Snapshot},
-            neighbour, next_skill,
         },
         ui::Message,
         words::{chance_words, named_skill, skill_word},
@@ -46,7 +44,8 @@ pub struct Studying {
 impl CoachPage {
     pub(super) fn ask(&mut self) -> Effect {
         self.playback.pause();
-        let former = self.advised().map_or_else(Vec::new, AdviceState::strokes);
+        let former = self.advised().into_iter().flat_map(|advised| &advised.choices);
+        let former = former.map(|choice| choice.proposal.shot.cue).collect();
         let job = CoachJob { former, ..self.job(None) };
         let (cancel, query) = (Arc::clone(&job.cancel), job.query.clone());
         self.pending = Some(Pending { id: job.id, cancel, query, waited: 0.0, so_far: None });
@@ -220,29 +219,9 @@ impl CoachPage {
         None
     }
 
-    pub(super) fn next_rule(&mut self) {
-        let rule = neighbour(&Rule::ALL, self.query.rule, 1);
-        self.ask_for(Terms { rule, ..self.query.terms() });
-    }
-
-    pub(super) fn next_skill(&mut self) {
-        let skill = next_skill(self.query.skill, self.own, self.of_settings.skill);
-        self.ask_for(Terms { skill, ..self.query.terms() });
-    }
-
-    pub(super) fn turn_plan(&mut self) {
-        let plan = !self.query.plan;
-        self.ask_for(Terms { plan, ..self.query.terms() });
-    }
-
-    pub(super) fn next_first_met(&mut self) {
-        let first = neighbour(&FirstMet::ALL, self.query.first, 1);
-        self.ask_for(Terms { first, ..self.query.terms() });
-    }
-
     /// Asks for something else from now on, and says so. A shot that answers another question is not shown, until that is asked
     /// again or the step is taken back.
-    fn ask_for(&mut self, terms: Terms) {
+    pub(super) fn ask_for(&mut self, terms: Terms) {
         let (before, had_shot) = (self.query.terms(), self.proposal().is_some());
         self.change_terms(terms);
         self.say_terms(before, had_shot);

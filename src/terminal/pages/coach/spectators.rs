@@ -178,7 +178,7 @@ impl CoachPage {
             snapshot.advised.extend(AdviceState::new(self.query.clone(), advice));
             // The closer look is the player's own.
             if let Some(advised) = snapshot.advised.first_mut() {
-                advised.choice_mut().is_studied = true;
+                advised.choices[advised.chosen].is_studied = true;
             }
         }
         self.history = History::new(snapshot);

@@ -27,7 +27,7 @@ impl DrillsPage {
             DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
             DrillCondition::Sought => refuse(!self.catalogue.is_sought(), "no words are looked for"),
             DrillCondition::NotSought => refuse(self.catalogue.is_sought(), "Esc ends the search first"),
-            DrillCondition::OfExercise => refuse(!self.records.has_exercise(), "this record is of all exercises"),
+            DrillCondition::OfExercise => refuse(self.records.exercise.is_none(), "this record is of all exercises"),
             DrillCondition::Filmed => refuse(self.film.played().is_none(), "there is no filmed shot on the table yet"),
             DrillCondition::Estimated => {
                 refuse(self.records.skill().is_none(), "there is no estimate of your skill yet")
@@ -43,15 +43,16 @@ impl DrillsPage {
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.back(),
-            Action::Line(lines) if self.page() == DrillContext::Record => self.scroll_records(lines),
+            Action::Line(lines) if self.page() == DrillContext::Record => {
+                let all = self.book.sessions_of(self.records.scope()).len();
+                self.records.scroll(lines, all);
+            }
             Action::Line(lines) if self.page() == DrillContext::Films => self.film.move_mark(lines),
             Action::Line(lines) => self.catalogue.move_mark(lines),
             Action::OpenFilms => self.open_films(),
             Action::Open if self.page() == DrillContext::Films => return self.open_film(0),
             Action::Filmed(shots) => return self.open_film(shots),
-            Action::PlayPause | Action::Event(_) | Action::Pace(_) if self.page() == DrillContext::Film => {
-                self.film.watch(action);
-            }
+            Action::Playback(key) if self.page() == DrillContext::Film => self.film.watch(key),
             Action::Category(step) => self.catalogue.choose_category(step),
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
             Action::All if self.catalogue.elsewhere() > 0 => self.catalogue.look_everywhere(),
@@ -89,7 +90,7 @@ impl DrillsPage {
 
     fn back(&mut self) {
         let is_exercise = self.page() == DrillContext::Exercise;
-        let exam = self.turn.as_mut().filter(|turn| is_exercise && turn.is_exam() && !turn.session.is_over());
+        let exam = self.turn.as_mut().filter(|turn| is_exercise && turn.session.is_exam() && !turn.session.is_over());
         if let Some(exam) = exam {
             exam.finish_watching();
             // One that has not begun is left as it is.
@@ -193,16 +194,11 @@ impl DrillsPage {
     fn open_records(&mut self) -> Effect {
         self.pages.push(DrillContext::Record);
         // Games and matches from an exercise are no repetitions of it.
-        let is_repeated = |turn: &&Turn| !turn.is_exam() && !turn.session.is_game();
+        let is_repeated = |turn: &&Turn| !turn.session.is_exam() && !turn.session.is_game();
         let name = self.turn.as_ref().filter(is_repeated).map(|turn| turn.exercise.name.clone());
         self.records.open(name);
         // Another program may have noted something.
         Effect::Drill(vec![self.load()])
-    }
-
-    fn scroll_records(&mut self, lines: isize) {
-        let all = self.book.sessions_of(self.records.scope()).len();
-        self.records.scroll(lines, all);
     }
 
     fn share(&mut self) -> Option<Effect> {

@@ -1,9 +1,6 @@
 //! What has been played: the sessions, and the score of every exercise in them, at a real table and here.
 
-use std::{
-    collections::{BTreeSet, HashMap},
-    sync::Arc,
-};
+use std::collections::{BTreeSet, HashMap};
 
 use crate::drills::{Record, Session, Venue};
 
@@ -29,11 +26,6 @@ impl Book {
         let names: BTreeSet<String> = book.sessions.iter().flat_map(names).collect();
         book.score(names);
         book
-    }
-
-    /// The same, to be used on another thread.
-    pub fn shared(&self) -> Arc<[Session]> {
-        self.sessions.clone().into()
     }
 
     /// Those in which the player repeated the exercise called `name`, or did anything.

@@ -160,22 +160,6 @@ mod tests {
     }
 
     #[test]
-    fn a_search_that_finds_nothing_in_a_category_tells_what_is_elsewhere() {
-        let mut catalogue = Catalogue::new(Library::bundled().clone());
-        catalogue.find_text("natural");
-        let all = catalogue.found().len();
-        assert_eq!(catalogue.elsewhere(), 0, "what is found is listed");
-        while catalogue.filter.category != Some(Category::Own) {
-            catalogue.choose_category(1);
-        }
-        assert!(catalogue.found().is_empty() && catalogue.elsewhere() == all && all > 1);
-        catalogue.look_everywhere();
-        assert_eq!((catalogue.found().len(), catalogue.filter.category, catalogue.elsewhere()), (all, None, 0));
-        catalogue.find_text("");
-        assert!(!catalogue.is_sought() && !catalogue.is_part());
-    }
-
-    #[test]
     fn the_mark_stays_at_its_exercise_while_the_list_changes() {
         let mut catalogue = Catalogue::new(Library::bundled().clone());
         catalogue.move_mark(isize::MAX);

@@ -3,9 +3,9 @@
 use crate::{
     study::filmed::FilmedShot,
     terminal::{
-        DrillAction, FilmReplay,
+        FilmReplay,
         shot::{
-            Playback,
+            Playback, PlaybackKey,
             film::{Listed, listed},
         },
     },
@@ -69,13 +69,9 @@ impl FilmsScreen {
     }
 
     /// Does what a key asks of the shot that is watched.
-    pub fn watch(&mut self, action: DrillAction) {
-        let Some(Ok(played)) = &self.played else { return };
-        let (events, duration) = (played.shot.recording.events(), played.replay.duration());
-        match action {
-            DrillAction::Event(steps) => self.playback.step(steps, events, duration),
-            DrillAction::Pace(steps) => self.playback.change_speed(steps),
-            _ => self.playback.toggle(duration),
+    pub fn watch(&mut self, key: PlaybackKey) {
+        if let Some(Ok(played)) = &self.played {
+            self.playback.act(key, played.shot.recording.events(), played.replay.duration());
         }
     }
 
@@ -84,18 +80,5 @@ impl FilmsScreen {
         if let Some(Ok(played)) = &self.played {
             self.playback.tick(seconds, played.replay.duration());
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn beyond_the_last_shot_and_the_first_nothing_is_fitted_again() {
-        let mut films = FilmsScreen::default();
-        assert!(films.begin(0).is_some() && films.begin(-1).is_none());
-        films.move_mark(isize::MAX);
-        assert!(films.begin(1).is_none() && films.begin(0).is_some() && films.begin(-1).is_some());
     }
 }

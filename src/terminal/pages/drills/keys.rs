@@ -8,10 +8,14 @@ use crate::terminal::{
         Section::{Film, Library, Position, Program, Record, Score},
         bind, ctrl, key, letter, lines, marks,
     },
-    shot::{StrokeChange, stroke::stroke_keys},
+    shot::{
+        PlaybackKey::{self, Event, Pace, Toggle},
+        StrokeChange,
+        stroke::stroke_keys,
+    },
 };
 
-use DrillAction as A;
+use DrillAction::{self as A, Playback as P};
 use DrillCondition as W;
 
 /// What a key does on the drill screens.
@@ -61,12 +65,8 @@ pub enum DrillAction {
     Play,
     /// Goes on to the next repetition, or the next exercise of an exam.
     Next,
-    /// Plays or pauses the shot.
-    PlayPause,
-    /// Steps to another event, the next where positive.
-    Event(isize),
-    /// Plays faster where positive, else slower.
-    Pace(isize),
+    /// Plays the shot or steps through it.
+    Playback(PlaybackKey),
     /// Opens the list of filmed shots.
     OpenFilms,
     /// Watches another filmed shot, a later one where positive.
@@ -258,9 +258,9 @@ pub const EXAM: &[Binding<A, W>] = &[
 pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Running, &[key(Enter, A::Next)], Some(("to the end", 1)), "to the end of the shot"),
     bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)), "the next repetition, or the next exercise of an exam"),
-    bind(Stroke, W::Watching, &[letter(' ', A::PlayPause)], Some(("replay", 1)), "play and pause the shot"),
-    bind(Stroke, W::Watching, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
-        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], None, "play slower or faster")
+    bind(Stroke, W::Watching, &[letter(' ', P(Toggle))], Some(("replay", 1)), "play and pause the shot"),
+    bind(Stroke, W::Watching, &[letter('-', P(Pace(-1))), letter('+', P(Pace(1))), letter('=', P(Pace(1))),
+        key(Down, P(Pace(-1))), key(Up, P(Pace(1)))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),
     bind(Stroke, W::Playable, &[letter(' ', A::Play)], Some(("play", 1)), "play the stroke, with the player's errors"),
     bind(Stroke, W::Set, &[key(Enter, A::Play)], None, "play the stroke, once it was changed"),
@@ -292,8 +292,8 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
         "shift the balls by half a ball at each repetition, or not"),
     bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
         "a shorter or longer goal").each(&["a shorter goal", "a longer goal"]),
-    bind(Stroke, W::Watching, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
-        key(Right, A::Event(1))], Some(("event", 2)), "step from event to event")
+    bind(Stroke, W::Watching, &[letter(',', P(Event(-1))), letter('.', P(Event(1))), key(Left, P(Event(-1))),
+        key(Right, P(Event(1)))], Some(("event", 2)), "step from event to event")
         .each(&["step to the event before", "step to the next event"]),
 ], [
     bind(Stroke, W::StrokeChanged, &[letter('z', A::StrokeBack)], None, "take the last change of the stroke back"),
@@ -335,12 +335,12 @@ pub const FILMS: &[Binding<A, W>] = &[
 /// A filmed shot.
 #[rustfmt::skip]
 pub const FILM: &[Binding<A, W>] = &[
-    bind(Film, W::Filmed, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
-    bind(Film, W::Filmed, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
-        key(Right, A::Event(1))], Some(("event", 2)), "step from event to event")
+    bind(Film, W::Filmed, &[letter(' ', P(Toggle))], Some(("play", 1)), "play and pause the shot"),
+    bind(Film, W::Filmed, &[letter(',', P(Event(-1))), letter('.', P(Event(1))), key(Left, P(Event(-1))),
+        key(Right, P(Event(1)))], Some(("event", 2)), "step from event to event")
         .each(&["step to the event before", "step to the next event"]),
-    bind(Film, W::Filmed, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
-        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], Some(("speed", 2)), "play slower or faster")
+    bind(Film, W::Filmed, &[letter('-', P(Pace(-1))), letter('+', P(Pace(1))), letter('=', P(Pace(1))),
+        key(Down, P(Pace(-1))), key(Up, P(Pace(1)))], Some(("speed", 2)), "play slower or faster")
         .each(&["play slower", "play faster"]),
     bind(Film, W::Always, &[letter('[', A::Filmed(-1)), letter(']', A::Filmed(1))], Some(("other shot", 2)),
         "watch the shot before, the next shot").each(&["watch the shot before", "watch the next shot"]),

@@ -120,15 +120,16 @@ pub struct DrillsPage {
     /// The table that the settings say: a bundled one or a file.
     of_settings: String,
     options: RepetitionOptions,
-    for_coach: Option<Balls>,
+    /// Balls that are to go to the coach's table, until they are taken.
+    pub for_coach: Option<Balls>,
     /// The coach's rule when the library was opened last.
     opened_for: Option<Rule>,
     /// The level of the exam that was chosen last.
     exam_level: u8,
     /// The pages one has come through; the last one is open.
     pages: Vec<DrillContext>,
-    /// An exam that was left before its end.
-    left_exam: Option<Session>,
+    /// An exam that was left before its end, until it is taken.
+    pub left_exam: Option<Session>,
     /// Runs, games and matches that were left before their end, one an exercise; opening that goes on with it.
     left: Vec<Session>,
     rng: Xoshiro256PlusPlus,
@@ -189,11 +190,6 @@ impl DrillsPage {
         Effect::Drill(tasks)
     }
 
-    /// Says that an exercise is on `table`, where the settings say another one.
-    fn other_table_words(&self, table: &str) -> Option<String> {
-        other_table_words(table, &self.of_settings)
-    }
-
     /// Reads what is on the disk.
     pub fn load(&self) -> DrillTask {
         DrillTask::Load(Box::new(self.places.clone()))
@@ -218,7 +214,7 @@ impl DrillsPage {
     /// stroke.
     pub fn unfinished(&self) -> Option<&Session> {
         let Some(turn) = &self.turn else { return self.left.last() };
-        let has_begun = !turn.is_exam() || !turn.session.attempts.is_empty();
+        let has_begun = !turn.session.is_exam() || !turn.session.attempts.is_empty();
         Some(&turn.session).filter(|session| has_begun && !session.is_over())
     }
 
@@ -232,16 +228,6 @@ impl DrillsPage {
     /// Whether one has gone back to the coach from the first page.
     pub const fn is_left(&self) -> bool {
         self.pages.is_empty()
-    }
-
-    /// The exam that was left before its end; asked once.
-    pub const fn take_left_exam(&mut self) -> Option<Session> {
-        self.left_exam.take()
-    }
-
-    /// Balls that are to go to the coach's table; asked once.
-    pub const fn take_for_coach(&mut self) -> Option<Balls> {
-        self.for_coach.take()
     }
 
     /// The page that is open.
@@ -283,7 +269,7 @@ impl DrillsPage {
 
     /// Who plays in the exercise that is open, or would in another: an exam stays with whom it was begun.
     pub fn skill(&self) -> Skill {
-        self.turn.as_ref().map_or(self.player.skill, Turn::skill)
+        self.turn.as_ref().map_or(self.player.skill, |turn| turn.session.skill)
     }
 
     /// Opens the list of filmed shots.

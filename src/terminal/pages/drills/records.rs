@@ -20,7 +20,7 @@ pub enum Estimate {
 #[derive(Debug, Default)]
 pub struct Records {
     /// The exercise that it can show alone.
-    exercise: Option<String>,
+    pub(super) exercise: Option<String>,
     /// Whether it shows all exercises all the same.
     shows_all: bool,
     /// The estimate of the player's skill.
@@ -57,11 +57,6 @@ impl Records {
     /// The exercise whose record is shown; `None` for all.
     pub fn scope(&self) -> Option<&str> {
         self.exercise.as_deref().filter(|_| !self.shows_all)
-    }
-
-    /// Whether there is an exercise that it can show alone.
-    pub(super) const fn has_exercise(&self) -> bool {
-        self.exercise.is_some()
     }
 
     /// Shows the record of all exercises, or of the one again.

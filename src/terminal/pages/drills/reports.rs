@@ -22,7 +22,7 @@ impl DrillsPage {
                 self.loaded(*loaded);
                 let mut tasks = self.catch_up();
                 if self.page() == DrillContext::Record {
-                    tasks.push(DrillTask::Estimate(self.records.ask(), self.book.shared()));
+                    tasks.push(DrillTask::Estimate(self.records.ask(), self.book.sessions.clone().into()));
                 }
                 return tasks;
             }
@@ -55,8 +55,8 @@ impl DrillsPage {
                 }
             }
             DrillReport::StrokeJudged(id, made) => {
-                if let Some(turn) = &mut self.turn {
-                    turn.stroke_judged(id, made);
+                if let Some(what_if) = self.turn.as_mut().and_then(|turn| turn.what_if.as_mut()) {
+                    what_if.judged(id, made);
                 }
             }
             DrillReport::Saved(session, saved) => return self.saved(&session, saved),

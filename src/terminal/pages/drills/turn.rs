@@ -9,12 +9,12 @@ use std::sync::{
 
 use crate::{
     coach::{
-        Skill, SpokenError,
+        SpokenError,
         words::{LengthUnit, no_jump_words},
     },
     drills::{Attempt, Exercise, ExerciseError, Goal, Session, Venue},
     game::Point,
-    physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
+    physics::CueInputs,
     table::{CueBall, Layout, Table},
     terminal::{
         AdviceTask, AttemptOutcome, DrillTask, ModelShot, PlayTask, Shot,
@@ -132,14 +132,6 @@ impl Turn {
         self.stroke.raised(&self.table, &self.layout)
     }
 
-    /// How low the cue can be held for the stroke that is set.
-    ///
-    /// # Errors
-    /// Where it has no room at all.
-    pub fn least_elevation(&self) -> Result<LeastElevation, NoRoom> {
-        least_elevation(&self.table, &self.layout, self.stroke())
-    }
-
     /// Changes the stroke.
     pub(super) fn change_stroke(&mut self, change: StrokeChange) -> Result<Vec<DrillTask>, TipSlips> {
         self.stroke.change(change, &self.table, &self.layout)?;
@@ -158,25 +150,10 @@ impl Turn {
         self.compare()
     }
 
-    /// Whether the stroke can be set as it was before its last change, and after it again.
-    pub(super) const fn can_travel(&self) -> (bool, bool) {
-        self.stroke.can_travel()
-    }
-
     /// Whether the stroke is the one that the page began with, of the player's own, which nobody was warned of: once.
     pub(super) fn takes_warning(&mut self) -> bool {
-        let warns = self.is_aiming() && !self.is_coachs_turn() && !self.can_travel().0;
+        let warns = self.is_aiming() && !self.is_coachs_turn() && !self.stroke.can_travel().0;
         warns && !std::mem::replace(&mut self.is_warned, true)
-    }
-
-    /// Whose strokes are played.
-    pub const fn skill(&self) -> Skill {
-        self.session.skill
-    }
-
-    /// Whether an exam is under way or over.
-    pub fn is_exam(&self) -> bool {
-        self.session.is_exam()
     }
 
     /// Whether a run, a game or a match has begun and is not over: another session would end it.

@@ -6,7 +6,7 @@ use crate::{
     terminal::{
         DrillAction as Action, DrillCondition as Condition, DrillContext, DrillTask, Effect, ModelShot,
         pages::drills::{DrillsPage, ModelShotState, Question, Stage, Turn},
-        shot::{OwnStroke, stroke},
+        shot::{OwnStroke, PlaybackKey, stroke},
         ui::{Message, TextField},
         words::player_words,
     },
@@ -67,7 +67,7 @@ impl Turn {
                 Some(watched) if watched.is_settled => refuse(when == Condition::Running, "the shot is at its end"),
                 Some(_) => refuse(when == Condition::Ended, IS_RUNNING),
             },
-            (_, Condition::Free | Condition::Restart | Condition::Counted) if self.is_exam() => {
+            (_, Condition::Free | Condition::Restart | Condition::Counted) if self.session.is_exam() => {
                 Some("an exam is under way; Esc leaves it")
             }
             // Another session would take the stroke off the table with its result; a run asks first and shows it then.
@@ -75,7 +75,7 @@ impl Turn {
             (_, Condition::Counted) => {
                 refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
             }
-            (_, Condition::ModelShot) => refuse(self.is_exam(), "an exam gives no hints")
+            (_, Condition::ModelShot) => refuse(self.session.is_exam(), "an exam gives no hints")
                 .or(refuse(matches!(self.model_shot, ModelShotState::Pending), "the coach is still thinking"))
                 .or(refuse(self.model_shot().is_none(), "the coach has found no shot that makes the point")),
             (_, Condition::Alone) => refuse(self.what_if().is_some(), "Esc takes the model shot off the table first"),
@@ -84,12 +84,12 @@ impl Turn {
                 .or_else(|| self.disabled_reason(Condition::Aiming))
                 .or_else(|| self.disabled_reason(Condition::Alone)),
             (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not beside your stroke"),
-            (Stage::Aiming, Condition::StrokeChanged) => refuse(!self.can_travel().0, "the stroke is unchanged"),
+            (Stage::Aiming, Condition::StrokeChanged) => refuse(!self.stroke.can_travel().0, "the stroke is unchanged"),
             (Stage::Aiming, Condition::Set) => {
-                refuse(!self.can_travel().0, "the stroke is unchanged; Space twice plays it all the same")
+                refuse(!self.stroke.can_travel().0, "the stroke is unchanged; Space twice plays it all the same")
             }
             (Stage::Aiming, Condition::StrokeUndone) => {
-                refuse(!self.can_travel().1, "no change of the stroke was taken back")
+                refuse(!self.stroke.can_travel().1, "no change of the stroke was taken back")
             }
             (_, Condition::StrokeChanged | Condition::Set | Condition::StrokeUndone) => {
                 self.disabled_reason(Condition::Aiming)
@@ -150,12 +150,12 @@ impl DrillsPage {
             Action::StrokeBack => return some(turn.travel(OwnStroke::undo)),
             Action::StrokeAgain => return some(turn.travel(OwnStroke::redo)),
             Action::WhatIf => return some(turn.take_over()),
-            Action::LeaveWhatIf => turn.leave_what_if(),
+            Action::LeaveWhatIf => turn.what_if = None,
             Action::Play => return self.play(),
             Action::Next => return self.next(),
-            Action::PlayPause | Action::Event(_) | Action::Pace(_) => self.watch(action),
+            Action::Playback(key) => self.watch(key),
             Action::Hint => {
-                turn.leave_what_if();
+                turn.what_if = None;
                 turn.shows_hint = !turn.shows_hint;
                 turn.text_page = 0;
                 turn.with_hint |= turn.shows_hint && turn.is_aiming();
@@ -217,7 +217,8 @@ impl DrillsPage {
 
     /// Whether another player is to play the open exercise. Who has begun an exam or a run plays it to its end.
     fn is_for_another(&self) -> bool {
-        let is_other = |turn: &Turn| !turn.is_exam() && !turn.is_under_way() && turn.skill() != self.player.skill;
+        let is_other =
+            |turn: &Turn| !turn.session.is_exam() && !turn.is_under_way() && turn.session.skill != self.player.skill;
         self.turn.as_ref().is_some_and(is_other)
     }
 
@@ -256,7 +257,7 @@ impl DrillsPage {
         let turn = self.turn.as_mut()?;
         match next {
             Some((table, layout)) => turn.place(table, layout).then(|| Effect::Drill(turn.ask())),
-            None if turn.is_exam() => {
+            None if turn.session.is_exam() => {
                 self.pages = vec![DrillContext::Library, DrillContext::Result];
                 None
             }
@@ -264,16 +265,10 @@ impl DrillsPage {
         }
     }
 
-    fn watch(&mut self, action: Action) {
+    fn watch(&mut self, key: PlaybackKey) {
         let Some(watched) = self.turn.as_mut().and_then(Turn::watched_mut) else { return };
         let Some(shot) = watched.outcome.shot.clone() else { return };
-        let (events, duration) = (shot.recording.events(), shot.recording.duration());
-        match action {
-            Action::PlayPause => watched.playback.toggle(duration),
-            Action::Event(steps) => watched.playback.step(steps, events, duration),
-            Action::Pace(steps) => watched.playback.change_speed(steps),
-            _ => {}
-        }
+        watched.playback.act(key, shot.recording.events(), shot.recording.duration());
         watched.settle();
     }
 

@@ -2,13 +2,10 @@
 
 use std::sync::{Arc, atomic::Ordering};
 
-use crate::{
-    statistics::SuccessRate,
-    terminal::{
-        DrillTask, JudgedStroke,
-        pages::drills::{ModelShotState, Turn, turn::QUESTIONS},
-        shot::{WhatIf, what_if},
-    },
+use crate::terminal::{
+    DrillTask, JudgedStroke,
+    pages::drills::{ModelShotState, Turn, turn::QUESTIONS},
+    shot::{WhatIf, what_if},
 };
 
 impl Turn {
@@ -25,11 +22,6 @@ impl Turn {
         self.what_if = Some(WhatIf::new(shot, self.situation()));
         (self.with_hint, self.shows_hint, self.text_page) = (true, false, 0);
         self.judge()
-    }
-
-    /// Takes the model shot off the table.
-    pub(super) fn leave_what_if(&mut self) {
-        self.what_if = None;
     }
 
     /// Compares the stroke as it is set now with the model shot, if that is wanted.
@@ -55,12 +47,5 @@ impl Turn {
 
     const fn situation(&self) -> what_if::Situation<'_> {
         what_if::Situation { table: &self.table, layout: &self.layout, rule: self.exercise.rule }
-    }
-
-    /// How often the player makes the stroke of question `id`.
-    pub(super) fn stroke_judged(&mut self, id: u64, made: SuccessRate) {
-        if let Some(what_if) = &mut self.what_if {
-            what_if.judged(id, made);
-        }
     }
 }

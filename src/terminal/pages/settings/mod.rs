@@ -41,9 +41,7 @@ pub enum Question {
 /// The state of the screen.
 #[derive(Debug)]
 pub struct SettingsPage {
-    /// The file.
-    pub path: PathBuf,
-    /// Where the player's files are.
+    /// Where the player's files are, that of the settings among them.
     pub places: Places,
     /// The files of the player's own tables, as far as is known.
     pub tables: Vec<PathBuf>,
@@ -72,9 +70,8 @@ pub struct SettingsPage {
 
 impl SettingsPage {
     /// The screen before it is opened.
-    pub fn new(path: PathBuf, places: Places, pages: Vec<KeyPage>) -> Self {
+    pub fn new(places: Places, pages: Vec<KeyPage>) -> Self {
         Self {
-            path,
             places,
             tables: Vec::new(),
             settings: Settings::default(),
@@ -140,12 +137,7 @@ impl SettingsPage {
 
     fn task(&mut self, change: Option<Change>) -> Effect {
         self.sent += 1;
-        Effect::Settings(Box::new(SettingsTask {
-            number: self.sent,
-            path: self.path.clone(),
-            places: self.places.clone(),
-            change,
-        }))
+        Effect::Settings(Box::new(SettingsTask { number: self.sent, places: self.places.clone(), change }))
     }
 
     /// Takes what has come of a task, and gives what is wrong.

@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::{
     learning::{
         policy::kept::KeepError,
-        run::{follow::Condition as RunCondition, request::Request},
+        run::{POLICY, follow::Condition as RunCondition, request::Request},
     },
     storage::is_name,
     terminal::{
@@ -103,7 +103,7 @@ impl TrainingPage {
 
     fn back(&mut self) {
         let is_watched = self.page() == TrainingContext::Watch;
-        if is_watched && self.watch.as_mut().is_some_and(|watch| watch.charts.leave_enlarged()) {
+        if is_watched && self.watch.as_mut().is_some_and(|watch| std::mem::take(&mut watch.charts.enlarged)) {
             return;
         }
         if self.pages.pop() == Some(TrainingContext::Watch) {
@@ -165,7 +165,7 @@ impl TrainingPage {
         match action {
             Action::Show(n) => charts.toggle(n),
             Action::Chart(steps) => charts.select(steps),
-            Action::Enlarge => charts.enlarge(),
+            Action::Enlarge => charts.enlarged = !charts.enlarged,
             Action::Log => charts.toggle_log(),
             Action::Smooth => charts.smooth(),
             Action::Zoom(steps) => *message = charts.zoom(steps, progress).err().map(Message::warning),
@@ -216,7 +216,7 @@ impl TrainingPage {
     }
 
     fn keep(&self, name: String, replace: bool) -> Effect {
-        let from = self.watch.as_ref().map(Watch::policy).unwrap_or_default();
+        let from = self.watch.as_ref().map(|watch| watch.folder().join(POLICY)).unwrap_or_default();
         let folder = self.places.policies.clone();
         Effect::Keep(Box::new(Keeping { from, folder, name, replace }))
     }

@@ -42,9 +42,11 @@ struct Part {
 #[derive(Debug)]
 pub struct Charts {
     shown: [bool; Quantity::COUNT],
-    log: [bool; Quantity::COUNT],
+    /// Which of them have a logarithmic scale.
+    pub log: [bool; Quantity::COUNT],
     selected: usize,
-    enlarged: bool,
+    /// Whether the selected one stands alone.
+    pub enlarged: bool,
     smoothing: usize,
     part: Option<Part>,
 }
@@ -82,11 +84,6 @@ impl Charts {
         n == self.selected && !self.enlarged && self.shown.iter().filter(|shown| **shown).count() > 1
     }
 
-    /// Whether this chart has a logarithmic scale.
-    pub const fn is_log(&self, n: usize) -> bool {
-        self.log[n]
-    }
-
     /// Over which share of the shots that are shown the curves are smoothed.
     pub const fn smoothing(&self) -> f64 {
         SMOOTHING[self.smoothing]
@@ -119,16 +116,6 @@ impl Charts {
         if let Some(&n) = all.get(place) {
             self.selected = n;
         }
-    }
-
-    /// Enlarges the selected chart, or shows all again.
-    pub const fn enlarge(&mut self) {
-        self.enlarged = !self.enlarged;
-    }
-
-    /// Shows the other charts again; tells whether one stood alone.
-    pub const fn leave_enlarged(&mut self) -> bool {
-        std::mem::replace(&mut self.enlarged, false)
     }
 
     /// Draws the selected chart on a logarithmic scale, or not.
@@ -289,7 +276,7 @@ mod tests {
         }
         assert!(!charts.any() && charts.drawn().is_empty());
         charts.toggle(7);
-        charts.enlarge();
+        charts.enlarged = true;
         assert_eq!(charts.drawn(), [7]);
     }
 }

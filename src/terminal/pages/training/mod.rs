@@ -32,7 +32,7 @@ use crate::{
     storage::Places,
     table::Table,
     terminal::{
-        CoachQuery, FollowSlot, KeepOutcome, Keeping, Subscriptions, TrainerFailure, TrainingContext, TrainingReport,
+        CoachQuery, FollowSlot, Keeping, Subscriptions, TrainerFailure, TrainingContext, TrainingReport,
         pages::Page,
         ui::{Message, TextField, Typed},
         words::taken_words,
@@ -234,18 +234,18 @@ impl TrainingPage {
         }
     }
 
-    fn kept(&mut self, keeping: Keeping, outcome: Result<KeepOutcome, String>) {
+    fn kept(&mut self, keeping: Keeping, outcome: Result<bool, String>) {
         let name = keeping.name;
         match outcome {
-            Ok(KeepOutcome::Done) => {
+            Ok(true) => {
                 let call = shell_word(&name);
                 self.message = Some(Message::good(format!("kept; use them by: carom recommend --policy {call}")));
             }
             // Asked only while the run is still watched and nothing else is asked; otherwise told.
-            Ok(KeepOutcome::Taken) if self.page() == TrainingContext::Watch && self.question.is_none() => {
+            Ok(false) if self.page() == TrainingContext::Watch && self.question.is_none() => {
                 self.question = Some(Question::Replace(name));
             }
-            Ok(KeepOutcome::Taken) => self.message = Some(Message::warning(taken_words(&name))),
+            Ok(false) => self.message = Some(Message::warning(taken_words(&name))),
             Err(sentence) => self.message = Some(Message::warning(format!("{name} is not kept: {sentence}"))),
         }
     }

@@ -10,7 +10,7 @@ use crate::learning::run::{
 #[derive(Debug, Default)]
 pub struct RunList {
     /// The runs, newest first; nothing before they were looked for.
-    known: Option<Vec<Summary>>,
+    pub known: Option<Vec<Summary>>,
     /// Why they cannot be listed.
     pub trouble: Option<String>,
     /// Sentences on those that cannot be read.
@@ -36,11 +36,6 @@ impl RunList {
     /// The runs, newest first.
     pub fn runs(&self) -> &[Summary] {
         self.known.as_deref().unwrap_or_default()
-    }
-
-    /// Whether they have been looked for.
-    pub const fn is_known(&self) -> bool {
-        self.known.is_some()
     }
 
     /// Place of the marked run in the list; the first where none was marked or it is gone.

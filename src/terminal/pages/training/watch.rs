@@ -1,11 +1,10 @@
 //! A run that is watched, perhaps beside another one.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::{
     game::Reward,
     learning::run::{
-        POLICY,
         follow::{Condition, Followed},
         status::Phase,
     },
@@ -105,12 +104,9 @@ impl Watch {
     /// How far it is, or the run that it is compared with: charts show both.
     pub fn progress(&self) -> Progress {
         let runs = [Some(&self.own.run), self.other.as_ref().map(|other| &other.run)].into_iter().flatten();
-        Progress { shots: runs.map(Followed::shots).max().unwrap_or(0), planned: self.planned_end() }
-    }
-
-    /// Where charts end: at the plan, or where the last iteration of the run ended, which may be a few shots beyond.
-    fn planned_end(&self) -> Option<u64> {
-        self.planned().map(|planned| planned.max(self.own.run.shots()))
+        // The last iteration of the run may end a few shots beyond the plan.
+        let planned = self.planned().map(|planned| planned.max(self.own.run.shots()));
+        Progress { shots: runs.map(Followed::shots).max().unwrap_or(0), planned }
     }
 
     /// Whether a process works on it.
@@ -135,11 +131,6 @@ impl Watch {
             Condition::Unknown | Condition::Missing => Some("there is no run yet"),
             Condition::Removed => Some("the run has been removed"),
         }
-    }
-
-    /// Where its policy is, if the agent has one that the coach can use.
-    pub fn policy(&self) -> PathBuf {
-        self.folder().join(POLICY)
     }
 
     /// What stands in the way of the run, or what can be done now, in a sentence; and whether that is bad news.

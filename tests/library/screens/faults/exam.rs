@@ -1,6 +1,6 @@
 //! An exam: what comes is told before the first stroke, and one that was left is gone on with.
 
-use carom::terminal::{DrillContext, KeyContext, SavedSession};
+use carom::terminal::{DrillContext, KeyContext};
 
 use crate::screens::player::{Player, TRUE_COLOUR, check};
 
@@ -51,7 +51,7 @@ fn exams_that_were_left_or_are_open_are_all_gone_on_with() {
         (0..exercises).fold(player.press("e Enter"), |player, _| player.press("Space Space Enter Enter"))
     };
     let attempts = |player: &Player| {
-        let sessions = player.app.saved_session().unwrap().into_owned().with_former();
+        let sessions = player.app.saved_session().unwrap().with_former();
         sessions.iter().filter_map(|one| one.practice.as_ref().map(|exam| exam.attempts.len())).collect::<Vec<_>>()
     };
     // On another page than its own, too, an exam is under way.
@@ -122,7 +122,7 @@ fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
 fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
     let place = |player: &Player| *player.app.coach.layout();
     let next = |player: &Player| {
-        let last = player.app.saved_session().map(SavedSession::into_owned);
+        let last = player.app.saved_session();
         let mut next = Player::new();
         next.app = next.app.with_saved_session(last);
         next

@@ -7,7 +7,7 @@ use ratatui::{
 
 use crate::{
     coach::{
-        RailPoint,
+        RailPoint, ShotWords,
         words::{English, TIP, TipUnit, lengths_words, pace_word, short},
     },
     terminal::{
@@ -99,8 +99,7 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
             }
         }
     }
-    rows.push(tip_side_words(proposal, coach));
-    rows.push(tip_height_words(proposal, coach));
+    rows.extend(tip_words(proposal, coach));
     rows.push(format!("{} {}", pace_word(words.table_lengths), short(words.table_lengths, 1)));
     rows.push(match fixed(words.elevation_deg, 0) {
         _ if words.has_level_cue() => "level cue".to_owned(),
@@ -135,6 +134,7 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
         Some(English::Reverse) => ", reverse",
         None => "",
     };
+    let [side, height] = tip_words(proposal, coach);
     let cue = match fixed(words.elevation_deg, 0) {
         _ if words.has_level_cue() => "level".to_owned(),
         degrees if words.is_level => format!("{degrees}\u{b0}, as level as can be"),
@@ -150,8 +150,8 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
     let mut rows: Vec<Row> = cushions.map(|cushions| ("rails", cushions)).into_iter().collect();
     rows.extend([
         ("hit", hit),
-        ("side", tip_side_words(proposal, coach) + english),
-        ("height", tip_height_words(proposal, coach)),
+        ("side", side + english),
+        ("height", height),
         ("speed", if columns(&whole_speed) + NAME < width { whole_speed } else { speed }),
         ("cue", cue),
     ]);
@@ -164,30 +164,24 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
     rows
 }
 
-fn tip_side_words(proposal: &Proposal, coach: &CoachPage) -> String {
-    let tips = proposal.shot.words.tips_right;
-    offset(tips, coach)
-        .map_or_else(|| "no side".to_owned(), |text| format!("{text} {}", if tips > 0.0 { "right" } else { "left" }))
+/// How far the tip is beside the middle of the cue ball, and above it, to half a tip or a tenth of a millimetre, as in the sentence.
+fn tip_words(proposal: &Proposal, coach: &CoachPage) -> [String; 2] {
+    let ShotWords { tips_right, tips_above, .. } = proposal.shot.words;
+    [(tips_right, ["no side", "right", "left"]), (tips_above, ["centre height", "above", "below"])]
+        .map(|(tips, words)| offset_words(tips, words, coach))
 }
 
-fn tip_height_words(proposal: &Proposal, coach: &CoachPage) -> String {
-    let tips = proposal.shot.words.tips_above;
-    offset(tips, coach).map_or_else(
-        || "centre height".to_owned(),
-        |text| format!("{text} {}", if tips > 0.0 { "above" } else { "below" }),
-    )
-}
-
-/// How far the tip is from the middle, to half a tip or a tenth of a millimetre, as in the sentence; `None` where that is not at
-/// all.
-fn offset(tips: f64, coach: &CoachPage) -> Option<String> {
+fn offset_words(tips: f64, [middle, more, less]: [&str; 3], coach: &CoachPage) -> String {
     let (value, parts, unit) = match coach.units.tip {
         TipUnit::Tips => (tips.abs(), 2.0, "tip"),
         TipUnit::Mm => (1e3 * coach.table().radius * TIP * tips.abs(), 10.0, "mm"),
     };
     let value = (parts * value).round() / parts;
+    if value == 0.0 {
+        return middle.to_owned();
+    }
     let plural = if unit == "tip" && value > 1.0 { "s" } else { "" };
-    (value > 0.0).then(|| format!("{} {unit}{plural}", short(value, 1)))
+    format!("{} {unit}{plural} {}", short(value, 1), if tips > 0.0 { more } else { less })
 }
 
 /// How much of the ball is hit, to a sixteenth.

@@ -45,8 +45,8 @@ use crate::{
         },
         shot::playback::passed,
         ui::{
-            ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_spin_or_hit, draw_table,
-            draw_tip, spell, write_paragraphs,
+            Message, TableView, Ui, columns, draw_events, draw_profile, draw_spin_or_hit, draw_table, draw_tip, spell,
+            write_paragraphs,
         },
         words::{event_words, fine, fixed, in_diamonds, percent},
     },
@@ -220,12 +220,8 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
 fn draw_listed(coach: &CoachPage, shot: Option<&Shot>, time: Option<f64>, area: Rect, ui: &mut Ui) {
     let events = shot.map(|shot| coach.events(shot));
     let name = if coach.has_all_events { "Events" } else { "Contacts" };
-    let listed = shot.zip(events.as_deref()).map(|(shot, events)| ListedEvents {
-        recording: &shot.recording,
-        events,
-        unit: coach.units.length,
-    });
-    draw_events(name, listed, time, area, ui);
+    let listed = shot.map(|shot| &shot.recording).zip(events.as_deref());
+    draw_events(name, listed, time, coach.units.length, area, ui);
 }
 
 /// The chosen info panel and the others that there is room for, each with its area.

@@ -15,7 +15,7 @@ use crate::{
             },
         },
         shot::WhatIf,
-        ui::{Beside, Ui, draw_lines, draw_spin_or_hit, draw_tip, draw_title, draw_what_if, pair, stroke_rows},
+        ui::{Ui, draw_lines, draw_spin_or_hit, draw_tip, draw_title, draw_what_if, pair, stroke_rows},
         words::{fixed, speed_words},
     },
 };
@@ -26,21 +26,13 @@ pub const COACH: &str = "coach";
 /// Draws the panels: both strokes where the info panel is, the others for the player's own.
 pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &mut Ui) {
     let (table, shot) = (coach.table(), &*what_if.shot);
-    let beside = Beside {
-        advisor: COACH,
-        made: coach
-            .proposal()
-            .filter(|proposal| !proposal.is_early)
-            .and_then(|proposal| proposal.made)
-            .map(|made| made.rate),
-        cue_ball: coach.cue_ball(),
-        units: coach.units,
-    };
+    let proposal = coach.proposal().filter(|proposal| !proposal.is_early);
+    let made = proposal.and_then(|proposal| proposal.made).map(|made| made.rate);
     // Before the stroke its words have the room of what only tells later.
     let time = coach.playback.readout;
     let is_wide = panes.is_beside() && time == 0.0;
     let area = if is_wide { panes.info.union(panes.events) } else { panes.info };
-    draw_what_if(what_if, &beside, area, ui);
+    draw_what_if(what_if, COACH, made, coach.units, area, ui);
     if coach.is_in_numbers {
         draw_shot(Some(shot), &[], (table, coach.units.length), panes.shot, ui);
     } else {

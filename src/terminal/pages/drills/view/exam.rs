@@ -22,7 +22,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let text = Rect { x: inner.x + 2, y: inner.y + 1, width: READABLE.min(inner.width - 3), height: inner.height - 1 };
     let count = turn.session.exercises.len();
     let of = grades(level).map_or(String::new(), |grades| format!(" of grade {} to {}", grades.start(), grades.end()));
-    let player = skill_word(turn.skill());
+    let player = skill_word(turn.session.skill);
     let paragraphs = [
         format!("{count} exercises{of}, easy ones first, one attempt each."),
         "Set the stroke and play it. There is no hint and no second try.".to_owned(),

@@ -13,8 +13,8 @@ use crate::{
             view::{draw_header, panels, panes::Panes, score},
         },
         ui::{
-            Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_hit_panel, draw_profile, draw_spin_or_hit,
-            draw_table, draw_tip, draw_titled_tip, draw_what_if, separator,
+            Message, Spot, TableView, Theme, Ui, cue_sign, draw_hit_panel, draw_profile, draw_spin_or_hit, draw_table,
+            draw_tip, draw_titled_tip, draw_what_if, separator,
         },
     },
 };
@@ -62,13 +62,8 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let beside = score::draw(drills, turn, panes.score, ui);
     match what_if.zip(turn.model_shot()) {
         Some((what_if, model_shot)) => {
-            let beside = Beside {
-                advisor: panels::advisor(model_shot),
-                made: Some(model_shot.advice.chance.rate),
-                cue_ball: turn.cue_ball,
-                units: drills.units,
-            };
-            draw_what_if(what_if, &beside, panes.aim, ui);
+            let (advisor, made) = (panels::advisor(model_shot), Some(model_shot.advice.chance.rate));
+            draw_what_if(what_if, advisor, made, drills.units, panes.aim, ui);
         }
         None => panels::draw_task(drills, turn, aim_line.as_ref(), panes.aim, (beside, panes.score.right()), ui),
     }
@@ -160,7 +155,9 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
         (false, ModelShotState::Known(_)) if turn.shows_hint => {
             "this is the coach's shot; the attempt counts as one with a hint"
         }
-        (false, ModelShotState::Known(_)) if turn.is_exam() || turn.session.is_match() => "set the stroke and play it",
+        (false, ModelShotState::Known(_)) if turn.session.is_exam() || turn.session.is_match() => {
+            "set the stroke and play it"
+        }
         (false, ModelShotState::Known(_)) => "set the stroke and play it; at a real table: m made, n missed",
     })
 }

@@ -17,8 +17,8 @@ use crate::{
         },
         shot::film::{Listed, table},
         ui::{
-            ListedEvents, Message, TableView, Ui, draw_events, draw_header, draw_lines, draw_spin_or_hit, draw_table,
-            draw_tip, draw_title, pair, separator, tip_rows, write_paragraphs,
+            Message, TableView, Ui, draw_events, draw_header, draw_lines, draw_spin_or_hit, draw_table, draw_tip,
+            draw_title, pair, separator, tip_rows, write_paragraphs,
         },
         words::{fixed, speed_words},
     },
@@ -46,11 +46,9 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     let spin = played.and_then(|played| played.shot.spin(time, table().radius));
     draw_spin_or_hit(spin, played.map(|played| played.shot.meeting()), panes.hit, ui);
     draw_distances(played, time, unit, panes.aim, ui);
-    let events = played.map(|played| {
-        let recording = &played.shot.recording;
-        ListedEvents { recording, events: recording.events(), unit }
-    });
-    draw_events("Events", events, Some(time), panes.score, ui);
+    let recording = played.map(|played| &played.shot.recording);
+    let events = recording.map(|recording| (recording, recording.events()));
+    draw_events("Events", events, Some(time), unit, panes.score, ui);
     match (played, film.failure()) {
         (Some(played), _) => status_line(played, listed, time, unit),
         (None, Some(sentence)) => Message::warning(sentence),

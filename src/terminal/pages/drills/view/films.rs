@@ -6,16 +6,15 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    Mapping,
     pages::{
         Target,
-        drills::{DrillsPage, view::READABLE},
+        drills::{
+            DrillsPage,
+            view::{READABLE, draw_preview},
+        },
     },
     shot::film::{Listed, listed, table},
-    ui::{
-        Message, TableView, Ui, below_title, draw_header, draw_table, draw_title, list, split, wrap, write_paragraphs,
-        write_right,
-    },
+    ui::{Message, Ui, below_title, draw_header, draw_title, list, split, wrap, write_paragraphs, write_right},
     words::fixed,
 };
 
@@ -89,11 +88,6 @@ fn draw_shot(listed: &Listed, area: Rect, ui: &mut Ui) {
         ),
     ];
     let rows: usize = paragraphs.iter().map(|(text, _)| wrap(text, usize::from(width)).len()).sum();
-    let room = Rect { height: inner.height.saturating_sub(rows as u16), ..inner };
-    let view = TableView::new(table(), &listed.layout);
-    draw_table(&view, room, ui);
-    let outer = Mapping::fit(table(), room).outer();
-    let left = outer.x.min(inner.right().saturating_sub(width + 1)).max(inner.x + 1);
-    let text = Rect { x: left, y: outer.bottom(), width, height: inner.bottom().saturating_sub(outer.bottom()) };
+    let text = draw_preview(table(), &listed.layout, [width, rows as u16], inner, ui);
     write_paragraphs(&paragraphs, text, ui);
 }

@@ -9,17 +9,16 @@ use crate::{
     drills::{Category, Exercise, Venue, bare_tag},
     table::{CueBall, Table},
     terminal::{
-        Mapping,
         pages::{
             Target,
             drills::{
                 DrillsPage,
-                view::{READABLE, best_run, draw_header, percent_words, places_words},
+                view::{READABLE, TABLE_ROWS, best_run, draw_header, draw_preview, percent_words, places_words},
             },
         },
         ui::{
-            Message, TableView, Theme, Ui, below_title, columns, draw_table, draw_title, list::Grouped, shorten, split,
-            wrap, write_paragraphs, write_right,
+            Message, Theme, Ui, below_title, columns, draw_title, list::Grouped, shorten, split, wrap,
+            write_paragraphs, write_right,
         },
         words,
     },
@@ -34,8 +33,6 @@ const LIST_ENOUGH: u16 = 58;
 const GRADE_END: u16 = 17;
 const TABLE_END: u16 = 9;
 const HERE_END: u16 = 1;
-/// Rows of the small table, at least.
-const TABLE_ROWS: u16 = 9;
 
 /// Draws the page; gives what the status line says while there is no news.
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
@@ -149,13 +146,7 @@ fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut 
     {
         paragraphs.remove(least);
     }
-    let room =
-        Rect { height: inner.height.saturating_sub(rows(&paragraphs)).max(TABLE_ROWS.min(inner.height)), ..inner };
-    let view = TableView::new(&table, &exercise.layout);
-    draw_table(&view, room, ui);
-    let outer = Mapping::fit(&table, room).outer();
-    let left = outer.x.min(inner.right() - width - 1).max(inner.x + 1);
-    let text = Rect { x: left, y: outer.bottom(), width, height: inner.bottom().saturating_sub(outer.bottom()) };
+    let text = draw_preview(&table, &exercise.layout, [width, rows(&paragraphs)], inner, ui);
     let paragraphs: Vec<_> = paragraphs.into_iter().map(|one| (one.text, one.style)).collect();
     write_paragraphs(&paragraphs, text, ui);
 }

@@ -21,18 +21,20 @@ use crate::{
     drills::Record,
     table::{BALLS, CueBall, Layout, Table},
     terminal::{
-        Capabilities, DrillContext,
+        Capabilities, DrillContext, Mapping,
         pages::{
             Asked, PageArea, PageView, Target,
             drills::{DrillsPage, Question},
         },
-        ui::{self, Message, Ui},
+        ui::{self, Message, TableView, Ui, draw_table},
         words::{self, in_diamonds, skill_word},
     },
 };
 
 /// Most columns of a line that is good to read.
 const READABLE: u16 = 80;
+/// Rows of the small table beside a list, at least.
+const TABLE_ROWS: u16 = 9;
 
 impl PageView for DrillsPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
@@ -70,6 +72,15 @@ impl PageView for DrillsPage {
 fn draw_header(drills: &DrillsPage, title: &str, more: &str, area: Rect, ui: &mut Ui) {
     let player = Span::styled(format!("player: {} ", skill_word(drills.skill())), ui.theme.text());
     ui::draw_header(title, more, &player, area, ui);
+}
+
+/// Draws the balls on as large a table as `rows` of text below leave room for in `area`, and gives the text's place, of these columns.
+fn draw_preview(table: &Table, layout: &Layout, [width, rows]: [u16; 2], area: Rect, ui: &mut Ui) -> Rect {
+    let room = Rect { height: area.height.saturating_sub(rows).max(TABLE_ROWS.min(area.height)), ..area };
+    draw_table(&TableView::new(table, layout), room, ui);
+    let outer = Mapping::fit(table, room).outer();
+    let left = outer.x.min(area.right().saturating_sub(width + 1)).max(area.x + 1);
+    Rect { x: left, y: outer.bottom(), width, height: area.bottom().saturating_sub(outer.bottom()) }
 }
 
 /// The highest run of an exercise; none where the order of makes and misses is not known.

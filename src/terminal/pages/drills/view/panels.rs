@@ -8,13 +8,14 @@ use crate::{
         words::{lengths_words, table_lengths},
     },
     drills::changes,
-    physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
+    physics::{CueInputs, LeastElevation, NoRoom, Obstacle, least_elevation},
     table::CueBall,
     terminal::{
         Capabilities, DrillAction, ModelShot,
         pages::drills::{
             AimLine, DrillsPage, ModelShotState, Turn, Watched,
             keys::EXERCISE,
+            other_table_words,
             view::{percent_words, places_words},
         },
         shot::Meeting,
@@ -90,7 +91,7 @@ pub fn draw_task(
             // What the model shot meets stands beside it.
             let met = if turn.shown_model().is_some() { format!("yours: {met}") } else { met };
             paragraphs.push((met, ui.theme.accent()));
-            match turn.least_elevation() {
+            match least_elevation(&turn.table, &turn.layout, turn.stroke()) {
                 Ok(LeastElevation { theta, over: Some(over) }) => {
                     least = Some((least_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
                 }
@@ -111,7 +112,9 @@ pub fn draw_task(
             _ => paragraphs.push((turn.exercise.point.clone(), ui.theme.text())),
         }
         paragraphs.extend(least);
-        paragraphs.extend(drills.other_table_words(&turn.exercise.table).map(|words| (words, ui.theme.faint())));
+        paragraphs.extend(
+            other_table_words(&turn.exercise.table, &drills.of_settings).map(|words| (words, ui.theme.faint())),
+        );
         // The room is the hint's while that is shown.
         if turn.hint().is_none() {
             let places = places_words(&turn.table, &turn.layout, turn.cue_ball, units.place);

@@ -25,7 +25,8 @@ const APART: u16 = 10;
 impl PageView for SettingsPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
         let rest = area.header;
-        let path = end_of(&self.path.display().to_string(), usize::from(rest.width.saturating_sub(2)), ui.caps);
+        let path =
+            end_of(&self.places.settings.display().to_string(), usize::from(rest.width.saturating_sub(2)), ui.caps);
         ui.buffer.set_string(rest.x + 1, rest.y, path, ui.theme.faint());
         let [list, words] = halves(self.page, area.body);
         let status_line = match self.page {

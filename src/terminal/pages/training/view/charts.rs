@@ -51,7 +51,7 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
             curves: &curves,
             shots,
             values: None,
-            log: charts.is_log(n),
+            log: charts.log[n],
             smoothing: charts.smoothing(),
             selected: charts.is_selected(n),
             with_shots: is_last,

@@ -151,7 +151,7 @@ fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     let nothing_in = format!("There is no run in {}.", training.folder.display());
     let lines: &[&str] = match list.trouble {
         Some(_) => &["The runs cannot be listed."],
-        None if !list.is_known() => &["Looking for runs"],
+        None if list.known.is_none() => &["Looking for runs"],
         None if training.page() == TrainingContext::Compare => &["There is no run to compare with."],
         // A run that was named lies in a folder of its own.
         None if training.alone => &[&nothing_in],
