@@ -155,23 +155,20 @@ pub fn same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
         })
     });
     let ours = specified(args, base)?;
-    let mut differences: Vec<String> = [
-        ("agent", theirs.agent.clone(), ours.agent.clone()),
-        ("reward", theirs.plan.reward.to_string(), ours.plan.reward.to_string()),
-        ("seed", theirs.plan.seed.to_string(), ours.plan.seed.to_string()),
-        ("steps", theirs.plan.shots.to_string(), ours.plan.shots.to_string()),
-        ("evaluate-every", theirs.schedule.evaluate_every.to_string(), ours.schedule.evaluate_every.to_string()),
-        (
-            "evaluation-layouts",
-            theirs.schedule.evaluation_layouts.to_string(),
-            ours.schedule.evaluation_layouts.to_string(),
-        ),
-        ("table", theirs.table.name.clone(), ours.table.name.clone()),
-    ]
-    .into_iter()
-    .filter(|(_, theirs, ours)| theirs != ours)
-    .map(|(what, theirs, ours)| format!("with {what} {theirs}, not {ours}"))
-    .collect();
+    let options = |TrainingSpec { agent, plan, schedule, table, .. }: &TrainingSpec| {
+        [
+            ("agent", agent.clone()),
+            ("reward", plan.reward.to_string()),
+            ("seed", plan.seed.to_string()),
+            ("steps", plan.shots.to_string()),
+            ("evaluate-every", schedule.evaluate_every.to_string()),
+            ("evaluation-layouts", schedule.evaluation_layouts.to_string()),
+            ("table", table.name.clone()),
+        ]
+    };
+    let pairs = options(&theirs).into_iter().zip(options(&ours)).filter(|(theirs, ours)| theirs != ours);
+    let mut differences: Vec<String> =
+        pairs.map(|((what, theirs), (_, ours))| format!("with {what} {theirs}, not {ours}")).collect();
     if theirs.table.name == ours.table.name && theirs.table != ours.table {
         differences.push(format!("on another table of the name {}", ours.table.name));
     }
