@@ -145,15 +145,6 @@ impl<A: Agent> Learner for TrainingLoop<A> {
         layouts.iter().map(shot).collect()
     }
 
-    fn policy(
-        &self,
-        _held_out_reward: f64,
-        _date: &str,
-        _go_on: &mut dyn FnMut() -> bool,
-    ) -> Result<Option<Vec<u8>>, WeightsError> {
-        Ok(None)
-    }
-
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
         let (settings, agent) = (self.agent.settings().clone(), self.agent.save(writer)?);
         note_of(&Note { settings, agent, state: self.state.clone() })
