@@ -22,7 +22,7 @@ use crate::{
             Config, Provenance, RunError, Schedule, config_of,
             origin::Weights,
             run_name,
-            seeds::{TrainingSpec, described, is_group},
+            seeds::{GroupFile, TrainingSpec, described, is_group},
         },
     },
     printing::timestamp,
@@ -229,7 +229,7 @@ fn is_same_source(theirs: &str, args: &Args) -> bool {
 /// What the run or the group in the folder was started with: what it trains, whose weights, and how many seeds.
 fn known_spec(folder: &Path) -> Option<(TrainingSpec, Option<Provenance>, Option<u64>)> {
     if is_group(folder) {
-        let (spec, seeds, from) = described(folder).ok()?;
+        let GroupFile { spec, seeds, from } = described(folder).ok()?;
         return Some((spec, from, Some(seeds)));
     }
     let Config { agent, plan, settings, schedule, table, from, .. } = config_of(folder)?;

@@ -10,7 +10,7 @@ use super::{
     Condition, Update,
     condition::{Signs, condition},
     stamp::Stamp,
-    tail::{News, Tail},
+    tail::Tail,
 };
 use crate::{
     learning::run::{
@@ -149,9 +149,8 @@ impl Follower {
 
     /// Reads what is new; `false` where there is no file.
     fn look_at_metrics(&mut self, update: &mut Update) -> io::Result<bool> {
-        let mut news = News::default();
-        let is_there = self.tail.look(&mut news);
-        let News { is_afresh, records } = news;
+        let (mut is_afresh, mut records) = (false, Vec::new());
+        let is_there = self.tail.look(&mut is_afresh, &mut records);
         let last = records.last().map(|record| record.shots);
         let is_first = self.lines == 0 && last.is_some();
         update.begins = is_first || is_afresh && (last.is_some() || is_there.is_ok());
