@@ -36,7 +36,7 @@ pub struct Trial {
 }
 
 /// Where derivatives by differences are taken, in deviations of the unknowns.
-const STEP: f64 = 0.02;
+pub const STEP: f64 = 0.02;
 
 /// Rounds of the fit; it takes about ten.
 const ROUNDS: usize = 60;
@@ -114,15 +114,9 @@ impl Estimate {
         let stroke = self.strokes[trial];
         let at = seen(&self.likely, &stroke)?;
         let mut slope = vec![0.0; self.normal.len()];
-        for (index, slope) in slope.iter_mut().take(belief.count()).enumerate() {
-            let mut moved = self.likely.clone();
-            moved[index] += STEP;
-            *slope = (seen(&moved, &stroke)? - at) / STEP;
-        }
-        for index in 0..STROKE {
-            let mut moved = stroke;
-            moved[index] += STEP;
-            slope[belief.count() + trial * STROKE + index] = (seen(&self.likely, &moved)? - at) / STEP;
+        let (count, own) = (belief.count(), belief.count() + trial * STROKE);
+        for (index, seen) in (0..count).chain(own..).zip(moved(&self.likely, &stroke, seen)) {
+            slope[index] = (seen? - at) / STEP;
         }
         let spread = solve(&self.normal, &slope)?;
         Some((at, slope.iter().zip(spread).map(|(x, y)| x * y).sum::<f64>().max(0.0).sqrt()))
@@ -145,6 +139,21 @@ fn moments(count: usize, mixture: &[(f64, Moments)]) -> Moments {
     };
     let covariance = (0..count).map(|row| (0..count).map(|column| entry(row, column)).collect()).collect();
     (means, covariance)
+}
+
+/// What is seen where one of the unknowns, and then one of the stroke's numbers, is a [`STEP`] further on.
+pub fn moved<T>(
+    unknowns: &[f64],
+    stroke: &[f64; STROKE],
+    seen: impl Fn(&[f64], &[f64; STROKE]) -> T,
+) -> impl Iterator<Item = T> {
+    (0..unknowns.len() + STROKE).map(move |index| {
+        let (mut unknowns, mut stroke) = (unknowns.to_vec(), *stroke);
+        if let Some(number) = unknowns.iter_mut().chain(&mut stroke).nth(index) {
+            *number += STEP;
+        }
+        seen(&unknowns, &stroke)
+    })
 }
 
 /// Fits constants and strokes to the trials.

@@ -175,10 +175,7 @@ impl MetricsFile {
 }
 
 fn content(path: &Path) -> io::Result<Vec<u8>> {
-    match storage::read(path, storage::LARGE) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
-        content => content,
-    }
+    Ok(storage::read_if_there(path, storage::LARGE)?.unwrap_or_default())
 }
 
 /// The lines that have an end, with it.
