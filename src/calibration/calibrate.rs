@@ -27,15 +27,17 @@ const STROKES: [&str; STROKE] =
     ["speed", "direction", "tip to the side", "height of the tip", "elevation", "line of the balls"];
 
 /// A calibrated table.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Calibration {
     /// The table, with its doubt.
     pub table: Table,
     /// What the table was called that it was held to be before.
+    #[serde(skip)]
     pub before: String,
     /// Its constants.
     pub constants: Vec<Change>,
     /// The marks, in the order of the trials.
+    #[serde(rename = "marks")]
     pub verdicts: Vec<Verdict>,
     /// Trials, from 1 on, of which most marks look misread: nothing of them counts.
     pub left_out: Vec<usize>,

@@ -4,7 +4,6 @@
 use super::{
     belief::Belief,
     forward::{Hand, STROKE},
-    mixture::Mixture,
     posterior::Posterior,
     protocol::Test,
     robust::{NEVER, soften},
@@ -37,7 +36,7 @@ pub struct Trial {
 }
 
 /// Where derivatives by differences are taken, in deviations of the unknowns.
-const STEP: f64 = 0.02;
+pub const STEP: f64 = 0.02;
 
 /// Rounds of the fit; it takes about ten.
 const ROUNDS: usize = 60;
@@ -91,16 +90,15 @@ impl Estimate {
         let (best, highest) = (0..minima.len())
             .map(|index| (index, evidence(&valleys[index])))
             .max_by(|one, other| one.1.total_cmp(&other.1))?;
-        let mut mixture = Mixture::new(count);
+        let mut mixture = Vec::new();
         for (found, valley) in minima.iter().zip(&valleys) {
             let weight = (evidence(valley) - highest).exp();
             if let Some((_, normal)) = valley.as_ref().filter(|_| weight >= LEAST) {
                 let first = Posterior { mean: found.parameters.clone(), normal: normal.clone() };
-                let (mean, covariance) = first.settled(belief, trials).of_the_first(count);
-                mixture.add(weight, &mean, &covariance);
+                mixture.push((weight, first.settled(belief, trials).of_the_first(count)));
             }
         }
-        let (unknowns, covariance) = mixture.moments();
+        let (unknowns, covariance) = moments(count, &mixture);
         let (likely, strokes) = minima[best].parameters.split_at(count);
         let strokes = strokes.as_chunks::<STROKE>().0.to_vec();
         let normal = valleys[best].clone()?.1;
@@ -116,19 +114,46 @@ impl Estimate {
         let stroke = self.strokes[trial];
         let at = seen(&self.likely, &stroke)?;
         let mut slope = vec![0.0; self.normal.len()];
-        for (index, slope) in slope.iter_mut().take(belief.count()).enumerate() {
-            let mut moved = self.likely.clone();
-            moved[index] += STEP;
-            *slope = (seen(&moved, &stroke)? - at) / STEP;
-        }
-        for index in 0..STROKE {
-            let mut moved = stroke;
-            moved[index] += STEP;
-            slope[belief.count() + trial * STROKE + index] = (seen(&self.likely, &moved)? - at) / STEP;
+        let (count, own) = (belief.count(), belief.count() + trial * STROKE);
+        for (index, seen) in (0..count).chain(own..).zip(moved(&self.likely, &stroke, seen)) {
+            slope[index] = (seen? - at) / STEP;
         }
         let spread = solve(&self.normal, &slope)?;
         Some((at, slope.iter().zip(spread).map(|(x, y)| x * y).sum::<f64>().max(0.0).sqrt()))
     }
+}
+
+/// Means and covariance.
+type Moments = (Vec<f64>, Vec<Vec<f64>>);
+
+/// Those of a mixture of normal distributions of `count` numbers, each with a weight.
+fn moments(count: usize, mixture: &[(f64, Moments)]) -> Moments {
+    let all = mixture.iter().fold(0.0, |all, (weight, _)| all + weight);
+    let mean = |row: usize| mixture.iter().fold(0.0, |sum, (weight, (mean, _))| sum + weight * mean[row]) / all;
+    let means: Vec<f64> = (0..count).map(mean).collect();
+    let entry = |row: usize, column: usize| {
+        let product = |(weight, (mean, covariance)): &(f64, Moments)| {
+            weight * (covariance[row][column] + mean[row] * mean[column])
+        };
+        mixture.iter().fold(0.0, |sum, one| sum + product(one)) / all - means[row] * means[column]
+    };
+    let covariance = (0..count).map(|row| (0..count).map(|column| entry(row, column)).collect()).collect();
+    (means, covariance)
+}
+
+/// What is seen where one of the unknowns, and then one of the stroke's numbers, is a [`STEP`] further on.
+pub fn moved<T>(
+    unknowns: &[f64],
+    stroke: &[f64; STROKE],
+    seen: impl Fn(&[f64], &[f64; STROKE]) -> T,
+) -> impl Iterator<Item = T> {
+    (0..unknowns.len() + STROKE).map(move |index| {
+        let (mut unknowns, mut stroke) = (unknowns.to_vec(), *stroke);
+        if let Some(number) = unknowns.iter_mut().chain(&mut stroke).nth(index) {
+            *number += STEP;
+        }
+        seen(&unknowns, &stroke)
+    })
 }
 
 /// Fits constants and strokes to the trials.
@@ -267,4 +292,18 @@ pub fn off(table: &Table, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<f64> {
 pub fn expected(table: &Table, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<Option<f64>> {
     let seen = Hand::ASSUMED.seen(table, trial.test, trial.is_turned, stroke);
     trial.readings.iter().map(|reading| seen[reading.mark]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_valleys_apart_are_as_wide_as_their_distance_says() {
+        let valley = |weight: f64, mean: f64| (weight, (vec![mean, 0.0], vec![vec![0.5, 0.1], vec![0.1, 1.0]]));
+        let (means, covariance) = moments(2, &[valley(3.0, 1.0), valley(1.0, -3.0)]);
+        assert_eq!(means, [0.0, 0.0]);
+        // Three quarters at 1, a quarter at -3: a variance of 3 besides their own.
+        assert_eq!(covariance, [vec![3.5, 0.1], vec![0.1, 1.0]]);
+    }
 }

@@ -4,13 +4,11 @@ use std::f64::consts::LN_2;
 
 use super::{
     belief::Belief,
+    estimate::{STEP, moved},
     forward::{Hand, STROKE},
     protocol::Test,
 };
 use crate::statistics::half_log_determinant;
-
-/// Where derivatives are taken, in deviations.
-const STEP: f64 = 0.02;
 
 /// Bits that a stroke of `test` is expected to tell of the constants whose unknowns are `unknowns` with this covariance.
 pub fn information(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>], test: &Test) -> f64 {
@@ -27,20 +25,8 @@ pub fn information(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>], t
         };
         told.iter().map(slope).collect()
     };
-    let by_constant: Vec<Vec<f64>> = (0..belief.count())
-        .map(|index| {
-            let mut moved = unknowns.to_vec();
-            moved[index] += STEP;
-            column(seen(&moved, &still))
-        })
-        .collect();
-    let by_stroke: Vec<Vec<f64>> = (0..STROKE)
-        .map(|index| {
-            let mut moved = still;
-            moved[index] += STEP;
-            column(seen(unknowns, &moved))
-        })
-        .collect();
+    let slopes: Vec<Vec<f64>> = moved(unknowns, &still, seen).map(column).collect();
+    let (by_constant, by_stroke) = slopes.split_at(belief.count());
     let mut noise: Vec<Vec<f64>> = vec![vec![0.0; told.len()]; told.len()];
     let mut all = noise.clone();
     for row in 0..told.len() {
@@ -48,7 +34,7 @@ pub fn information(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>], t
             let own = f64::from(u8::from(row == other));
             noise[row][other] = own + by_stroke.iter().map(|slope| slope[row] * slope[other]).sum::<f64>();
             let spread = by_constant.iter().zip(covariance).map(|(slope, line)| {
-                slope[row] * line.iter().zip(&by_constant).map(|(entry, slope)| entry * slope[other]).sum::<f64>()
+                slope[row] * line.iter().zip(by_constant).map(|(entry, slope)| entry * slope[other]).sum::<f64>()
             });
             all[row][other] = noise[row][other] + spread.sum::<f64>();
         }

@@ -1,11 +1,10 @@
 //! A table of the player's own: what short tests at it measure, and the constants that follow.
 //!
 //! `protocol` has the tests, `entries` what a player has written down of them. `forward` says what a stroke of a test leads
-//! to, `estimate` which constants the marks speak for, starting from what `belief` holds of the table, `posterior` how sure they
-//! are then, and `mixture` what several such answers say together; `rails` tells rails apart that differ; `robust` knows misread
-//! marks, `information` which test tells most, `daily` what the weather changes. `calibrate` does it all, `words` says it, and
-//! `simulated` measures how far it is to be trusted. `typed`, `kept` and `saved` are what a player types, the file that keeps it
-//! and the table's own; `sketch` is a test to be drawn.
+//! to, `estimate` which constants the marks speak for, starting from what `belief` holds of the table, and `posterior` how sure they
+//! are then; `rails` tells rails apart that differ; `robust` knows misread marks, `information` which test tells most, `daily` what
+//! the weather changes. `calibrate` does it all, `words` says it, and `simulated` measures how far it is to be trusted. `typed`,
+//! `kept` and `saved` are what a player types, the file that keeps it and the table's own; `sketch` is a test to be drawn.
 
 mod belief;
 mod calibrate;
@@ -15,7 +14,6 @@ mod estimate;
 mod forward;
 mod information;
 mod kept;
-mod mixture;
 mod posterior;
 mod protocol;
 mod rails;

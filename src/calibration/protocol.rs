@@ -157,9 +157,34 @@ impl Test {
     }
 }
 
-const fn mark(name: &'static str, words: &'static str, quantity: Quantity, sure: f64) -> Mark {
-    Mark { name, words, quantity, sure }
+/// A mark that is as sure as most are: to a tenth of a diamond, or of a second.
+const fn mark(name: &'static str, words: &'static str, quantity: Quantity) -> Mark {
+    Mark { name, words, quantity, sure: 0.1 }
 }
+
+/// What several tests ask for.
+const TIME: Mark =
+    Mark { sure: 0.2, ..mark("time", "seconds from the stroke until the ball stops", Time(Stroke, Stop(0))) };
+const STOP: Mark = mark("stop", "where it stops along the table", StopAlong(0));
+const ACROSS: Mark = mark("across", "where it stops across the table", StopAcross(0));
+const DRIFT: Mark = mark("drift", "where it stops across the table (2 is the middle)", StopAcross(0));
+const FIRST: Mark = mark("first", "where it meets the left long rail", RailAlong(0, 1));
+const THIRD: Mark = mark("third", "where it meets the right long rail", RailAlong(0, 3));
+const FOURTH: Mark = mark("fourth", "where it meets your own short rail after that", RailAcross(0, 4));
+
+/// What the tests have in common in which a ball goes from near a corner through diamond 6.
+const FROM_CORNER: Test = Test {
+    name: "",
+    title: "",
+    place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
+    strike: "",
+    balls: &[[0.6, 0.4]],
+    frozen: None,
+    cue: [0.0, 0.2, 3.0, 35.3, 2.5],
+    marks: &[FIRST, THIRD, FOURTH, STOP, ACROSS],
+    rails: None,
+    times: 4,
+};
 
 /// The protocol, in the order in which it is played, chosen from candidates by what it is worth to a club player's three-cushion
 /// shots: what rails do to a ball without side or with reverse side, which slips and sticks at them, and where a ball stops
@@ -175,11 +200,7 @@ pub const PROTOCOL: &[Test] = &[
         balls: &[[1.0, 2.0]],
         frozen: None,
         cue: [0.0, 0.4, 2.0, 0.0, 0.30],
-        marks: &[
-            mark("time", "seconds from the stroke until the ball stops", Time(Stroke, Stop(0)), 0.2),
-            mark("stop", "where it stops along the table", StopAlong(0), 0.1),
-            mark("drift", "where it stops across the table (2 is the middle)", StopAcross(0), 0.1),
-        ],
+        marks: &[TIME, STOP, DRIFT],
         rails: Some(0),
         times: 2,
     },
@@ -191,11 +212,7 @@ pub const PROTOCOL: &[Test] = &[
         balls: &[[7.0, 2.0]],
         frozen: None,
         cue: [0.0, 0.4, 2.0, 180.0, 0.30],
-        marks: &[
-            mark("time", "seconds from the stroke until the ball stops", Time(Stroke, Stop(0)), 0.2),
-            mark("stop", "where it stops along the table, counted from your own end", StopAlong(0), 0.1),
-            mark("drift", "where it stops across the table (2 is the middle)", StopAcross(0), 0.1),
-        ],
+        marks: &[TIME, mark("stop", "where it stops along the table, counted from your own end", StopAlong(0)), DRIFT],
         rails: Some(0),
         times: 1,
     },
@@ -208,9 +225,9 @@ pub const PROTOCOL: &[Test] = &[
         frozen: None,
         cue: [0.0, 0.0, 2.0, 0.0, 1.3],
         marks: &[
-            mark("lap", "seconds from the far rail to your own", Time(Rail(0, 1), Rail(0, 2)), 0.1),
-            mark("rest", "seconds from your own rail until it stops", Time(Rail(0, 2), Stop(0)), 0.2),
-            mark("stop", "where it stops along the table", StopAlong(0), 0.1),
+            mark("lap", "seconds from the far rail to your own", Time(Rail(0, 1), Rail(0, 2))),
+            Mark { sure: 0.2, ..mark("rest", "seconds from your own rail until it stops", Time(Rail(0, 2), Stop(0))) },
+            STOP,
         ],
         rails: Some(2),
         times: 1,
@@ -224,13 +241,8 @@ pub const PROTOCOL: &[Test] = &[
         frozen: None,
         cue: [0.0, 0.0, 2.0, 0.0, 4.0],
         marks: &[
-            mark(
-                "lengths",
-                "seconds for two lengths, from the far rail to the far rail",
-                Time(Rail(0, 1), Rail(0, 3)),
-                0.1,
-            ),
-            mark("stop", "where it stops along the table", StopAlong(0), 0.1),
+            mark("lengths", "seconds for two lengths, from the far rail to the far rail", Time(Rail(0, 1), Rail(0, 3))),
+            STOP,
         ],
         rails: None,
         times: 1,
@@ -238,58 +250,25 @@ pub const PROTOCOL: &[Test] = &[
     Test {
         name: "corner-five",
         title: "Corner-5, 50 to 20: how three rails play",
-        place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
         strike: "through diamond 6 of the left long rail (that is 20), three tips of running side (right), two above \
                  centre, medium speed",
-        balls: &[[0.6, 0.4]],
-        frozen: None,
         cue: [-0.3, 0.2, 3.0, 35.3, 2.8],
-        marks: &[
-            mark("first", "where it meets the left long rail", RailAlong(0, 1), 0.1),
-            mark("third", "where it meets the right long rail", RailAlong(0, 3), 0.1),
-            mark("fourth", "where it meets your own short rail after that", RailAcross(0, 4), 0.1),
-            mark("stop", "where it stops along the table", StopAlong(0), 0.1),
-            mark("across", "where it stops across the table", StopAcross(0), 0.1),
-        ],
-        rails: None,
-        times: 4,
+        ..FROM_CORNER
     },
     Test {
         name: "five-plain",
         title: "the line without side: how the rails grip",
-        place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
         strike: "through diamond 6 of the left long rail, without side, two tips above centre, at medium speed",
-        balls: &[[0.6, 0.4]],
-        frozen: None,
-        cue: [0.0, 0.2, 3.0, 35.3, 2.5],
-        marks: &[
-            mark("first", "where it meets the left long rail", RailAlong(0, 1), 0.1),
-            mark("third", "where it meets the right long rail", RailAlong(0, 3), 0.1),
-            mark("fourth", "where it meets your own short rail after that", RailAcross(0, 4), 0.1),
-            mark("stop", "where it stops along the table", StopAlong(0), 0.1),
-            mark("across", "where it stops across the table", StopAcross(0), 0.1),
-        ],
-        rails: None,
-        times: 4,
+        ..FROM_CORNER
     },
     Test {
         name: "five-reverse",
         title: "reverse side: how soon the rails turn it",
-        place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
         strike: "through diamond 6 of the left long rail, three tips of reverse side (left), two above centre, \
                  medium speed",
-        balls: &[[0.6, 0.4]],
-        frozen: None,
         cue: [0.3, 0.2, 3.0, 35.3, 2.5],
-        marks: &[
-            mark("first", "where it meets the left long rail", RailAlong(0, 1), 0.1),
-            mark("second", "where it meets the far short rail", RailAcross(0, 2), 0.1),
-            mark("third", "where it meets the right long rail", RailAlong(0, 3), 0.1),
-            mark("stop", "where it stops along the table", StopAlong(0), 0.1),
-            mark("across", "where it stops across the table", StopAcross(0), 0.1),
-        ],
-        rails: None,
-        times: 4,
+        marks: &[FIRST, mark("second", "where it meets the far short rail", RailAcross(0, 2)), THIRD, STOP, ACROSS],
+        ..FROM_CORNER
     },
     Test {
         name: "side-along",
@@ -300,10 +279,10 @@ pub const PROTOCOL: &[Test] = &[
         frozen: None,
         cue: [0.45, 0.0, 3.0, 0.0, 1.8],
         marks: &[
-            mark("first", "where it meets the far short rail", RailAcross(0, 1), 0.1),
-            mark("second", "where it meets the left long rail then", RailAlong(0, 2), 0.1),
-            mark("stop", "where it stops along the table", StopAlong(0), 0.1),
-            mark("across", "where it stops across the table", StopAcross(0), 0.1),
+            mark("first", "where it meets the far short rail", RailAcross(0, 1)),
+            mark("second", "where it meets the left long rail then", RailAlong(0, 2)),
+            STOP,
+            ACROSS,
         ],
         rails: None,
         times: 2,
@@ -317,8 +296,8 @@ pub const PROTOCOL: &[Test] = &[
         frozen: None,
         cue: [0.0, 0.0, 2.0, 0.0, 0.55],
         marks: &[
-            mark("object", "where the other ball stops along the table", StopAlong(1), 0.1),
-            mark("cue", "where the cue ball stops along the table", StopAlong(0), 0.1),
+            mark("object", "where the other ball stops along the table", StopAlong(1)),
+            mark("cue", "where the cue ball stops along the table", StopAlong(0)),
         ],
         rails: Some(0),
         times: 1,
@@ -332,7 +311,7 @@ pub const PROTOCOL: &[Test] = &[
         balls: &[[1.0, 1.2], [1.8, 2.0]],
         frozen: Some(0.0),
         cue: [0.0, 0.0, 2.0, 45.0, 1.0],
-        marks: &[mark("object", "where the farther ball meets the far short rail", RailAcross(2, 1), 0.1)],
+        marks: &[mark("object", "where the farther ball meets the far short rail", RailAcross(2, 1))],
         rails: Some(0),
         times: 0,
     },

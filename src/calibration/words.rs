@@ -87,7 +87,7 @@ impl Change {
     /// What the constant is, in twelve characters at most; nothing of one that no test measures.
     pub fn short_words(&self) -> String {
         match self.of_a_rail() {
-            Some((rail, own)) => format!("{} {}", side(rail), if own == "e" { "bounce" } else { "grip" }),
+            Some((rail, own)) => format!("{} {}", called(rail)[1], if own == "e" { "bounce" } else { "grip" }),
             None => self.of_the_table()[1].to_owned(),
         }
     }
@@ -107,30 +107,20 @@ impl Change {
     /// What the constant is.
     pub fn words(&self) -> String {
         match self.of_a_rail() {
-            Some((rail, "e")) => format!("what {} gives back", whose(rail)),
-            Some((rail, _)) => format!("grip of {}", whose(rail)),
+            Some((rail, "e")) => format!("what {} gives back", called(rail)[0]),
+            Some((rail, _)) => format!("grip of {}", called(rail)[0]),
             None => self.of_the_table()[0].to_owned(),
         }
     }
 }
 
-/// Which rail it is for a player who stands on the left.
-const fn whose(rail: Rail) -> &'static str {
+/// Which rail it is for a player who stands on the left, and the same in a word.
+const fn called(rail: Rail) -> [&'static str; 2] {
     match rail {
-        Rail::Left => "your own short rail",
-        Rail::Right => "the far short rail",
-        Rail::Bottom => "the right long rail",
-        Rail::Top => "the left long rail",
-    }
-}
-
-/// The same in a word.
-const fn side(rail: Rail) -> &'static str {
-    match rail {
-        Rail::Left => "near",
-        Rail::Right => "far",
-        Rail::Bottom => "right",
-        Rail::Top => "left",
+        Rail::Left => ["your own short rail", "near"],
+        Rail::Right => ["the far short rail", "far"],
+        Rail::Bottom => ["the right long rail", "right"],
+        Rail::Top => ["the left long rail", "left"],
     }
 }
 
@@ -178,8 +168,9 @@ impl Calibration {
                 part("mu", "mu_rail", ["grips less", "grips more"]),
             ];
             let parts: Vec<String> = parts.into_iter().flatten().collect();
-            (!parts.is_empty())
-                .then(|| format!("{} ({}) is unlike the others: it {}", whose(rail), rail.name(), parts.join(" and ")))
+            (!parts.is_empty()).then(|| {
+                format!("{} ({}) is unlike the others: it {}", called(rail)[0], rail.name(), parts.join(" and "))
+            })
         };
         Rail::ALL.into_iter().filter_map(differs).collect()
     }

@@ -67,23 +67,6 @@ const MOST_STUDIED: u32 = 1_000_000;
 /// The page of the stability table.
 const STABILITY: &str = "stability.md";
 
-/// How much is done.
-struct Size {
-    shots: usize,
-    /// The shortest time step, s.
-    finest: f64,
-    rounds: usize,
-    /// Steps that one method may take in a round.
-    steps: f64,
-}
-
-impl Size {
-    fn of(args: &Args) -> Self {
-        let (shots, finest, rounds, steps) = if args.quick { (96, 1e-4, 2, 1.5e6) } else { (1000, 1e-6, 3, 4e7) };
-        Self { shots: args.shots.map_or(shots, |shots| shots as usize), finest, rounds, steps }
-    }
-}
-
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.out {
         let first = if args.filmed {
@@ -110,12 +93,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let tables = args.table.as_ref().map_or_else(judged, |name| table_named(name).map(with_flights))?;
     let references = study::check_references();
-    let (size, seed) = (Size::of(args), args.seed.unwrap_or(SEED));
-    let measured = |(table, steepest): (Table, Steepest)| {
-        let found_by = args.table.clone().unwrap_or_else(|| table.name.clone());
-        measure(table, found_by, steepest, &size, seed)
-    };
-    let studies = tables.into_iter().map(measured).collect::<Result<Vec<_>, _>>()?;
+    let measured = tables.into_iter().map(|(table, steepest)| measure(args, table, steepest));
+    let studies = measured.collect::<Result<Vec<_>, _>>()?;
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
     }
@@ -247,18 +226,13 @@ fn with_flights(table: Table) -> Vec<(Table, Steepest)> {
 ///
 /// # Errors
 /// Where the truth of no shot is known, by which methods could be judged.
-fn measure(table: Table, found_by: String, steepest: Steepest, size: &Size, seed: u64) -> Result<Study, Failure> {
-    let shots = random_shots(&table, size.shots, seed, steepest);
+fn measure(args: &Args, table: Table, steepest: Steepest) -> Result<Study, Failure> {
+    let (shots, finest, rounds, steps) = if args.quick { (96, 1e-4, 2, 1.5e6) } else { (1000, 1e-6, 3, 4e7) };
+    let shots = args.shots.map_or(shots, |shots| shots as usize);
+    let shots = random_shots(&table, shots, args.seed.unwrap_or(SEED), steepest);
     let (name, all, mut line) = (table.name.clone(), shots.len(), ProgressLine::default());
-    let plan = Plan {
-        table,
-        found_by,
-        steepest,
-        shots,
-        methods: Method::all(size.finest),
-        rounds: size.rounds,
-        steps: size.steps,
-    };
+    let found_by = args.table.clone().unwrap_or_else(|| name.clone());
+    let plan = Plan { table, found_by, steepest, shots, methods: Method::all(finest), rounds, steps };
     let study = plan.run(|done| line.show(format_args!("every method on {name}: {done} of {all} shots")));
     line.clear();
     if study.summary.judged.count == 0 {

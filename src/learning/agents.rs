@@ -3,7 +3,7 @@
 use super::{
     ddpg::learner::AGENT as DDPG,
     learner::AgentKind,
-    thesis::{ddpg::PlainDdpg, dqn::Dqn, learner::kind_of, q_learning::QLearning},
+    thesis::{agent::kind_of, ddpg::PlainDdpg, dqn::Dqn, q_learning::QLearning},
 };
 
 /// The agents that can be trained. To add one: implement [`Learner`](super::learner::Learner) and add its line here.

@@ -3,12 +3,11 @@
 use serde::Serialize;
 
 use crate::{
-    calibration::{Calibration, Change, Entries, Next, Oddity, Play, Strange, Verdict, missing_today},
+    calibration::{Calibration, Change, Entries, Oddity, Play, missing_today},
     commands::{
         Failure,
         output::{json_line, line, print_table},
     },
-    table::Table,
 };
 
 /// How many of the tests that may be played next are told.
@@ -17,12 +16,8 @@ const NEXT: usize = 3;
 /// What is told.
 #[derive(Serialize)]
 pub struct Report<'a> {
-    table: &'a Table,
-    constants: &'a [Change],
-    marks: &'a [Verdict],
-    left_out: &'a [usize],
-    strange: &'a [Strange],
-    next: &'a [Next],
+    #[serde(flatten)]
+    found: &'a Calibration,
     missing: Vec<Missing>,
     odd: Vec<String>,
     contradictory: bool,
@@ -31,8 +26,6 @@ pub struct Report<'a> {
     play: Option<[Play; 2]>,
     #[serde(skip)]
     is_daily: bool,
-    #[serde(skip)]
-    found: &'a Calibration,
 }
 
 /// Strokes of a test that were not entered.
@@ -50,18 +43,12 @@ impl<'a> Report<'a> {
         // What one of the two tests of a day would say is not known without it.
         let play = play.filter(|_| missing.is_empty());
         Self {
-            table: &found.table,
-            constants: &found.constants,
-            marks: &found.verdicts,
-            left_out: &found.left_out,
-            strange: &found.strange,
-            next: &found.next,
+            found,
             missing: missing.into_iter().map(|(test, strokes)| Missing { test: test.name, strokes }).collect(),
             odd: odd.iter().map(Oddity::to_string).collect(),
             contradictory: found.is_contradictory(),
             play,
             is_daily,
-            found,
         }
     }
 
@@ -72,20 +59,21 @@ impl<'a> Report<'a> {
 
     /// Lines.
     pub fn text(&self) -> Result<(), Failure> {
+        let found = self.found;
         let row = |one: &Change| {
-            [one.name.clone(), one.told_before().join(" ± "), one.told().join(" ± "), self.found.known(one).to_owned()]
+            [one.name.clone(), one.told_before().join(" ± "), one.told().join(" ± "), found.known(one).to_owned()]
         };
-        print_table(["constant", "before", "after", "known"], self.constants.iter().map(row), &[1, 2])?;
+        print_table(["constant", "before", "after", "known"], found.constants.iter().map(row), &[1, 2])?;
         line("")?;
-        for verdict in self.marks.iter().filter(|verdict| verdict.misread) {
+        for verdict in found.verdicts.iter().filter(|verdict| verdict.misread) {
             line(verdict.doubtful(&in_file(verdict.trial, verdict.test)))?;
         }
-        for strange in self.strange {
+        for strange in &found.strange {
             line(strange.words(&in_file(strange.trial, strange.test)))?;
         }
-        self.found.rails_apart().iter().try_for_each(line)?;
-        line(self.found.agreement(in_file))?;
-        self.found.meanings().iter().try_for_each(line)?;
+        found.rails_apart().iter().try_for_each(line)?;
+        line(found.agreement(in_file))?;
+        found.meanings().iter().try_for_each(line)?;
         if !self.missing.is_empty() {
             let strokes = |one: &Missing| format!("{} ({})", one.test, one.strokes);
             let all: Vec<String> = self.missing.iter().map(strokes).collect();
@@ -98,7 +86,7 @@ impl<'a> Report<'a> {
             return Ok(());
         }
         let told: Vec<String> =
-            self.next.iter().take(NEXT).map(|next| format!("{} ({:.1} bits)", next.test, next.bits)).collect();
+            found.next.iter().take(NEXT).map(|next| format!("{} ({:.1} bits)", next.test, next.bits)).collect();
         line(format_args!("next, one more stroke of these helps most (1 bit halves a doubt): {}", told.join(", ")))
     }
 }

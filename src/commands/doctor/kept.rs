@@ -93,6 +93,14 @@ pub struct Found {
     pub wrong: Vec<String>,
 }
 
+impl Found {
+    /// So many, or why they cannot be read.
+    fn of(path: &Path, count: Result<usize, impl ToString>) -> Self {
+        let wrong = count.as_ref().err().map(ToString::to_string);
+        Self { path: path.to_owned(), count: count.unwrap_or(0), wrong: wrong.into_iter().collect() }
+    }
+}
+
 impl Kept {
     /// Looks at everything.
     pub fn find(places: &Places, complaints: &[Complaint]) -> Self {
@@ -108,11 +116,7 @@ impl Kept {
             runs: runs(&places.runs),
             sessions: Found { path: places.sessions.clone(), count: sessions.items.len(), wrong: sessions.notes },
             positions: Found { path: places.positions.clone(), count: positions.items.len(), wrong: positions.notes },
-            player: Found {
-                path: places.player.clone(),
-                count: usize::from(own.as_ref().is_ok_and(Option::is_some)),
-                wrong: own.err().iter().map(ToString::to_string).collect(),
-            },
+            player: Found::of(&places.player, own.map(|own| usize::from(own.is_some()))),
             calibration: strokes(&places.calibration),
             daily_check: strokes(&places.daily_check),
             last: last(&places.last),
@@ -129,20 +133,13 @@ impl Kept {
 
 /// The strokes in a file of a calibration.
 fn strokes(path: &Path) -> Found {
-    let (count, wrong) = match kept_entries(path) {
-        Ok(entries) => (entries.trials.len(), Vec::new()),
-        Err(error) => (0, vec![error.to_string()]),
-    };
-    Found { path: path.to_owned(), count, wrong }
+    Found::of(path, kept_entries(path).map(|entries| entries.trials.len()))
 }
 
 /// The last session, and those before it that can be gone on with.
 fn last(path: &Path) -> Found {
-    let (last, wrong) = match SavedSession::load(path) {
-        Ok(last) => (last, Vec::new()),
-        Err(error) => (None, vec![format!("{}: {error}", path.display())]),
-    };
-    Found { path: path.to_owned(), count: last.map_or(0, |last| last.with_former().len()), wrong }
+    let last = SavedSession::load(path).map_err(|error| format!("{}: {error}", path.display()));
+    Found::of(path, last.map(|last| last.map_or(0, |last| last.with_former().len())))
 }
 
 /// The user's own tables.
@@ -159,10 +156,8 @@ fn tables(places: &Places) -> Found {
 
 /// The user's runs.
 fn runs(folder: &Path) -> Found {
-    let listing = if folder.exists() { runs_in(folder) } else { Ok(Listing::default()) };
-    let (count, wrong) = match listing {
-        Ok(Listing { runs, unreadable }) => (runs.len(), unreadable),
-        Err(error) => (0, vec![format!("{}: {error}", folder.display())]),
-    };
-    Found { path: folder.to_owned(), count, wrong }
+    match if folder.exists() { runs_in(folder) } else { Ok(Listing::default()) } {
+        Ok(Listing { runs, unreadable }) => Found { path: folder.to_owned(), count: runs.len(), wrong: unreadable },
+        Err(error) => Found::of(folder, Err(format!("{}: {error}", folder.display()))),
+    }
 }

@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// What is measured: all parts of an evaluation have it in common.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line, or follows from some")]
 pub struct Spec {
     /// Who decides: "recommender", "policy" or "random search".
@@ -282,25 +282,12 @@ impl Spec {
     pub fn of_random_search(layouts: u32) -> Self {
         Self {
             player: "random search".to_owned(),
-            policy: None,
-            checksum: None,
-            version: None,
-            networks: None,
-            table: Table::default(),
             measure: "straight".to_owned(),
             is_yes_or_no: true,
             seed: 4,
             layouts,
-            drawn_tables: false,
-            skill: None,
-            doubt: Doubt::FULL,
-            choose_doubt: None,
-            plan: false,
-            no_jumps: false,
-            budget_ms: None,
-            simulations: None,
             random_search: Some(30),
-            most_points: None,
+            ..Self::default()
         }
     }
 }

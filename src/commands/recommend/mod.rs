@@ -385,7 +385,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         let Shot { cue, told, next_probability: next, .. } = shot;
         let CueInputs { a, b, theta, speed, .. } = *cue;
         let ([a, b], theta, phi) = ([a, b].map(|place| fixed(place, 3)), theta.to_degrees(), cue.phi_text(3));
-        let pattern = told.as_ref().and_then(Told::pattern).map_or_else(String::new, |name| format!("{name}; "));
+        let pattern = told.as_ref().and_then(|told| told.pattern).map_or_else(String::new, |name| format!("{name}; "));
         let next = next.map_or_else(String::new, |next| format!(", the next point {:.0} %", 100.0 * next));
         writeln!(out, "or {a},{b},{theta:.3},{phi},{speed:.3}: {pattern}{}{next}", words(shot, args))?;
         if let Some(told) = told {

@@ -33,9 +33,9 @@ pub struct Reasons {
 /// What is said of a shot.
 #[derive(Serialize)]
 pub struct Told {
-    /// Absent where no ball is met.
+    /// Its name; absent where no ball is met.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pattern: Option<&'static str>,
+    pub pattern: Option<&'static str>,
     words: Words,
     #[serde(skip)]
     pattern_course: Option<String>,
@@ -47,9 +47,15 @@ impl Told {
         let technique = Technique::of(table, layout, cue)?;
         let pattern = Pattern::of(&technique);
         let numbers = ShotWords::of_technique(table, layout, cue, &technique);
+        let units = Units::default();
         Ok(Self {
             pattern: pattern.map(|pattern| pattern.name),
-            words: Words::of(numbers, Units::default()),
+            words: Words {
+                sentence: numbers.sentence(CueBall::White, units),
+                course: numbers.course(CueBall::White, units),
+                aim: numbers.aim(units),
+                numbers,
+            },
             pattern_course: pattern.map(|pattern| pattern.course_of(&technique)),
         })
     }
@@ -69,22 +75,6 @@ impl Told {
     /// How to strike, alone.
     pub fn sentence(&self, units: Units) -> String {
         self.words.numbers.sentence(CueBall::White, units)
-    }
-
-    /// Its name alone.
-    pub const fn pattern(&self) -> Option<&'static str> {
-        self.pattern
-    }
-}
-
-impl Words {
-    fn of(numbers: ShotWords, units: Units) -> Self {
-        Self {
-            sentence: numbers.sentence(CueBall::White, units),
-            course: numbers.course(CueBall::White, units),
-            aim: numbers.aim(units),
-            numbers,
-        }
     }
 }
 

@@ -22,7 +22,7 @@ use crate::{
             Config, Provenance, RunError, Schedule, config_of,
             origin::Weights,
             run_name,
-            seeds::{TrainingSpec, described, is_group},
+            seeds::{GroupFile, TrainingSpec, described, is_group},
         },
     },
     printing::timestamp,
@@ -155,23 +155,20 @@ pub fn same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
         })
     });
     let ours = specified(args, base)?;
-    let mut differences: Vec<String> = [
-        ("agent", theirs.agent.clone(), ours.agent.clone()),
-        ("reward", theirs.plan.reward.to_string(), ours.plan.reward.to_string()),
-        ("seed", theirs.plan.seed.to_string(), ours.plan.seed.to_string()),
-        ("steps", theirs.plan.shots.to_string(), ours.plan.shots.to_string()),
-        ("evaluate-every", theirs.schedule.evaluate_every.to_string(), ours.schedule.evaluate_every.to_string()),
-        (
-            "evaluation-layouts",
-            theirs.schedule.evaluation_layouts.to_string(),
-            ours.schedule.evaluation_layouts.to_string(),
-        ),
-        ("table", theirs.table.name.clone(), ours.table.name.clone()),
-    ]
-    .into_iter()
-    .filter(|(_, theirs, ours)| theirs != ours)
-    .map(|(what, theirs, ours)| format!("with {what} {theirs}, not {ours}"))
-    .collect();
+    let options = |TrainingSpec { agent, plan, schedule, table, .. }: &TrainingSpec| {
+        [
+            ("agent", agent.clone()),
+            ("reward", plan.reward.to_string()),
+            ("seed", plan.seed.to_string()),
+            ("steps", plan.shots.to_string()),
+            ("evaluate-every", schedule.evaluate_every.to_string()),
+            ("evaluation-layouts", schedule.evaluation_layouts.to_string()),
+            ("table", table.name.clone()),
+        ]
+    };
+    let pairs = options(&theirs).into_iter().zip(options(&ours)).filter(|(theirs, ours)| theirs != ours);
+    let mut differences: Vec<String> =
+        pairs.map(|((what, theirs), (_, ours))| format!("with {what} {theirs}, not {ours}")).collect();
     if theirs.table.name == ours.table.name && theirs.table != ours.table {
         differences.push(format!("on another table of the name {}", ours.table.name));
     }
@@ -232,7 +229,7 @@ fn is_same_source(theirs: &str, args: &Args) -> bool {
 /// What the run or the group in the folder was started with: what it trains, whose weights, and how many seeds.
 fn known_spec(folder: &Path) -> Option<(TrainingSpec, Option<Provenance>, Option<u64>)> {
     if is_group(folder) {
-        let (spec, seeds, from) = described(folder).ok()?;
+        let GroupFile { spec, seeds, from } = described(folder).ok()?;
         return Some((spec, from, Some(seeds)));
     }
     let Config { agent, plan, settings, schedule, table, from, .. } = config_of(folder)?;

@@ -19,23 +19,6 @@ const USUAL_ERRORS: f64 = 3.7;
 /// Numbers about a table and a player: the constants, which laws the table follows, the way it leans, and the errors.
 pub const CONTEXT_FEATURES: usize = CONSTANTS + 2 + 2 + 2;
 
-/// What each constant is on `match`, and by how much it differs by one unit: twice what it differs by between tables of which
-/// nothing is known (`unknown_doubt.toml`).
-const SCALES: [(f64, f64); CONSTANTS] = [
-    (0.8505, 0.07),
-    (0.3116, 0.12),
-    (0.03736, 0.0036),
-    (1.267, 0.36),
-    (0.02, 0.09),
-    (0.203, 0.04),
-    (0.00518, 0.0024),
-    (0.0155, 0.008),
-    (0.0078, 0.003),
-    (0.95, 0.04),
-    (0.118, 0.06),
-    (0.005, 0.003),
-];
-
 /// The lean that counts as one unit, m/s².
 const LEAN: f64 = 0.003;
 
@@ -91,27 +74,25 @@ pub fn push_context(table: &Table, mirror: DVec2, errors: f64, out: &mut Vec<f32
     out.extend(numbers.map(|number| number as f32));
 }
 
-/// The table's constants in units; 0 for one that its laws do not have.
+/// The table's constants in units; 0 for one that its laws do not have. Beside each stands what it is on `match`, and by how much it
+/// differs by one unit: twice what it differs by between tables of which nothing is known (`unknown_doubt.toml`).
 fn told(table: &Table) -> [f64; CONSTANTS] {
     let rails = |own: fn(&Table, Rail) -> f64| Rail::ALL.into_iter().map(|rail| own(table, rail)).sum::<f64>() / 4.0;
-    let values = [
-        Some(rails(|table, rail| table.rail.own(rail).e.unwrap_or(table.rail_restitution))),
-        Some(rails(|table, rail| table.rail.own(rail).mu.unwrap_or(table.rail_friction))),
-        table.rail.height.filter(|_| table.rail.model != RailModel::Equator),
-        table.rail.kappa,
-        table.rail.fade.map(|fade| fade.slope),
-        Some(table.sliding_friction),
-        Some(table.rolling_friction),
-        Some(table.rolling_growth),
-        Some(table.spinning_friction),
-        Some(table.ball_restitution),
-        table.ball_slip_friction.map(|law| law.least + law.rise).or(table.ball_friction),
-        table.cue_end_mass,
+    let constants = [
+        (Some(rails(|table, rail| table.rail.own(rail).e.unwrap_or(table.rail_restitution))), 0.8505, 0.07),
+        (Some(rails(|table, rail| table.rail.own(rail).mu.unwrap_or(table.rail_friction))), 0.3116, 0.12),
+        (table.rail.height.filter(|_| table.rail.model != RailModel::Equator), 0.03736, 0.0036),
+        (table.rail.kappa, 1.267, 0.36),
+        (table.rail.fade.map(|fade| fade.slope), 0.02, 0.09),
+        (Some(table.sliding_friction), 0.203, 0.04),
+        (Some(table.rolling_friction), 0.00518, 0.0024),
+        (Some(table.rolling_growth), 0.0155, 0.008),
+        (Some(table.spinning_friction), 0.0078, 0.003),
+        (Some(table.ball_restitution), 0.95, 0.04),
+        (table.ball_slip_friction.map(|law| law.least + law.rise).or(table.ball_friction), 0.118, 0.06),
+        (table.cue_end_mass, 0.005, 0.003),
     ];
-    std::array::from_fn(|index| {
-        let (usual, unit) = SCALES[index];
-        values[index].map_or(0.0, |value| (value - usual) / unit)
-    })
+    constants.map(|(value, usual, unit)| value.map_or(0.0, |value| (value - usual) / unit))
 }
 
 /// Whether networks with a context know tables like this one: `match` or `textbook` but for what they are told, and that not

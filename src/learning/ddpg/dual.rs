@@ -158,23 +158,3 @@ impl Mul<f64> for DualVector {
         Self { x: self.x * other, y: self.y * other }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn slopes_agree_with_finite_differences() {
-        let function = |x: Dual, y: Dual| {
-            let (sin, cos) = (x * y).sin_cos();
-            (x * x + y * 3.0 + 1.0).sqrt() * (sin - cos) + -(y + 2.0).recip() + x.at_most(0.1)
-        };
-        let value = |x, y| function(Dual::constant(x), Dual::constant(y)).value;
-        let (x, y, step) = (0.7, 0.4, 1e-6);
-        let dual = function(Dual::action(0, x), Dual::action(1, y));
-        let along_x = (value(x + step, y) - value(x - step, y)) / (2.0 * step);
-        let along_y = (value(x, y + step) - value(x, y - step)) / (2.0 * step);
-        assert_eq!(dual.value, value(x, y));
-        assert!((dual.slope[0] - along_x).abs() < 1e-8 && (dual.slope[1] - along_y).abs() < 1e-8);
-    }
-}

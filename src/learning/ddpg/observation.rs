@@ -173,20 +173,6 @@ mod tests {
     }
 
     #[test]
-    fn a_direction_returns_to_the_table() {
-        let layout = Layout::new([DVec2::new(-0.5, 0.1), DVec2::new(0.5, 0.2), DVec2::new(0.2, -0.4)]);
-        for observation in Observation::all(&layout) {
-            let first = if observation.mirror * observation.first == layout.balls[1] {
-                layout.balls[1]
-            } else {
-                layout.balls[2]
-            };
-            let angle = observation.angle_on_table(observation.first - observation.cue);
-            assert!((angle - (first - layout.balls[0]).to_angle()).abs() < 1e-12);
-        }
-    }
-
-    #[test]
     fn the_free_path_ends_at_the_nearest_cushion() {
         let table = Table::default();
         assert_eq!(free_path(&table, DVec2::ZERO, DVec2::X), table.half_length());

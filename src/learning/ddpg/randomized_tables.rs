@@ -152,10 +152,13 @@ mod tests {
     use super::*;
     use crate::learning::ddpg::{action::ActionSpace, context::knows};
 
+    fn inputs(context: bool) -> Inputs {
+        Inputs { space: ActionSpace::Full, context, closed_form: true, rails_first: false }
+    }
+
     #[test]
     fn with_a_context_there_are_many_tables_that_depend_on_the_seed_alone_and_without_there_is_one() {
         let table = Arc::new(Table::default());
-        let inputs = |context| Inputs { space: ActionSpace::Full, context, closed_form: true, rails_first: false };
         let alone = RandomizedTables::new(&table, inputs(false), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         assert_eq!((alone.0.len(), alone.draw(0.35, &mut rng)), (1, Conditions::default()));
@@ -174,11 +177,7 @@ mod tests {
     #[test]
     fn who_errs_more_makes_fewer_points() {
         let table = Arc::new(Table::default());
-        let tables = RandomizedTables::new(
-            &table,
-            Inputs { space: ActionSpace::Full, context: true, closed_form: true, rails_first: false },
-            1,
-        );
+        let tables = RandomizedTables::new(&table, inputs(true), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
         let made = [0.0_f32, 3.0, 30.0].map(|errors| {
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);

@@ -259,30 +259,6 @@ mod tests {
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    fn file(values: &[f32]) -> Vec<u8> {
-        let mut writer = Writer::default();
-        let mlp = Mlp::random(&[3, 4, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
-        writer.add_network("actor", &mlp).unwrap();
-        writer.add("extra", &[values.len()], values);
-        writer.add_f64("exact", &[1], &[0.1]);
-        writer.finish(&"a note").unwrap()
-    }
-
-    #[test]
-    fn networks_arrays_and_the_note_come_back() {
-        let bytes = file(&[1.0, 2.0]);
-        let reader = Reader::new(&bytes).unwrap();
-        assert_eq!(reader.note::<String>().unwrap(), "a note");
-        assert_eq!(reader.array("extra").unwrap(), (vec![2], vec![1.0, 2.0]));
-        assert_eq!(reader.array_f64("exact").unwrap(), [0.1]);
-        let mlp = Mlp::random(&[3, 4, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
-        let read = reader.network("actor", mlp.sizes()).unwrap();
-        assert_eq!(read.sizes(), mlp.sizes());
-        let values = |mlp: &Mlp| mlp.parameters().to_vec1::<f32>().unwrap();
-        assert_eq!(values(&read), values(&mlp));
-        assert_eq!(bytes, file(&[1.0, 2.0]), "equal content gives equal files");
-    }
-
     #[test]
     fn half_the_digits_take_half_the_room_and_come_back_to_three_places() {
         let mlp = Mlp::random(&[30, 40, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
@@ -303,7 +279,12 @@ mod tests {
 
     #[test]
     fn damaged_and_foreign_files_are_refused_with_a_reason() {
-        let bytes = file(&[f32::NAN]);
+        let mut writer = Writer::default();
+        let mlp = Mlp::random(&[3, 4, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
+        writer.add_network("actor", &mlp).unwrap();
+        writer.add("extra", &[1], &[f32::NAN]);
+        writer.add_f64("exact", &[1], &[0.1]);
+        let bytes = writer.finish(&"a note").unwrap();
         let reader = Reader::new(&bytes).unwrap();
         assert!(matches!(reader.array("extra"), Err(WeightsError::NotFinite(_))));
         assert!(reader.array("exact").unwrap_err().to_string().contains("32-bit"));

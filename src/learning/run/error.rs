@@ -128,16 +128,6 @@ pub enum DamageReason {
     Content(#[from] WeightsError),
 }
 
-/// What to do about weights that a run cannot take up.
-pub const fn advice(error: &WeightsError) -> &'static str {
-    match error {
-        WeightsError::Shape { .. } => {
-            "; leave out the settings that give the networks other sizes, or start without --from"
-        }
-        _ => "",
-    }
-}
-
 /// The error of a file, for `map_err`.
 pub fn file(path: &Path) -> impl FnOnce(std::io::Error) -> RunError {
     move |reason| RunError::File { path: path.display().to_string(), reason }

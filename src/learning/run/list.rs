@@ -13,9 +13,8 @@ use super::{
     METRICS,
     checkpoint::shots_in,
     config::{self, Config},
-    follow::{Condition, Signs, Stamp, condition},
-    holds_checkpoints, metrics,
-    status::{self, RunStatus},
+    follow::{Condition, Followed, Follower},
+    holds_checkpoints, status,
 };
 use crate::{game::Reward, printing::moment};
 
@@ -68,19 +67,11 @@ pub struct Listing {
     pub unreadable: Vec<String>,
 }
 
-/// The runs in a folder, looked at again and again: metrics are read only where they have changed.
+/// The runs in a folder, looked at again and again: each is followed, so that its files are read only where they have changed.
 #[derive(Debug)]
 pub(crate) struct RunsFolder {
     folder: PathBuf,
-    known: HashMap<PathBuf, (Option<Stamp>, Rewards)>,
-}
-
-/// What a run's metrics say.
-#[derive(Clone, Copy, Debug, Default)]
-struct Rewards {
-    best: Option<f64>,
-    last: Option<f64>,
-    shots: u64,
+    known: HashMap<PathBuf, (Follower, Followed)>,
 }
 
 impl RunsFolder {
@@ -105,13 +96,15 @@ impl RunsFolder {
 
     fn summary(&mut self, folder: &Path, name: String, config: Config) -> Summary {
         let Config { agent, plan, started, table, .. } = config;
-        let rewards = self.rewards(folder);
-        let status = RunStatus::read(folder).ok();
-        let told = |of: fn(&RunStatus) -> Option<f64>| status.as_ref().and_then(of);
-        let last = told(|status| status.held_out_reward).or(rewards.last);
-        let shots = status.as_ref().map_or(0, |status| status.shots).max(rewards.shots);
-        let shots = if shots == 0 { shots_in(folder).unwrap_or(0) } else { shots };
-        let signs = Signs { shots: Some(shots), planned: Some(plan.shots), ..Signs::of(folder) };
+        let new = || (Follower::new(folder), Followed::new(folder));
+        let (follower, run) = self.known.entry(folder.to_owned()).or_insert_with(new);
+        if let Some(update) = follower.look() {
+            run.apply(update);
+        }
+        let shots = match run.shots() {
+            0 => shots_in(folder).unwrap_or(0),
+            shots => shots,
+        };
         Summary {
             name,
             agent,
@@ -120,32 +113,16 @@ impl RunsFolder {
             seed: plan.seed,
             shots,
             planned_shots: plan.shots,
-            best_reward: last.into_iter().chain(rewards.best).max_by(f64::total_cmp),
-            last_reward: last,
+            best_reward: run.best(),
+            last_reward: run.held_out(),
             changed: last_written(folder).map_or_else(|| started.clone(), moment),
             started,
-            state: match condition(&signs) {
+            state: match follower.condition_after(shots, plan.shots) {
                 Condition::Stalled(_) => Condition::Stalled(Duration::ZERO),
                 state => state,
             },
             folder: folder.to_owned(),
         }
-    }
-
-    fn rewards(&mut self, folder: &Path) -> Rewards {
-        let path = folder.join(METRICS);
-        let stamp = Stamp::of(&path);
-        if let Some((known, rewards)) = self.known.get(folder)
-            && *known == stamp
-        {
-            return *rewards;
-        }
-        let lines = metrics::read(&path).unwrap_or_default();
-        let all = || lines.iter().filter_map(|line| line.held_out_reward).filter(|reward| reward.is_finite());
-        let shots = lines.last().map_or(0, |line| line.shots);
-        let rewards = Rewards { best: all().max_by(f64::total_cmp), last: all().next_back(), shots };
-        self.known.insert(folder.to_owned(), (stamp, rewards));
-        rewards
     }
 }
 

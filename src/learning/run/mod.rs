@@ -7,7 +7,6 @@
 
 mod checkpoint;
 mod config;
-mod contents;
 mod error;
 mod event_file;
 pub mod examples;
@@ -30,18 +29,17 @@ use std::{
     path::{Path, PathBuf},
 };
 
-pub(crate) use self::contents::Accumulator;
-use self::{
-    checkpoint::{Checkpoints, Loaded},
-    contents::State,
-    error::file,
-    metrics::MetricsFile,
-};
+pub(crate) use self::checkpoint::Accumulator;
 pub use self::{
+    checkpoint::agent_of_checkpoint,
     config::{Config, Provenance, Schedule, run_name},
-    contents::agent_of_checkpoint,
     error::RunError,
     training::{Ending, Limits, Watcher},
+};
+use self::{
+    checkpoint::{Checkpoints, Loaded, State},
+    error::file,
+    metrics::MetricsFile,
 };
 use crate::{
     learning::{evaluation::Score, learner::Learner},
@@ -201,7 +199,7 @@ impl Run {
     }
 
     fn write_checkpoint(&mut self) -> Result<(), RunError> {
-        let bytes = contents::bytes(self.learner.as_ref(), &self.state)?;
+        let bytes = checkpoint::bytes(self.learner.as_ref(), &self.state)?;
         self.checkpoints.write(&bytes).map_err(file(&self.folder.join(checkpoint::CURRENT)))
     }
 

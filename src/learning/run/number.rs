@@ -41,18 +41,17 @@ enum Number {
 
 /// The same for numbers that may be missing: those are left out of the file.
 pub mod option {
+    use serde::Serialize;
+
     use super::{Deserialize, Deserializer, Serializer};
 
-    #[derive(Deserialize)]
+    #[derive(Serialize, Deserialize)]
     struct Present(#[serde(with = "super")] f64);
 
     /// Writes the number that is there.
     #[expect(clippy::ref_option, reason = "serde calls it with a reference")]
     pub fn serialize<S: Serializer>(number: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
-        match number {
-            Some(number) => super::serialize(number, serializer),
-            None => serializer.serialize_none(),
-        }
+        number.map(Present).serialize(serializer)
     }
 
     /// Reads a number, or its name, or nothing.

@@ -7,14 +7,14 @@ use serde_json::Value;
 use super::{
     checkpoint::{self, Checkpoints, Loaded},
     config::Provenance,
-    error::{RunError, advice, file},
+    error::{RunError, file},
 };
 use crate::{
     learning::{
         Policy,
         checksum::{OF_CHECKPOINT, is_whole},
         learner::{AgentKind, Learner, note_of},
-        nn::weights::Reader,
+        nn::weights::{Reader, WeightsError},
         policy::bundled_bytes,
     },
     storage::{self, write_atomic},
@@ -106,7 +106,12 @@ impl Weights {
             }
         }
         let loaded = Reader::new(&self.bytes).and_then(|weights| learner.load_weights(&weights));
-        loaded.map_err(|error| refuse(format!("{error}{}", advice(&error))))
+        loaded.map_err(|error| match error {
+            WeightsError::Shape { .. } => refuse(format!(
+                "{error}; leave out the settings that give the networks other sizes, or start without --from"
+            )),
+            error => refuse(error.to_string()),
+        })
     }
 
     /// Keeps a copy of the file.

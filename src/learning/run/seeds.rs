@@ -65,28 +65,26 @@ impl TrainingSpec {
     }
 }
 
+/// What a group trains, with how many seeds, and from whose weights.
 #[derive(Debug, Serialize, Deserialize)]
-struct GroupFile {
-    seeds: u64,
-    from: Option<Provenance>,
+pub struct GroupFile {
+    pub seeds: u64,
+    pub from: Option<Provenance>,
     #[serde(flatten)]
-    spec: TrainingSpec,
+    pub spec: TrainingSpec,
 }
 
-/// What the group in `folder` trains, with how many seeds, and from whose weights.
-pub fn described(folder: &Path) -> Result<(TrainingSpec, u64, Option<Provenance>), RunError> {
+/// What the group in `folder` was started with.
+pub fn described(folder: &Path) -> Result<GroupFile, RunError> {
     let path = folder.join(FILE);
-    let GroupFile { seeds, spec, from } = json::read(&path, storage::SMALL).map_err(file(&path))?;
-    Ok((spec, seeds, from))
+    json::read(&path, storage::SMALL).map_err(file(&path))
 }
 
 /// Runs that differ in their seed alone, in folders of one folder.
 #[derive(Debug)]
 pub struct Group {
     folder: PathBuf,
-    spec: TrainingSpec,
-    seeds: u64,
-    from: Option<Provenance>,
+    file: GroupFile,
     _lock: Lock,
 }
 
@@ -105,15 +103,14 @@ impl Group {
         if let Some(weights) = weights {
             weights.write(&folder.join(WEIGHTS))?;
         }
-        let note = GroupFile { seeds, from: weights.map(|weights| weights.start.clone()), spec };
-        json::write(&folder.join(FILE), &note)?;
-        Ok(Self { folder: folder.to_owned(), spec: note.spec, seeds, from: note.from, _lock: lock })
+        let file = GroupFile { seeds, from: weights.map(|weights| weights.start.clone()), spec };
+        json::write(&folder.join(FILE), &file)?;
+        Ok(Self { folder: folder.to_owned(), file, _lock: lock })
     }
 
     /// The group in `folder`.
     pub fn resume(folder: &Path) -> Result<Self, RunError> {
-        let (spec, seeds, from) = described(folder)?;
-        Ok(Self { folder: folder.to_owned(), spec, seeds, from, _lock: super::lock(folder)? })
+        Ok(Self { folder: folder.to_owned(), file: described(folder)?, _lock: super::lock(folder)? })
     }
 
     pub fn folder(&self) -> &Path {
@@ -122,8 +119,8 @@ impl Group {
 
     /// The seeds, in order.
     pub fn seeds(&self) -> impl Iterator<Item = u64> {
-        let first = self.spec.plan.seed;
-        (0..self.seeds).map(move |index| first.wrapping_add(index))
+        let first = self.file.spec.plan.seed;
+        (0..self.file.seeds).map(move |index| first.wrapping_add(index))
     }
 
     /// The run with this seed: a new one, or the one that is there as it was left, with what [`Run::resume`]
@@ -135,11 +132,11 @@ impl Group {
         }
         // Seeds that have begun need the weights no more.
         let mut weights = None;
-        if let Some(start) = &self.from {
+        if let Some(start) = &self.file.from {
             // Under what was known of them when the file was copied.
             weights.insert(Weights::load(&self.folder.join(WEIGHTS))?).start = start.clone();
         }
-        Ok((self.spec.start(&folder, seed, weights.as_ref())?, Vec::new()))
+        Ok((self.file.spec.start(&folder, seed, weights.as_ref())?, Vec::new()))
     }
 
     fn member(&self, seed: u64) -> PathBuf {

@@ -1,8 +1,15 @@
-//! Runs that are stopped, go on, and meet trouble; kills of the whole program are in `tests/binary/training`.
+//! Runs that are stopped, go on, do as they are asked, and meet trouble; kills of the whole program are in `tests/binary/training`.
 
-use std::{cell::Cell, fs};
+use std::{cell::Cell, fs, thread, time::Duration};
 
-use super::{metrics::Record, *};
+use super::{
+    examples::Examples,
+    follow::{Condition, Followed, Follower},
+    metrics::Record,
+    request::Request,
+    status::{Phase, RunStatus},
+    *,
+};
 use crate::{
     game::Reward,
     learning::{
@@ -17,8 +24,8 @@ use crate::{
 
 /// What a run reported to its watcher.
 #[derive(Default)]
-pub struct Told {
-    pub lines: Vec<Record>,
+struct Told {
+    lines: Vec<Record>,
     warnings: Vec<String>,
 }
 
@@ -33,13 +40,13 @@ impl Watcher for Told {
 }
 
 /// A run of ten iterations, a line after every other one and a measurement after every fourth.
-pub fn small_run(folder: &Path) -> Run {
+fn small_run(folder: &Path) -> Run {
     let learner = Trainer::new(small_task(), Table::default()).unwrap();
     let schedule = Schedule { log_every: 32, evaluate_every: 64, evaluation_layouts: 20 };
     Run::create(folder, Box::new(learner), schedule, None).unwrap()
 }
 
-pub const FOREVER: Limits<'_> = Limits { time: None, stop: &|| false };
+const FOREVER: Limits<'_> = Limits { time: None, stop: &|| false };
 
 fn is_finished(ending: Ending) -> bool {
     matches!(ending, Ending::Finished(_))
@@ -60,9 +67,13 @@ fn a_run_leaves_metrics_a_policy_and_a_checkpoint() {
     assert_eq!(shots, [(32, false), (64, true), (96, false), (128, true), (160, true)]);
     let policy = Policy::load(&run.policy_path()).unwrap();
     assert!(matches!(ending, Ending::Finished(score) if score.mean_reward == policy.origin().held_out_reward));
-    drop(run);
-    let (mut run, _) = Run::resume(folder.path()).unwrap();
-    assert_eq!(finish(&mut run).0, ending);
+}
+
+/// Trains a run that is told to stop once it has asked so many times whether it shall.
+fn stopped_after(run: &mut Run, times: u32) -> Result<Ending, RunError> {
+    let asked = Cell::new(0);
+    let stop = || asked.replace(asked.get() + 1) == times;
+    run.train(&Limits { time: None, stop: &stop }, &mut Told::default())
 }
 
 /// What must not depend on where a run was stopped: the policy, the checkpoint, and the metrics but for the clock.
@@ -73,10 +84,7 @@ fn files_of(start: &dyn Fn(&Path) -> Run, stops: &[u32]) -> Files {
     let folder = tempfile::tempdir().unwrap();
     let mut run = start(folder.path());
     for after in stops {
-        let asked = Cell::new(0);
-        let stop = || asked.replace(asked.get() + 1) == *after;
-        let ending = run.train(&Limits { time: None, stop: &stop }, &mut Told::default()).unwrap();
-        assert!(matches!(ending, Ending::Stopped(_)));
+        assert!(matches!(stopped_after(&mut run, *after).unwrap(), Ending::Stopped(_)));
         drop(run);
         run = Run::resume(folder.path()).unwrap().0;
     }
@@ -115,10 +123,7 @@ fn a_run_that_is_stopped_saves_before_it_is_measured() {
     let mut run = small_run(folder.path());
     // A policy that cannot be written shows what was saved before the measurement.
     fs::create_dir(folder.path().join(POLICY)).unwrap();
-    let asked = Cell::new(0);
-    let stop = || asked.replace(asked.get() + 1) == 3;
-    let ending = run.train(&Limits { time: None, stop: &stop }, &mut Told::default());
-    let error = ending.unwrap_err().to_string();
+    let error = stopped_after(&mut run, 3).unwrap_err().to_string();
     assert!(error.contains("after 48 shots") && error.contains(POLICY) && error.contains("--resume"), "{error}");
     drop(run);
     assert_eq!(Run::resume(folder.path()).unwrap().0.learner().shots(), 48);
@@ -128,10 +133,8 @@ fn a_run_that_is_stopped_saves_before_it_is_measured() {
 fn a_finished_run_is_saved_before_it_is_calibrated_and_stops_meanwhile() {
     let (folder, whole) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut run = small_run(folder.path());
-    let asked = Cell::new(0);
     // After ten iterations, at the second look of the calibration.
-    let stop = || asked.replace(asked.get() + 1) == 11;
-    let ending = run.train(&Limits { time: None, stop: &stop }, &mut Told::default()).unwrap();
+    let ending = stopped_after(&mut run, 11).unwrap();
     assert!(matches!(ending, Ending::Stopped(_)) && run.learner().is_finished() && run.result().is_none());
     drop(run);
     let mut run = Run::resume(folder.path()).unwrap().0;
@@ -221,10 +224,124 @@ fn a_run_that_breaks_down_says_so_shows_what_was_odd_and_goes_on_from_before() {
     assert!(error.contains("after 16 shots"), "{error}");
     let lines = metrics::read(&folder.path().join(METRICS)).unwrap();
     assert!(lines[0].critic_loss.is_nan() && lines[0].actor_loss == Some(f64::NEG_INFINITY), "{lines:?}");
-    let status = status::RunStatus::read(folder.path()).unwrap();
-    assert_eq!((status.phase, status.reason), (status::Phase::Failed, Some(error)));
+    let status = RunStatus::read(folder.path()).unwrap();
+    assert_eq!((status.phase, status.reason), (Phase::Failed, Some(error)));
     drop(run);
     let (ending, told) = finish(&mut Run::resume(folder.path()).unwrap().0);
     assert!(is_finished(ending) && told.lines.len() == 5);
     assert!(metrics::read(&folder.path().join(METRICS)).unwrap().iter().all(|line| line.critic_loss.is_finite()));
+}
+
+/// Asks the run in `folder` from another thread as soon as it is in `phase`.
+fn ask(folder: &Path, phase: Phase, request: Request) -> thread::JoinHandle<()> {
+    let folder = folder.to_owned();
+    thread::spawn(move || {
+        for _ in 0..4000 {
+            if RunStatus::read(&folder).is_ok_and(|status| status.phase == phase) {
+                break;
+            }
+            thread::sleep(Duration::from_millis(5));
+        }
+        request.send(&folder).unwrap();
+    })
+}
+
+/// Trains a run that is asked for something in each of these phases. It is held up between two iterations, so that it does not end
+/// before it is asked.
+fn asked(run: &mut Run, requests: &[(Phase, Request)]) -> Ending {
+    let asking: Vec<_> = requests.iter().map(|(phase, request)| ask(run.folder(), *phase, *request)).collect();
+    let linger = || {
+        thread::sleep(Duration::from_millis(60));
+        false
+    };
+    let ending = run.train(&Limits { time: None, stop: &linger }, &mut Told::default()).unwrap();
+    for thread in asking {
+        thread.join().unwrap();
+    }
+    ending
+}
+
+#[test]
+fn a_run_waits_goes_on_and_stops_as_it_is_asked_and_ends_in_the_same_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = small_run(folder.path());
+    // What was asked of an earlier process is not done.
+    Request::Abandon.send(folder.path()).unwrap();
+    let ending = asked(&mut run, &[(Phase::Training, Request::Pause), (Phase::Paused, Request::Stop)]);
+    assert!(matches!(ending, Ending::Stopped(_)));
+    assert_eq!(RunStatus::read(folder.path()).unwrap().phase, Phase::Stopped);
+    drop(run);
+    let mut run = Run::resume(folder.path()).unwrap().0;
+    assert!(is_finished(asked(&mut run, &[(Phase::Training, Request::Pause), (Phase::Paused, Request::GoOn)])));
+    assert_eq!(Request::take(folder.path()), None);
+    let other = tempfile::tempdir().unwrap();
+    finish(&mut small_run(other.path()));
+    let [own, whole] = [&folder, &other].map(|folder| fs::read(folder.path().join(checkpoint::CURRENT)).unwrap());
+    assert!(own == whole);
+}
+
+#[test]
+fn a_run_that_is_given_up_leaves_nothing_but_what_is_not_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let mut run = small_run(path);
+    fs::write(path.join("notes.txt"), "mine").unwrap();
+    assert_eq!(asked(&mut run, &[(Phase::Training, Request::Abandon)]), Ending::Abandoned);
+    assert!(discard(path).unwrap_err().to_string().contains("another process"));
+    drop(run);
+    discard(path).unwrap();
+    let left: Vec<_> = fs::read_dir(path).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left, ["notes.txt"]);
+}
+
+/// Gives its run up as soon as that has measured itself for the last time.
+struct GivesUp<'a>(&'a Path);
+
+impl Watcher for GivesUp<'_> {
+    fn line(&mut self, record: &Record) {
+        if record.shots == 160 {
+            Request::Abandon.send(self.0).unwrap();
+        }
+    }
+
+    fn warn(&mut self, _: &str) {}
+}
+
+#[test]
+fn a_run_that_is_given_up_during_its_last_measurement_does_not_finish() {
+    let folder = tempfile::tempdir().unwrap();
+    let ending = small_run(folder.path()).train(&FOREVER, &mut GivesUp(folder.path())).unwrap();
+    assert_eq!(ending, Ending::Abandoned);
+    assert!(!folder.path().join("result.json").exists());
+    assert_eq!(RunStatus::read(folder.path()).unwrap().phase, Phase::Stopped);
+}
+
+#[test]
+fn whoever_follows_sees_a_run_begin_work_tell_what_it_does_and_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run");
+    let (mut follower, mut followed) = (Follower::new(&path), Followed::new(&path));
+    followed.apply(follower.look().unwrap());
+    assert_eq!(followed.condition, Condition::Missing);
+    assert!(follower.look().is_none(), "nothing has changed");
+    let mut run = small_run(&path);
+    finish(&mut run);
+    let status = RunStatus::read(&path).unwrap();
+    assert_eq!((status.phase, status.shots, status.process), (Phase::Finished, 160, std::process::id()));
+    assert!(status.updates > 0 && status.replay_fill == Some(1.0) && status.exploration > 0.0, "{status:?}");
+    let Examples { after, shots } = Examples::read(&path).unwrap();
+    assert_eq!((after, shots.len()), (160, examples::COUNT));
+    let (reward, table) = (run.learner().plan().reward, run.learner().table());
+    assert!(shots.iter().all(|shot| shot.reward == reward.of(table, &shot.layout, &shot.cue)));
+    drop(run);
+    let mut follower = Follower::new(&path);
+    let update = follower.look().unwrap();
+    assert_eq!(update.records.len(), 5);
+    followed.apply(update);
+    assert_eq!(followed.condition, Condition::Is(Phase::Finished));
+    assert_eq!(followed.config.as_ref().unwrap().plan.shots, 160);
+    assert!(followed.examples.is_some() && followed.notices.is_empty());
+    fs::remove_file(path.join("metrics.jsonl")).unwrap();
+    followed.apply(follower.look().unwrap());
+    assert!(followed.notices[0].contains("metrics.jsonl has been removed"), "{:?}", followed.notices);
 }

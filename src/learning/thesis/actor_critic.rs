@@ -109,14 +109,9 @@ impl ActorCritic {
         Ok(Self { rates, online, target, optimisers })
     }
 
-    /// Networks that begin to learn with the weights among such values.
-    pub fn from_weights(
-        sizes: &[Vec<usize>; 2],
-        rates: Rates,
-        values: &[f32],
-    ) -> std::result::Result<Self, WeightsError> {
-        let [online, ..] = split(sizes, values)?;
-        Ok(Self::starting_from(online, rates)?)
+    /// The same networks at the beginning of their learning: the learning ones become both the learning ones and the targets.
+    pub fn begun_anew(self) -> Result<Self> {
+        Self::starting_from(self.online, self.rates)
     }
 
     #[must_use]

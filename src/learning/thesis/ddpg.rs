@@ -172,6 +172,11 @@ impl PlainDdpgSettings {
         Rates { adam: AdamConfig { learning_rate, gradient_clip }, keep }
     }
 
+    /// The networks in a file that an agent with these settings has filled after so many updates.
+    fn networks(&self, reader: &Reader<'_>, updates: u32) -> Result<ActorCritic, WeightsError> {
+        ActorCritic::from_values(&self.sizes(), self.rates(), &reader.array("networks")?.1, updates)
+    }
+
     /// What is left after `shots` of something of which `last` is left in the end.
     fn decayed(&self, last: f64, shots: u64) -> f64 {
         last.powf((shots as f64 / self.falls_over as f64).min(1.0))
@@ -316,8 +321,7 @@ impl Agent for PlainDdpg {
     fn restore(settings: PlainDdpgSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
         let PlainDdpgState { shots, updates, next, noise, lessons } =
             serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
-        let (_, values) = reader.array("networks")?;
-        let networks = ActorCritic::from_values(&settings.sizes(), settings.rates(), &values, updates)?;
+        let networks = settings.networks(reader, updates)?;
         let replay = replay::restore(settings.memory, reader, MEMORY, next)?;
         let memory = settings.memory;
         let lessons =
@@ -327,8 +331,7 @@ impl Agent for PlainDdpg {
 
     /// The learning networks become both the learning ones and the targets; the optimisers start again.
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
-        let (_, values) = reader.array("networks")?;
-        self.networks = ActorCritic::from_weights(&self.settings.sizes(), self.settings.rates(), &values)?;
+        self.networks = self.settings.networks(reader, 0)?.begun_anew()?;
         Ok(())
     }
 }

@@ -11,7 +11,6 @@ pub mod dqn;
 pub mod environment;
 pub mod exploration;
 mod hindsight;
-pub(crate) mod learner;
 mod lessons;
 pub mod q_learning;
 pub(crate) mod replay;

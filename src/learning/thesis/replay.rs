@@ -12,7 +12,7 @@ use crate::learning::{
     replay::ReplayBuffer,
 };
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StoredTransition {
     pub state: State,
     pub action: Action,
@@ -130,37 +130,15 @@ pub fn number(tensor: &Tensor) -> Result<f64, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rand::SeedableRng;
-    use rand_xoshiro::Xoshiro256PlusPlus;
-
-    fn transition(number: u8) -> StoredTransition {
-        let x = f32::from(number);
-        StoredTransition {
-            state: [x, 0.1, 0.2, 0.3, 0.4, 0.5],
-            action: [x / 7.0, -0.3],
-            index: u32::from(number) + 800,
-            reward: x,
-            goes_on: number.is_multiple_of(2),
-            next: [0.6, 0.7, 0.8, 0.9, 1.0, -x],
-        }
-    }
 
     #[test]
-    fn a_file_gives_back_the_same_ring() {
+    fn a_library_that_is_larger_than_the_memory_is_refused() {
         let mut replay = ReplayBuffer::new(3);
-        (0..5).for_each(|number| replay.push(transition(number)));
+        (0..3).for_each(|_| replay.push(StoredTransition::default()));
         let mut writer = Writer::default();
         let next = save(&replay, MEMORY, &mut writer);
         let bytes = writer.finish(&"").unwrap();
-        let mut again = restore(3, &Reader::new(&bytes).unwrap(), MEMORY, next).unwrap();
-        for ring in [&mut replay, &mut again] {
-            ring.push(transition(5));
-            let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
-            let mut drawn = ring.sample(60, &mut rng);
-            drawn.sort_by(|a, b| a.reward.total_cmp(&b.reward));
-            drawn.dedup();
-            assert_eq!(drawn, [transition(3), transition(4), transition(5)]);
-        }
-        assert!(restore(2, &Reader::new(&bytes).unwrap(), MEMORY, 0).is_err());
+        let reader = Reader::new(&bytes).unwrap();
+        assert!(restore(3, &reader, MEMORY, next).is_ok() && restore(2, &reader, MEMORY, 0).is_err());
     }
 }

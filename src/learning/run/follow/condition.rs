@@ -1,17 +1,10 @@
 //! How a run is, as far as one can see from outside.
 
-use std::{fmt, path::Path, time::Duration};
+use std::{fmt, time::Duration};
 
 use serde::{Serialize, Serializer};
 
-use super::stamp::Stamp;
-use crate::{
-    learning::run::{
-        holds_checkpoints,
-        status::{self, Phase, RunStatus},
-    },
-    storage::Lock,
-};
+use crate::learning::run::status::Phase;
 
 /// Silence after which a run that trains or waits is stalled: it should have said something each second.
 const HEARTBEAT_TIMEOUT: Duration = Duration::from_secs(15);
@@ -117,23 +110,6 @@ pub struct Signs {
     pub shots: Option<u64>,
     /// Shots planned.
     pub planned: Option<u64>,
-}
-
-impl Signs {
-    /// What one look at the run in `folder` shows, its metrics and its plan left out.
-    pub fn of(folder: &Path) -> Self {
-        let is_there = folder.is_dir();
-        Self {
-            is_there,
-            was_there: is_there,
-            is_run: holds_checkpoints(folder),
-            is_held: Lock::is_held(folder),
-            phase: RunStatus::read(folder).ok().map(|status| status.phase),
-            silent: Stamp::of(&folder.join(status::FILE)).map_or(Duration::ZERO, |stamp| stamp.age()),
-            shots: None,
-            planned: None,
-        }
-    }
 }
 
 /// What follows from what is seen.

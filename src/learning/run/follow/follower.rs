@@ -10,7 +10,7 @@ use super::{
     Condition, Update,
     condition::{Signs, condition},
     stamp::Stamp,
-    tail::{News, Tail},
+    tail::Tail,
 };
 use crate::{
     learning::run::{
@@ -35,8 +35,8 @@ pub struct Follower {
     config: Option<Stamp>,
     status: Option<Stamp>,
     examples: Option<Stamp>,
-    /// When what the run says of itself last changed; nothing before it has said anything.
-    heard: Option<Instant>,
+    /// When what the run says of itself was last seen to change, and how old it was then; nothing before it has said anything.
+    heard: Option<(Instant, Duration)>,
     /// Lines of metrics read.
     lines: u64,
     /// Shots played, and shots as of the last line of metrics, as the run says itself.
@@ -64,7 +64,7 @@ impl Follower {
         }
         self.look_at_status(&mut update);
         let is_there = self.look_at_metrics(&mut update);
-        self.signs.silent = self.heard.map_or(Duration::ZERO, |heard| heard.elapsed());
+        self.signs.silent = self.heard.map_or(Duration::ZERO, |(seen, age)| age + seen.elapsed());
         let now = condition(&self.signs);
         if now != self.condition {
             self.condition = now;
@@ -77,6 +77,11 @@ impl Follower {
             update.notices = Some(notices);
         }
         (update != Update::default()).then_some(update)
+    }
+
+    /// How the run is as of the last look, where so many of the planned shots are known to have been played.
+    pub(in crate::learning::run) fn condition_after(&self, shots: u64, planned: u64) -> Condition {
+        condition(&Signs { shots: Some(shots), planned: Some(planned), ..self.signs.clone() })
     }
 
     /// What changes once a minute or never.
@@ -125,7 +130,7 @@ impl Follower {
         self.status = stamp;
         // A look at a run that has said nothing for an hour finds it an hour silent.
         let age = stamp.filter(|_| is_first).map_or(Duration::ZERO, |stamp| stamp.age());
-        self.heard = Some(Instant::now().checked_sub(age).unwrap_or_else(Instant::now));
+        self.heard = Some((Instant::now(), age));
         match RunStatus::read(&self.folder) {
             Ok(status) => {
                 self.signs.phase = Some(status.phase);
@@ -144,9 +149,8 @@ impl Follower {
 
     /// Reads what is new; `false` where there is no file.
     fn look_at_metrics(&mut self, update: &mut Update) -> io::Result<bool> {
-        let mut news = News::default();
-        let is_there = self.tail.look(&mut news);
-        let News { is_afresh, records } = news;
+        let (mut is_afresh, mut records) = (false, Vec::new());
+        let is_there = self.tail.look(&mut is_afresh, &mut records);
         let last = records.last().map(|record| record.shots);
         let is_first = self.lines == 0 && last.is_some();
         update.begins = is_first || is_afresh && (last.is_some() || is_there.is_ok());

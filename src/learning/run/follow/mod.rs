@@ -11,10 +11,6 @@ use std::{
 };
 
 pub use self::{condition::Condition, follower::Follower};
-pub(super) use self::{
-    condition::{Signs, condition},
-    stamp::Stamp,
-};
 use super::{
     config::Config,
     examples::Examples,

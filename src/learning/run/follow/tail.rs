@@ -41,8 +41,9 @@ impl Tail {
         self.stamp.is_some_and(|stamp| self.offset < stamp.length)
     }
 
-    /// Adds what is new to `news`; `false` where there is no file. What was read before an error is in `news`, too.
-    pub fn look(&mut self, news: &mut News) -> io::Result<bool> {
+    /// Adds what is new to `records`; `false` where there is no file. What was read before an error is there, too. What was read of a
+    /// file that is another now counts no more: then `is_afresh`, and the records are all that there are.
+    pub fn look(&mut self, is_afresh: &mut bool, records: &mut Vec<Record>) -> io::Result<bool> {
         let stamp = Stamp::of(&self.path);
         if stamp == self.stamp {
             return Ok(stamp.is_some());
@@ -58,9 +59,9 @@ impl Tail {
         let stamp = Stamp::from(&file.metadata()?);
         if !self.is_the_same(&mut file, stamp.length)? {
             *self = Self::new(&self.path);
-            news.is_afresh = true;
+            *is_afresh = true;
         }
-        self.read(&mut file, &mut news.records)?;
+        self.read(&mut file, records)?;
         // Not before: what could not be read is tried again.
         self.stamp = Some(stamp);
         Ok(true)
@@ -106,15 +107,6 @@ impl Tail {
     }
 }
 
-/// What a look has found.
-#[derive(Debug, Default)]
-pub struct News {
-    /// Whether what came before counts no more: the lines are all that there are.
-    pub is_afresh: bool,
-    /// Lines that have come.
-    pub records: Vec<Record>,
-}
-
 #[cfg(test)]
 mod tests {
     use std::fs;
@@ -139,9 +131,9 @@ mod tests {
 
     /// Whether the file was read afresh, and its new lines; `None` where there is no file.
     fn look(tail: &mut Tail) -> Option<(bool, Vec<u64>)> {
-        let mut news = News::default();
-        let is_there = tail.look(&mut news).unwrap();
-        is_there.then(|| (news.is_afresh, news.records.iter().map(|record| record.shots).collect()))
+        let (mut is_afresh, mut records) = (false, Vec::new());
+        let is_there = tail.look(&mut is_afresh, &mut records).unwrap();
+        is_there.then(|| (is_afresh, records.iter().map(|record| record.shots).collect()))
     }
 
     #[test]
@@ -184,7 +176,7 @@ mod tests {
         let (_folder, path, mut tail) = fresh();
         std::fs::create_dir(&path).unwrap();
         for _ in 0..2 {
-            assert!(tail.look(&mut News::default()).is_err());
+            assert!(tail.look(&mut false, &mut Vec::new()).is_err());
         }
         assert!(!tail.is_torn());
         std::fs::remove_dir(&path).unwrap();
