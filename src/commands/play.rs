@@ -2,13 +2,13 @@
 
 use super::{
     Failure,
-    drill::{MOST_STROKES, PlayOptions, Workspace, play, strokes},
-    input::{bundled_table, whole},
+    drill::{MOST_STROKES, PlayOptions, Workspace, play, size_words, strokes},
+    input::{table_named, whole},
 };
 use crate::{
     drills::{Exercise, Goal},
     game::Rule,
-    table::{CueBall, Layout, Side},
+    table::{CueBall, Layout, PRESETS, Side, Table},
 };
 
 /// What a game is called among exercises.
@@ -38,9 +38,6 @@ pub struct Args {
     /// right.
     #[arg(long, default_value = "left", conflicts_with = "layout")]
     side: Side,
-    /// The table: "match", "textbook" or "thesis".
-    #[arg(long, default_value = "match")]
-    table: String,
     /// The ball that you play with: white or yellow.
     #[arg(long, default_value = "white")]
     ball: CueBall,
@@ -58,20 +55,36 @@ pub struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let table = bundled_table(&args.table)?;
+    let (table, bundled) = tables(args.options.table.as_deref().unwrap_or(PRESETS[0]))?;
     let layout = match &args.layout {
         None => Layout::opening_on(&table, args.side),
         Some(text) => Layout::parse(text, &table).map_err(Failure::wrong_input)?,
     };
     layout.validate(&table).map_err(Failure::wrong_input)?;
-    let game = Exercise::own(GAME, args.rule, &table.name, layout);
+    let game = Exercise::own(GAME, args.rule, bundled, layout);
     let is_match = args.both || args.against_coach;
     let innings = args.innings;
     let against_coach = args.against_coach;
     let goal = if is_match { Goal::Match { innings, against_coach } } else { Goal::Game { innings } };
-    let mut session = args.options.session(goal, vec![game]);
+    let mut session = args.options.session(goal, vec![game])?;
     session.cue_ball = args.ball;
     args.options.tell_whom(&session, args.rule);
     let workspace = Workspace::open();
     play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
+}
+
+/// The table called `name`, and the bundled one of its size, on which the balls lie at the same places: itself where it is one.
+fn tables(name: &str) -> Result<(Table, &'static str), Failure> {
+    let table = table_named(name)?;
+    let itself = PRESETS.into_iter().find(|preset| *preset == table.name);
+    let of_its_size = |preset: &&str| Table::preset(preset).is_ok_and(|preset| preset.has_size_of(&table));
+    match itself.or_else(|| PRESETS.into_iter().find(of_its_size)) {
+        Some(bundled) => Ok((table, bundled)),
+        None => Err(Failure::wrong_input(format_args!(
+            "games are kept for tables of the size of a bundled one, and \"{}\" is {}; accepted are {}",
+            table.name,
+            size_words(&table),
+            PRESETS.map(|name| format!("\"{name}\"")).join(", ")
+        ))),
+    }
 }

@@ -168,7 +168,8 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
     for session in sessions.iter().filter(|session| session.venue == Venue::Table) {
         // In a game at a real table nobody knows where the balls have gone.
         let exercises = session.exercises.iter().filter(|_| !session.is_game());
-        let exercises: Vec<_> = exercises.filter_map(|one| Some((one, one.table().ok()?, one.model_shot()))).collect();
+        let exercises: Vec<_> =
+            exercises.filter_map(|one| Some((one, session.table_of(one).ok()?, session.model_shot_of(one)))).collect();
         for attempt in session.attempts.iter().filter(|attempt| !attempt.by_coach) {
             let known = exercises.iter().find(|(exercise, ..)| exercise.name == attempt.exercise);
             let Some((exercise, table, model_shot)) = known else {
@@ -184,9 +185,8 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
                 continue;
             };
             let rule = exercise.rule;
-            let same = |shot: &&mut Shot| {
-                (shot.cue, shot.layout, shot.rule) == (cue, layout, rule) && shot.table.name == table.name
-            };
+            let same =
+                |shot: &&mut Shot| (shot.cue, shot.layout, shot.rule) == (cue, layout, rule) && shot.table == *table;
             let (tried, made) = (1, usize::from(attempt.made));
             match shots.iter_mut().find(same) {
                 Some(shot) => {

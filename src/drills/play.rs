@@ -93,7 +93,7 @@ impl Session {
     /// Where the exercise is impossible.
     pub fn position(&self) -> Result<Option<(Table, Layout)>, ExerciseError> {
         let Some(exercise) = self.exercise() else { return Ok(None) };
-        let table = exercise.table()?;
+        let table = self.table_of(exercise)?;
         let layout = match self.attempts.last() {
             Some(last) if self.is_game() => {
                 let layout = last.layout.unwrap_or(exercise.layout);

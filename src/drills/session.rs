@@ -4,12 +4,13 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Exercise, Record};
+use super::{Exercise, ExerciseError, Record};
 use crate::{
     coach::{Doubt, Shooter, Skill},
-    physics::CueInputs,
+    game::scores,
+    physics::{CueInputs, has_room},
     printing::timestamp_of,
-    table::{CueBall, Layout},
+    table::{CueBall, Layout, Table},
 };
 
 /// When a session is over.
@@ -167,6 +168,10 @@ pub struct Session {
     pub cue_ball: CueBall,
     /// Seed of the errors and of the shifts.
     pub seed: u64,
+    /// The player's own table, on which exercises of tables of its size are played; `None` where each is played on the one that it was
+    /// made for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<Box<Table>>,
     /// One exercise, or those of an exam. That of a game says its rule, its table and where the balls lie at first.
     pub exercises: Vec<Exercise>,
     /// In the order in which they were made.
@@ -196,9 +201,27 @@ impl Session {
             unordered: false,
             cue_ball: CueBall::White,
             seed,
+            table: None,
             exercises,
             attempts: Vec::new(),
         }
+    }
+
+    /// The table on which an exercise is played.
+    ///
+    /// # Errors
+    /// Where the exercise is impossible.
+    pub fn table_of(&self, exercise: &Exercise) -> Result<Table, ExerciseError> {
+        let table = exercise.table()?;
+        Ok(self.table.as_deref().filter(|own| own.has_size_of(&table)).cloned().unwrap_or(table))
+    }
+
+    /// The exercise's model shot; `None` where it has none, the cue has no room for it, or it makes no point on the player's own table.
+    pub fn model_shot_of(&self, exercise: &Exercise) -> Option<CueInputs> {
+        let table = self.table_of(exercise).ok()?;
+        let shot = exercise.shot.filter(|shot| has_room(&table, &exercise.layout, shot))?;
+        let is_made_for_it = self.table.is_none();
+        (is_made_for_it || scores(exercise.rule, &table, &exercise.layout, &shot)).then_some(shot)
     }
 
     /// Whether nothing is left to do.

@@ -270,6 +270,11 @@ impl Table {
         DVec2::new(self.half_length(), self.half_width())
     }
 
+    /// Whether balls of the same size lie at the same places of a bed of the same size.
+    pub fn has_size_of(&self, other: &Self) -> bool {
+        (self.length, self.width, self.radius) == (other.length, other.width, other.radius)
+    }
+
     /// The largest restitution of two balls and of any rail.
     pub fn largest_restitution(&self) -> f64 {
         let rails = Rail::ALL.map(|rail| self.rail.own(rail).e.unwrap_or(self.rail_restitution));

@@ -74,21 +74,26 @@ pub struct ExamArgs {
 pub fn once_and_again(args: &TryArgs) -> Result<(), Failure> {
     let stroke: StrokeInput = args.shot.parse()?;
     let workspace = Workspace::open();
-    let mut session = args.options.session(Goal::Free, vec![workspace.exercise(&args.name)?.clone()]);
+    let mut session = args.options.session(Goal::Free, vec![workspace.exercise(&args.name)?.clone()])?;
     session.shifted = args.shifted;
     play(&workspace.store, session, &args.options, Strokes::Same(stroke), args.repeat as usize)
 }
 
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let workspace = Workspace::open();
-    let mut session = args.options.session(Goal::Run(args.goal), vec![workspace.exercise(&args.name)?.clone()]);
+    let mut session = args.options.session(Goal::Run(args.goal), vec![workspace.exercise(&args.name)?.clone()])?;
     session.shifted = args.shifted;
     play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
 }
 
 pub fn exam(args: &ExamArgs) -> Result<(), Failure> {
     let workspace = Workspace::open();
-    let mut session = args.options.session(Goal::Exam, Vec::new());
+    if args.options.table.is_some() {
+        return Err(Failure::wrong_input(
+            "an exam is played on the tables of its exercises, for which its averages are told; leave out --table",
+        ));
+    }
+    let mut session = args.options.session(Goal::Exam, Vec::new())?;
     // The exam and the errors in it come from one seed.
     session.exercises = draw(workspace.library.exercises(), args.level, session.seed).map_err(Failure::failed)?;
     play(&workspace.store, session, &args.options, strokes(args.coach), LENGTH)

@@ -17,7 +17,7 @@ use clap::Subcommand;
 
 pub use self::{
     attempts::strokes,
-    options::PlayOptions,
+    options::{PlayOptions, size_words},
     strokes::{MOST_STROKES, play},
     workspace::Workspace,
 };

@@ -7,13 +7,15 @@ use crate::{
     coach::Skill,
     commands::{
         Failure,
-        input::{seed, whole},
+        input::{seed, table_named, whole},
         lookup::skill_called,
         output::{tell, whom_words},
         typed_stroke::TypedStroke,
     },
     drills::{Exercise, Goal, Session, Venue},
     game::Rule,
+    printing::number,
+    table::Table,
 };
 
 /// The word for the coach's shot in the place of one's own.
@@ -36,6 +38,10 @@ pub struct PlayOptions {
     /// The coach advises neither jumps over a ball nor massés, as most clubs have it.
     #[arg(long)]
     pub(super) no_jumps: bool,
+    /// The table that is played on: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. It must
+    /// have the size of that for which the exercise was made. Default: that one
+    #[arg(long)]
+    pub table: Option<String>,
     /// Print JSON: an object a line, of the kinds "position", "attempt", "refused" and "result".
     #[arg(long)]
     pub(super) json: bool,
@@ -43,9 +49,28 @@ pub struct PlayOptions {
 
 impl PlayOptions {
     /// A session that is played here.
-    pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Session {
+    ///
+    /// # Errors
+    /// A table that there is not, or that has another size than that of an exercise.
+    pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Result<Session, Failure> {
+        let own = self.table.as_deref().map(table_named).transpose()?;
+        for (exercise, own) in exercises.iter().zip(own.iter().cycle()) {
+            let table = exercise.table().map_err(Failure::failed)?;
+            if !own.has_size_of(&table) {
+                return Err(Failure::wrong_input(format_args!(
+                    "{} is on \"{}\", {}; \"{}\" is another, {}",
+                    exercise.name,
+                    table.name,
+                    size_words(&table),
+                    own.name,
+                    size_words(own)
+                )));
+            }
+        }
         let seed = self.seed.unwrap_or_else(rand::random);
-        Session::new(goal, Venue::Program, exercises, player(self.skill), seed)
+        let mut session = Session::new(goal, Venue::Program, exercises, player(self.skill), seed);
+        session.table = own.map(Box::new);
+        Ok(session)
     }
 
     /// Tells a user at the terminal who plays and by which rule. Who knows the screen expects what is set there.
@@ -54,6 +79,11 @@ impl PlayOptions {
             tell(whom_words(session.skill, rule));
         }
     }
+}
+
+/// How large a table and its balls are.
+pub fn size_words(table: &Table) -> String {
+    format!("{} by {} m with balls of {} mm", number(table.length), number(table.width), number(2e3 * table.radius))
 }
 
 /// A stroke that is wanted.

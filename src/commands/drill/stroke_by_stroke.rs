@@ -15,7 +15,6 @@ use crate::{
     },
     commands::{
         Failure,
-        input::ByTable,
         output::{json_line, line, plural, shot_text, tell, units},
         recommend::coach_for,
     },
@@ -28,9 +27,6 @@ use crate::{
     table::{CueBall, Layout, Table},
 };
 
-/// What makes the coach for a table.
-type MakeCoach = fn(Table) -> Result<Coach, Failure>;
-
 /// A session that is being played.
 pub struct StrokeByStroke<'a> {
     store: &'a Store,
@@ -38,7 +34,8 @@ pub struct StrokeByStroke<'a> {
     options: &'a PlayOptions,
     /// Whether every stroke is compared with the model shot, or else with the coach's, which takes time.
     compares: bool,
-    coaches: ByTable<Coach, MakeCoach>,
+    /// The coach for the table that was played on last.
+    coach: Option<Coach>,
     /// The coach's shot in a layout: while nothing moves, it is looked for once.
     advice: Option<(Layout, Advice)>,
     /// The exercise and the layout that were printed last.
@@ -140,8 +137,7 @@ fn percent(rate: &SuccessRate) -> String {
 
 impl<'a> StrokeByStroke<'a> {
     pub fn new(store: &'a Store, session: Session, options: &'a PlayOptions, compares: bool) -> Self {
-        let coaches = ByTable::new((|table| coach_for(table, "bundled")) as MakeCoach);
-        Self { store, session, options, compares, coaches, advice: None, shown: None }
+        Self { store, session, options, compares, coach: None, advice: None, shown: None }
     }
 
     /// The session as far as it was played.
@@ -150,8 +146,8 @@ impl<'a> StrokeByStroke<'a> {
     }
 
     /// Prints what is to be played, if that has changed.
-    pub fn show(&mut self, layout: &Layout) -> Result<(), Failure> {
-        let Some(Exercise { name, title, rule, table, .. }) = self.session.exercise() else { return Ok(()) };
+    pub fn show(&mut self, table: &Table, layout: &Layout) -> Result<(), Failure> {
+        let Some(Exercise { name, title, rule, .. }) = self.session.exercise() else { return Ok(()) };
         let shown = Some((name.clone(), *layout));
         if shown == self.shown {
             return Ok(());
@@ -160,7 +156,16 @@ impl<'a> StrokeByStroke<'a> {
         let cue_ball = self.session.cue_ball_now();
         if self.options.json {
             let rule = rule.name();
-            json_line(&Position { kind: "position", number, exercise: name, title, rule, table, cue_ball, layout })?;
+            json_line(&Position {
+                kind: "position",
+                number,
+                exercise: name,
+                title,
+                rule,
+                table: &table.name,
+                cue_ball,
+                layout,
+            })?;
         } else {
             let title = if title == name { String::new() } else { format!("{title}; ") };
             // Where it is white in every stroke, it is not said.
@@ -273,7 +278,7 @@ impl<'a> StrokeByStroke<'a> {
     /// The model shot, where the balls lie for it.
     fn own(&self, layout: &Layout) -> Option<CueInputs> {
         let exercise = self.session.exercise().filter(|exercise| exercise.layout == *layout)?;
-        exercise.model_shot().filter(|_| !self.session.is_game())
+        self.session.model_shot_of(exercise).filter(|_| !self.session.is_game())
     }
 
     fn advice(&mut self, table: &Table, layout: &Layout) -> Result<Option<Advice>, Failure> {
@@ -289,7 +294,8 @@ impl<'a> StrokeByStroke<'a> {
         let budget = Duration::from_millis(self.options.budget_ms);
         let jumps = !self.options.no_jumps;
         let request = Request { rule, skill, doubt, plan, jumps, budget, seed, ..Request::default() };
-        let coach = self.coaches.get(&table.name)?;
+        let known = self.coach.take().filter(|coach| coach.table() == table);
+        let coach = self.coach.insert(known.map_or_else(|| coach_for(table.clone(), "bundled"), Ok)?);
         let advice = advise(coach, layout, &request, self.session.is_coachs_turn()).map_err(Failure::wrong_input)?;
         self.advice = advice.map(|advice| (*layout, advice));
         Ok(advice)

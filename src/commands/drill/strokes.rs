@@ -38,7 +38,7 @@ pub fn play(
     let (mut lines, mut refused) = (0_usize, 0_usize);
     while game.session().attempts.len() < most {
         let Some((table, layout)) = game.session().position().map_err(Failure::failed)? else { break };
-        game.show(&layout)?;
+        game.show(&table, &layout)?;
         let is_line = matches!(strokes, Strokes::Input) && !game.session().is_coachs_turn();
         let stroke = match strokes {
             Strokes::Same(stroke) => Ok(stroke),

@@ -44,7 +44,7 @@ impl App {
         }
         match screen {
             PageId::Coach => None,
-            PageId::Drills => Some(self.drills.open(self.coach.query.skill, self.coach.query.rule)),
+            PageId::Drills => Some(self.drills.open(self.coach.query.skill, self.coach.query.rule, self.coach.table())),
             PageId::Training => {
                 self.training.open();
                 None

@@ -140,7 +140,11 @@ impl DrillsPage {
     pub(super) fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Effect {
         let seed = self.seed();
         let mut session = Session::new(goal, Venue::Program, exercises, self.player.skill, seed);
-        session.shifted = self.options.shifted && goal != Goal::Exam;
+        // An exam's averages are for the tables of its exercises.
+        if goal != Goal::Exam {
+            session.shifted = self.options.shifted;
+            session.table.clone_from(&self.own_table);
+        }
         Effect::Drill(self.practise(session))
     }
 
@@ -225,7 +229,13 @@ impl DrillsPage {
         let marked = || {
             let exercise = self.catalogue.marked()?;
             let Exercise { layout, rule, .. } = *exercise;
-            let found = exercise.table().map(|table| Balls { table, layout, rule, cue_ball: CueBall::White });
+            let own = self.own_table.as_deref();
+            let found = exercise.table().map(|table| Balls {
+                table: own.filter(|own| own.has_size_of(&table)).cloned().unwrap_or(table),
+                layout,
+                rule,
+                cue_ball: CueBall::White,
+            });
             Some(found.map_err(|error| error.to_string()))
         };
         match turn.map(Ok).or_else(marked) {

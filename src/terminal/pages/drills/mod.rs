@@ -119,6 +119,8 @@ pub struct DrillsPage {
     pub is_in_numbers: bool,
     /// The table that the settings say: a bundled one or a file.
     of_settings: String,
+    /// The player's own table, where the coach's page has one: exercises of its size are played on it.
+    own_table: Option<Box<Table>>,
     options: RepetitionOptions,
     /// Balls that are to go to the coach's table, until they are taken.
     pub for_coach: Option<Balls>,
@@ -152,6 +154,7 @@ impl DrillsPage {
             units: Units::default(),
             is_in_numbers: false,
             of_settings: String::new(),
+            own_table: None,
             options: RepetitionOptions { goal: Goal::Free, shifted: false },
             for_coach: None,
             opened_for: None,
@@ -172,10 +175,11 @@ impl DrillsPage {
         }
     }
 
-    /// Opens the page that was open last, or the library at the exercises of the coach's rule, for the coach's player of `skill`; what
-    /// is on the disk is read again.
-    pub fn open(&mut self, skill: Skill, rule: Rule) -> Effect {
+    /// Opens the page that was open last, or the library at the exercises of the coach's rule, for the coach's player of `skill` and the
+    /// coach's table, if that is the player's own; what is on the disk is read again.
+    pub fn open(&mut self, skill: Skill, rule: Rule, table: &Table) -> Effect {
         self.message = None;
+        self.own_table = (!PRESETS.contains(&&*table.name)).then(|| Box::new(table.clone()));
         let mut tasks = vec![self.load()];
         if skill != self.player.at_coach {
             self.player.choose(skill);
@@ -198,6 +202,7 @@ impl DrillsPage {
     /// Goes on with a session that an earlier one of the program has left.
     pub fn resume(&mut self, session: Session, skill: Skill) -> Effect {
         self.left_exam = self.unfinished().filter(|open| open.is_exam() && open.id != session.id).cloned();
+        self.own_table = session.table.clone().or(self.own_table.take());
         self.leave_turn();
         self.player.at_coach = skill;
         self.player.skill = session.skill;
@@ -282,8 +287,11 @@ impl DrillsPage {
     }
 }
 
-/// Says that an exercise is on `table`, where the settings say another one: a bundled one or a file.
-fn other_table_words(table: &str, set: &str) -> Option<String> {
+/// Says that an exercise made for `table` is played on another one, or not on the one that the settings say: a bundled one or a file.
+fn other_table_words(table: &str, played: &str, set: &str) -> Option<String> {
+    if played != table {
+        return Some(format!("on your {played}; what is said of the shot is for {table}"));
+    }
     let whose = if PRESETS.contains(&set) { "" } else { "your " };
     let name = Path::new(set).file_stem()?.to_string_lossy();
     (set != table).then(|| format!("on {table}, not on {whose}{name}"))
@@ -343,10 +351,12 @@ mod tests {
 
     #[test]
     fn an_exercise_says_so_where_the_settings_have_another_table() {
-        let said = |set| other_table_words("match", set);
+        let said = |set| other_table_words("match", "match", set);
         assert_eq!(said(""), None, "no settings were read");
         assert_eq!(said("match"), None);
         assert_eq!(said("textbook").as_deref(), Some("on match, not on textbook"));
         assert_eq!(said("/tables/Tisch 2.toml").as_deref(), Some("on match, not on your Tisch 2"));
+        let own = other_table_words("match", "Tisch 2", "/tables/Tisch 2.toml");
+        assert_eq!(own.as_deref(), Some("on your Tisch 2; what is said of the shot is for match"));
     }
 }

@@ -296,7 +296,7 @@ impl Turn {
             plan: self.session.is_game(),
             jumps: self.jumps,
             is_coachs: self.session.is_coachs_turn(),
-            own: self.exercise.model_shot().filter(|_| is_exact && !self.session.is_game()),
+            own: self.session.model_shot_of(&self.exercise).filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),
         }))]
     }

@@ -224,10 +224,11 @@ impl DrillsPage {
 
     /// Begins the same practice again with the options as they are now.
     fn restart(&mut self, venue: Option<Venue>) -> Vec<DrillTask> {
-        let (seed, options, skill) = (self.seed(), self.options, self.player.skill);
+        let (seed, options, skill, own_table) = (self.seed(), self.options, self.player.skill, self.own_table.clone());
         let Some(turn) = &mut self.turn else { return Vec::new() };
         let venue = venue.unwrap_or(turn.newest().venue);
-        let session = turn.again(options.goal, options.shifted, venue, skill, seed);
+        let mut session = turn.again(options.goal, options.shifted, venue, skill, seed);
+        session.table = own_table;
         turn.begin(session)
     }
 

@@ -113,7 +113,8 @@ pub fn draw_task(
         }
         paragraphs.extend(least);
         paragraphs.extend(
-            other_table_words(&turn.exercise.table, &drills.of_settings).map(|words| (words, ui.theme.faint())),
+            other_table_words(&turn.exercise.table, &turn.table.name, &drills.of_settings)
+                .map(|words| (words, ui.theme.faint())),
         );
         // The room is the hint's while that is shown.
         if turn.hint().is_none() {
