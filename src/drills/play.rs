@@ -174,7 +174,7 @@ mod tests {
     use super::*;
     use crate::{
         coach::{Doubt, Shooter, Skill, words::LengthUnit},
-        drills::{Exercise, Goal, Venue, chance},
+        drills::{Exercise, Goal, Library, Venue, chance},
         table::{CueBall, Room},
     };
     use glam::DVec2;
@@ -189,6 +189,41 @@ mod tests {
         let told = |unit| played.words(CueBall::White, unit);
         assert_eq!(told(LengthUnit::Metres), "No point: no ball was met, passed yellow by 3.9 cm on the right");
         assert!(told(LengthUnit::Feet).ends_with("passed yellow by 1.5 in on the right"));
+    }
+
+    #[test]
+    fn an_own_table_of_the_size_of_the_exercises_is_played_on_and_kept_with_the_session() {
+        let own = Table { name: "cellar".to_owned(), sliding_friction: 0.1, ..Table::default() };
+        let exercise = |table: &str| {
+            let layout = Layout::opening(&Table::preset(table).unwrap());
+            let shot = CueInputs::parse("0.15,0.2,3,351.7,2.8").ok();
+            Exercise { shot, ..Exercise::own("mine", Rule::StraightRail, table, layout) }
+        };
+        let session = |table: &str| {
+            let mut session = Session::new(Goal::Free, Venue::Program, vec![exercise(table)], Skill::PERFECT, 1);
+            session.table = Some(Box::new(own.clone()));
+            session
+        };
+        let played_on = |session: &Session| session.position().unwrap().unwrap().0.name;
+        assert_eq!(
+            ["match", "textbook", "thesis"].map(|table| played_on(&session(table))),
+            ["cellar", "cellar", "thesis"]
+        );
+        let kept: Session = serde_json::from_str(&serde_json::to_string(&session("match")).unwrap()).unwrap();
+        assert_eq!(kept, session("match"));
+        // A model shot that makes the point on the table that it was made for, and stops short on a slower one.
+        let half_ball = Library::bundled().get("half-ball").unwrap().clone();
+        let slow = Table { rolling_friction: 0.19, ..own.clone() };
+        let model_shot = |table: Option<&Table>| {
+            let mut session = session("match");
+            session.table = table.map(|table| Box::new(table.clone()));
+            session.model_shot_of(&half_ball)
+        };
+        let model = half_ball.shot;
+        assert_eq!(
+            [model_shot(None), model_shot(Some(&Table::default())), model_shot(Some(&slow))],
+            [model, model, None]
+        );
     }
 
     #[test]

@@ -215,7 +215,7 @@ fn what_is_wrong_or_not_there_is_named() {
         (own(&["save", "a/b", "--layout", "-0.5,0 0,0 0.5,0.03"]), 2, "\"a/b\""),
         (own(&["save", "near", "--layout", "0,0 0,0 0.5,0.03"]), 2, "0.0615"),
         (own(&["try", "mine", "--shot", "0,0.8,0,0,1"]), 2, "0.6400"),
-        (own(&["try", "mine", "--shot", "hard"]), 2, "\"hard\""),
+        (own(&["try", "mine", "--shot", "hardly"]), 2, "\"hardly\""),
         (own(&["add", "carom:04000"]), 2, "damaged"),
         (own(&["list", "--category", "snooker"]), 2, "three-cushion"),
     ];
@@ -224,6 +224,31 @@ fn what_is_wrong_or_not_there_is_named() {
         assert_eq!(outcome.code, Some(code), "{args:?}: {}", outcome.err);
         assert!(outcome.err.contains(word), "{args:?}: {}", outcome.err);
     }
+}
+
+#[test]
+fn a_table_of_ones_own_is_played_on_where_it_has_the_size_of_the_exercises() {
+    let folder = folder();
+    let file = folder.path().join("cellar.toml");
+    let own = carom(folder.path(), &["table", "show", "match"]).out.replace("name = \"match\"", "name = \"cellar\"");
+    std::fs::write(&file, own.replace("mu_s = ", "mu_s = 0.1 # ")).unwrap();
+    let file = file.to_str().unwrap();
+    let shot = ["--shot", "0,0.3,3,1,4", "--skill", "perfect", "--json"];
+    let on = |table: &[&str]| drill(folder.path(), &[&["try", "mine"], &shot[..], table].concat()).json();
+    let (own, bundled) = (on(&["--table", file]), on(&[]));
+    assert_eq!([&own[0]["table"], &bundled[0]["table"]], ["cellar", "match"]);
+    assert_ne!(own[1]["end"], bundled[1]["end"], "the cloth is another");
+    let refused = |args: &[&str]| {
+        let outcome = drill(folder.path(), args);
+        assert_eq!(outcome.code, Some(2));
+        outcome.err
+    };
+    let other = refused(&["try", "mine", "--shot", "coach", "--table", "thesis"]);
+    assert!(other.contains("2.84 by 1.42 m") && other.contains("\"thesis\" is another"), "{other}");
+    assert!(refused(&["exam", "--table", file]).contains("leave out --table"));
+    let game =
+        fed(command(folder.path(), &["play", "--table", file, "--innings", "1", "--json"]), "0,0,0,0,1\n").json();
+    assert_eq!(game[0]["table"], "cellar");
 }
 
 #[test]

@@ -50,7 +50,8 @@ fn tried(layouts: usize, simulations: u64) -> Tried {
         let (units, white) = (Units::default(), CueBall::White);
         let text = [words.sentence(white, units), words.course(white, units), words.aim(units)].join("\n");
         for (reading, made) in READINGS.into_iter().zip(&mut tried.made) {
-            let read = stroke(&text, reading, &table, &layout).unwrap_or_else(|| panic!("{text}"));
+            let read =
+                stroke(&text, reading, &table, &layout).unwrap_or_else(|error| panic!("{text}: {error}: {layout:?}"));
             *made += usize::from(scores(rule, &table, &layout, &read));
         }
     }

@@ -28,12 +28,18 @@ enum Stop {
 }
 
 /// The stroke that the text tells: the sentence, the course and the line of aim, a line each.
-pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> Option<CueInputs> {
-    let [sentence, told, aim] = text.lines().collect::<Vec<_>>()[..] else { return None };
-    let said = |text: &str| SpokenStroke::read(text).ok()?.stroke(table, layout, CueBall::White, None).ok();
+///
+/// # Errors
+/// What is not understood of it.
+pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> Result<CueInputs, String> {
+    let [sentence, told, aim] = text.lines().collect::<Vec<_>>()[..] else { return Err("three lines".to_owned()) };
+    let said = |text: &str| {
+        let said = SpokenStroke::read(text).and_then(|said| said.stroke(table, layout, CueBall::White, None));
+        said.map_err(|error| error.to_string())
+    };
     let (by_sentence, by_aim) = (said(sentence)?, said(&format!("{sentence}\n{aim}"))?);
-    let stops = course(told)?;
-    match reading {
+    let stops = course(told).ok_or("the course")?;
+    let found = match reading {
         Reading::Sentence => Some(by_sentence),
         Reading::Aim => Some(by_aim),
         // The line is rounded to a hundredth of a diamond, and its further mark is at least half a table away.
@@ -41,13 +47,14 @@ pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> O
         Reading::Course => {
             let start = layout.balls[0];
             // A sixteenth of a ball, or a tenth of a diamond on a cushion, is rounded.
-            let half = match stops.first()? {
+            let half = match stops.first().ok_or("no stop")? {
                 Stop::Ball(ball) => 0.08 * table.radius / (layout.balls[*ball] - start).length(),
                 Stop::Cushion(mark) => 0.08 * table.diamond() / (mark.place(table) - start).length(),
             };
             nearest(by_sentence, half, &by_sentence, &stops, table, layout)
         }
-    }
+    };
+    found.ok_or_else(|| "no stroke is near".to_owned())
 }
 
 fn rail_point((rail, diamond): (&str, &str)) -> Option<RailPoint> {
