@@ -194,3 +194,18 @@ fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
         ],
     );
 }
+
+#[test]
+fn a_stroke_of_ones_own_is_tried_in_words_and_changed_in_words() {
+    let said = talk("skill club\ntry yellow 1/2 right, 1 left, 2 up, 3 lengths\ntry soft\ntry it\nquit");
+    for words in [
+        "Yellow, half full on the right; one tip of",
+        "medium (3 table lengths)",
+        "A club player makes it",
+        "soft (2 table lengths)",
+        "\"it\" is not understood; accepted are",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    assert!(talk("try soft").contains("where to aim is missing"));
+}

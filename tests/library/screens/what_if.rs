@@ -184,3 +184,24 @@ fn who_has_no_errors_makes_a_stroke_or_misses() {
     player.shows(&["You make it"]);
     player.press("S-Up l l S-Right").shows(&["You miss"]);
 }
+
+#[test]
+fn a_stroke_is_said_in_words_and_what_is_not_said_stays() {
+    let player = taken_over(TRUE_COLOUR);
+    let before = player.app.coach.watched().unwrap().cue;
+    let player = player.press("t").type_in("2 lengths").press("Enter");
+    let softer = player.app.coach.watched().unwrap().cue;
+    assert!(softer.speed < before.speed && (softer.a, softer.b, softer.phi) == (before.a, before.b, before.phi));
+    let player = player.press("t").type_in("yellow 1/2 left, 1.5 right, raised 10").press("Enter");
+    let said = player.app.coach.watched().unwrap().cue;
+    assert!((said.a + 0.15).abs() < 1e-9 && (said.theta - 10_f64.to_radians()).abs() < 1e-9);
+    player.shows(&["You: "]);
+    let player = player.press("t").type_in("softly").press("Enter");
+    player.warns("\"softly\" is not understood; accepted are");
+    player.shows(&["softly", "Enter take it"]);
+    let player = player.press("Esc u");
+    assert_eq!(player.app.coach.watched().unwrap().cue, softer, "what was said at once is taken back at once");
+    let drill = Player::practising(TRUE_COLOUR).press("t").type_in("yellow 3/8 left, 2 up, soft").press("Enter");
+    assert!((drill.app.drills.turn.as_ref().unwrap().stroke().b - 0.2).abs() < 1e-9);
+    drill.shows(&["38 %"]);
+}
