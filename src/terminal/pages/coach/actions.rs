@@ -1,15 +1,16 @@
 //! What each action does to the state.
 
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 use glam::DVec2;
 
 use crate::{
     coach::words::no_jump_words,
+    drills::Session,
     game::Point,
     table::{BALLS, CueBall, Layout, Opening, Side},
     terminal::{
-        CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode, Terms,
+        CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode, SavedSession, Terms,
         pages::coach::{CoachPage, Snapshot},
         shot::{
             OwnStroke, Profile,
@@ -131,6 +132,12 @@ impl CoachPage {
             other => self.play(other),
         }
         None
+    }
+
+    /// The match against the coach that an earlier session has left, the latest; it no longer waits there then.
+    pub fn take_match(&mut self) -> Option<Session> {
+        let of = |before: &mut SavedSession<'static>| before.practice.take_if(|practice| practice.is_against_coach());
+        self.before.iter_mut().find_map(of).map(Cow::into_owned)
     }
 
     /// The opponent's turn: the other ball is the cue ball, and all stay where they lie.
