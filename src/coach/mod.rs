@@ -40,7 +40,7 @@ pub use aim::{Aim, Hit, RailPoint, aim, first_hit, line_of_aim};
 pub use coach::{Coach, judge, make_probability};
 pub use doubt::{Doubt, UnknownDoubt};
 pub use ease::{Ease, Sample};
-pub use first_met::{FirstMet, UnknownFirstMet};
+pub use first_met::{FirstMet, NO_ATTEMPT, UnknownFirstMet};
 pub use kind::{Kind, Pace, Way};
 pub use luck::{layout_number, layout_seed};
 pub use margins::{Map, Margin, Outcome, Sensitivity};

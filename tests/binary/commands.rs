@@ -217,6 +217,26 @@ fn where_the_time_runs_out_the_best_attempt_is_shown_and_said_to_be_one() {
 }
 
 #[test]
+fn a_wish_that_no_attempt_keeps_is_said_to_be_broken_and_a_miss_has_no_pattern() {
+    let asked = |seed: &str| {
+        let args = ["recommend", "--first", "cushion", "--simulations", "100", "--seed", seed];
+        let output = carom(&args).output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        let told = String::from_utf8(output.stdout).unwrap();
+        assert!(!told.contains("Pattern: "), "{told}");
+        (told.starts_with("Bottom long rail first"), String::from_utf8(output.stderr).unwrap())
+    };
+    let (keeps_wish, said) = asked("0");
+    assert!(!keeps_wish && said.contains("with cushion first in "), "{said}");
+    assert!(
+        said.contains("; no attempt begins so either; this is a plain stroke, a larger --simulations may do"),
+        "{said}"
+    );
+    let (keeps_wish, said) = asked("4");
+    assert!(keeps_wish && said.contains("; this is the best attempt"), "{said}");
+}
+
+#[test]
 fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
     let folder = tempfile::tempdir().unwrap();
     let cellar = folder.path().join("cellar.toml");

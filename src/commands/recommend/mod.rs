@@ -27,7 +27,7 @@ use super::{
 };
 use crate::{
     coach::{
-        Coach, Doubt, FirstMet, Kind, Recommendation, Request, Risk, Shooter, Skill, Source,
+        Coach, Doubt, FirstMet, Kind, NO_ATTEMPT, Recommendation, Request, Risk, Shooter, Skill, Source,
         systems::{Guide, guide},
     },
     game::Rule,
@@ -223,8 +223,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if answer.solved == Some(false) {
         let begins = args.first.begins(BALL_NAMES);
         let without = if args.no_jumps { " without jumps and massés" } else { "" };
+        let keeps_wish = answer.shot.told.as_ref().is_none_or(|told| told.begins_with(args.first));
+        let attempt = if keeps_wish { "this is the best attempt" } else { NO_ATTEMPT };
         return Err(Failure::failed(format_args!(
-            "no point was found{begins}{without} in {:.0} ms; this is the best attempt, a larger {} may do",
+            "no point was found{begins}{without} in {:.0} ms; {attempt}, a larger {} may do",
             answer.elapsed_ms,
             if args.simulations.is_some() { "--simulations" } else { "--budget-ms" }
         )));
