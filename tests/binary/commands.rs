@@ -188,10 +188,11 @@ fn networks_that_never_saw_anybody_err_say_nothing_of_players_who_do() {
 
 #[test]
 fn a_batch_of_layouts_takes_rules_and_tables_line_by_line() {
-    let input = r#"{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"three-cushion"}
+    let input = r#"{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"3c"}
 {"preset":"thesis","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
 {"preset":"snooker","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
-{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"four-cushion"}"#;
+{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"four-cushion"}
+{"layout":[[-0.5,0],[0,0],[0.5,0.03]]}"#;
     let output = carom(&["recommend", "--batch", "-", "--budget-ms", "5000", "--simulations", "20000"])
         .write_stdin(input)
         .assert()
@@ -200,6 +201,7 @@ fn a_batch_of_layouts_takes_rules_and_tables_line_by_line() {
     assert_eq!((&answers[0]["solved"], &answers[1]["solved"]), (&true.into(), &true.into()));
     assert!(answers[2]["error"].as_str().unwrap().contains("snooker"));
     assert!(answers[3]["error"].as_str().unwrap().contains("four-cushion"));
+    assert!(answers[4]["error"].as_str().unwrap().contains("preset (the table, like \"match\") and layout"));
 }
 
 #[test]

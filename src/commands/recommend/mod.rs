@@ -23,7 +23,7 @@ use super::{
     input::{ByTable, PositionArgs, answer_lines, note_doubts, seed, whole, whole_from},
     lookup::{policy_called, skill_called},
     output::{chance_words, impulse_words, units, whom_words},
-    question::{Key, Keys},
+    question::{Key, Keys, RuleName},
 };
 use crate::{
     coach::{
@@ -111,12 +111,12 @@ struct BatchLine {
     preset: String,
     layout: Layout,
     #[serde(default)]
-    rule: Rule,
+    rule: RuleName,
 }
 
 impl Keys for BatchLine {
     const KEYS: &'static [Key] = &[Key::PRESET, Key::LAYOUT, Key::RULE];
-    const FORM: &'static str = "preset and layout; rule may be left out";
+    const FORM: &'static str = "preset (the table, like \"match\") and layout; rule may be left out";
 }
 
 /// A shot in JSON. What is not known of it is absent.
@@ -202,7 +202,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(file) = &args.batch {
         let mut coaches = ByTable::new(|table| coach_for(table, &args.policy));
         let mut noted = HashSet::new();
-        return answer_lines(file, |BatchLine { preset, layout, rule }: BatchLine| {
+        return answer_lines(file, |BatchLine { preset, layout, rule: RuleName(rule) }: BatchLine| {
             let coach = coaches.get(&preset)?;
             if noted.insert((preset, rule)) {
                 note(args, coach, rule);

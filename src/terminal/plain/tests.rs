@@ -47,6 +47,14 @@ fn a_shot_is_told_its_margins_its_course_and_its_end() {
 }
 
 #[test]
+fn tenths_of_a_millimetre_are_told_where_there_are_some() {
+    let said = talk("balls 2d,0.5d 6d,2d 4d,3.5d");
+    for words in [", -710 and -532.5 millimetres", ", 710 and 0 millimetres", ", 0 and 532.5 millimetres"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}
+
+#[test]
 fn distances_and_speeds_are_told_in_the_unit_of_the_settings() {
     let table = Table::default();
     let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();

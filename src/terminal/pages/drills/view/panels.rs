@@ -165,7 +165,7 @@ fn joined(paragraphs: &[(String, Style)]) -> Vec<(String, Style)> {
     let mut joined: Vec<(String, Style)> = Vec::new();
     for (words, style) in paragraphs {
         match joined.last_mut().filter(|(_, last)| last == style) {
-            Some((before, _)) => *before += &format!("{} {words}", if before.ends_with('.') { "" } else { ";" }),
+            Some((before, _)) => before.extend([if before.ends_with('.') { " " } else { "; " }, words.as_str()]),
             None => joined.push((words.clone(), *style)),
         }
     }
