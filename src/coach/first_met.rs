@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use super::ShotWords;
 use crate::{
     game::Tally,
     table::{BALL_NAMES, BALLS},
@@ -20,6 +21,9 @@ pub enum FirstMet {
     /// A cushion, whichever ball comes then, after as many cushions as it may be.
     Cushion,
 }
+
+/// What is said of the stroke that is told where no attempt begins as it should.
+pub const NO_ATTEMPT: &str = "no attempt begins so either; this is a plain stroke";
 
 /// A name of what is met first that is not known.
 #[derive(Debug, thiserror::Error, PartialEq)]
@@ -60,6 +64,15 @@ impl FirstMet {
     /// Whether a shot with this tally begins so.
     pub fn allows(self, tally: &Tally) -> bool {
         let met = if tally.cushions_before_first > 0 { Self::Cushion } else { Self::of_ball(tally.first_ball()) };
+        self == Self::Any || self == met
+    }
+
+    /// Whether a shot that is told so begins so.
+    pub fn allows_told(self, words: &ShotWords) -> bool {
+        let met = match words.first {
+            Some(_) if !words.before.is_empty() => Self::Cushion,
+            first => Self::of_ball(first.map(|hit| hit.ball)),
+        };
         self == Self::Any || self == met
     }
 

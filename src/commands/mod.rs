@@ -143,7 +143,7 @@ impl Cli {
     fn open(self) -> Result<(), Failure> {
         // A player's folder is made for whoever can play.
         if !self.plain {
-            crate::terminal::need_terminal().map_err(failure)?;
+            crate::terminal::need_terminal(self.guest).map_err(failure)?;
         }
         let seat = self.seat()?;
         // A table on the command line is that of whoever runs the machine.

@@ -1,9 +1,13 @@
 //! A question in a line of JSON, and what is wrong with one that cannot be read.
 
-use serde::de::DeserializeOwned;
+use serde::{Deserialize, de::DeserializeOwned};
 use serde_json::{Map, Value, error::Category};
 
-use crate::{game::Rule, storage::in_plain_words, table::Layout};
+use crate::{
+    game::{Rule, UnknownRule},
+    storage::in_plain_words,
+    table::Layout,
+};
 
 /// What a question may hold.
 pub trait Keys {
@@ -29,11 +33,24 @@ impl Key {
     pub const LAYOUT: Self =
         Self::of::<Layout>("layout", "three pairs [x, y] of numbers in metres, the cue ball first");
     /// What counts.
-    pub const RULE: Self = Self::of::<Rule>("rule", "\"straight\", \"one-cushion\" or \"three-cushion\"");
+    pub const RULE: Self = Self::of::<RuleName>("rule", "\"straight\", \"one-cushion\" or \"three-cushion\"");
 
     /// A name whose value is a `T`.
     pub const fn of<T: DeserializeOwned>(name: &'static str, accepted: &'static str) -> Self {
         Self { name, accepted, is_accepted: |value| T::deserialize(value).is_ok() }
+    }
+}
+
+/// A rule by any of the names that the command line takes.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(try_from = "String")]
+pub struct RuleName(pub Rule);
+
+impl TryFrom<String> for RuleName {
+    type Error = UnknownRule;
+
+    fn try_from(name: String) -> Result<Self, UnknownRule> {
+        name.parse().map(Self)
     }
 }
 

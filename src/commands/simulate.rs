@@ -11,7 +11,7 @@ use super::{
     input::{ByTable, PositionArgs, answer_lines},
     lookup::skill_called,
     output::{chance_words, impulse_words, shot_text, tell, units},
-    question::{Key, Keys},
+    question::{Key, Keys, RuleName},
     typed_stroke::TypedStroke,
 };
 use crate::{
@@ -90,7 +90,7 @@ struct BatchLine {
     layout: Layout,
     cue: Option<CueInputs>,
     impulse: Option<GivenImpulse>,
-    rule: Option<Rule>,
+    rule: Option<RuleName>,
 }
 
 impl Keys for BatchLine {
@@ -107,7 +107,7 @@ impl Keys for BatchLine {
         ),
         Key::RULE,
     ];
-    const FORM: &'static str = "preset, layout, and cue or impulse; rule may be left out";
+    const FORM: &'static str = "preset (the table, like \"match\"), layout, and cue or impulse; rule may be left out";
 }
 
 /// A motion of the cue ball in the place of a stroke, as a film shows it.
@@ -148,8 +148,8 @@ impl GivenImpulse {
 
 impl BatchLine {
     fn answer(&self, table: &Table, args: &Args, steps: Option<Steps>) -> Result<SimulateAnswer, Failure> {
-        let outcome =
-            |(recording, _): &Played| Verdict::of(self.rule.unwrap_or(args.rule), table, &self.layout, recording);
+        let rule = self.rule.map_or(args.rule, |RuleName(rule)| rule);
+        let outcome = |(recording, _): &Played| Verdict::of(rule, table, &self.layout, recording);
         match (&self.cue, &self.impulse) {
             (Some(cue), None) => {
                 let played = play(table, &self.layout, cue, steps)?;

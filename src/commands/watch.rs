@@ -10,7 +10,7 @@ use std::{
 
 use super::{
     Failure,
-    lookup::existing_run,
+    lookup::{LATEST, existing_run},
     output::{json_line, tell},
     train::{line, print_runs},
 };
@@ -57,7 +57,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             .map_err(Failure::wrong_input);
     }
     match folder {
-        Some(folder) if is_run => follow(&folder, args.json),
+        Some(folder) if is_run => {
+            if args.run.as_deref() == Some(Path::new(LATEST)) {
+                tell(format_args!("watching the run in {}", folder.display()));
+            }
+            follow(&folder, args.json)
+        }
         folder => {
             if print_runs(folder.as_deref(), args.json)? {
                 tell(match folder {

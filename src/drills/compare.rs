@@ -1,7 +1,7 @@
 //! What a player meant beside what the coach would have played.
 
 use crate::{
-    coach::{Coach, Request, Shooter, make_probability},
+    coach::{Coach, Request, Shooter, layout_number, layout_seed, make_probability},
     game::Rule,
     physics::{CueInputs, turn},
     statistics::SuccessRate,
@@ -11,12 +11,13 @@ use crate::{
 /// Simulated attempts at a stroke: the standard error of its make probability is at most 1.6 %.
 const ATTEMPTS: usize = 1000;
 
-/// Seed of their errors: the same for every stroke, so that two strokes are compared by what they are and not by luck.
+/// Seed of their errors with that of the layout: the same for every stroke from the same balls, so that two strokes are compared by what
+/// they are and not by luck. From other balls it is another one: what is lucky on one layout is not so on all of them for ever.
 const SEED: u64 = 0x636f_6d70_6172_6521;
 
 /// How often a player makes the point with `cue`.
 pub fn chance(shooter: impl Into<Shooter>, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> SuccessRate {
-    make_probability(shooter, rule, table, layout, cue, ATTEMPTS, SEED)
+    make_probability(shooter, rule, table, layout, cue, ATTEMPTS, layout_seed(SEED, layout_number(layout)))
 }
 
 /// A coach's stroke and how often the player makes it.

@@ -256,6 +256,11 @@ impl Session {
         matches!(self.goal, Goal::Match { .. })
     }
 
+    /// Whether the coach plays one of them.
+    pub const fn is_against_coach(&self) -> bool {
+        matches!(self.goal, Goal::Match { against_coach: true, .. })
+    }
+
     /// The cue ball of attempt `number`, or where that is still to be made, of the next: in a match it changes with each miss.
     pub fn cue_ball_of(&self, number: usize) -> CueBall {
         self.cue_balls().nth(number).unwrap_or(self.cue_ball)
@@ -279,8 +284,7 @@ impl Session {
 
     /// Whether the next stroke is the coach's: that of the other side in a match against it.
     pub fn is_coachs_turn(&self) -> bool {
-        let is_against = matches!(self.goal, Goal::Match { against_coach: true, .. });
-        is_against && self.cue_ball_now() != self.cue_ball
+        self.is_against_coach() && self.cue_ball_now() != self.cue_ball
     }
 
     /// The inning that is played, like `inning 2 of 10`; nothing where it has no innings.

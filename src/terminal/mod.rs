@@ -93,6 +93,9 @@ pub enum TerminalError {
          carom recommend --layout \"-0.71,0 0.71,0 -0.71,0.1825\", or carom --plain for the coach in lines"
     )]
     NoTerminal,
+    /// The same for a guest, who may do nothing else.
+    #[error("this is no terminal that can show the table; connect with one: ssh -t")]
+    NoTerminalOfGuest,
     /// The first layout is not possible.
     #[error(transparent)]
     Layout(#[from] LayoutError),
@@ -107,7 +110,7 @@ pub enum TerminalError {
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.
 pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Seat) -> Result<(), TerminalError> {
-    need_terminal()?;
+    need_terminal(seat.is_guest)?;
     let layout = Layout::opening(&table);
     let places = &seat.places;
     let app = App::new(table, layout, detect(settings), seed())?
@@ -164,12 +167,16 @@ fn seed() -> u64 {
     SystemTime::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_nanos() as u64)
 }
 
-/// That there is a terminal to draw on.
+/// That there is a terminal to draw on, for a guest or for whoever has other commands besides.
 ///
 /// # Errors
-/// [`TerminalError::NoTerminal`].
-pub fn need_terminal() -> Result<(), TerminalError> {
-    if is_there() { Ok(()) } else { Err(TerminalError::NoTerminal) }
+/// [`TerminalError::NoTerminal`], [`TerminalError::NoTerminalOfGuest`].
+pub fn need_terminal(is_guest: bool) -> Result<(), TerminalError> {
+    match is_there() {
+        true => Ok(()),
+        false if is_guest => Err(TerminalError::NoTerminalOfGuest),
+        false => Err(TerminalError::NoTerminal),
+    }
 }
 
 /// The table of somebody else, who shows it in `folder` and is called `name`, on the screen, for the player at `seat` as they want
@@ -178,7 +185,7 @@ pub fn need_terminal() -> Result<(), TerminalError> {
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.
 pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Result<(), TerminalError> {
-    need_terminal()?;
+    need_terminal(seat.is_guest)?;
     let table = Table::default();
     let layout = Layout::opening(&table);
     let app = App::new(table, layout, detect(settings), seed())?
@@ -194,7 +201,7 @@ pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Res
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.
 pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalError> {
-    need_terminal()?;
+    need_terminal(false)?;
     let (settings, complaints) = Settings::load(&Settings::path());
     let places = Places::of_this_user();
     let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?

@@ -188,10 +188,11 @@ fn networks_that_never_saw_anybody_err_say_nothing_of_players_who_do() {
 
 #[test]
 fn a_batch_of_layouts_takes_rules_and_tables_line_by_line() {
-    let input = r#"{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"three-cushion"}
+    let input = r#"{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"3c"}
 {"preset":"thesis","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
 {"preset":"snooker","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
-{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"four-cushion"}"#;
+{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"four-cushion"}
+{"layout":[[-0.5,0],[0,0],[0.5,0.03]]}"#;
     let output = carom(&["recommend", "--batch", "-", "--budget-ms", "5000", "--simulations", "20000"])
         .write_stdin(input)
         .assert()
@@ -200,6 +201,7 @@ fn a_batch_of_layouts_takes_rules_and_tables_line_by_line() {
     assert_eq!((&answers[0]["solved"], &answers[1]["solved"]), (&true.into(), &true.into()));
     assert!(answers[2]["error"].as_str().unwrap().contains("snooker"));
     assert!(answers[3]["error"].as_str().unwrap().contains("four-cushion"));
+    assert!(answers[4]["error"].as_str().unwrap().contains("preset (the table, like \"match\") and layout"));
 }
 
 #[test]
@@ -214,6 +216,26 @@ fn where_the_time_runs_out_the_best_attempt_is_shown_and_said_to_be_one() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("best attempt"));
     // The same on the table that has a policy still ends, whatever it finds.
     carom(&["recommend", "--layout", layout, "--budget-ms", "0"]).output().unwrap();
+}
+
+#[test]
+fn a_wish_that_no_attempt_keeps_is_said_to_be_broken_and_a_miss_has_no_pattern() {
+    let asked = |seed: &str| {
+        let args = ["recommend", "--first", "cushion", "--simulations", "100", "--seed", seed];
+        let output = carom(&args).output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        let told = String::from_utf8(output.stdout).unwrap();
+        assert!(!told.contains("Pattern: "), "{told}");
+        (told.starts_with("Bottom long rail first"), String::from_utf8(output.stderr).unwrap())
+    };
+    let (keeps_wish, said) = asked("0");
+    assert!(!keeps_wish && said.contains("with cushion first in "), "{said}");
+    assert!(
+        said.contains("; no attempt begins so either; this is a plain stroke, a larger --simulations may do"),
+        "{said}"
+    );
+    let (keeps_wish, said) = asked("4");
+    assert!(keeps_wish && said.contains("; this is the best attempt"), "{said}");
 }
 
 #[test]

@@ -188,6 +188,7 @@ fn of_a_guest_at_no_terminal_nothing_is_made() {
     let home = tempfile::tempdir().unwrap();
     let said = carom(home.path(), &["--guest", "--player", "anna"]);
     assert!(said.code == Some(2) && said.err.contains("this is no terminal"), "{}", said.err);
+    assert!(said.err.contains("ssh -t") && !said.err.contains("carom recommend"), "{}", said.err);
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
 }
 

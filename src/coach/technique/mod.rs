@@ -208,10 +208,12 @@ mod tests {
     #[test]
     fn a_jump_is_a_shot_that_flies_over_a_ball_or_its_edge_before_it_meets_another() {
         let name = |technique: &Technique| Pattern::of(technique).map(|pattern| pattern.name);
-        let over = technique("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6");
+        let over = technique("-0.5,0 -0.2,0 0.52,-0.02", "0,0,45,-1,5");
         assert_eq!((over.over, over.first.map(|hit| hit.ball), name(&over)), (Some(1), Some(2), Some("jump")));
+        let missed = technique("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6");
+        assert_eq!((missed.over, missed.first.map(|hit| hit.ball), name(&missed)), (Some(1), Some(2), None));
         let edge = technique("-0.5,0 -0.2,0.05 0.5,0.02", "0,0,45,0,6");
-        assert_eq!((edge.over, name(&edge)), (Some(1), Some("jump")));
+        assert_eq!(edge.over, Some(1));
         let beside = technique("-0.5,0 -0.2,0.07 0.5,0.02", "0,0,45,0,6");
         assert!(beside.over.is_none() && name(&beside) != Some("jump"), "{beside:?}");
         // The first ball is met from the air, and nothing is flown over.
@@ -247,6 +249,15 @@ mod tests {
         let followed = technique("-0.3,0 0,0 -1,0.3", "0,0.4,2,0.3,3");
         assert!(drawn.turn > 2.5 && followed.turn < 0.6, "{} {}", drawn.turn, followed.turn);
         assert!(drawn.fullness() > 0.9 && drawn.roll < -0.5 && followed.roll > 0.5, "{drawn:?} {followed:?}");
+    }
+
+    #[test]
+    fn a_shot_that_misses_the_second_ball_has_no_name() {
+        let is_called = |second: &str| {
+            let shot = technique(&format!("-0.3,0 0,0 {second}"), "0,0.4,2,0.3,3");
+            (shot.second.is_some(), Pattern::of(&shot).is_some())
+        };
+        assert_eq!((is_called("-1,0.3"), is_called("-1,0.6")), ((true, true), (false, false)));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The names of shots, by what the cue ball does. Every shot that meets an object ball has one.
+//! The names of shots, by what the cue ball does. Every shot that meets both object balls has one.
 
 use std::f64::consts::FRAC_PI_3;
 
@@ -51,7 +51,7 @@ pub const PATTERNS: [Pattern; 31] = [
         tag: "time",
         name: "time shot",
         course: "the first ball sends the second to where the cue ball comes",
-        is_it: |t| t.drives_second && t.tally.met_both(),
+        is_it: |t| t.drives_second,
     },
     Pattern {
         tag: "bank",
@@ -222,10 +222,9 @@ pub const PATTERNS: [Pattern; 31] = [
 ];
 
 impl Pattern {
-    /// What players call a shot; `None` where it meets no ball.
+    /// What players call a shot; `None` where it does not meet both balls.
     pub fn of(technique: &Technique) -> Option<&'static Self> {
-        technique.first?;
-        PATTERNS.iter().find(|pattern| (pattern.is_it)(technique))
+        PATTERNS.iter().find(|pattern| technique.tally.met_both() && (pattern.is_it)(technique))
     }
 
     /// Its course in words for this shot. Patterns that are told by their first three cushions may have more; then their number is added.

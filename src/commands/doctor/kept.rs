@@ -9,7 +9,7 @@ use crate::{
     commands::input::table_in,
     drills::Store,
     learning::run::list::{Listing, runs_in},
-    storage::{Places, folder_state},
+    storage::{Places, folder_state, without_numbers},
     terminal::{Complaint, SavedSession},
 };
 
@@ -38,7 +38,7 @@ fn lossy<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
 impl Place {
     fn look(what: &'static str, path: &Path) -> Self {
         let state = folder_state(path);
-        let refusal = state.refusal.map(|error| error.to_string());
+        let refusal = state.refusal.map(|error| without_numbers(error.to_string()));
         Self { what, path: path.to_owned(), exists: state.exists, refusal, free_bytes: state.free }
     }
 

@@ -21,7 +21,7 @@ pub struct Args {
     /// An exercise by its name or title, whose sessions are shown; one that is not in the library any more has its history still.
     name: Option<String>,
     /// The games under this rule instead: straight, one-cushion or three-cushion.
-    #[arg(long, conflicts_with = "name")]
+    #[arg(long, value_name = "RULE", conflicts_with = "name")]
     games: Option<Rule>,
     /// Print JSON, an object an exercise or session.
     #[arg(long)]

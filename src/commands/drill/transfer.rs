@@ -45,7 +45,8 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
     match args.file.as_deref().filter(|file| *file != Path::new("-")) {
         None => json_line(&practice)?,
         Some(file) => {
-            let refuse = |error: io::Error| Failure::failed(format_args!("{}: {error}", file.display()));
+            let refuse =
+                |error: io::Error| Failure::failed(format_args!("{} cannot be written: {error}", file.display()));
             let target = target_of(file);
             need_folder(&target)?;
             let is_export = |text: String| text.is_empty() || Practice::is_export(&text);

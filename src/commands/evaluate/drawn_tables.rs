@@ -3,9 +3,9 @@
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::spec::layout_seed;
 use crate::{
     calibration::prior,
+    coach::layout_seed,
     statistics::normal_pair,
     table::{Table, TableDoubt, TableSampler},
 };

@@ -4,9 +4,9 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::spec::{Spec, layout_seed};
+use super::spec::Spec;
 use crate::{
-    coach::{Doubt, Shooter, Skill, make_probability},
+    coach::{Doubt, Shooter, Skill, layout_seed, make_probability},
     commands::output::plural,
     game::Rule,
     physics::{CueInputs, has_room},

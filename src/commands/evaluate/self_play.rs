@@ -9,9 +9,9 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
-use super::spec::{Shard, Spec, layout_seed};
+use super::spec::{Shard, Spec};
 use crate::{
-    coach::{Coach, Doubt, Inning, Request, Skill, inning},
+    coach::{Coach, Doubt, Inning, Request, Skill, inning, layout_seed},
     commands::{
         Failure,
         output::{json_line, plural, tell},

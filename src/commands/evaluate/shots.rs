@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 use super::{
     drawn_tables::DrawnTables,
     robustness::{self, Reliability, Robustness},
-    spec::{Shard, Spec, layout_seed},
+    spec::{Shard, Spec},
 };
 use crate::{
-    coach::{Coach, Request, Skill},
+    coach::{Coach, Request, Skill, layout_seed},
     commands::output::{json_line, plural},
     game::{Reward, Rule, scores},
     learning::{Policy, Proposal, evaluation::held_out_layouts, policy::any_earns, weights::WeightsError},

@@ -76,12 +76,6 @@ impl Spec {
     }
 }
 
-/// The seed of what is drawn for the layout with this number, its own: parts measure what the whole does, and luck on one layout is no
-/// luck on another.
-pub const fn layout_seed(seed: u64, index: u32) -> u64 {
-    seed ^ ((index as u64) << 32)
-}
-
 /// A part of the layouts: `k/n` is every n-th layout from the k-th on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]

@@ -23,11 +23,11 @@ use super::{
     input::{ByTable, PositionArgs, answer_lines, note_doubts, seed, whole, whole_from},
     lookup::{policy_called, skill_called},
     output::{chance_words, impulse_words, units, whom_words},
-    question::{Key, Keys},
+    question::{Key, Keys, RuleName},
 };
 use crate::{
     coach::{
-        Coach, Doubt, FirstMet, Kind, Recommendation, Request, Risk, Shooter, Skill, Source,
+        Coach, Doubt, FirstMet, Kind, NO_ATTEMPT, Recommendation, Request, Risk, Shooter, Skill, Source,
         systems::{Guide, guide},
     },
     game::Rule,
@@ -111,12 +111,12 @@ struct BatchLine {
     preset: String,
     layout: Layout,
     #[serde(default)]
-    rule: Rule,
+    rule: RuleName,
 }
 
 impl Keys for BatchLine {
     const KEYS: &'static [Key] = &[Key::PRESET, Key::LAYOUT, Key::RULE];
-    const FORM: &'static str = "preset and layout; rule may be left out";
+    const FORM: &'static str = "preset (the table, like \"match\") and layout; rule may be left out";
 }
 
 /// A shot in JSON. What is not known of it is absent.
@@ -202,7 +202,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(file) = &args.batch {
         let mut coaches = ByTable::new(|table| coach_for(table, &args.policy));
         let mut noted = HashSet::new();
-        return answer_lines(file, |BatchLine { preset, layout, rule }: BatchLine| {
+        return answer_lines(file, |BatchLine { preset, layout, rule: RuleName(rule) }: BatchLine| {
             let coach = coaches.get(&preset)?;
             if noted.insert((preset, rule)) {
                 note(args, coach, rule);
@@ -223,8 +223,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if answer.solved == Some(false) {
         let begins = args.first.begins(BALL_NAMES);
         let without = if args.no_jumps { " without jumps and massés" } else { "" };
+        let keeps_wish = answer.shot.told.as_ref().is_none_or(|told| told.begins_with(args.first));
+        let attempt = if keeps_wish { "this is the best attempt" } else { NO_ATTEMPT };
         return Err(Failure::failed(format_args!(
-            "no point was found{begins}{without} in {:.0} ms; this is the best attempt, a larger {} may do",
+            "no point was found{begins}{without} in {:.0} ms; {attempt}, a larger {} may do",
             answer.elapsed_ms,
             if args.simulations.is_some() { "--simulations" } else { "--budget-ms" }
         )));

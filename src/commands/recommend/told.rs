@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use crate::{
-    coach::{Pattern, Recommendation, Shooter, ShotWords, Technique, Units, Why, why},
+    coach::{FirstMet, Pattern, Recommendation, Shooter, ShotWords, Technique, Units, Why, why},
     game::Rule,
     physics::CueInputs,
     simulation::ShotError,
@@ -33,7 +33,7 @@ pub struct Reasons {
 /// What is said of a shot.
 #[derive(Serialize)]
 pub struct Told {
-    /// Its name; absent where no ball is met.
+    /// Absent where not both balls are met.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pattern: Option<&'static str>,
     words: Words,
@@ -75,6 +75,11 @@ impl Told {
     /// How to strike, alone.
     pub fn sentence(&self, units: Units) -> String {
         self.words.numbers.sentence(CueBall::White, units)
+    }
+
+    /// Whether it meets first what it is to meet.
+    pub fn begins_with(&self, first: FirstMet) -> bool {
+        first.allows_told(&self.words.numbers)
     }
 }
 

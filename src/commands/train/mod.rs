@@ -41,6 +41,7 @@ use crate::{
 /// and the policy. Ctrl-C saves and stops, twice it stops at once; --resume goes on as if nothing had happened, after a crash
 /// too: to the same weights, bit for bit.
 #[derive(Debug, clap::Args)]
+#[command(override_usage = "carom train [OPTIONS]\n       carom train --list [DIR] [--json]")]
 #[expect(clippy::option_option, reason = "clap's way to tell a flag that is missing from one without a value")]
 pub struct Args {
     #[arg(long, help = agents())]

@@ -18,6 +18,14 @@ pub enum StoreError {
         /// What the system says.
         reason: io::Error,
     },
+    /// It cannot be written.
+    #[error("{} cannot be written: {reason}", path.display())]
+    Unwritten {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
     /// It is no file of ours that is understood.
     #[error("{}: {error}", path.display())]
     Mark {
@@ -92,5 +100,9 @@ pub enum StoreError {
 impl StoreError {
     pub(super) fn file(path: &Path, reason: io::Error) -> Self {
         Self::File { path: path.to_owned(), reason }
+    }
+
+    pub(super) fn unwritten(path: &Path, reason: io::Error) -> Self {
+        Self::Unwritten { path: path.to_owned(), reason }
     }
 }

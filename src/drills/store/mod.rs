@@ -119,9 +119,9 @@ impl Store {
     /// Writes a session's file, whatever attempts are in it.
     fn write(&self, _lock: &Lock, session: &Session) -> Result<(), StoreError> {
         let path = file(&self.sessions, &session.id)?;
-        let bytes = marked::write(SESSION, session).map_err(|error| StoreError::file(&path, io::Error::from(error)))?;
+        let bytes = marked::write(SESSION, session).map_err(|error| StoreError::unwritten(&path, error.into()))?;
         let written = if path.exists() { write_atomic(&path, &bytes) } else { create_atomic(&path, &bytes) };
-        written.map_err(|error| StoreError::file(&path, error))
+        written.map_err(|error| StoreError::unwritten(&path, error))
     }
 
     /// The right to write sessions, which one program has at a time; waits for it.
@@ -129,7 +129,7 @@ impl Store {
     /// # Errors
     /// Where another keeps it for long, or whatever the file system reports.
     pub fn lock(&self) -> Result<Lock, StoreError> {
-        Lock::wait(&self.sessions).map_err(|error| StoreError::file(&self.sessions, error))
+        Lock::wait(&self.sessions).map_err(|error| StoreError::unwritten(&self.sessions, error))
     }
 
     /// The player's own positions, by name.
@@ -158,7 +158,7 @@ impl Store {
             return Err(StoreError::Bundled(position.name.clone()));
         }
         let path = file(&self.positions, &position.name)?;
-        let text = position_text(position).map_err(|error| StoreError::file(&path, io::Error::from(error)))?;
+        let text = position_text(position).map_err(|error| StoreError::unwritten(&path, error.into()))?;
         let written = if replaces && path.exists() {
             read_position(&path)?;
             write_atomic(&path, text.as_bytes())
@@ -167,7 +167,7 @@ impl Store {
         };
         written.map_err(|error| match error.kind() {
             io::ErrorKind::AlreadyExists => StoreError::Taken(position.name.clone()),
-            _ => StoreError::file(&path, error),
+            _ => StoreError::unwritten(&path, error),
         })
     }
 

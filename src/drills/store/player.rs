@@ -48,6 +48,6 @@ impl Store {
     pub(super) fn write_own(&self, own: &OwnSkill) -> Result<(), StoreError> {
         let written = marked::write(PLAYER, own).map_err(io::Error::from);
         let written = written.and_then(|bytes| write_atomic(&self.player, &bytes));
-        written.map_err(|error| StoreError::file(&self.player, error))
+        written.map_err(|error| StoreError::unwritten(&self.player, error))
     }
 }

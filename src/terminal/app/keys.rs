@@ -5,7 +5,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use crate::{
     platform,
     terminal::{
-        Action, App, CalibrationContext, Condition, Effect, KeyContext, PageId,
+        Action, App, CalibrationContext, CoachCondition, Condition, Effect, KeyContext, PageId,
         app::{bindings, view},
         pages::settings::Question,
         ui::Typed,
@@ -143,6 +143,9 @@ impl App {
             _ if self.overlay.is_some() => Some("close this first: Esc"),
             Condition::Always => None,
             Condition::Shell => self.no_shell(),
+            Condition::Coach(CoachCondition::Interrupted) if self.goes_on_with_open_exam() => {
+                self.coach.disabled_reason(CoachCondition::Idle)
+            }
             Condition::Coach(when) => self.coach.disabled_reason(when),
             Condition::Training(when) => self.training.disabled_reason(when),
             Condition::Drill(when) => self.drills.disabled_reason(when),

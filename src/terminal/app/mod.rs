@@ -262,7 +262,8 @@ impl App {
             Action::OpenGlossary => self.lay_over(Overlay::Glossary),
             Action::OpenMatch => {
                 let opened = self.open(PageId::Drills);
-                return Effect::both(opened, self.drills.open_match());
+                let coach = &mut self.coach;
+                return Effect::both(opened, self.drills.open_match(|| coach.take_match()));
             }
             Action::CloseOverlay => self.close_overlay(),
             Action::ScrollOverlay(lines) => {
@@ -286,6 +287,11 @@ impl App {
             Action::ClosePalette => self.command_palette = None,
             Action::ChooseCommand => return self.choose_command(),
             Action::PaletteLine(lines) => self.move_palette_mark(lines),
+            Action::Coach(CoachAction::Resume) if self.goes_on_with_open_exam() => {
+                let effect = self.open(PageId::Drills);
+                self.drills.show_session();
+                return effect;
+            }
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;
                 self.turn_to(PageId::Drills);
@@ -342,6 +348,11 @@ impl App {
             }
         }
         None
+    }
+
+    /// Whether what waits to be gone on with is an exam that is still open in the drills.
+    pub(super) fn goes_on_with_open_exam(&self) -> bool {
+        self.coach.left_exams.is_empty() && self.drills.has_open_exam()
     }
 
     /// The answer to the open page's question.

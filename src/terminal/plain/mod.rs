@@ -337,6 +337,10 @@ impl Conversation {
                 let technique = Technique::of_recorded(talk.table(), recording);
                 let words = ShotWords::of_technique(talk.table(), talk.layout(), &shot.cue, &technique);
                 lines.extend([words.sentence(cue_ball, units), words.course(cue_ball, units), words.aim(units)]);
+                let first = talk.request.first;
+                if shot.is_attempt && !first.allows_told(&words) {
+                    lines.push(format!("No attempt was found{}.", first.begins(cue_ball.names())));
+                }
                 let pattern = Pattern::of(&technique);
                 lines.extend(
                     pattern.map(|pattern| format!("Pattern: {}: {}.", pattern.name, pattern.course_of(&technique))),

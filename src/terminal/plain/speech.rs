@@ -36,9 +36,20 @@ pub const fn of_speed(unit: LengthUnit) -> &'static str {
     }
 }
 
+/// A coordinate in a small unit: tenths of a millimetre where there are some.
+fn coordinate(metres: f64, unit: LengthUnit) -> String {
+    let tenths = match unit {
+        LengthUnit::Metres => 1,
+        LengthUnit::Feet => 0,
+    };
+    let (in_a_metre, _, decimals) = small(unit, tenths);
+    let told = fixed(in_a_metre * metres, decimals);
+    told.strip_suffix(".0").map_or(told.clone(), str::to_owned)
+}
+
 /// Where the balls lie; which is the cue ball is said where it is not white.
 pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUnit) -> String {
-    let (in_a_metre, small, decimals) = small(unit, 0);
+    let (_, small, _) = small(unit, 0);
     let names = cue_ball.ordered(["White", "Yellow", "Red"]);
     let place = |ball: usize| {
         let at = layout.balls[ball];
@@ -48,8 +59,8 @@ pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUni
             names[ball],
             fixed(diamonds.x, 2),
             fixed(diamonds.y, 2),
-            fixed(in_a_metre * at.x, decimals),
-            fixed(in_a_metre * at.y, decimals)
+            coordinate(at.x, unit),
+            coordinate(at.y, unit)
         )
     };
     let places = cue_ball.ordered([0, 1, 2]).map(place).join("\n");

@@ -53,6 +53,14 @@ fn a_shot_is_told_its_margins_its_course_and_its_end() {
 }
 
 #[test]
+fn tenths_of_a_millimetre_are_told_where_there_are_some() {
+    let said = talk("balls 2d,0.5d 6d,2d 4d,3.5d");
+    for words in [", -710 and -532.5 millimetres", ", 710 and 0 millimetres", ", 0 and 532.5 millimetres"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}
+
+#[test]
 fn distances_and_speeds_are_told_in_the_unit_of_the_settings() {
     let units = Units { length: LengthUnit::Feet, ..Units::default() };
     let settings = Settings { think_ms: 1_000, units, ..Settings::default() };

@@ -112,7 +112,7 @@ pub struct Shot {
     pub contacts: Vec<Contact>,
     /// What a player calls it.
     pub words: ShotWords,
-    /// The sort of shot that it is; `None` where no ball is met.
+    /// The sort of shot that it is; `None` where not both balls are met.
     pub pattern: Option<&'static Pattern>,
     /// Its jump from the side, once somebody has looked.
     profile: OnceLock<Option<Profile>>,

@@ -122,7 +122,7 @@ fn a_folder_that_cannot_be_written_is_named() {
     fs::write(folder.path().join("carom/sessions"), "in the way").unwrap();
     for args in [&["log", "mine", "make"][..], &["try", "mine", "--shot", "0,0.3,3,1,4", "--budget-ms", "10"]] {
         let refused = drill(folder.path(), args);
-        assert!(refused.code == Some(1) && refused.err.contains("carom/sessions"), "{}", refused.err);
+        assert!(refused.code == Some(1) && refused.err.contains("carom/sessions cannot be written"), "{}", refused.err);
         assert!(!refused.out.contains("of 1 made"), "{}", refused.out);
     }
     assert_eq!(fs::read_to_string(folder.path().join("carom/sessions")).unwrap(), "in the way");

@@ -244,4 +244,5 @@ fn runs_are_found_by_name_or_as_the_latest_and_listed_where_none_is_named() {
     assert!(resumed.err.contains(name) && resumed.err.contains("is finished"), "{}", resumed.err);
     let dumb = outcome(command(here, "watch latest").env("TERM", "dumb").spawn().unwrap());
     assert_eq!(dumb.out.lines().count(), 10, "{}", dumb.err);
+    assert!(dumb.err.lines().next().is_some_and(|first| first.contains(name)), "{}", dumb.err);
 }

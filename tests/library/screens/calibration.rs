@@ -45,6 +45,13 @@ fn what_each_test_is_for_is_shown_whole_at_80_columns() {
 }
 
 #[test]
+fn what_is_to_be_marked_is_shown_whole_in_a_form_at_80_columns() {
+    let text = new().press("Down Down Down Down Down Enter").text(80, 24);
+    let row = text.lines().find(|row| row.contains("c fourth")).unwrap();
+    assert!(row.contains("meets your own short rail") && !row.contains('…'), "{row}");
+}
+
+#[test]
 fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
     let player = new();
     assert_eq!(player.app.screen, PageId::Calibration);

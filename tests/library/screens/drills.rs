@@ -166,7 +166,9 @@ fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
     check("played", &ended);
     ended.says("Yours makes").says("your hand: ");
     ended.says(if attempt.made { "1 of 1 made" } else { "0 of 1 made" });
-    ended.press("v").shows(&["model shot: almost the same", "your hand: ", "v hint"]);
+    let told = ended.press("v");
+    told.shows(&["model shot makes ", "three tips above centre", "v hint"]);
+    assert!(told.press("PageDown").text(80, 24).contains("your hand: "), "the comparison is on another page");
     let plain = Player::practising(NO_COLOUR).press("Right Space").wait(60.0);
     plain.is_plain().shows(&["your hand: ", "1 made", "Enter next"]);
 }

@@ -105,6 +105,11 @@ fn a_match_against_the_coach_begins_from_anywhere_and_goes_on_where_it_was_left(
     let again = player.press("F5 F9");
     assert_eq!(session(&again).id, begun.id);
     Player::new().press(": a g a i n s t Enter").is_silent_on("What can be done here");
+    let left = again.press("Left Enter Enter");
+    let mut next = Player::new();
+    next.app = next.app.with_saved_session(left.app.saved_session());
+    let gone_on = session(&next.press("F9"));
+    assert_eq!((gone_on.id, gone_on.attempts.len()), (begun.id, 1), "at the next start too");
     let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter F2 F9");
     exam.warns("an exam is under way; leave it before a match");
 }

@@ -6,10 +6,11 @@ use glam::DVec2;
 
 use crate::{
     coach::{FirstMet, words::no_jump_words},
+    drills::Session,
     game::{Point, Rule},
     table::{BALLS, CueBall, Layout, Opening, Side},
     terminal::{
-        CoachAction as Action, CoachCondition, CoachQuery, Effect, InfoPanel, Mode, Terms,
+        CoachAction as Action, CoachCondition, CoachQuery, Effect, InfoPanel, Mode, SavedSession, Terms,
         pages::{
             coach::{CoachPage, Snapshot},
             neighbour, next_skill,
@@ -140,6 +141,12 @@ impl CoachPage {
             Action::OpenDrills | Action::OpenFilms | Action::OpenTraining => {}
         }
         None
+    }
+
+    /// The match against the coach that an earlier session has left, the latest; it no longer waits there then.
+    pub fn take_match(&mut self) -> Option<Session> {
+        let of = |before: &mut SavedSession| before.practice.take_if(|practice| practice.is_against_coach());
+        self.before.iter_mut().find_map(of)
     }
 
     /// The opponent's turn: the other ball is the cue ball, and all stay where they lie.

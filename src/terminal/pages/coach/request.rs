@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use crate::{
-    coach::{Cause, Why},
+    coach::{Cause, NO_ATTEMPT, Why},
     physics::CueInputs,
     table::BALLS,
     terminal::{
@@ -274,9 +274,9 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery, names: 
         let source = &shot.source;
         let begins = query.first.begins(names);
         let without = if query.jumps { "" } else { " without jumps and massés" };
-        return Message::poor(format!(
-            "no point found{begins}{without}{tried}; this is the best attempt ({source}{took})"
-        ));
+        let keeps_wish = query.first.allows_told(&shot.words);
+        let attempt = if keeps_wish { "this is the best attempt" } else { NO_ATTEMPT };
+        return Message::poor(format!("no point found{begins}{without}{tried}; {attempt} ({source}{took})"));
     }
     let Some(chance) = chance(proposal, query) else {
         return Message::good(format!("makes the point ({}{took})", shot.source));

@@ -152,7 +152,7 @@ impl DrillsPage {
     pub(super) fn practise(&mut self, session: Session) -> Vec<DrillTask> {
         if !session.is_exam() {
             // What comes after it is repeated alike, wherever the session was left.
-            self.options = RepetitionOptions { goal: session.goal, shifted: session.shifted };
+            self.options = RepetitionOptions { goal: session.goal, shifted: session.shifted, ..self.options };
         }
         match Turn::new(session) {
             Ok(Some(mut turn)) => {

@@ -6,7 +6,7 @@ use crate::{
         Effect,
         pages::{
             Page,
-            drills::{DrillsPage, keys::DrillContext, turn_actions::FIRST_GAME},
+            drills::{DrillsPage, goals::FIRST_GAME},
         },
     },
 };
@@ -15,12 +15,12 @@ use crate::{
 const OPENING: &str = "opening-break";
 
 impl DrillsPage {
-    /// Begins a match against the coach at three-cushion, from the opening; one that is open, or was left last, goes on.
-    pub fn open_match(&mut self) -> Option<Effect> {
-        let is_match = |session: &Session| matches!(session.goal, Goal::Match { against_coach: true, .. });
+    /// Begins a match against the coach at three-cushion, from the opening; one that is open, or was left last, goes on, else the
+    /// one that an earlier session of the program has left, which `earlier` gives.
+    pub fn open_match(&mut self, earlier: impl FnOnce() -> Option<Session>) -> Option<Effect> {
         match self.turn.as_ref().and(self.unfinished()) {
-            Some(open) if is_match(open) => {
-                self.pages = vec![DrillContext::Library, DrillContext::Exercise];
+            Some(open) if open.is_against_coach() => {
+                self.show_session();
                 return None;
             }
             Some(open) if open.is_exam() => return self.refuse("an exam is under way; leave it before a match"),
@@ -31,9 +31,11 @@ impl DrillsPage {
         // What is practised next is chosen elsewhere.
         let options = self.options;
         self.options.shifted = false;
-        let effect = if let Some(place) = self.left.iter().rposition(is_match) {
-            let left = self.left.remove(place);
+        let left = self.left.iter().rposition(Session::is_against_coach).map(|place| self.left.remove(place));
+        let effect = if let Some(left) = left {
             Some(Effect::Drill(self.practise(left)))
+        } else if let Some(left) = earlier() {
+            Some(self.resume(left, self.player.at_coach))
         } else {
             match self.catalogue.library.get(OPENING).cloned() {
                 Ok(opening) => {

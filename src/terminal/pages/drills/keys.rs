@@ -124,6 +124,8 @@ pub enum DrillCondition {
     Free,
     /// The same, where another session may begin: in free repetition once the shot that is watched has come to its end.
     Restart,
+    /// The same, where an exercise is repeated: in a game the balls lie where they stop.
+    Repeated,
     /// The same, where a point at a real table can be noted.
     Noted,
     /// Where another session may begin, and the goal has a length.
@@ -288,7 +290,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
     bind(Score, W::Restart, &[letter('o', A::Goal)], Some(("goal", 1)),
         "free repetition, a run of points, a game that plays on from where the balls stop, a match of two sides, or one against the coach"),
-    bind(Position, W::Restart, &[letter('x', A::Shift)], Some(("shift", 1)),
+    bind(Position, W::Repeated, &[letter('x', A::Shift)], Some(("shift", 1)),
         "shift the balls by half a ball at each repetition, or not"),
     bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
         "a shorter or longer goal").each(&["a shorter goal", "a longer goal"]),

@@ -9,6 +9,7 @@ mod aim_line;
 mod book;
 mod catalogue;
 pub mod film;
+mod goals;
 pub mod keys;
 mod question;
 mod records;
@@ -32,7 +33,11 @@ use crate::{
     table::{CueBall, Layout, PRESETS, Table},
     terminal::{
         DrillContext, DrillTask, Effect, Settings,
-        pages::{Page, drills::film::FilmsScreen, next_skill},
+        pages::{
+            Page,
+            drills::{film::FilmsScreen, goals::Lengths},
+            next_skill,
+        },
         ui::{Message, TextField, Typed},
     },
 };
@@ -75,6 +80,7 @@ impl Player {
 struct RepetitionOptions {
     goal: Goal,
     shifted: bool,
+    lengths: Lengths,
 }
 
 /// Balls that come from the coach's table or go there.
@@ -155,7 +161,7 @@ impl DrillsPage {
             is_in_numbers: false,
             of_settings: String::new(),
             own_table: None,
-            options: RepetitionOptions { goal: Goal::Free, shifted: false },
+            options: RepetitionOptions { goal: Goal::Free, shifted: false, lengths: Lengths::default() },
             for_coach: None,
             opened_for: None,
             exam_level: 0,
@@ -221,6 +227,17 @@ impl DrillsPage {
         let Some(turn) = &self.turn else { return self.left.last() };
         let has_begun = !turn.session.is_exam() || !turn.session.attempts.is_empty();
         Some(&turn.session).filter(|session| has_begun && !session.is_over())
+    }
+
+    /// Whether an exam has begun and is not over.
+    pub fn has_open_exam(&self) -> bool {
+        self.unfinished().is_some_and(Session::is_exam)
+    }
+
+    /// Shows the session that is open, whatever was asked or shown over it.
+    pub fn show_session(&mut self) {
+        self.question = None;
+        self.pages = vec![DrillContext::Library, DrillContext::Exercise];
     }
 
     /// The game or match that is open or was left last, as long as it is not over: like an exam it is gone on with at the next start,

@@ -5,22 +5,17 @@ use crate::{
     drills::{Attempt, Goal, Session, Venue},
     terminal::{
         DrillAction as Action, DrillCondition as Condition, DrillContext, DrillTask, Effect, ModelShot,
-        pages::drills::{DrillsPage, ModelShotState, Question, Stage, Turn},
+        pages::drills::{DrillsPage, ModelShotState, Question, Stage, Turn, goals::longer},
         shot::{OwnStroke, PlaybackKey, stroke},
         ui::{Message, TextField},
         words::player_words,
     },
 };
 
-/// Points of the first run that is asked for, and innings of the first game.
-const FIRST_RUN: u32 = 5;
-pub(super) const FIRST_GAME: u32 = 10;
 /// Why a key does nothing before the result of a stroke was seen.
 pub(super) const IS_RUNNING: &str = "the shot is running; Enter skips to its end";
 /// What is said before a stroke is played that nobody has set.
 const UNCHANGED: &str = "the stroke is unchanged; Space again plays it all the same";
-/// Longest run and game that can be asked for.
-const LONGEST: u32 = 100;
 
 impl Turn {
     /// Why a binding of the page may not be used now; `None` where it may.
@@ -36,6 +31,7 @@ impl Turn {
                 | Condition::Ended
                 | Condition::Free
                 | Condition::Restart
+                | Condition::Repeated
                 | Condition::Noted
                 | Condition::Counted
                 | Condition::Adoptable,
@@ -56,9 +52,15 @@ impl Turn {
             (_, Condition::Playable | Condition::Aiming) => {
                 refuse(!self.is_aiming(), "a shot is being watched; Enter goes on")
             }
-            (_, Condition::Noted) => {
-                let is_against = matches!(self.session.goal, Goal::Match { against_coach: true, .. });
-                refuse(is_against, "the coach cannot play at a real table; o chooses another goal")
+            (_, Condition::Noted) => match self.session.goal {
+                Goal::Match { against_coach: true, .. } => {
+                    Some("the coach cannot play at a real table; o chooses another goal")
+                }
+                Goal::Match { .. } => Some("a match is played here alone; o chooses another goal"),
+                _ => self.disabled_reason(Condition::Restart),
+            },
+            (_, Condition::Repeated) => {
+                refuse(self.session.is_game(), "a game plays on from where the balls stop; o chooses another goal")
                     .or_else(|| self.disabled_reason(Condition::Restart))
             }
             (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
@@ -174,28 +176,13 @@ impl DrillsPage {
                 return some(self.restart(None));
             }
             Action::Goal => {
-                self.options.goal = match turn.session.goal {
-                    Goal::Free => Goal::Run(FIRST_RUN),
-                    Goal::Run(_) => Goal::Game { innings: FIRST_GAME },
-                    Goal::Game { .. } => Goal::Match { innings: FIRST_GAME, against_coach: false },
-                    // At a real table the coach cannot play.
-                    Goal::Match { against_coach: false, .. } if turn.newest().venue == Venue::Program => {
-                        Goal::Match { innings: FIRST_GAME, against_coach: true }
-                    }
-                    Goal::Match { .. } | Goal::Exam => Goal::Free,
-                };
-                return some(self.restart(None));
+                self.options.goal = self.options.lengths.next_goal(turn.session.goal);
+                return some(self.restart_for(self.options.goal, None));
             }
             Action::Count(step) => {
                 let step = i32::try_from(step).unwrap_or(0);
-                let counted = |count: u32| count.saturating_add_signed(step).clamp(1, LONGEST);
-                self.options.goal = match turn.session.goal {
-                    Goal::Run(points) => Goal::Run(counted(points)),
-                    Goal::Game { innings } => Goal::Game { innings: counted(innings) },
-                    Goal::Match { innings, against_coach } => Goal::Match { innings: counted(innings), against_coach },
-                    other => other,
-                };
-                return some(self.restart(None));
+                self.options.goal = longer(turn.session.goal, step);
+                return some(self.restart_for(self.options.goal, None));
             }
             Action::Player => {
                 self.player.choose_next();
@@ -222,12 +209,22 @@ impl DrillsPage {
         self.turn.as_ref().is_some_and(is_other)
     }
 
-    /// Begins the same practice again with the options as they are now.
+    /// Begins the same practice again with the player and the shifts as they are chosen now.
     fn restart(&mut self, venue: Option<Venue>) -> Vec<DrillTask> {
-        let (seed, options, skill, own_table) = (self.seed(), self.options, self.player.skill, self.own_table.clone());
+        // A match that F9 has begun is none of the options.
+        let goal = self.turn.as_ref().map_or(self.options.goal, |turn| turn.session.goal);
+        self.restart_for(goal, venue)
+    }
+
+    /// The same with another goal.
+    fn restart_for(&mut self, goal: Goal, venue: Option<Venue>) -> Vec<DrillTask> {
+        let (seed, shifted, skill) = (self.seed(), self.options.shifted, self.player.skill);
+        let own_table = self.own_table.clone();
         let Some(turn) = &mut self.turn else { return Vec::new() };
-        let venue = venue.unwrap_or(turn.newest().venue);
-        let mut session = turn.again(options.goal, options.shifted, venue, skill, seed);
+        let is_match = matches!(goal, Goal::Match { .. });
+        // Both sides of a match play here.
+        let venue = if is_match { Venue::Program } else { venue.unwrap_or(turn.newest().venue) };
+        let mut session = turn.again(goal, shifted && !is_match, venue, skill, seed);
         session.table = own_table;
         turn.begin(session)
     }

@@ -23,8 +23,6 @@ pub const TABLES: [&str; 3] = ["match", "textbook", "thesis"];
 /// Numbers of shots to choose from; others can be typed.
 const BUDGETS: [u64; 9] =
     [100_000, 300_000, 1_000_000, 3_000_000, 5_000_000, 10_000_000, 30_000_000, 100_000_000, 300_000_000];
-/// Most digits of a number that is typed; every number of so many digits fits.
-const DIGITS: usize = 19;
 
 /// Seconds beyond which a run is a long one.
 const DAY: f64 = 86_400.0;
@@ -162,19 +160,22 @@ impl Form {
         }
     }
 
-    /// Adds a digit to the number in the marked field, or begins another one with it; `false` where it is none or takes
-    /// none.
-    pub fn typed(&mut self, letter: char) -> bool {
-        let is_fresh = self.is_fresh;
-        let Some(number) = self.number().filter(|_| letter.is_ascii_digit()) else { return false };
-        if is_fresh || number == "0" {
-            number.clear();
-        }
-        if number.len() < DIGITS {
-            number.push(letter);
-        }
+    /// Adds the digits among what is typed to the number in the marked field, or begins another one with them; `false` where
+    /// there are none or it takes none.
+    ///
+    /// # Errors
+    /// A sentence that says what is accepted, where the number would be too large; it stays as it was.
+    pub fn typed(&mut self, letters: &str) -> Result<bool, String> {
+        let digits: String = letters.chars().filter(char::is_ascii_digit).collect();
+        let (name, is_fresh) = (self.field.name(), self.is_fresh);
+        let Some(number) = self.number().filter(|_| !digits.is_empty()) else { return Ok(false) };
+        let before = if is_fresh { "" } else { number.as_str() };
+        let typed: u64 = format!("{before}{digits}")
+            .parse()
+            .map_err(|_| format!("{name}: accepted is a whole number up to {}", u64::MAX))?;
+        *number = typed.to_string();
         self.is_fresh = false;
-        true
+        Ok(true)
     }
 
     /// Takes the last digit of the number in the marked field back; what is typed then follows what is left.

@@ -279,7 +279,14 @@ impl Page for TrainingPage {
         let is_form = self.page() == TrainingContext::Form && self.question.is_none();
         let taken = match self.field_mut() {
             Some(name) => name.take(typed),
-            None => typed.letters().chars().fold(false, |taken, letter| taken | (is_form && self.form.typed(letter))),
+            None if is_form => match self.form.typed(&typed.letters()) {
+                Ok(taken) => taken,
+                Err(sentence) => {
+                    self.message = Some(Message::warning(sentence));
+                    return true;
+                }
+            },
+            None => false,
         };
         if taken {
             self.message = None;

@@ -39,6 +39,15 @@ fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
 }
 
 #[test]
+fn an_exam_that_is_open_is_gone_on_with_from_the_coachs_table_too() {
+    for keys in ["F2 c", "Esc F2 c", "r F2 c"] {
+        let on = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter").press(keys);
+        assert_eq!(on.app.place(), EXERCISE, "{keys}");
+        on.says("exercise 2 of 20");
+    }
+}
+
+#[test]
 fn an_exam_that_was_left_is_there_at_the_next_start_too() {
     let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc y F2 Right");
     let practice = left.app.saved_session().and_then(|last| last.practice.map(|session| session.attempts.len()));

@@ -36,3 +36,38 @@ fn in_an_exam_there_are_no_such_keys() {
     }
     assert!(!exam.text(80, 24).contains("m made"));
 }
+
+#[test]
+fn in_a_match_nothing_is_shifted_or_noted() {
+    for (keys, goal) in [("o o o", "Score: match"), ("o o o o", "Score: against the coach")] {
+        let set = Player::practising(TRUE_COLOUR).press(keys);
+        for player in [&set, &Player::practising(TRUE_COLOUR).press(keys).press("Left Space").wait(60.0)] {
+            player.says(goal);
+            let line = hints(player, 200, 60);
+            assert!(!line.contains("made/miss") && !line.contains("shift"), "{line}");
+        }
+        set.press("x").says("a game plays on from where the balls stop").says(goal);
+        Player::practising(TRUE_COLOUR).press(keys).press("m").says("; o chooses another goal").says(goal);
+    }
+}
+
+#[test]
+fn another_player_leaves_no_match_that_was_begun_by_its_key() {
+    Player::new().press("F9 p").says("Score: against the coach");
+}
+
+#[test]
+fn a_match_after_notes_from_a_real_table_is_played_here_from_its_start() {
+    let player = Player::practising(TRUE_COLOUR).press("m o o");
+    player.says("Real table: game");
+    player.press("o").says("Score: match");
+}
+
+#[test]
+fn a_goal_is_as_long_as_it_was_chosen_before() {
+    let game = Player::practising(TRUE_COLOUR).press("o > o <");
+    game.says("game, 9 innings");
+    let round = game.press("o o o o");
+    round.says("run of 6");
+    round.press("o").says("game, 9 innings");
+}

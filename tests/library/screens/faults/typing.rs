@@ -45,6 +45,19 @@ fn backspace_edits_the_number_that_is_there() {
 }
 
 #[test]
+fn every_seed_can_be_typed_and_one_that_is_too_large_is_refused() {
+    let greatest = u64::MAX.to_string();
+    let typed = at_the_shots().press("4 Down").type_in(&greatest);
+    assert_eq!(started(&typed.press("Enter"), "--seed"), Some(greatest));
+    let mut player = at_the_shots().press("4 Down").type_in(&"9".repeat(20));
+    player.warns("seed: accepted is a whole number up to 18446744073709551615");
+    player = player.press("Down Up 5");
+    player.app.paste(&"9".repeat(23));
+    player.warns("seed: accepted is a whole number up to 18446744073709551615");
+    assert_eq!(started(&player.press("Enter"), "--seed").as_deref(), Some("5"), "the number stays as it was");
+}
+
+#[test]
 fn a_run_of_more_than_a_day_asks_before_it_starts() {
     let player = at_the_shots().press("9 0 0 0 0 0 0 0 0 0 Enter");
     assert!(player.effects.is_empty(), "{:?}", player.effects);

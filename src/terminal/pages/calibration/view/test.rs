@@ -237,6 +237,8 @@ fn brief(words: String, room: usize, ui: &Ui) -> String {
         (" the stroke", " stroke"),
         (" the ball ", " it "),
         (" until it stops", " to its stop"),
+        (" after that", ""),
+        (" your own ", " own "),
     ];
     let mut said = words;
     for (long, short) in ever_shorter {

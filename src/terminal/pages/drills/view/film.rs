@@ -40,7 +40,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     };
     draw_table(&view, panes.table, ui);
     let time = film.playback.readout;
-    draw_stroke(played, drills.units, panes.stroke, ui);
+    draw_stroke(played, listed, drills.units, panes.stroke, ui);
     let stroke = played.and_then(|played| played.stroke.as_ref());
     draw_tip(stroke, drills.units.tip == TipUnit::Tips, table(), panes.tip, ui);
     let spin = played.and_then(|played| played.shot.spin(time, table().radius));
@@ -81,8 +81,8 @@ fn status_line(played: &FilmReplay, listed: &Listed, time: f64, unit: LengthUnit
     Message::plain(format!("white is {white} from the film at {} s, {basis}", fixed(time, 1)))
 }
 
-/// Draws what the stroke gave the cue ball, by the fit.
-fn draw_stroke(played: Option<&FilmReplay>, units: Units, area: Rect, ui: &mut Ui) {
+/// Draws what the stroke gave the cue ball, by the fit, and how fast it is in the film.
+fn draw_stroke(played: Option<&FilmReplay>, listed: &Listed, units: Units, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The fitted stroke", area, ui);
     let Some(played) = played else { return };
     let [side, height] = match &played.stroke {
@@ -91,6 +91,7 @@ fn draw_stroke(played: Option<&FilmReplay>, units: Units, area: Rect, ui: &mut U
     };
     let rows = [
         ("ball", speed_words(played.replay.recording.impulse().velocity.length(), units.length, 2)),
+        ("filmed", speed_words(listed.filmed.speed(), units.length, 1)),
         side,
         height,
         ("fitted", format!("2 s, {} mm", fixed(1e3 * played.replay.fitted.rms, 1))),

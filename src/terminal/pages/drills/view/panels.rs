@@ -82,7 +82,9 @@ pub fn draw_task(
     let title = settled.map_or(task, |watched| chances(turn, watched, ui.caps));
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
-        paragraphs.extend(differences(turn, watched, units, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
+        let model = turn.hint().map(|model_shot| spell(&model_words(turn, model_shot, units), ui.caps));
+        let words = model.into_iter().chain(differences(turn, watched, units, ui.caps));
+        paragraphs.extend(words.map(|words| (words, ui.theme.text())));
     } else {
         // The stroke's numbers tell it too: it comes last.
         let mut least = None;
@@ -128,8 +130,8 @@ pub fn draw_task(
     write_pages(title, &paragraphs, turn.text_page, area, |row| if row < full { narrow } else { wide }, ui);
 }
 
-/// Writes `paragraphs` below a title, each row as wide as `width` says; where they have no room, one page of them: the title says
-/// which and how to turn it, and the last row that it goes on.
+/// Writes `paragraphs` below a title, each row as wide as `width` says; where they have no room, either one behind the other, one page
+/// of them: the title says which and how to turn it, and the last row that it goes on.
 fn write_pages(
     title: String,
     paragraphs: &[(String, Style)],
@@ -141,6 +143,10 @@ fn write_pages(
     let rows = usize::from(area.height.saturating_sub(1)).max(1);
     let goes_on = ui.caps.pick(" …", " ...");
     let mut lines = lines_of(paragraphs, |row| width(row % rows));
+    if lines.len() > rows {
+        let joined = lines_of(&joined(paragraphs), |row| width(row % rows));
+        lines = if joined.len() <= rows { joined } else { lines };
+    }
     if lines.len() > rows {
         let sign = |row: usize| if row % rows == rows - 1 { columns(goes_on) } else { 0 };
         lines = lines_of(paragraphs, |row| width(row % rows).saturating_sub(sign(row)));
@@ -156,6 +162,18 @@ fn write_pages(
     for (((line, style), y), row) in shown.iter().zip(inner.y..inner.bottom()).zip(0..) {
         ui.buffer.set_stringn(inner.x + 1, y, line, width(row), *style);
     }
+}
+
+/// Paragraphs of one style one behind the other, which takes fewer rows.
+fn joined(paragraphs: &[(String, Style)]) -> Vec<(String, Style)> {
+    let mut joined: Vec<(String, Style)> = Vec::new();
+    for (words, style) in paragraphs {
+        match joined.last_mut().filter(|(_, last)| last == style) {
+            Some((before, _)) => before.extend([if before.ends_with('.') { " " } else { "; " }, words.as_str()]),
+            None => joined.push((words.clone(), *style)),
+        }
+    }
+    joined
 }
 
 /// The words of `paragraphs` in rows as wide as `width` says, each paragraph from a new row.
@@ -217,19 +235,23 @@ fn told(turn: &Turn, stroke: &CueInputs, other: &CueInputs, units: Units) -> Opt
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// How often the advised stroke is made, how to strike it, and how the stroke that is set differs.
-fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -> Vec<String> {
+/// How often the advised stroke is made, and how to strike it.
+fn model_words(turn: &Turn, model_shot: &ModelShot, units: Units) -> String {
     let advice = &model_shot.advice;
-    let words = &model_shot.shot.words;
-    let (sentence, aim) = (words.sentence(turn.cue_ball, units), aim_words(turn, &advice.cue, units));
-    let words =
-        format!("{} makes {}: {sentence} Cue to {aim}.", advisor(model_shot), percent_words(advice.chance.rate));
+    let sentence = model_shot.shot.words.sentence(turn.cue_ball, units);
+    let (made, aim) = (percent_words(advice.chance.rate), aim_words(turn, &advice.cue, units));
+    format!("{} makes {made}: {sentence} Cue to {aim}.", advisor(model_shot))
+}
+
+/// The same, and how the stroke that is set differs.
+fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -> Vec<String> {
     let differs = || {
-        let yours = told(turn, &turn.raised_stroke(), &advice.cue, units).unwrap_or_else(|| "the same".to_owned());
-        format!("Yours: {yours}")
+        let yours = told(turn, &turn.raised_stroke(), &model_shot.advice.cue, units);
+        format!("Yours: {}", yours.unwrap_or_else(|| "the same".to_owned()))
     };
     let yours = (!turn.is_with_coach()).then(differs);
-    std::iter::once(words).chain(yours).map(|words| spell(&words, caps)).collect()
+    let model = model_words(turn, model_shot, units);
+    std::iter::once(model).chain(yours).map(|words| spell(&words, caps)).collect()
 }
 
 /// How often the stroke is made, and the advised one.
@@ -299,6 +321,15 @@ mod tests {
         let lines = lines_of(&paragraphs, |row| if row < 1 { 7 } else { 10 });
         let lines: Vec<_> = lines.iter().map(|(line, _)| line.as_str()).collect();
         assert_eq!(lines, ["one two", "three four", "five", "six"]);
+    }
+
+    #[test]
+    fn paragraphs_that_have_no_room_stand_one_behind_the_other() {
+        let words = ["one.", "two", "three"].map(|words| (words.to_owned(), Style::new()));
+        let other = ("four".to_owned(), Style::new().bold());
+        let joined = joined(&[&words[..], &[other]].concat());
+        let joined: Vec<_> = joined.iter().map(|(words, _)| words.as_str()).collect();
+        assert_eq!(joined, ["one. two; three", "four"]);
     }
 
     #[test]

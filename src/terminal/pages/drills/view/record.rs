@@ -57,7 +57,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
         .collect();
     let tried = parts.iter().map(|part| part.record.tried).max().unwrap_or(0);
     let chart_of = Chart {
-        title: "made of 100, session by session",
+        title: if parts.is_empty() { "made of 100 by session" } else { "made of 100 by session, last:" },
         curves: &curves,
         shots: (0.0, tried.max(10) as f64),
         values: Some((0.0, 100.0)),

@@ -1,0 +1,32 @@
+//! Seeds by which each layout has luck of its own.
+
+use crate::table::Layout;
+
+/// The seed of what is drawn for the layout with this number, its own: luck on one layout is no luck on another.
+pub const fn layout_seed(seed: u64, number: u32) -> u64 {
+    seed ^ ((number as u64) << 32)
+}
+
+/// A number for a layout among all that there may be, by Fowler, Noll and Vo's hash of where the balls lie: the same balls have the
+/// same one.
+pub fn layout_number(layout: &Layout) -> u32 {
+    // Nought has one sign.
+    let places = layout.balls.iter().flat_map(|place| [place.x + 0.0, place.y + 0.0]);
+    let bytes = places.flat_map(|place| place.to_bits().to_le_bytes());
+    bytes.fold(0x811c_9dc5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    #[test]
+    fn each_layout_has_a_number_and_a_seed_of_its_own() {
+        let at = |x: f64| Layout::new([DVec2::new(x, 0.0), DVec2::new(0.5, 0.0), DVec2::new(1.0, 0.5)]);
+        let seed = |x: f64| layout_seed(7, layout_number(&at(x)));
+        assert_eq!(seed(0.0), seed(-0.0));
+        assert_ne!(seed(0.0), seed(1e-9));
+        assert_ne!(seed(0.0), layout_seed(8, layout_number(&at(0.0))));
+    }
+}
