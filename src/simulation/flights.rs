@@ -58,14 +58,18 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         };
         self.set(index, segment, hops.duration);
         if self.balls[index].mode != ContactMode::Free {
-            self.balls[index].mode = ContactMode::Free;
-            self.tell(now, EventKind::ContactEnds(index))?;
+            // Another bounce may throw it down again at this moment.
+            self.balls[index].mode = ContactMode::Bouncing;
+            return ControlFlow::Continue(());
         }
         if was_low { self.tell(now, EventKind::Jumps(index)) } else { ControlFlow::Continue(()) }
     }
 
-    /// Tells that a ball stays on the cloth, and what it does there unless it slides.
+    /// Tells that a ball stays on the cloth, and what it does there unless it slides; not where it has not been told that it left it.
     fn tell_landing(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+        if self.balls[index].mode != ContactMode::Free {
+            return ControlFlow::Continue(());
+        }
         self.tell(now, EventKind::Lands(index))?;
         self.tell_motion(index, now)
     }
