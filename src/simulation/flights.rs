@@ -219,7 +219,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        simulation::{All, Constants, End, Event},
+        simulation::{All, Constants, End, Event, guards::MOST_TURNS},
         table::{Flight, Layout, Table},
     };
 
@@ -296,7 +296,7 @@ mod tests {
     fn a_ball_that_is_put_on_anothers_top_ends_the_shot_where_it_is() {
         let (count, end) = let_go(&Table::default(), 1e-9, |_| DVec3::ZERO);
         let [upper, lower, _] = end.balls;
-        assert!(count < 20_000 && end.time < 1.0, "{count} {end:?}");
+        assert!(count < MOST_TURNS as usize && end.time < 1.0, "{count} {end:?}");
         assert!(upper.position.distance(lower.position) < 1e-10, "{end:?}");
         assert!(upper.velocity.length() < 1e-12 && lower.velocity.length() < 1e-12, "{end:?}");
     }
