@@ -296,7 +296,7 @@ impl Scene<'_> {
             columns.extend(creeping.iter().map(|resistance| resistance.column));
             columns.extend(&unknown);
             columns.extend(pushes.iter().flat_map(|push| &push.sticks));
-            let Fit { factors, residual } = fit(&columns, &rest);
+            let Fit { factors, residual, .. } = fit(&columns, &rest);
             let defect = size(&residual) / size(accelerations).max(f64::MIN_POSITIVE);
             let Some(forces) = factors else {
                 // Forces that hold each other: none is larger than what all accelerations and the cloth under all balls
