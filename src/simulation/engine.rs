@@ -321,11 +321,12 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         if S::EARLY_END { flow } else { ControlFlow::Continue(()) }
     }
 
-    /// Tells that a ball on the cloth rolls by now, or stands: of its motion nothing has been told for a while.
+    /// Tells that a ball rolls by now, stands, or is in the air: of its motion nothing has been told for a while.
     pub(super) fn tell_motion(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         match self.balls[index].segment.motion {
             Motion::Rolling => self.tell(now, EventKind::SlidingRolling(index)),
             Motion::Stationary => self.tell(now, EventKind::RollingStationary(index)),
+            Motion::Flying => self.tell(now, EventKind::Jumps(index)),
             _ => ControlFlow::Continue(()),
         }
     }

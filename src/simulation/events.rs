@@ -18,7 +18,7 @@ pub enum EventKind {
     /// A ball comes to rest.
     RollingStationary(usize),
     /// A ball begins to rest against a cushion or another ball, or to chatter. Until the contact ends its slow bounces are not told,
-    /// nor that it rolls or stands still between two of them.
+    /// nor that it rolls or stands still between two of them, or is thrown up by one and down again by another at the same moment.
     ContactBegins(usize),
     /// A ball is free again: it rests no more, and nothing can make it bounce before its chatter is over.
     ContactEnds(usize),

@@ -24,7 +24,7 @@ pub const MOST_WITHOUT_REST: u64 = 64_000_000;
 pub const MOST_IN_THE_AIR: u64 = 85_000_000;
 
 /// Multiplications in the bounce of a chatter. Where bounces lose nothing, a ball that is pressed bounces until its spin has died down;
-/// fewer of them than turns of the general loop must fit into the work of resting contacts.
+/// they and the turns of the general loop that they take must fit into the work of resting contacts.
 pub const BOUNCE: u64 = 1600;
 
 /// Multiplications in an impact in the air.
@@ -32,11 +32,14 @@ pub const IMPACT_IN_THE_AIR: u64 = 3300;
 
 /// Turns of the loops after which a shot ends where it is: ends of motions, impacts, and bounces and steps of resting contacts that
 /// are not told as events. This is a guard, not physics, for what repeats in the air without end; a shot takes some ten turns, and one
-/// with a chatter some hundred.
-pub const MOST_TURNS: u32 = 50_000;
+/// with a chatter some hundred. A bounce takes up to five: its own, and the ends of sliding and of rolling of two balls. Fewer would end
+/// shots before nothing rests any more.
+pub const MOST_TURNS: u32 = 120_000;
+const _: () = assert!(MOST_TURNS as u64 > 5 * MOST_RESTING / BOUNCE);
 
-/// The same once nothing rests any more: a micro-collision takes some of them.
+/// The same once nothing rests any more.
 pub const MOST_TURNS_WITHOUT_REST: u32 = 250_000;
+const _: () = assert!(MOST_TURNS_WITHOUT_REST as u64 > 5 * MOST_WITHOUT_REST / BOUNCE);
 
 #[cfg(test)]
 mod tests {

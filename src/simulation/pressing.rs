@@ -192,12 +192,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(())
     }
 
-    /// Tells the ends of the contacts of balls that rest no more and bounce no more: all of them if `nothing` happens any more but
-    /// that a ball rolls out.
+    /// Tells the ends of the contacts of balls that rest no more and bounce no more, or are in the air: all of them if `nothing` happens
+    /// any more but that a ball rolls out.
     #[cold]
     pub(super) fn tell_free(&mut self, now: f64, nothing: bool) -> ControlFlow<()> {
         for index in 0..BALLS {
-            if self.balls[index].mode != ContactMode::Bouncing || (!nothing && self.may_bounce(index)) {
+            let bounces = || self.is_on_cloth(index) && self.may_bounce(index);
+            if self.balls[index].mode != ContactMode::Bouncing || (!nothing && bounces()) {
                 continue;
             }
             self.balls[index].mode = ContactMode::Free;

@@ -9,8 +9,13 @@ pub const SIZE: usize = 5 * BALLS;
 /// A column, or the right-hand side.
 pub type Column = [f64; SIZE];
 
-/// Columns whose part independent of the others is shorter than this share of them depend on the others.
+/// Columns whose part independent of the others is shorter than this share of the longest have no factors of their own...
 const DEPENDENT: f64 = 1e-9;
+
+/// ... but what they explain is explained, unless that part is shorter than this share: on a table of ten metres the normal of two balls
+/// is known to so much, the rounding of their places over their distance. Larger: what balls all but in a row do to each other across the
+/// row has no cause. Smaller: rounding is one.
+const NONE: f64 = 2e-14;
 
 /// The best that some columns can do for a right-hand side.
 #[derive(Clone, Debug)]
@@ -19,6 +24,8 @@ pub struct Fit {
     pub factors: Option<Vec<f64>>,
     /// What no factors explain.
     pub residual: Column,
+    /// The shortest independent part of a column: factors are known to the rounding of what they explain over this.
+    pub shortest: f64,
 }
 
 /// Finds factors with which the sum of `columns` comes as near to `target` as can be.
@@ -31,15 +38,18 @@ pub fn fit(columns: &[Column], target: &Column) -> Fit {
     let mut residual = *target;
     let mut shares = Vec::with_capacity(count);
     let longest = columns.iter().map(|column| dot(column, column)).fold(0.0, f64::max).sqrt();
+    let mut shortest = longest;
     for rank in 0..count {
         let size = |place: &usize| dot(&rest[order[*place]], &rest[order[*place]]);
         let Some(pivot) = (rank..count).max_by(|a, b| size(a).total_cmp(&size(b))) else { break };
         order.swap(rank, pivot);
         let column = rest[order[rank]];
         let length = dot(&column, &column).sqrt();
-        if length <= DEPENDENT * longest {
+        if length <= NONE * longest {
+            shortest = 0.0;
             break;
         }
+        shortest = length;
         let unit = column.map(|x| x / length);
         triangle[rank][order[rank]] = length;
         for &later in &order[rank + 1..] {
@@ -47,15 +57,15 @@ pub fn fit(columns: &[Column], target: &Column) -> Fit {
         }
         shares.push(project_out(&unit, &mut residual));
     }
-    if shares.len() < count {
-        return Fit { factors: None, residual };
+    if shares.len() < count || shortest <= DEPENDENT * longest {
+        return Fit { factors: None, residual, shortest };
     }
     let mut factors = vec![0.0; count];
     for rank in (0..count).rev() {
         let known: f64 = order[rank + 1..].iter().map(|&later| triangle[rank][later] * factors[later]).sum();
         factors[order[rank]] = (shares[rank] - known) / triangle[rank][order[rank]];
     }
-    Fit { factors: Some(factors), residual }
+    Fit { factors: Some(factors), residual, shortest }
 }
 
 /// Takes the part along a unit vector out of another and returns its length; twice, which leaves rounding alone.
@@ -90,6 +100,16 @@ mod tests {
         let factors = found.factors.unwrap();
         assert!(factors.iter().zip([1.0, -1.0, 2.0]).all(|(found, meant)| (found - meant).abs() < 1e-14));
         assert!((found.residual[3] - 5.0).abs() < 1e-14 && found.residual[0].abs() < 1e-14);
+    }
+
+    /// As where balls all but in a row push each other.
+    #[test]
+    fn columns_that_all_but_repeat_each_other_explain_what_they_differ_by() {
+        let apart = |angle: f64| fit(&[column(&[1.0, 0.0]), column(&[1.0, angle])], &column(&[1.0, 0.5e-10]));
+        let left = |found: &Fit| dot(&found.residual, &found.residual).sqrt();
+        assert!(apart(1e-10).factors.is_none() && left(&apart(1e-10)) < 1e-24);
+        assert!(left(&apart(1e-15)) > 0.4e-10);
+        assert!(apart(1e-8).factors.is_some());
     }
 
     #[test]

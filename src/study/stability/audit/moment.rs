@@ -57,6 +57,10 @@ impl Bounces {
     }
 }
 
+/// So many roundings of the fastest velocity are in the states before and after a moment; each impact adds one. Smaller: impulses that
+/// such velocities tell badly seem to pull, or to rub more than Coulomb allows. Larger: some of those that do are missed.
+const ROUNDINGS: f64 = 4.0;
+
 /// Bounces slower than this may be the last of a chatter, m/s: they take and leave as little as a resting contact.
 const LAST_BOUNCE: f64 = 1e-7;
 
@@ -217,12 +221,15 @@ impl Moment<'_> {
         let unexplained_by = |directions: &[Column]| {
             let found = fit(directions, &change);
             let mut unexplained = -dot(&mean, &found.residual);
+            // Impulses are known no better than the change that tells them, over what that has of them alone.
+            let rounding =
+                f64::EPSILON * (ROUNDINGS + impacts.len() as f64) * dot(&mean, &mean).sqrt() / found.shortest;
             for (index, contact) in contacts.iter().enumerate() {
                 let (Some(impulses), Some(mu)) = (&found.factors, contact.friction(self.numbers)) else { continue };
                 let [push, along, up] = [0, 1, 2].map(|axis| impulses[3 * index + axis]);
-                let excess = (along.hypot(up) - mu * push.max(0.0)).max(0.0);
+                let excess = (along.hypot(up) - mu * push.max(0.0) - rounding).max(0.0);
                 let [opening, slip, rise] = self.directions(*contact).map(|direction| dot(&direction, &mean));
-                unexplained += excess * slip.hypot(rise) + (-push).max(0.0) * opening.abs();
+                unexplained += excess * slip.hypot(rise) + (-push - rounding).max(0.0) * opening.abs();
             }
             unexplained
         };

@@ -296,7 +296,7 @@ impl Scene<'_> {
             columns.extend(creeping.iter().map(|resistance| resistance.column));
             columns.extend(&unknown);
             columns.extend(pushes.iter().flat_map(|push| &push.sticks));
-            let Fit { factors, residual } = fit(&columns, &rest);
+            let Fit { factors, residual, .. } = fit(&columns, &rest);
             let defect = size(&residual) / size(accelerations).max(f64::MIN_POSITIVE);
             let Some(forces) = factors else {
                 // Forces that hold each other: none is larger than what all accelerations and the cloth under all balls
@@ -304,13 +304,13 @@ impl Scene<'_> {
                 let largest = size(&rest) + BALLS as f64 * sliding;
                 let prices: f64 = pushes.iter().map(|push| push.price).sum();
                 let rolls: f64 = creeping.iter().map(|resistance| resistance.most * resistance.speed).sum();
-                return Power {
-                    least: taken,
-                    most: taken + largest * prices + rolls,
-                    defect,
-                    is_possible: true,
-                    is_unique: false,
-                };
+                let most = taken + largest * prices + rolls;
+                // They are not unique, but what they take is: nothing may drive the balls on.
+                let done = std::array::from_fn(|place| rest[place] - residual[place]);
+                let all = taken - dot(&self.speeds, &done);
+                let crept: f64 = strained.iter().map(|(_, slip)| sliding * slip[0].hypot(slip[1])).sum();
+                let is_possible = (1.0 - EDGE) * taken <= all && all <= (1.0 + EDGE) * (most + crept);
+                return Power { least: taken, most, defect, is_possible, is_unique: false };
             };
             // What would have to pull does not touch.
             let pulls = (0..pushes.len()).min_by(|a, b| forces[*a].total_cmp(&forces[*b]));

@@ -25,16 +25,16 @@ pub const CASES: &[Case] = &[
     Case::new("massé at 89° and 8 m/s where balls can fly", flying, masse),
 ];
 
-fn with(restitution: f64) -> Vec<Table> {
+fn with(what: &str, restitution: f64) -> Vec<Table> {
     let flight = Some(Flight { restitution, friction: None });
     ["textbook", "thesis", "match"]
         .iter()
-        .filter_map(|name| variant(name, "flying", |table| table.flight = flight))
+        .filter_map(|name| variant(name, what, |table| table.flight = flight))
         .collect()
 }
 
 fn flying() -> Vec<Table> {
-    with(0.5)
+    with("flying", 0.5)
 }
 
 /// Tables on which several impacts at once follow the thesis' laws, which the audit knows.
@@ -43,7 +43,7 @@ fn flying_by_thesis() -> Vec<Table> {
 }
 
 fn lively() -> Vec<Table> {
-    with(0.99)
+    with("flying, e_c = 0.99", 0.99)
 }
 
 /// A stroke along x that makes the cue ball jump, with the velocity that it gives it.
