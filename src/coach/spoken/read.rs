@@ -4,6 +4,7 @@ use super::{Mark, Speed, SpokenError, SpokenStroke, tips};
 use crate::{
     coach::{
         RailPoint,
+        systems::SIZE,
         words::{NUMBERS, SIXTEENTHS},
     },
     simulation::Rail,
@@ -36,19 +37,15 @@ pub fn read(text: &str) -> Result<SpokenStroke, SpokenError> {
 /// The parts of a line, divided by commas, semicolons, brackets and full stops; those within numbers do not divide.
 fn parts(line: &str) -> Vec<String> {
     let letters: Vec<char> = line.replace('\u{bd}', ".5").chars().collect();
-    let digit = |index: usize| letters.get(index).is_some_and(char::is_ascii_digit);
-    let mut parts = vec![String::new()];
-    for (index, &letter) in letters.iter().enumerate() {
-        let within =
-            matches!(letter, ',' | '.') && digit(index + 1) && (letter == '.' || index > 0 && digit(index - 1));
-        match letter {
-            ',' | '.' if within => parts.last_mut().unwrap_or(&mut String::new()).push('.'),
-            ',' | ';' | '(' | ')' | '.' => parts.push(String::new()),
-            letter => parts.last_mut().unwrap_or(&mut String::new()).push(letter),
-        }
-    }
-    let words = |part: &String| part.split_whitespace().collect::<Vec<_>>().join(" ");
-    parts.iter().map(words).filter(|part| !part.is_empty()).collect()
+    let is_digit = |index: Option<usize>| index.and_then(|index| letters.get(index)).is_some_and(char::is_ascii_digit);
+    let divided = letters.iter().enumerate().map(|(index, letter)| match letter {
+        ',' if is_digit(index.checked_sub(1)) && is_digit(Some(index + 1)) => '.',
+        '.' if is_digit(Some(index + 1)) => '.',
+        ',' | ';' | '(' | ')' | '.' => '\n',
+        letter => *letter,
+    });
+    let words = |part: &str| part.split_whitespace().collect::<Vec<_>>().join(" ");
+    divided.collect::<String>().lines().map(words).filter(|part| !part.is_empty()).collect()
 }
 
 /// Reads one part into `said`.
@@ -71,9 +68,8 @@ fn read_part(
         return set(&mut said.to, Some(mark(to).ok_or_else(not_understood)?), twice("where the cue points"));
     }
     if let Some((rail, diamond)) = part.split_once(" first at ") {
-        let point = rail_named(rail).zip(diamond.parse().ok());
-        let (rail, diamond) = point.ok_or_else(not_understood)?;
-        return set(&mut said.rail, Some(RailPoint { rail, diamond }), twice("the first cushion"));
+        let point = rail_named(rail).zip(diamond.parse().ok()).and_then(|(rail, diamond)| rail_point(rail, diamond));
+        return set(&mut said.rail, Some(point.ok_or_else(not_understood)?), twice("the first cushion"));
     }
     if let Some(speed) = speed(part) {
         return set(&mut said.speed, Some(speed), twice("the speed"));
@@ -130,8 +126,14 @@ fn mark(text: &str) -> Option<Mark> {
         None => (through.unwrap_or(text.trim()), false),
     };
     let number = text.split_whitespace().find_map(|word| word.parse::<f64>().ok())?;
-    let point = RailPoint { rail: rail_named(text)?, diamond: number };
+    let point = rail_point(rail_named(text)?, number)?;
     Some(Mark { point, on_wood: wood || through.is_some() })
+}
+
+/// A point on a cushion; `None` beyond its ends.
+fn rail_point(rail: Rail, diamond: f64) -> Option<RailPoint> {
+    let along = if matches!(rail, Rail::Left | Rail::Right) { SIZE.y } else { SIZE.x };
+    (0.0..=along).contains(&diamond).then_some(RailPoint { rail, diamond })
 }
 
 /// The one rail that is named in a text.

@@ -1,6 +1,8 @@
 //! Strokes that are said, and read.
 
 use super::*;
+use proptest::prelude::*;
+
 use crate::{simulation::Rail, table::Table};
 
 /// The opening on the default table: red is straight ahead of the spots, yellow beside the cue ball.
@@ -102,6 +104,9 @@ fn what_cannot_be_read_or_played_is_named() {
         ("red 1/2 left, 900 lengths", "900 lengths"),
         ("red 1/2 left, 9 left, soft", "the tip at a = 0.9"),
         (" ; ,", "no stroke is said"),
+        ("to 4.1 right, soft", "\"to 4.1 right\" is not understood"),
+        ("to nan right, soft", "\"to nan right\" is not understood"),
+        ("red full, raised 95, soft", "theta = 95"),
     ] {
         let error = stroke(text, None).unwrap_err().to_string();
         assert!(error.contains(named), "{text}: {error}");
@@ -111,4 +116,63 @@ fn what_cannot_be_read_or_played_is_named() {
     let hidden = SpokenStroke::read("red full, hard").unwrap();
     let error = hidden.stroke(&table, &behind, CueBall::White, None).unwrap_err();
     assert_eq!(error, SpokenError::NotMet("red"));
+}
+
+/// Words of strokes, and what is none.
+const WORDS: [&str; 40] = [
+    "red",
+    "yellow",
+    "white",
+    "the",
+    "ball",
+    "1/2",
+    "3/0",
+    "half",
+    "thin",
+    "full",
+    "on",
+    "left",
+    "right",
+    "up",
+    "below",
+    "1.5",
+    "1e9",
+    "-2",
+    "nan",
+    "inf",
+    "one",
+    "and a half",
+    "a",
+    "tips",
+    "of",
+    "at",
+    "o'clock",
+    "13:70",
+    "to",
+    "from",
+    "through",
+    "top",
+    "first at",
+    "lengths",
+    "m/s",
+    "raised",
+    "level",
+    ",",
+    ";",
+    "\u{bd}",
+];
+
+proptest! {
+    #[test]
+    fn whatever_is_said_is_a_stroke_that_can_be_played_or_a_sentence(
+        words in prop::collection::vec(prop::sample::select(&WORDS[..]), 0..14), played_before: bool,
+    ) {
+        let table = Table::default();
+        let before = CueInputs::parse("0.1,0.2,5,12.5,3").unwrap();
+        let said = stroke(&words.join(" "), played_before.then_some(&before));
+        match said {
+            Ok(cue) => prop_assert!(cue.validate().is_ok() && cue.validate_tip(table.miscue_limit).is_ok(), "{cue:?}"),
+            Err(error) => prop_assert!(!error.to_string().is_empty()),
+        }
+    }
 }

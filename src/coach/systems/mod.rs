@@ -16,7 +16,7 @@ mod system;
 mod words;
 
 pub use guide::{Applied, Guide, guide};
-pub use lines::{BEHIND, Line, Mirror, diamonds, metres};
+pub use lines::{BEHIND, Line, Mirror, SIZE, diamonds, metres};
 pub use natural::Natural;
 pub use shift::Shift;
 pub use system::{Labels, Numbers, System};
