@@ -30,7 +30,7 @@ impl TypedStroke {
         }
         SpokenStroke::read(text).map(Self::Said).map_err(|error| match error {
             SpokenError::Part(_) => Failure::wrong_input(format_args!(
-                "{error}; or the inputs \"a,b,theta,phi,V\" like \"0,0.2,5,12.5,3\" (radii, degrees, m/s)"
+                "\"{text}\" is not a shot: {error}; or the inputs \"a,b,theta,phi,V\" like \"0,0.2,5,12.5,3\" (radii, degrees, m/s)"
             )),
             error => Failure::wrong_input(error),
         })

@@ -26,6 +26,9 @@ const ACCURACY: f64 = 1e-4;
 /// tried behind a cushion.
 const STEPS: i32 = 40;
 
+/// How far beside the straight way a ball is looked for that is missed on it, at most so many times [`STEPS`], ball diameters.
+const SWERVE: f64 = 0.1;
+
 /// How far from what is said the fullness may be where just that is not possible, ball diameters: as far as players tell it.
 const NEARLY: f64 = 0.0625;
 
@@ -242,19 +245,30 @@ fn aim_at(
 ) -> Result<Option<CueInputs>, ShotError> {
     let way = layout.balls[ball] - layout.balls[0];
     let lever = way.length() / (2.0 * table.radius);
-    let geometric = way.to_angle() + (wanted / lever).clamp(-1.0, 1.0).asin() - squirt(table, side);
-    let mut phi = geometric;
+    let straight = way.to_angle() + (wanted / lever).clamp(-1.0, 1.0).asin() - squirt(table, side);
+    // How far a cue ball swerves is not known beforehand: where the straight way misses, one beside it meets the ball.
+    let beside = |step: i32| straight + SWERVE * f64::from(if step % 2 == 0 { step } else { -step }) / lever;
+    let Some(mut met) =
+        (0..STEPS).map(beside).find(|phi| matches!(passed(table, layout, ball, &at(*phi)), Ok(Some(_))))
+    else {
+        return Ok(None);
+    };
+    let mut phi = met;
     for _ in 0..STEPS {
-        let cue = at(phi);
-        match passed(table, layout, ball, &cue)? {
-            Some(passed) if (passed - wanted).abs() < ACCURACY => return Ok(Some(cue)),
-            Some(passed) => phi += (wanted - passed) / lever,
-            // Past the ball: nearer to its middle.
-            None => phi -= 0.01 * wanted.signum() / lever,
+        match passed(table, layout, ball, &at(phi))? {
+            Some(passed) if (passed - wanted).abs() < ACCURACY => return Ok(Some(at(phi))),
+            Some(passed) => {
+                met = phi;
+                phi += (wanted - passed) / lever;
+            }
+            None => phi = 0.5 * (phi + met),
         }
     }
     // Just there the other ball may be in the way: as near as it leaves room.
-    Ok(nearest(table, layout, (ball, wanted), geometric, NEARLY / lever, at))
+    let near = nearest(table, layout, (ball, wanted), met, NEARLY / lever, at);
+    Ok(near.filter(
+        |cue| matches!(passed(table, layout, ball, cue), Ok(Some(passed)) if (passed - wanted).abs() <= NEARLY),
+    ))
 }
 
 /// The speed of the cue at which a ball runs so many table lengths, m/s.

@@ -42,7 +42,7 @@ fn on_the_command_line_it_is_an_error_with_a_sentence_and_leaves_nothing_half_do
     shell.args(["-c", "ulimit -f 0; exec \"$0\" drill export out.json", carom]);
     let said = program::outcome(shell.spawn().unwrap());
     assert_eq!(said.code, Some(1), "{}", said.err);
-    assert!(said.err.contains("out.json: ") && said.err.contains("too large"), "{}", said.err);
+    assert!(said.err.contains("out.json cannot be written: ") && said.err.contains("too large"), "{}", said.err);
     let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert!(left.iter().all(|name| name == "carom" || name == "state"), "{left:?}");
 

@@ -29,7 +29,7 @@ fn the_records() {
     check("record", &one);
     one.says("37").says("high run").says("7");
     let figures = ["table     27 of 37, 73 % (57-85)", "average   2.25 an inning", "high run  7"];
-    played().press("r").shows(&figures).shows(&["all exercises", "session by session"]);
+    played().press("r").shows(&figures).shows(&["all exercises", "by session, last:"]);
     Player::at_library(ASCII, &[exercise("opening", "x")], &history()).press("r").is_plain().shows(&figures);
     let large = played().press("r").text(200, 60);
     assert!(figures.iter().all(|part| large.contains(part)), "{large}");

@@ -201,7 +201,7 @@ fn a_stroke_is_said_in_words_and_what_is_not_said_stays() {
     player.shows(&["softly", "Enter take it"]);
     let player = player.press("Esc u");
     assert_eq!(player.app.coach.watched().unwrap().cue, softer, "what was said at once is taken back at once");
-    let drill = Player::practising(TRUE_COLOUR).press("t").type_in("yellow 3/8 left, 2 up, soft").press("Enter");
+    let drill = Player::practising(TRUE_COLOUR).press("t").type_in("yellow 1/2 left, 2 up, soft").press("Enter");
     assert!((drill.app.drills.turn.as_ref().unwrap().stroke().b - 0.2).abs() < 1e-9);
-    drill.shows(&["38 %"]);
+    drill.shows(&["50 % full"]);
 }

@@ -267,9 +267,6 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Playable, &[letter(' ', A::Play)], Some(("play", 1)), "play the stroke, with the player's errors"),
     bind(Stroke, W::Set, &[key(Enter, A::Play)], None, "play the stroke, once it was changed"),
 ], [
-    bind(Stroke, W::Aiming, &[letter('t', A::TypeStroke)], Some(("type", 1)),
-        "type your stroke, or what changes of it, as players say it: red 1/2 right, 1.5 left, 2 up, 3 lengths")
-        .known_as("words say fullness tips lengths aim"),
     bind(Stroke, W::ModelShot, &[letter('v', A::Hint)], Some(("hint", 1)),
         "show the model shot, and hide it; the attempt then counts as one with a hint"),
     bind(Stroke, W::Adoptable, &[letter('w', A::WhatIf)], Some(("what if", 1)),
@@ -294,6 +291,9 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
         "shift the balls by half a ball at each repetition, or not"),
     bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
         "a shorter or longer goal").each(&["a shorter goal", "a longer goal"]),
+    bind(Stroke, W::Aiming, &[letter('t', A::TypeStroke)], Some(("type", 1)),
+        "type your stroke, or what changes of it, as players say it: red 1/2 right, 1.5 left, 2 up, 3 lengths")
+        .known_as("words say fullness tips lengths aim"),
     bind(Stroke, W::Watching, &[letter(',', P(Event(-1))), letter('.', P(Event(1))), key(Left, P(Event(-1))),
         key(Right, P(Event(1)))], Some(("event", 2)), "step from event to event")
         .each(&["step to the event before", "step to the next event"]),
