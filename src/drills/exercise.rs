@@ -225,6 +225,15 @@ impl Exercise {
         Ok(table)
     }
 
+    /// The table on which it is played: the player's `own`, where that has the size of its table.
+    ///
+    /// # Errors
+    /// As [`Exercise::table`].
+    pub fn table_with(&self, own: Option<&Table>) -> Result<Table, ExerciseError> {
+        let table = self.table()?;
+        Ok(own.filter(|own| own.has_size_of(&table)).cloned().unwrap_or(table))
+    }
+
     /// Its model shot; `None` where it has none, or the cue has no room for it.
     pub fn model_shot(&self) -> Option<CueInputs> {
         let table = self.table().ok()?;

@@ -212,8 +212,7 @@ impl Session {
     /// # Errors
     /// Where the exercise is impossible.
     pub fn table_of(&self, exercise: &Exercise) -> Result<Table, ExerciseError> {
-        let table = exercise.table()?;
-        Ok(self.table.as_deref().filter(|own| own.has_size_of(&table)).cloned().unwrap_or(table))
+        exercise.table_with(self.table.as_deref())
     }
 
     /// The exercise's model shot; `None` where it has none, the cue has no room for it, or it makes no point on the player's own table.

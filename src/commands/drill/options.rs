@@ -54,22 +54,13 @@ impl PlayOptions {
     /// A table that there is not, or that has another size than that of an exercise.
     pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Result<Session, Failure> {
         let own = self.table.as_deref().map(table_named).transpose()?;
-        for (exercise, own) in exercises.iter().zip(own.iter().cycle()) {
-            let table = exercise.table().map_err(Failure::failed)?;
-            if !own.has_size_of(&table) {
-                return Err(Failure::wrong_input(format_args!(
-                    "{} is on \"{}\", {}; \"{}\" is another, {}",
-                    exercise.name,
-                    table.name,
-                    size_words(&table),
-                    own.name,
-                    size_words(own)
-                )));
-            }
+        if let Some(own) = &own {
+            exercises.iter().try_for_each(|exercise| check_size(exercise, own))?;
         }
         let seed = self.seed.unwrap_or_else(rand::random);
         let mut session = Session::new(goal, Venue::Program, exercises, player(self.skill), seed);
-        session.table = own.map(Box::new);
+        let is_another = |own: &Table| session.exercises.iter().any(|exercise| exercise.table != own.name);
+        session.table = own.filter(is_another).map(Box::new);
         Ok(session)
     }
 
@@ -79,6 +70,19 @@ impl PlayOptions {
             tell(whom_words(session.skill, rule));
         }
     }
+}
+
+/// Refuses a table on which the balls of the exercise cannot lie as they are to.
+fn check_size(exercise: &Exercise, own: &Table) -> Result<(), Failure> {
+    let table = exercise.table().map_err(Failure::failed)?;
+    if own.has_size_of(&table) {
+        return Ok(());
+    }
+    let [size, other] = [&table, own].map(size_words);
+    Err(Failure::wrong_input(format_args!(
+        "{} is on \"{}\", {size}; \"{}\" is another, {other}",
+        exercise.name, table.name, own.name
+    )))
 }
 
 /// How large a table and its balls are.

@@ -229,13 +229,8 @@ impl DrillsPage {
         let marked = || {
             let exercise = self.catalogue.marked()?;
             let Exercise { layout, rule, .. } = *exercise;
-            let own = self.own_table.as_deref();
-            let found = exercise.table().map(|table| Balls {
-                table: own.filter(|own| own.has_size_of(&table)).cloned().unwrap_or(table),
-                layout,
-                rule,
-                cue_ball: CueBall::White,
-            });
+            let table = exercise.table_with(self.own_table.as_deref());
+            let found = table.map(|table| Balls { table, layout, rule, cue_ball: CueBall::White });
             Some(found.map_err(|error| error.to_string()))
         };
         match turn.map(Ok).or_else(marked) {
