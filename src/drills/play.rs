@@ -213,7 +213,7 @@ mod tests {
         assert_eq!((kept.table, kept.exercises.len()), (played.table, 1));
         // A model shot that makes the point on the table that it was made for, and stops short on a slower one.
         let half_ball = Library::bundled().get("half-ball").unwrap().clone();
-        let slow = Table { rolling_friction: 0.19, ..own.clone() };
+        let slow = Table { rolling_friction: 0.19, ..Table::default() };
         let model_shot = |table: Option<&Table>| {
             let mut session = session("match");
             session.table = table.map(|table| Box::new(table.clone()));
