@@ -26,6 +26,9 @@ const ACCURACY: f64 = 1e-4;
 /// tried behind a cushion.
 const STEPS: i32 = 40;
 
+/// As far as rounding to half tips moves the tip at most, radii: a quarter of a tip to the side and in height.
+const ROUNDED: f64 = 0.25 * TIP * std::f64::consts::SQRT_2;
+
 /// How far beside the straight way a ball is looked for that is missed on it, at most so many times [`STEPS`], ball diameters.
 const SWERVE: f64 = 0.1;
 
@@ -151,13 +154,8 @@ impl SpokenStroke {
         };
         let level = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed };
         let cue = before.copied().unwrap_or(level);
-        let cue = CueInputs {
-            a: self.side.unwrap_or(cue.a),
-            b: self.height.unwrap_or(cue.b),
-            theta: self.elevation.unwrap_or(cue.theta),
-            speed,
-            ..cue
-        };
+        let [a, b] = on_ball([self.side.unwrap_or(cue.a), self.height.unwrap_or(cue.b)], table.miscue_limit);
+        let cue = CueInputs { a, b, theta: self.elevation.unwrap_or(cue.theta), speed, ..cue };
         cue.validate()?;
         cue.validate_tip(table.miscue_limit)?;
         let at = |phi: f64| {
@@ -282,6 +280,13 @@ fn speed_of(table: &Table, lengths: f64) -> Option<f64> {
         if table_lengths(table, middle)? < lengths { low = middle } else { high = middle }
     }
     Some(0.5 * (low + high))
+}
+
+/// The place of the tip, radii. One that is told in half tips, as the coach does, may be rounded a little beyond where the tip holds: then it
+/// is there.
+fn on_ball([a, b]: [f64; 2], limit: f64) -> [f64; 2] {
+    let (said, most) = (libm::hypot(a, b), limit.sqrt());
+    if said > most && said <= most + ROUNDED { [a, b].map(|part| part * (1.0 - 1e-12) * most / said) } else { [a, b] }
 }
 
 /// A place of the tip so many tips from the middle of the ball, radii.

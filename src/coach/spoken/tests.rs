@@ -57,6 +57,8 @@ fn tips_lengths_degrees_and_lines_are_read() {
         near(cue.a, a);
         near(cue.b, b);
     }
+    let edge = read("3 right, 4 up, soft");
+    assert!(!edge.is_miscue(&table) && (edge.a + 0.3).abs() < 1e-9, "{edge:?}");
     let clock = read("2 tips at 1:30, soft");
     near(clock.a, -0.2 * 0.5_f64.sqrt());
     near(clock.b, 0.2 * 0.5_f64.sqrt());
