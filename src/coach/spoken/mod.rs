@@ -286,7 +286,9 @@ fn speed_of(table: &Table, lengths: f64) -> Option<f64> {
 /// is there.
 fn on_ball([a, b]: [f64; 2], limit: f64) -> [f64; 2] {
     let (said, most) = (libm::hypot(a, b), limit.sqrt());
-    if said > most && said <= most + ROUNDED { [a, b].map(|part| part * (1.0 - 1e-12) * most / said) } else { [a, b] }
+    let is_beyond = a * a + b * b > limit;
+    // A little within, so that no rounding of the square is beyond it.
+    if is_beyond && said <= most + ROUNDED { [a, b].map(|part| part * (1.0 - 1e-12) * most / said) } else { [a, b] }
 }
 
 /// A place of the tip so many tips from the middle of the ball, radii.
