@@ -126,8 +126,8 @@ pub struct SpokenStroke {
 }
 
 impl SpokenStroke {
-    /// What `text` says. The coach's own words are read, too; the way of the cue ball behind the first ball, which follows from the
-    /// stroke, is passed over.
+    /// What `text` says. The coach's own words in tips and diamonds are read, too; the way of the cue ball behind the first ball, which
+    /// follows from the stroke, is passed over.
     ///
     /// # Errors
     /// What is not understood.
@@ -135,8 +135,8 @@ impl SpokenStroke {
         read::read(text)
     }
 
-    /// The stroke, for who plays with `cue_ball`. What is not said is as in `before`; without one the cue is level and strikes the middle. Where rails or balls behind the
-    /// cue ball are in the way, the cue is raised as far as it must be.
+    /// The stroke, for who plays with `cue_ball`. What is not said is as in `before`; without one the cue is level and strikes the
+    /// middle. Where rails or balls behind the cue ball are in the way, the cue is raised as far as it must be.
     ///
     /// # Errors
     /// What is missing, or cannot be played where the balls lie.
@@ -289,9 +289,4 @@ fn on_ball([a, b]: [f64; 2], limit: f64) -> [f64; 2] {
     let is_beyond = a * a + b * b > limit;
     // A little within, so that no rounding of the square is beyond it.
     if is_beyond && said <= most + ROUNDED { [a, b].map(|part| part * (1.0 - 1e-12) * most / said) } else { [a, b] }
-}
-
-/// A place of the tip so many tips from the middle of the ball, radii.
-const fn tips(number: f64) -> f64 {
-    number * TIP
 }

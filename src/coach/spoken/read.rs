@@ -1,11 +1,11 @@
 //! The parts of a text that says a stroke.
 
-use super::{Mark, Speed, SpokenError, SpokenStroke, tips};
+use super::{Mark, Speed, SpokenError, SpokenStroke};
 use crate::{
     coach::{
         RailPoint,
         systems::SIZE,
-        words::{NUMBERS, SIXTEENTHS},
+        words::{NUMBERS, PACES, SIXTEENTHS, TIP},
     },
     simulation::Rail,
     table::BALL_NAMES,
@@ -13,9 +13,6 @@ use crate::{
 
 /// Fullness by other words than those in sixteenths.
 const FULLNESS: [(&str, f64); 2] = [("thin", 0.25), ("thick", 0.75)];
-
-/// Table lengths by the words for them, the longer words first.
-const PACES: [(&str, f64); 5] = [("very soft", 1.0), ("very hard", 5.0), ("soft", 2.0), ("medium", 3.0), ("hard", 4.0)];
 
 /// What a text says.
 pub fn read(text: &str) -> Result<SpokenStroke, SpokenError> {
@@ -74,8 +71,8 @@ fn read_part(
     if let Some(speed) = speed(part) {
         return set(&mut said.speed, Some(speed), twice("the speed"));
     }
-    if let Some((_, lengths)) = PACES.into_iter().find(|(word, _)| part == *word) {
-        return set(&mut said.pace, Some(lengths), twice("the speed"));
+    if let Some(place) = PACES.iter().position(|word| part == *word) {
+        return set(&mut said.pace, Some(place as f64 + 1.0), twice("the speed"));
     }
     if let Some(degrees) = elevation(part) {
         return set(&mut said.elevation, Some(f64::to_radians(degrees)), twice("the cue's elevation"));
@@ -146,7 +143,7 @@ fn rail_named(text: &str) -> Option<Rail> {
 /// "3.5 lengths", "4 table lengths", "medium 2.9", "2.3 m/s".
 fn speed(part: &str) -> Option<Speed> {
     let (number, unit) = part.split_once(' ')?;
-    let paced = PACES.into_iter().find_map(|(word, _)| part.strip_prefix(word)?.trim().parse().ok());
+    let paced = PACES.iter().find_map(|word| part.strip_prefix(word)?.trim().parse().ok());
     match (paced, number.parse().ok()) {
         (Some(lengths), _) => Some(Speed::Lengths(lengths)),
         (None, Some(number)) => match unit {
@@ -243,7 +240,7 @@ fn tip(part: &str) -> Option<(Option<f64>, Option<f64>)> {
         return None;
     }
     let number: Vec<&str> = words.iter().filter(|word| way(word).is_none()).copied().collect();
-    let offset = tips(number_named(&number.join(" "))?);
+    let offset = TIP * number_named(&number.join(" "))?;
     let along = |share: f64| (share != 0.0).then_some(share * offset);
     Some((along(left), along(up)))
 }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use crate::{simulation::Rail, table::Table};
 
-/// The opening on the default table: red is straight ahead of the spots, yellow beside the cue ball.
+/// The cue ball between the others' ways: yellow lies ahead of it to the left, red to the right.
 fn layout(table: &Table) -> Layout {
     Layout::parse("2d,2d 6d,3d 6d,1d", table).unwrap()
 }

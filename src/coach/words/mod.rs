@@ -16,6 +16,7 @@ pub use flight::{height_words, jump_words, no_jump_words};
 use numbers::clock;
 pub use numbers::fullness_word;
 pub(super) use numbers::{NUMBERS, SIXTEENTHS, number_word};
+pub(super) use pace::PACES;
 pub use pace::{lengths_words, pace_word, table_lengths};
 pub(crate) use sentence::capital;
 pub use units::{LengthUnit, PlaceUnit, TipUnit, Units, short};

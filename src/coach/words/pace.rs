@@ -32,15 +32,12 @@ pub fn table_lengths(table: &Table, speed: f64) -> Option<f64> {
     Some(way / (2.0 * corner.x))
 }
 
+/// What players call a stroke of one table length, of two, and so on; what is longer is as the last.
+pub const PACES: [&str; 5] = ["very soft", "soft", "medium", "hard", "very hard"];
+
 /// What players call a stroke of so many table lengths.
 pub fn pace_word(lengths: f64) -> &'static str {
-    match lengths {
-        _ if lengths < 1.5 => "very soft",
-        _ if lengths < 2.5 => "soft",
-        _ if lengths < 3.5 => "medium",
-        _ if lengths < 4.5 => "hard",
-        _ => "very hard",
-    }
+    PACES[(lengths.round() as usize).clamp(1, PACES.len()) - 1]
 }
 
 /// So many table lengths in words, to a tenth.

@@ -9,12 +9,13 @@ pub const SIZE: usize = 5 * BALLS;
 /// A column, or the right-hand side.
 pub type Column = [f64; SIZE];
 
-/// Columns whose part independent of the others is shorter than this share of the longest have no factors of their own...
+/// A column whose part independent of the others is shorter than this share of the longest has no factor of its own; what it explains
+/// counts all the same.
 const DEPENDENT: f64 = 1e-9;
 
-/// ... but what they explain is explained, unless that part is shorter than this share: on a table of ten metres the normal of two balls
-/// is known to so much, the rounding of their places over their distance. Larger: what balls all but in a row do to each other across the
-/// row has no cause. Smaller: rounding is one.
+/// A column whose independent part is shorter than this share explains nothing: on a table of ten metres the normal of two balls is known
+/// to so much, the rounding of their places over their distance. Larger: what balls all but in a row do to each other across the row has
+/// no cause. Smaller: rounding is one.
 const NONE: f64 = 2e-14;
 
 /// The best that some columns can do for a right-hand side.

@@ -1,8 +1,8 @@
-//! Seeds by which each layout has luck of its own.
+//! Seeds of random numbers, one for each layout: luck on one layout is no luck on another.
 
 use crate::table::Layout;
 
-/// The seed of what is drawn for the layout with this number, its own: luck on one layout is no luck on another.
+/// The seed of what is drawn for the layout with this number.
 pub const fn layout_seed(seed: u64, number: u32) -> u64 {
     seed ^ ((number as u64) << 32)
 }
