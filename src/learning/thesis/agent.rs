@@ -186,7 +186,7 @@ pub(crate) const fn kind_of<A: Agent + 'static>() -> AgentKind {
             Ok(Box::new(TrainingLoop { agent: A::restore(settings, reader, agent)?, state }))
         },
         not_inherited: &[],
-        must_match: &["canonical"],
+        must_match: &["canonical", "relative"],
     }
 }
 

@@ -11,12 +11,12 @@ use super::{
     actor_critic::{ActorCritic, Guidance, Rates, sizes},
     agent::{Agent, Choice, Settings, Transition},
     carom::Episode,
-    environment::{Action, Environment, Observation, STATES},
+    environment::{Action, Environment, Observation, STATES, State},
     exploration::OrnsteinUhlenbeck,
     lessons::{Lessons, LessonsState},
     q_learning::check_episode,
     replay::{self, Batch, MEMORY, StoredTransition},
-    symmetry::{self, WAYS, canonical, seen},
+    symmetry::{SYMMETRIES, View},
 };
 use crate::learning::{
     learner::{Progress, UpdateStats, note_of},
@@ -29,6 +29,7 @@ use crate::learning::{
 };
 
 /// Settings of [`PlainDdpg`]: Table 4; what the thesis leaves open is as in keras-rl's example.
+#[expect(clippy::struct_excessive_bools, reason = "each is a setting by its own name, also in older files")]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PlainDdpgSettings {
@@ -79,10 +80,12 @@ pub struct PlainDdpgSettings {
     pub climbing: f64,
     /// How strongly actions out of range are pulled back.
     pub range_pull: f64,
-    /// Whether every shot is learnt from in any of the eight ways that a level table's symmetry and equal object balls allow.
+    /// Whether each transition of a minibatch is transformed by a random one of the table's symmetries (data augmentation).
     pub symmetric: bool,
-    /// Whether it plays and learns in the one of these ways that all eight have in common, instead.
+    /// Whether the agent acts and learns in [`View::canonical`] instead.
     pub canonical: bool,
+    /// Whether the agent acts and learns in [`View::relative`] instead of both.
+    pub relative: bool,
 }
 
 impl Default for PlainDdpgSettings {
@@ -113,6 +116,7 @@ impl Default for PlainDdpgSettings {
             range_pull: 0.0,
             symmetric: false,
             canonical: false,
+            relative: false,
         }
     }
 }
@@ -190,6 +194,11 @@ impl PlainDdpgSettings {
         Guidance { climbing, lessons, cloning, width: [width, speed], pull }
     }
 
+    /// How the agent sees every state; `None` if as it is on the table.
+    fn fixed_view(&self) -> Option<fn(State) -> View> {
+        if self.relative { Some(View::relative) } else { self.canonical.then_some(View::canonical) }
+    }
+
     /// Rows of a batch for lessons of both kinds.
     fn lesson_rows(&self) -> [usize; 2] {
         // A share that is not nought has a row at least: what is sought for it would not be learnt else.
@@ -235,11 +244,12 @@ impl PlainDdpg {
         let lessons = drawn.len();
         drawn.extend(self.replay.sample(settings.batch.saturating_sub(lessons), rng));
         for shot in &mut drawn {
-            if settings.canonical {
-                *shot = canonical(shot);
-            } else if settings.symmetric {
-                *shot = seen(shot, rng.random_range(0..WAYS));
-            }
+            let [view, next] = match settings.fixed_view() {
+                Some(view) => [view(shot.state), view(shot.next)],
+                None if settings.symmetric => [View::symmetric(rng.random_range(0..SYMMETRIES)); 2],
+                None => continue,
+            };
+            *shot = view.shot(shot, next);
         }
         let batch = Batch::new(&drawn, settings.discount)?;
         self.networks.update(&batch, &settings.guidance(lessons, self.shots))
@@ -284,10 +294,10 @@ impl Agent for PlainDdpg {
     }
 
     fn best(&self, seen: &Observation) -> Result<Choice, Error> {
-        let way = if self.settings.canonical { symmetry::to_canonical(seen.state) } else { 0 };
-        let state = Tensor::from_slice(&symmetry::state(seen.state, way), (1, STATES), &Device::Cpu)?;
+        let view = self.settings.fixed_view().map_or_else(View::default, |view| view(seen.state));
+        let state = Tensor::from_slice(&view.state(seen.state), (1, STATES), &Device::Cpu)?;
         let action = self.networks.act(&state)?.flatten_all()?.to_vec1::<f32>()?;
-        Ok(Choice { action: symmetry::action(std::array::from_fn(|index| action[index]), way), index: 0 })
+        Ok(Choice { action: view.on_table(std::array::from_fn(|index| action[index])), index: 0 })
     }
 
     fn study(

@@ -140,8 +140,8 @@ pub enum Change {
     StrongNoise,
     /// The same, falling to a twentieth.
     FallingNoise,
-    /// Layouts seen in their canonical frame.
-    Canonical,
+    /// Layouts seen in relative coordinates.
+    Relative,
     /// The same, and shots that make the point beside its own (thesis 6.1.1 and 6.1.2).
     Lessons {
         /// Share of a batch that is shots seen in hindsight.
@@ -159,14 +159,14 @@ impl Change {
             Self::None => json!({}),
             Self::StrongNoise => json!({ "noise": noise }),
             Self::FallingNoise => json!({ "noise": noise, "noise_falls_to": 0.05, "falls_over": shots }),
-            Self::Canonical => json!({ "canonical": true }),
+            Self::Relative => json!({ "relative": true }),
             Self::Lessons { hindsight, demonstrations } => json!({
                 "hindsight": hindsight,
                 "demonstrations": demonstrations,
                 "climbing": 0.0,
                 "cloning_width": [0.2, 0.004],
                 "range_pull": 0.3,
-                "canonical": true,
+                "relative": true,
                 "batch": 64,
                 "noise": noise,
                 "noise_falls_to": 0.2,
@@ -200,18 +200,18 @@ const fn changed(name: &'static str, color: RGBColor, change: Change) -> Reading
 }
 
 /// Noise on DDPG's actions: 0.03, as the thesis' source leaves it with one shot an episode, 0.1, and 0.1 falling; the first once more in
-/// the canonical frame.
+/// relative coordinates.
 const NOISES: [Reading; 4] = [
     changed("0.03", CRIMSON, Change::None),
     changed("0.1", AZURE, Change::StrongNoise),
     changed("0.1 falling to 0.005", FOREST, Change::FallingNoise),
-    changed("0.03 in the canonical frame", VIOLET, Change::Canonical),
+    changed("0.03 in relative coordinates", VIOLET, Change::Relative),
 ];
 
-/// The thesis' future work: neither, nor the canonical frame that the others have; neither; each alone; both.
+/// The thesis' future work: neither, nor the relative coordinates that the others have; neither; each alone; both.
 const FUTURE_WORK: [Reading; 5] = [
     changed("the thesis' agent", INK, Change::None),
-    changed("neither", CRIMSON, Change::Canonical),
+    changed("neither", CRIMSON, Change::Relative),
     changed("hindsight", AZURE, Change::Lessons { hindsight: 1.0, demonstrations: 0.0 }),
     changed("demonstrations", FOREST, Change::Lessons { hindsight: 0.0, demonstrations: 1.0 }),
     changed("both", VIOLET, Change::Lessons { hindsight: 0.5, demonstrations: 0.5 }),
