@@ -1,4 +1,4 @@
-//! What comes next: where the balls may come to rest, and how easy the next point is from there.
+//! The next shot: possible resting positions of the balls, and how easy the next point is from there.
 
 use std::ops::ControlFlow;
 
@@ -14,11 +14,11 @@ use crate::{
     table::{BALLS, Layout},
 };
 
-/// Fewest made attempts that tell how easy the next point is, and as many as tell it to three in a hundred.
+/// Minimum successful attempts for an estimate of the next point, and the number that makes it precise to three percent.
 pub const FEWEST_POINTS: usize = 8;
 pub const MOST_POINTS: usize = 64;
 
-/// Most attempts that are followed, for each that is to make the point: what a beginner plays is made rarely.
+/// Maximum attempts that are simulated per successful one: a beginner makes few.
 const ATTEMPTS_EACH: usize = 12;
 
 /// The probability of the next point after a shot.
@@ -26,19 +26,19 @@ const ATTEMPTS_EACH: usize = 12;
 pub enum NextValue {
     /// An estimate, from where the shot leaves the balls.
     Known(f64),
-    /// Nobody has looked; it counts as this until somebody does.
+    /// A placeholder until the value is estimated.
     Supposed(f64),
 }
 
 impl NextValue {
-    /// What it counts as.
+    /// The value to count with.
     pub const fn value(self) -> f64 {
         match self {
             Self::Known(value) | Self::Supposed(value) => value,
         }
     }
 
-    /// The estimate, where there is one.
+    /// The estimate, if there is one.
     pub const fn known(self) -> Option<f64> {
         match self {
             Self::Known(value) => Some(value),
@@ -47,8 +47,8 @@ impl NextValue {
     }
 }
 
-/// The mean probability of the next point over the layouts that `cue` leaves in the first so many of these attempts that make a point.
-/// `None` where none does, or time ran out.
+/// Mean probability of the next point over the layouts that `cue` leaves, from the first `points` of these attempts
+/// that make the point. `None` if no attempt does, or time ran out.
 pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0);
     for draw in draws.range(0, ATTEMPTS_EACH * points) {
@@ -64,11 +64,11 @@ pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) ->
             made += 1;
         }
     }
-    // The last attempt may have been broken off.
+    // The last attempt may have been aborted.
     (made > 0 && !task.clock.is_past(task.until)).then(|| sum / made as f64)
 }
 
-/// Where an attempt at `cue` leaves the balls if it makes the point.
+/// The layout that an attempt at `cue` leaves if it makes the point.
 pub fn end_of(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> {
     let (stroke, table, layout) = task.stroke(cue, draw);
     if stroke.is_miscue(table) {
@@ -81,7 +81,7 @@ pub fn end_of(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> {
     (task.point().is_made(&whole.tally) && !whole.given_up).then(|| end.layout(table))
 }
 
-/// Watches a shot to its end, or until it takes too long.
+/// Observes a shot to its end, or until it takes too long.
 struct Whole<'a> {
     tally: Tally,
     patience: StepBudget,
@@ -90,7 +90,7 @@ struct Whole<'a> {
 }
 
 impl Observer for Whole<'_> {
-    /// Where a shot ends counts only if it makes the point.
+    /// The final layout counts only if the shot makes the point.
     fn awaited(&self) -> Option<[bool; BALLS - 1]> {
         (!self.tally.met_both()).then(|| self.tally.unmet())
     }

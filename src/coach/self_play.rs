@@ -1,4 +1,4 @@
-//! Innings that the coach plays against nobody: its shots, played with a player's errors, until one misses.
+//! Innings that the coach plays alone: its shots, played with a player's errors until one misses.
 
 use std::{
     sync::atomic::AtomicBool,
@@ -25,25 +25,25 @@ use crate::{
 /// One inning.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Inning {
-    /// Points, one a turn.
+    /// Points, one per turn.
     pub points: u32,
-    /// Whether it ended with a miss; if not, it was broken off.
+    /// Whether it ended with a miss; otherwise it was cut off.
     pub missed: bool,
     /// Shots simulated by the coach.
     pub simulations: u64,
-    /// How long the coach took for all turns.
+    /// Total time that the coach took.
     pub elapsed: Duration,
-    /// The longest that it took for a turn.
+    /// Longest time that the coach took for one turn.
     pub slowest: Duration,
 }
 
-/// Plays from `layout` until a miss, `most` points or the time `until`. The coach gets `request` with another seed every
-/// turn, and the errors of its shots are drawn from `rng`. Where anything is in doubt, the inning is played on a table that is
-/// drawn for it, and the coach is told where the balls lie with the errors of who tells it. `tell` hears of every point and where it
-/// leaves the balls.
+/// Plays from `layout` until a miss, `most` points or the time `until`. The coach gets `request` with another seed
+/// every turn, and the errors of its shots are drawn from `rng`.
+/// If anything is in doubt, the inning is played on a table that is drawn for it, and the coach gets ball positions
+/// with the placing errors of the doubt. Calls `tell` after every point with the layout that it leaves.
 ///
 /// # Errors
-/// Where a layout is impossible: the first one, for those that a shot leaves are possible.
+/// Fails if `layout` is impossible; later layouts come from simulated shots and are possible.
 pub fn inning(
     coach: &Coach,
     layout: &Layout,
@@ -53,7 +53,7 @@ pub fn inning(
     rng: &mut Xoshiro256PlusPlus,
     tell: &mut dyn FnMut(&Inning, &Layout),
 ) -> Result<Inning, LayoutError> {
-    // A perfect player has none.
+    // A perfect player has no doubts.
     let doubt = request.shooter().doubts();
     let mut inning = Inning::default();
     let mut layout = *layout;
@@ -78,7 +78,7 @@ pub fn inning(
     Ok(inning)
 }
 
-/// Plays one stroke with a player's errors in the real world: where the balls come to rest if it makes the point, else `None`.
+/// Plays one stroke with a player's errors in the real world. Returns the layout at rest if it makes the point, else `None`.
 fn turn(
     table: &Table,
     layout: &Layout,
@@ -87,7 +87,7 @@ fn turn(
     errors: &Errors,
     world: &World,
 ) -> Option<Layout> {
-    // Nothing breaks a stroke off that has been made.
+    // The simulation of the real stroke has no limits.
     let shooter = Shooter { skill: request.skill, doubt: Doubt::NONE };
     unhurried(table, layout, request.rule, shooter, ENDLESS, &AtomicBool::new(false), |task| {
         end_of(task, cue, Draw { errors, world: Some(world) })

@@ -1,4 +1,4 @@
-//! The result of a stroke, and how it differs from the model shot, in words a player uses.
+//! The result of a stroke, and its difference from the model shot, in players' words.
 
 use super::{Played, difference};
 use crate::{
@@ -7,13 +7,13 @@ use crate::{
     table::{CueBall, Table},
 };
 
-/// Differences too small to see or to play: degrees of aim, mm of the tip, degrees of the cue, m/s.
+/// Minimum differences that are reported: aim in degrees, tip in mm, elevation in degrees, speed in m/s.
 const SEEN: (f64, f64, f64, f64) = (0.05, 0.5, 1.0, 0.1);
-/// Degrees of aim beyond which it is another shot altogether.
+/// Difference in aim, degrees, beyond which it counts as a different shot.
 const ANOTHER_SHOT: f64 = 12.0;
 
 impl Played {
-    /// Whether it made the point, and what was missing if it did not, for who plays with `cue_ball`.
+    /// Whether it made the point, and what was missing otherwise, for a player with `cue_ball`.
     pub fn words(&self, cue_ball: CueBall, unit: LengthUnit) -> String {
         if self.miscue {
             return "No point: the tip slipped off the ball".to_owned();
@@ -22,15 +22,15 @@ impl Played {
     }
 }
 
-/// What a player has to change to get from the stroke `from` to `to`, the most telling first; nothing where nobody could tell them
-/// apart.
+/// The changes that a player must make to get from the stroke `from` to `to`, the most important first; empty if the
+/// difference is too small to notice.
 pub fn changes(table: &Table, from: &CueInputs, to: &CueInputs, units: Units) -> Vec<String> {
     let by = difference(to, from);
     let turn = by.phi.to_degrees();
     if turn.abs() > ANOTHER_SHOT {
         return vec!["another shot: aimed elsewhere".to_owned()];
     }
-    // A number that rounds to the smallest that counts does count.
+    // Includes a number that rounds to the minimum.
     let is_seen = |by: f64, least: f64| by.abs() > 0.999 * least;
     let told = |by: f64, least: f64, decimals: usize, symbol: &str, [more, less]: [&str; 2]| {
         let way = if by > 0.0 { more } else { less };

@@ -1,11 +1,11 @@
-//! Strokes that are said, and read.
+//! Tests of parsing strokes in words.
 
 use super::*;
 use proptest::prelude::*;
 
 use crate::{simulation::Rail, table::Table};
 
-/// The cue ball between the others' ways: yellow lies ahead of it to the left, red to the right.
+/// The cue ball's path lies between the others: yellow ahead of it to the left, red to the right.
 fn layout(table: &Table) -> Layout {
     Layout::parse("2d,2d 6d,3d 6d,1d", table).unwrap()
 }
@@ -120,7 +120,7 @@ fn what_cannot_be_read_or_played_is_named() {
     assert_eq!(error, SpokenError::NotMet("red"));
 }
 
-/// Words of strokes, and what is none.
+/// Words of stroke texts, and some that are invalid.
 const WORDS: [&str; 40] = [
     "red",
     "yellow",

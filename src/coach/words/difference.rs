@@ -1,9 +1,10 @@
-//! How one stroke differs from another, as a player would say it.
+//! The difference between two strokes, as a player would describe it.
 
 use super::{Hit, ShotWords, TIP, TipUnit, Units, lengths_words, numbers, short};
 use crate::table::CueBall;
 
-/// Parts of a ball below which a difference of fullness is not told, is a hair, and is a little; from there on eighths are told.
+/// Differences of fullness, as shares of a ball: below the first they are not reported, below the second they are "a
+/// hair", and below the third "a little". Larger ones are reported in eighths.
 const UNTOLD: f64 = 0.008;
 const HAIR: f64 = 1.0 / 32.0;
 const LITTLE: f64 = 3.0 / 32.0;
@@ -19,15 +20,16 @@ const EIGHTHS: [&str; 9] = [
     "a whole ball",
 ];
 
-/// Least differences that are told of the tip's place, tips, of the table lengths, of the cue's elevation and of the aim, degrees.
+/// Minimum differences that are reported: of the tip position in tips, of the table lengths, and of the elevation and
+/// the aim in degrees.
 const TIPS: f64 = 0.02;
 const LENGTHS: f64 = 0.05;
 const ELEVATION: f64 = 0.5;
 const AIM: f64 = 0.005;
 
 impl ShotWords {
-    /// How this shot differs from `other`, a part each; none where nobody could tell. Where it `misses` and the other does not, how
-    /// thick it is is told as what is wrong with it.
+    /// Describes how this shot differs from `other`, one part per difference; empty if nobody could notice a
+    /// difference. If it `misses` and the other does not, its thickness is described as a fault.
     pub fn differences(&self, other: &Self, misses: bool, cue_ball: CueBall, units: Units) -> Vec<String> {
         let mut parts = self.contact_difference(other, misses, cue_ball);
         if parts.is_empty() {
@@ -55,7 +57,7 @@ impl ShotWords {
         parts
     }
 
-    /// What it meets otherwise, or how much more of the same ball.
+    /// The difference in the first contact, or in the fullness of the same contact.
     fn contact_difference(&self, other: &Self, misses: bool, cue_ball: CueBall) -> Vec<String> {
         let names = cue_ball.names();
         let (Some(hit), Some(others)) = (self.first, other.first) else {
@@ -73,7 +75,7 @@ impl ShotWords {
         if hit.ball != others.ball {
             return vec![format!("meets {} first", names[hit.ball])];
         }
-        // What is hit full has no side.
+        // A full hit has no side.
         let has_side = |hit: Hit| !numbers::fullness_words(hit.fullness).1;
         if hit.left != others.left && has_side(hit) && has_side(others) {
             return vec![format!("{} on its {} side", names[hit.ball], if hit.left { "left" } else { "right" })];
@@ -94,7 +96,7 @@ impl ShotWords {
         vec![part]
     }
 
-    /// How much further to one side the cue points.
+    /// How much further to one side the cue is aimed.
     fn aim_difference(&self, other: &Self) -> Option<String> {
         let degrees = other.direction.angle_to(self.direction).to_degrees();
         (degrees.abs() >= AIM).then(|| {
@@ -104,7 +106,7 @@ impl ShotWords {
     }
 }
 
-/// How far the tip is from another place, one way.
+/// The size of a change of the tip position along one axis.
 fn tip_amount(tips: f64, radius: f64, unit: TipUnit) -> Option<String> {
     if tips.abs() < TIPS {
         return None;
@@ -122,10 +124,11 @@ fn tip_amount(tips: f64, radius: f64, unit: TipUnit) -> Option<String> {
     })
 }
 
-/// Side that goes from one place to another, positive to the first of the two `names`: more of one, or less of the other.
+/// The direction of a change of side from one value to another; positive values are side of the first of the two names.
+/// It is more of one side, or less of the other.
 fn way(from: f64, to: f64, [more, less]: [&str; 2]) -> String {
     let (towards, away) = if to > from { (more, less) } else { (less, more) };
-    // What was the other side's, and still is not this one's, is less of that.
+    // A reduction that does not cross to the other side is less of the old side.
     let is_less = from.abs() > TIPS && (to * from > 0.0 || to.abs() < TIPS) && to.abs() < from.abs();
     if is_less { format!("less {away}") } else { format!("more {towards}") }
 }
@@ -138,7 +141,7 @@ mod tests {
         table::{Layout, Table},
     };
 
-    /// Red lies half a ball beside the way along x.
+    /// Red lies half a ball beside the path along x.
     const HALF: &str = "-0.7,0 0.9,0.5 0,-0.03075";
 
     fn of(cue: &str) -> ShotWords {

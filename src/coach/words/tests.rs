@@ -1,4 +1,4 @@
-//! The sentence of known shots.
+//! Tests of the sentences for known shots.
 
 use super::*;
 use crate::{

@@ -1,10 +1,10 @@
-//! Numbers and texts one after the other in bytes.
+//! Binary serialization of numbers and texts.
 
-/// The bytes end too early, or a text is not UTF-8.
+/// Error: the bytes end too early, or a text is not UTF-8.
 #[derive(Debug)]
 pub struct Cut;
 
-/// Puts them together.
+/// Writes values into bytes.
 #[derive(Debug, Default)]
 pub struct Writer {
     bytes: Vec<u8>,
@@ -19,12 +19,12 @@ impl Writer {
         self.bytes.extend(bytes);
     }
 
-    /// A number that needs at most 24 bits with its sign.
+    /// Writes a signed number of at most 24 bits.
     pub fn number(&mut self, number: i32) {
         self.bytes(&number.to_be_bytes()[1..]);
     }
 
-    /// A text of at most 255 bytes with its length before it; of a longer one, that is not the length.
+    /// Writes the length and the bytes of a text of at most 255 bytes. For a longer text the length is wrong.
     pub fn text(&mut self, text: &str) {
         self.byte(text.len() as u8);
         self.bytes(text.as_bytes());
@@ -35,7 +35,7 @@ impl Writer {
     }
 }
 
-/// Takes them apart.
+/// Reads values from bytes.
 #[derive(Debug)]
 pub struct Reader<'a> {
     rest: &'a [u8],
@@ -57,7 +57,7 @@ impl<'a> Reader<'a> {
     }
 
     pub fn number(&mut self) -> Result<i32, Cut> {
-        // The shift back copies the sign.
+        // The arithmetic shift restores the sign.
         self.chunk().map(|[high, middle, low]| i32::from_be_bytes([high, middle, low, 0]) >> 8)
     }
 
