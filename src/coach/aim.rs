@@ -19,7 +19,7 @@ pub struct RailPoint {
 }
 
 impl RailPoint {
-    /// The point of a cushion's nose nearest to `place`, m.
+    /// Returns the point of a cushion's nose nearest to `place`, m.
     pub fn on(table: &Table, rail: Rail, place: DVec2) -> Self {
         let along = match rail {
             Rail::Left | Rail::Right => place.y + 0.5 * table.width,
@@ -28,7 +28,7 @@ impl RailPoint {
         Self { rail, diamond: along / table.diamond() }
     }
 
-    /// Its position on the table, m.
+    /// Returns its position on the table, m.
     pub fn place(self, table: &Table) -> DVec2 {
         let half = 0.5 * DVec2::new(table.length, table.width);
         let along = self.diamond * table.diamond();
@@ -59,7 +59,7 @@ impl Hit {
     /// From this fullness on the hit is displayed as 100 %.
     const HEAD_ON: f64 = 0.995;
 
-    /// The half of the object ball that is hit, seen along the cue ball's path; `None` for a head-on hit.
+    /// Returns the half of the object ball that is hit, seen along the cue ball's path; `None` for a head-on hit.
     pub fn side(&self) -> Option<&'static str> {
         let side = if self.left { "left" } else { "right" };
         (self.fullness < Self::HEAD_ON).then_some(side)
@@ -96,13 +96,13 @@ pub fn aim(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Aim, ShotE
     Ok(Aim { ahead, behind, hit: first_hit(table, &recording) })
 }
 
-/// Where the line of aim in direction `phi`, rad, meets the cushions: ahead of the cue ball and behind it.
+/// Returns where the line of aim in direction `phi`, rad, meets the cushions: ahead of the cue ball and behind it.
 pub fn line_of_aim(table: &Table, layout: &Layout, phi: f64) -> [RailPoint; 2] {
     let [from, direction] = [layout.balls[0], DVec2::from_angle(phi)];
     [rail_point(table, from, direction), rail_point(table, from, -direction)]
 }
 
-/// Where a ray from a position on the table meets the noses of the cushions.
+/// Returns where a ray from a position on the table meets the noses of the cushions.
 fn rail_point(table: &Table, from: DVec2, direction: DVec2) -> RailPoint {
     let half = 0.5 * DVec2::new(table.length, table.width);
     let distance = |rail: Rail| {
@@ -115,12 +115,12 @@ fn rail_point(table: &Table, from: DVec2, direction: DVec2) -> RailPoint {
     RailPoint::on(table, rail, from + distance(rail) * direction)
 }
 
-/// The cue ball's hit on the first object ball of a recorded shot; `None` if it hits none.
+/// Returns the cue ball's hit on the first object ball of a recorded shot; `None` if it hits none.
 pub fn first_hit(table: &Table, recording: &Recording) -> Option<Hit> {
     hit(table, recording, |_| true)
 }
 
-/// The cue ball's first hit on one of the object balls that are `wanted`; `None` if it hits none of them.
+/// Returns the cue ball's first hit on one of the object balls that are `wanted`; `None` if it hits none of them.
 pub fn hit(table: &Table, recording: &Recording, wanted: impl Fn(usize) -> bool) -> Option<Hit> {
     let (time, ball) = recording.events().iter().find_map(|event| match event.kind {
         EventKind::BallBall(0, ball) if wanted(ball) => Some((event.time, ball)),

@@ -41,7 +41,7 @@ const USUAL_LOG_SPEED_AT_THREE_CUSHIONS: [f64; 2] = [0.95, 0.42];
 /// Lowest tip position of a usual stroke, in R: one in thirty of those shots is struck lower.
 const LOWEST_USUAL: f64 = -0.1;
 
-/// A random variation of the policy's shot when that misses (thesis 5.1): the same direction and speed, another tip
+/// Draws a random variation of the policy's shot when that misses (thesis 5.1): the same direction and speed, another tip
 /// position and elevation.
 pub fn variation(table: &Table, cue: &CueInputs, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let (a, b) = random_tip(table, rng);
@@ -49,7 +49,7 @@ pub fn variation(table: &Table, cue: &CueInputs, rng: &mut Xoshiro256PlusPlus) -
     CueInputs { a, b, theta: rng.random_range(0.0..MAX_ELEVATION), phi, ..*cue }
 }
 
-/// Any shot: half of them aim at one of the object balls, thick or thin, the others in any direction.
+/// Draws any shot: half of them aim at one of the object balls, thick or thin, the others in any direction.
 pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let [cue_ball, first, second] = layout.balls;
     let phi = if rng.random() {
@@ -111,19 +111,19 @@ pub fn stratified(
     CueInputs { a, b, theta: 0.0, phi: phi - squirt(table, a), speed }
 }
 
-/// Offset of a usual stroke's line of aim from the object ball's centre, in diameters, positive to the left.
+/// Draws the offset of a usual stroke's line of aim from the object ball's centre, in diameters, positive to the left.
 fn usual_offset(rng: &mut Xoshiro256PlusPlus) -> f64 {
     let offset = usual(USUAL_OFFSET, rng);
     if rng.random() { offset } else { -offset }
 }
 
-/// Tip position of a usual stroke. A position that is too low is mirrored to above the centre.
+/// Draws the tip position of a usual stroke. A position that is too low is mirrored to above the centre.
 fn usual_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
     let (a, b) = random_tip(table, rng);
     (a, if b < LOWEST_USUAL { -b } else { b })
 }
 
-/// The speed of a usual stroke, m/s.
+/// Draws the speed of a usual stroke, m/s.
 fn usual_speed(rule: Rule, rng: &mut Xoshiro256PlusPlus) -> f64 {
     let log_speed = match rule {
         Rule::ThreeCushion => USUAL_LOG_SPEED_AT_THREE_CUSHIONS,
@@ -132,12 +132,13 @@ fn usual_speed(rule: Rule, rng: &mut Xoshiro256PlusPlus) -> f64 {
     usual(log_speed, rng).exp()
 }
 
-/// A normally distributed number with this mean and standard deviation.
+/// Draws a normally distributed number with this mean and standard deviation.
 fn usual([mean, deviation]: [f64; 2], rng: &mut Xoshiro256PlusPlus) -> f64 {
     mean + deviation * normal(rng)
 }
 
-/// The stroke that results from `cue` played by this skill with these errors, kept within the limits of recommended strokes.
+/// Returns the stroke that results from `cue` played by this skill with these errors, kept within the limits of
+/// recommended strokes.
 pub fn towards(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) -> CueInputs {
     let stroke = skill.stroke(table.radius, cue, errors);
     let theta = stroke.theta.clamp(0.0, steepest(cue));
@@ -151,12 +152,13 @@ pub fn towards(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) ->
     }
 }
 
-/// Steepest cue allowed for a stroke derived from `cue`: a jump or massé may stay one, and no other stroke may become one.
+/// Returns the steepest cue allowed for a stroke derived from `cue`: a jump or massé may stay one, and no other stroke
+/// may become one.
 pub fn steepest(cue: &CueInputs) -> f64 {
     if cue.theta > MAX_ELEVATION { STEEPEST } else { MAX_ELEVATION }
 }
 
-/// The stroke as a player can play it in this layout: the cue is raised if a rail or a ball is in its way. `None` if
+/// Returns the stroke as a player can play it in this layout: the cue is raised if a rail or a ball is in its way. `None` if
 /// that needs more than 30°, the limit of usual strokes, or no elevation helps. A jump or massé cue may be raised
 /// further.
 #[inline]
@@ -167,22 +169,22 @@ pub fn playable(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<CueIn
     with_room(table, layout, cue).ok().filter(|raised| raised.theta <= steepest(cue))
 }
 
-/// A random direction in which a straight-running ball hits `target`, uniform in thickness.
+/// Draws a random direction in which a straight-running ball hits `target`, uniform in thickness.
 fn at(table: &Table, cue_ball: DVec2, target: DVec2, rng: &mut Xoshiro256PlusPlus) -> f64 {
     let apart = target - cue_ball;
     let widest = (2.0 * table.radius / apart.length()).min(1.0).asin();
     apart.to_angle() + rng.random_range(-widest..=widest)
 }
 
-/// Direction in which a straight-running ball passes the centre of `target` by `offset` diameters to the left. It just
-/// touches the ball if that is more than one.
+/// Returns the direction in which a straight-running ball passes the centre of `target` by `offset` diameters to the
+/// left. It just touches the ball if that is more than one.
 fn beside(table: &Table, cue_ball: DVec2, target: DVec2, offset: f64) -> f64 {
     let apart = target - cue_ball;
     let share = 2.0 * table.radius * offset.clamp(-1.0, 1.0) / apart.length();
     apart.to_angle() + share.clamp(-1.0, 1.0).asin()
 }
 
-/// A random point of the tip's disc, uniform in area.
+/// Draws a random point of the tip's disc, uniform in area.
 fn random_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
     let radius = TIP_SHARE * (table.miscue_limit * rng.random::<f64>()).sqrt();
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();

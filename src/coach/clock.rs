@@ -23,7 +23,7 @@ impl<'a> Clock<'a> {
         Self { start: Instant::now(), budget, most_simulations, cancel, simulations: AtomicU64::new(0) }
     }
 
-    /// The instant at which this share of the time is used up.
+    /// Returns the instant at which this share of the time is used up.
     pub fn moment(&self, share: f64) -> Instant {
         self.start + self.budget.mul_f64(share)
     }
@@ -39,8 +39,8 @@ impl<'a> Clock<'a> {
         self.cancel.load(Ordering::Relaxed)
     }
 
-    /// The used share of the time or of the simulations, whichever is larger; infinite if cancelled. Between rounds of
-    /// a search, the simulations are those of whole rounds on any number of threads. If they limit the search, its
+    /// Returns the used share of the time or of the simulations, whichever is larger; infinite if cancelled. Between
+    /// rounds of a search, the simulations are those of whole rounds on any number of threads. If they limit the search, its
     /// course is therefore reproducible.
     pub fn used(&self) -> f64 {
         if self.is_cancelled() {
@@ -55,17 +55,17 @@ impl<'a> Clock<'a> {
         self.simulations.fetch_add(simulations, Ordering::Relaxed);
     }
 
-    /// Shots simulated so far.
+    /// Returns the shots simulated so far.
     pub fn simulations(&self) -> u64 {
         self.simulations.load(Ordering::Relaxed)
     }
 
-    /// Estimated number of simulations left until this share of the budget is used, at the rate so far.
+    /// Returns the estimated number of simulations left until this share of the budget is used, at the rate so far.
     pub fn simulations_until(&self, share: f64) -> f64 {
         (self.simulations() as f64 * (share / self.used() - 1.0)).max(0.0)
     }
 
-    /// Time since the start.
+    /// Returns the time since the start.
     pub fn elapsed(&self) -> Duration {
         self.start.elapsed()
     }

@@ -99,12 +99,12 @@ impl Coach {
         }
     }
 
-    /// The table of this coach.
+    /// Returns the table of this coach.
     pub const fn table(&self) -> &Table {
         &self.table
     }
 
-    /// The policy's own shot under `rule` for a player of this skill, unchecked; `None` if there is no policy.
+    /// Returns the policy's own shot under `rule` for a player of this skill, unchecked; `None` if there is no policy.
     pub fn policy_shot(&self, layout: &Layout, rule: Rule, skill: &Skill) -> Option<CueInputs> {
         self.policy(rule, skill).map(|policy| policy.propose(&self.table, layout, skill))
     }
@@ -166,7 +166,7 @@ impl Coach {
     }
 }
 
-/// The answer for a player who makes errors. Judges the first shot of the (non-empty) pool and the first shots of the
+/// Returns the answer for a player who makes errors. Judges the first shot of the (non-empty) pool and the first shots of the
 /// other kinds by errors that took no part in the choice.
 /// A search with few attempts may choose wrongly: if another shot seems to be made more often, both are judged by as
 /// many attempts, and the better one is the answer.
@@ -244,8 +244,8 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     }
 }
 
-/// Indices of the shots that are made more often than the first one, less their effort penalties, best first. If the
-/// first one is a former answer, another shot must be better by [`WORTH_A_CHANGE`].
+/// Returns the indices of the shots that are made more often than the first one, less their effort penalties, best
+/// first. If the first one is a former answer, another shot must be better by [`WORTH_A_CHANGE`].
 fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usize> {
     let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
     let was_advised = pool.first().is_some_and(|first| first.shot.source == Source::Former);
@@ -256,7 +256,7 @@ fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usi
     better
 }
 
-/// How often each cause alone misses a shot; `None` if nothing is in doubt, or time runs out.
+/// Estimates how often each cause alone misses a shot; `None` if nothing is in doubt, or time runs out.
 fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Risk> {
     if task.worlds.is_certain() || task.clock.is_past(task.until) {
         return None;
@@ -297,7 +297,7 @@ fn keep_one_of_each(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
     *pool = kept;
 }
 
-/// The answer for a perfect player, or if the search found no shot.
+/// Returns the answer for a perfect player, or for a search without a result.
 fn first_point(found: &Found) -> Recommendation {
     let mut seen = Vec::new();
     let others = found.solutions.iter().map(|(shot, tally)| (shot, Kind::of(tally, &shot.cue)));
@@ -345,8 +345,8 @@ fn improvement(leader: &Candidate, clock: &Clock) -> Improvement {
     }
 }
 
-/// Share of `attempts` at `cue` that make a point, with its confidence interval: a plain Monte Carlo estimate. The same
-/// seed draws the same attempts for every shot. A perfect player has no doubts.
+/// Estimates the share of `attempts` at `cue` that make a point, with its confidence interval: a plain Monte Carlo
+/// estimate. The same seed draws the same attempts for every shot. A perfect player has no doubts.
 pub fn make_probability(
     shooter: impl Into<Shooter>,
     rule: Rule,
@@ -362,8 +362,8 @@ pub fn make_probability(
     })
 }
 
-/// How often a stroke is made in these `attempts` (widened to whole pieces of 25), with the errors by which the answer
-/// to a request with `seed` is judged.
+/// Estimates how often a stroke is made in these `attempts` (widened to whole pieces of 25), with the errors by which
+/// the answer to a request with `seed` is judged.
 /// The result equals the make probability in the answer, if there was time for all of its attempts, for the range that
 /// the answer used: from [`Recommendation::judged_from`] for the recommended stroke, and from 0 for an alternative.
 pub fn judge(
@@ -383,7 +383,7 @@ pub fn judge(
     })
 }
 
-/// One piece of the errors by which the answer to a request with `seed` is judged. Its random stream differs from that
+/// Draws one piece of the errors by which the answer to a request with `seed` is judged. Its random stream differs from that
 /// of the search.
 fn judging(worlds: &Worlds, seed: u64, piece: usize) -> Draws {
     Draws::independent(PIECE, worlds, judging_seed(seed).wrapping_add(piece as u64))

@@ -30,7 +30,7 @@ pub enum ErrorSize {
 }
 
 impl ErrorSize {
-    /// Multiple of the player's own errors.
+    /// Returns the multiple of the player's own errors.
     pub const fn factor(self) -> f64 {
         match self {
             Self::Own => 1.0,
@@ -75,19 +75,19 @@ impl Draws {
         Self { errors: errors::independent(count, seed), worlds }
     }
 
-    /// The attempts in this range, as far as they exist.
+    /// Returns the attempts in this range, as far as they exist.
     pub fn range(&self, from: usize, to: usize) -> impl Iterator<Item = Draw<'_>> + Clone {
         let to = to.min(self.errors.len());
         let world = |index: usize| self.worlds.get(index % self.worlds.len().max(1));
         (from.min(to)..to).map(move |index| Draw { errors: &self.errors[index], world: world(index) })
     }
 
-    /// All attempts.
+    /// Returns all attempts.
     pub fn iter(&self) -> impl Iterator<Item = Draw<'_>> + Clone {
         self.range(0, self.len())
     }
 
-    /// Number of attempts.
+    /// Returns the number of attempts.
     pub const fn len(&self) -> usize {
         self.errors.len()
     }
@@ -121,7 +121,7 @@ impl QuasiRandomDraws {
         }
     }
 
-    /// The attempts drawn so far.
+    /// Returns the attempts drawn so far.
     pub const fn drawn(&self) -> &Draws {
         &self.drawn
     }
@@ -137,7 +137,7 @@ pub struct Worlds {
 }
 
 impl Worlds {
-    /// A distribution around `table` and `layout`.
+    /// Creates a distribution around `table` and `layout`.
     pub fn new(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
         Self::known_as(&|| TableDoubt::of(table), table, layout, doubt)
     }

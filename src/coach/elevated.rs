@@ -109,8 +109,8 @@ fn masse(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option
     Some(CueInputs { phi: (phi + PI).rem_euclid(TAU) - PI, ..cue })
 }
 
-/// Direction of the cue ball from its start when it reaches `distance`, rad; `None` if it does not reach it. Hops are
-/// neglected: their friction impulses add up to the same, only less evenly.
+/// Returns the direction of the cue ball from its start when it reaches `distance`, rad; `None` if it does not reach
+/// it. Hops are neglected: their friction impulses add up to the same, only less evenly.
 fn passes(table: &Table, cue: &CueInputs, distance: f64) -> Option<f64> {
     let impulse = strike(table, cue);
     let friction = table.sliding_friction * table.gravity;
@@ -136,7 +136,7 @@ fn across(table: &Table, theta: f64, share: f64, rng: &mut Xoshiro256PlusPlus) -
     on_ball(theta, radius * cos, radius * sin)
 }
 
-/// The tip position of a cue raised by `theta` whose line passes the ball's centre by `a` to the left and `lever`
+/// Returns the tip position of a cue raised by `theta` whose line passes the ball's centre by `a` to the left and `lever`
 /// above, in units of R.
 fn on_ball(theta: f64, a: f64, lever: f64) -> (f64, f64) {
     let ring = (1.0 - a * a).sqrt();

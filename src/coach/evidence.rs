@@ -36,7 +36,7 @@ pub struct Distribution {
 }
 
 impl Distribution {
-    /// The distribution of `cue` for a player with this skill and balls of `radius` m.
+    /// Creates the distribution of `cue` for a player with this skill and balls of `radius` m.
     pub fn new(skill: &Skill, radius: f64, cue: &CueInputs) -> Self {
         let Skill { a, b, theta, phi, speed, .. } = skill.at(cue);
         let deviations = [a / radius, b / radius, theta, phi, speed];
@@ -47,12 +47,12 @@ impl Distribution {
         Self { cue: *cue, at: [cue.a, cue.b, cue.theta, cue.phi, cue.speed], deviations, inverse_deviations, height }
     }
 
-    /// The stroke that results with these errors.
+    /// Returns the stroke that results with these errors.
     fn outcome(&self, errors: &Errors) -> Place {
         std::array::from_fn(|input| self.at[input] + self.deviations[input] * errors[input])
     }
 
-    /// Difference of an outcome or another stroke from this one, in standard errors.
+    /// Returns the difference of an outcome or another stroke from this one, in standard errors.
     fn errors_to(&self, place: &Place) -> Errors {
         let mut errors: Errors = std::array::from_fn(|input| place[input] - self.at[input]);
         // Directions wrap around: half a turn to the left equals half a turn to the right.
@@ -60,12 +60,13 @@ impl Distribution {
         std::array::from_fn(|input| errors[input] * self.inverse_deviations[input])
     }
 
-    /// Distance to another intended stroke, in standard errors.
+    /// Returns the distance to another intended stroke, in standard errors.
     pub fn distance(&self, other: &Self) -> f64 {
         squared(&self.errors_to(&other.at)).sqrt()
     }
 
-    /// Density of an outcome under the player's errors and under the larger ones, up to a factor that all strokes share.
+    /// Returns the density of an outcome under the player's errors and under the larger ones, up to a factor that all
+    /// strokes share.
     #[inline]
     fn densities(&self, outcome: &Place) -> [f64; 2] {
         // The variance of the larger errors is three times that of the player's own.
@@ -99,7 +100,7 @@ impl Rate {
         if sum > 0.0 { Self { share: made / sum, attempts: sum * sum / squares } } else { Self::default() }
     }
 
-    /// The equivalent counted rate, with its confidence interval.
+    /// Returns the equivalent counted rate, with its confidence interval.
     pub fn as_counted(self) -> SuccessRate {
         let tried = self.attempts.round();
         SuccessRate::new((self.share * tried).round() as usize, tried as usize)
@@ -148,7 +149,7 @@ impl Evidence {
         }
     }
 
-    /// Make rate of a stroke under the player's errors, and under the larger ones.
+    /// Estimates the make rate of a stroke under the player's errors, and under the larger ones.
     pub fn rates(&self, stroke: &Distribution) -> [Rate; 2] {
         let weights: Vec<([f64; 2], bool)> = self
             .samples
@@ -158,7 +159,7 @@ impl Evidence {
         [0, 1].map(|size| Rate::of(weights.iter().map(|(weights, made)| (weights[size], *made))))
     }
 
-    /// The errors that would turn `stroke` into a stroke that is made more often. Takes steps of expectation
+    /// Returns the errors that would turn `stroke` into a stroke that is made more often. Takes steps of expectation
     /// maximization (Dayan and Hinton 1997) to the mean of the successful outcomes, without further attempts.
     fn climb(&self, stroke: &Distribution) -> Errors {
         let mut errors = [0.0; 5];
@@ -184,7 +185,7 @@ impl Evidence {
         errors
     }
 
-    /// Improved strokes, best first, as far as they can be recommended: the estimated optimum, the point half-way to
+    /// Returns improved strokes, best first, as far as they can be recommended: the estimated optimum, the point half-way to
     /// it, and the successful outcome nearest to it. The last one is needed because the mean of successful outcomes
     /// need not make the point.
     pub fn ways_up(&self, table: &Table, skill: Skill, stroke: &Distribution) -> [CueInputs; 3] {

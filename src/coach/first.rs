@@ -94,7 +94,7 @@ impl<'a> FirstShotSearch<'a> {
         Found { solutions: self.solutions, attempt }
     }
 
-    /// A plain stroke at the first ball. If the cue has no room for it, the nearest direction with the lowest tip
+    /// Returns a plain stroke at the first ball. If the cue has no room for it, the nearest direction with the lowest tip
     /// position that has room.
     fn plain(&self) -> CueInputs {
         let Layout { balls: [cue_ball, first, _] } = self.task.layout;

@@ -37,7 +37,7 @@ impl FirstMet {
     /// All variants.
     pub const ALL: [Self; 4] = [Self::Any, Self::OtherCueBall, Self::Red, Self::Cushion];
 
-    /// The name of this choice, given the names of the balls, cue ball first.
+    /// Returns the name of this choice, given the names of the balls, cue ball first.
     pub const fn word(self, [_, other, red]: [&'static str; BALLS]) -> &'static str {
         match self {
             Self::Any => "any",
@@ -47,7 +47,7 @@ impl FirstMet {
         }
     }
 
-    /// Suffix that describes how a shot begins; empty for [`Any`](Self::Any).
+    /// Returns the suffix that describes how a shot begins; empty for [`Any`](Self::Any).
     pub fn begins(self, names: [&'static str; BALLS]) -> String {
         if self == Self::Any { String::new() } else { format!(" with {} first", self.word(names)) }
     }

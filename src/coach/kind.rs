@@ -60,7 +60,7 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// The kind of a shot with this tally.
+    /// Returns the kind of a shot with this tally.
     pub fn of(tally: &Tally, cue: &CueInputs) -> Self {
         let way = match tally.cushions_before_second {
             0 => Way::Direct,
@@ -89,7 +89,7 @@ impl fmt::Display for Way {
 }
 
 impl Pace {
-    /// In words, with speeds in the system of `unit`.
+    /// Describes the pace, with speeds in the system of `unit`.
     pub fn words(self, unit: LengthUnit) -> String {
         let (in_it, symbol) = unit.speed();
         let speed = short(in_it * HARD, 1);
@@ -107,7 +107,7 @@ impl fmt::Display for Pace {
 }
 
 impl Kind {
-    /// In words, for a player with the white ball, with speeds in the system of `unit`.
+    /// Describes the kind for a player with the white ball, with speeds in the system of `unit`.
     pub fn words(self, unit: LengthUnit) -> String {
         let Self { first_ball, cushion_first, way, pace, raised } = self;
         let pace = pace.words(unit) + if raised { ", raised" } else { "" };

@@ -2,13 +2,13 @@
 
 use crate::table::Layout;
 
-/// The seed for the layout with this number.
+/// Returns the seed for the layout with this number.
 pub const fn layout_seed(seed: u64, number: u32) -> u64 {
     seed ^ ((number as u64) << 32)
 }
 
-/// A number that identifies a layout: the Fowler–Noll–Vo hash (FNV-1a) of the ball positions. Equal layouts have equal
-/// numbers.
+/// Returns a number that identifies a layout: the Fowler–Noll–Vo hash (FNV-1a) of the ball positions. Equal layouts
+/// have equal numbers.
 pub fn layout_number(layout: &Layout) -> u32 {
     // Maps -0 to +0.
     let places = layout.balls.iter().flat_map(|place| [place.x + 0.0, place.y + 0.0]);

@@ -32,8 +32,8 @@ pub struct Margin {
 }
 
 impl Input {
-    /// Conversion to the unit in which this input is displayed if distances are in `unit`: the factor from the input's
-    /// own unit, and the symbol.
+    /// Returns the conversion to the unit in which this input is displayed if distances are in `unit`: the factor from
+    /// the input's own unit, and the symbol.
     pub const fn told_in(self, unit: LengthUnit) -> (f64, &'static str) {
         match self {
             Self::Side | Self::Height => {
@@ -105,7 +105,7 @@ impl<'a> Sensitivity<'a> {
         Self { point: Point::of(rule, table, layout), table, layout, worlds }
     }
 
-    /// The margins of a shot that makes the point, in the order of [`Input::ALL`]. The scan can overlook a miss between
+    /// Finds the margins of a shot that makes the point, in the order of [`Input::ALL`]. The scan can overlook a miss between
     /// two of its steps; the end of a margin is found to a thousandth of a step.
     /// With a doubt, a margin ends where the point is made in less than half of the worlds in which the intended stroke
     /// makes it. `None` if the intended stroke makes it in none.
@@ -114,7 +114,7 @@ impl<'a> Sensitivity<'a> {
         parallel::map(platform::threads(), &Input::ALL, |input| self.around(*input, cue, least)).try_into().ok()
     }
 
-    /// The margin of a single input.
+    /// Returns the margin of a single input.
     pub fn margin(&self, input: Input, cue: &CueInputs) -> Option<Margin> {
         Some(self.around(input, cue, self.least(cue)?))
     }
@@ -131,14 +131,15 @@ impl<'a> Sensitivity<'a> {
         Margin { input, unit: input.unit(), less: side(-1.0), more: side(1.0) }
     }
 
-    /// If the shifted cue is too low for the rail or the balls, it is raised, as a player would do, unless the
+    /// Raises the cue if the shifted stroke is too low for the rail or the balls, as a player would do, unless the
     /// elevation itself is the shifted input.
     fn raised(&self, cue: &CueInputs, off: &[Input]) -> CueInputs {
         let raised = if off.contains(&Input::Elevation) { None } else { playable(self.table, self.layout, cue) };
         raised.unwrap_or(*cue)
     }
 
-    /// Number of worlds in which a variation of `cue` must make the point to count as made; `None` if `cue` makes none.
+    /// Returns the number of worlds in which a variation of `cue` must make the point to count as made; `None` if `cue`
+    /// makes none.
     fn least(&self, cue: &CueInputs) -> Option<usize> {
         let made = self.outcomes(cue).filter(|outcome| *outcome == Outcome::Point).count();
         (made > 0).then(|| made.div_ceil(2))
@@ -149,7 +150,7 @@ impl<'a> Sensitivity<'a> {
         self.outcomes(cue).filter(|outcome| *outcome == Outcome::Point).take(least).count() == least
     }
 
-    /// The outcome of a stroke in each world, or in the assumed one if nothing is in doubt.
+    /// Returns the outcome of a stroke in each world, or in the assumed one if nothing is in doubt.
     fn outcomes(&self, cue: &CueInputs) -> impl Iterator<Item = Outcome> {
         let Self { point, table, layout, worlds } = self;
         let is_stroke = is_stroke(table, layout, cue);
@@ -162,9 +163,9 @@ impl<'a> Sensitivity<'a> {
         known.into_iter().chain(drawn).map(come_of)
     }
 
-    /// The outcomes around `middle`: `cells` columns and rows, an odd number so that the stroke itself is there, up to so many
-    /// units of each input to either side. Where there is a doubt, there is a point where one is within the margins of `cue`,
-    /// and else the outcome of most worlds.
+    /// The outcomes around `middle`: `cells` columns and rows, an odd number so that the stroke itself is there, up to
+    /// so many units of each input to either side. Where there is a doubt, there is a point where one is within the
+    /// margins of `cue`, and else the outcome of most worlds.
     pub fn map(
         &self,
         cue: &CueInputs,
@@ -188,7 +189,7 @@ impl<'a> Sensitivity<'a> {
         Map { across, up, columns, rows, outcomes }
     }
 
-    /// A point if at least `least` worlds make it, else the most frequent other outcome.
+    /// Returns a point if at least `least` worlds make it, else the most frequent other outcome.
     fn usual(&self, cue: &CueInputs, least: usize) -> Outcome {
         let all: Vec<Outcome> = self.outcomes(cue).collect();
         let count = |outcome: Outcome| all.iter().filter(|one| **one == outcome).count();
@@ -201,8 +202,8 @@ impl<'a> Sensitivity<'a> {
 }
 
 impl Input {
-    /// Range and step of the scan for the nearest miss, in the input's unit. A step is at most a fifth of an expert's
-    /// standard error.
+    /// Returns the range and step of the scan for the nearest miss, in the input's unit. A step is at most a fifth of
+    /// an expert's standard error.
     const fn scan(self) -> (f64, f64) {
         match self {
             Self::Side | Self::Height => (15.0, 0.1),
@@ -218,7 +219,7 @@ impl Input {
     }
 }
 
-/// How far an input may go until `makes` fails; `None` if `is_possible` fails first, or the scan ends.
+/// Finds how far an input may go until `makes` fails; `None` if `is_possible` fails first, or the scan ends.
 fn nearest_miss(input: Input, makes: impl Fn(f64) -> bool, is_possible: impl Fn(f64) -> bool) -> Option<f64> {
     const HALVINGS: u32 = 10;
     let (reach, step) = input.scan();
@@ -244,7 +245,7 @@ fn nearest_miss(input: Input, makes: impl Fn(f64) -> bool, is_possible: impl Fn(
     None
 }
 
-/// The outcome of a valid stroke. A shot whose resting contacts take more than 200 steps counts as decided by then.
+/// Returns the outcome of a valid stroke. A shot whose resting contacts take more than 200 steps counts as decided by then.
 fn outcome(point: Point, touching: Touching, table: &Table, layout: &Layout, cue: &CueInputs) -> Outcome {
     let impulse = strike(table, cue);
     if touching.pushed(layout, &impulse).is_some() {

@@ -31,14 +31,14 @@ pub enum NextValue {
 }
 
 impl NextValue {
-    /// The value to count with.
+    /// Returns the value to count with.
     pub const fn value(self) -> f64 {
         match self {
             Self::Known(value) | Self::Supposed(value) => value,
         }
     }
 
-    /// The estimate, if there is one.
+    /// Returns the estimate, if there is one.
     pub const fn known(self) -> Option<f64> {
         match self {
             Self::Known(value) => Some(value),
@@ -47,8 +47,8 @@ impl NextValue {
     }
 }
 
-/// Mean probability of the next point over the layouts that `cue` leaves, from the first `points` of these attempts
-/// that make the point. `None` if no attempt does, or time ran out.
+/// Estimates the mean probability of the next point over the layouts that `cue` leaves, from the first `points` of
+/// these attempts that make the point. `None` if no attempt does, or time ran out.
 pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0);
     for draw in draws.range(0, ATTEMPTS_EACH * points) {
@@ -68,7 +68,7 @@ pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) ->
     (made > 0 && !task.clock.is_past(task.until)).then(|| sum / made as f64)
 }
 
-/// The layout that an attempt at `cue` leaves if it makes the point.
+/// Returns the layout that an attempt at `cue` leaves if it makes the point.
 pub fn end_of(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> {
     let (stroke, table, layout) = task.stroke(cue, draw);
     if stroke.is_miscue(table) {

@@ -55,7 +55,7 @@ impl Race {
         self.larger.extend_to(worlds, blocks);
     }
 
-    /// The errors and the world of one attempt; `None` if they are not drawn yet.
+    /// Returns the errors and the world of one attempt; `None` if they are not drawn yet.
     fn draw(&self, attempt: usize) -> Option<(Draw<'_>, ErrorSize)> {
         let (block, n) = (attempt / BLOCK, attempt % BLOCK);
         let (draws, index, size) = if n < BLOCK - 1 {
@@ -66,7 +66,7 @@ impl Race {
         Some((draws.drawn().range(index, index + 1).next()?, size))
     }
 
-    /// The errors of each attempt in these blocks, as far as they are drawn.
+    /// Returns the errors of each attempt in these blocks, as far as they are drawn.
     pub fn errors(&self, blocks: Range<usize>) -> impl Iterator<Item = (Errors, ErrorSize)> + Clone {
         let attempts = BLOCK * blocks.start..BLOCK * blocks.end;
         attempts.filter_map(|attempt| self.draw(attempt).map(|(draw, size)| (*draw.errors, size)))
@@ -152,14 +152,14 @@ impl Candidate {
         }
     }
 
-    /// The ranking criterion.
+    /// Returns the ranking criterion.
     pub fn score(&self) -> f64 {
         let larger = if self.larger.attempts > 0.0 { self.larger } else { self.own };
         (self.own.share + WORTH_OF_LARGER * larger.share) * self.next.value() - self.effort_penalty
     }
 }
 
-/// How hard a stroke is to play, independent of its errors: its share of the steepest cue plus its share of the hardest
+/// Rates how hard a stroke is to play, independent of its errors: its share of the steepest cue plus its share of the hardest
 /// stroke, plus an extra for speeds beyond the usual.
 fn effort(cue: &CueInputs) -> f64 {
     cue.theta / MAX_ELEVATION + cue.speed / MAX_SPEED + HARDER * (cue.speed - HARDEST_USUAL).max(0.0)

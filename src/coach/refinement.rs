@@ -114,7 +114,7 @@ pub struct Refinement<'a> {
 }
 
 impl Refinement<'_> {
-    /// Number of strokes that enter a refinement with this number of simulations, at most `most`.
+    /// Returns the number of strokes that enter a refinement with this number of simulations, at most `most`.
     pub fn size(simulations: f64, most: usize) -> usize {
         ((simulations / SIMULATIONS_EACH) as usize).clamp(FEWEST, most)
     }

@@ -18,7 +18,7 @@ pub struct Shooter {
 }
 
 impl Shooter {
-    /// The effective doubt: none for a perfect player.
+    /// Returns the effective doubt: none for a perfect player.
     pub fn doubts(&self) -> Doubt {
         if self.skill.is_perfect() { Doubt::NONE } else { self.doubt }
     }
@@ -65,7 +65,7 @@ pub struct Request {
 }
 
 impl Request {
-    /// The player, and what is in doubt.
+    /// Returns the player, and what is in doubt.
     pub const fn shooter(&self) -> Shooter {
         Shooter { skill: self.skill, doubt: self.doubt }
     }

@@ -35,7 +35,7 @@ impl Cause {
     /// All causes.
     pub const ALL: [Self; 3] = [Self::Hand, Self::Table, Self::Placing];
 
-    /// The doubt that remains if this is the only cause, and whether the player makes execution errors.
+    /// Returns the doubt that remains if this is the only cause, and whether the player makes execution errors.
     pub(super) const fn alone(self, doubt: Doubt) -> (Doubt, bool) {
         match self {
             Self::Hand => (Doubt::NONE, true),
@@ -46,7 +46,7 @@ impl Cause {
 }
 
 impl Risk {
-    /// The cause that alone misses the shot most often, given the total share of misses. `None` if no cause misses at
+    /// Returns the cause that alone misses the shot most often, given the total share of misses. `None` if no cause misses at
     /// least 2 % of the attempts, or the shot is at its limit.
     pub fn main_cause(&self, missed: Option<f64>) -> Option<Cause> {
         let all = [(Cause::Hand, self.hand), (Cause::Table, self.table), (Cause::Placing, self.placing)];

@@ -28,7 +28,7 @@ pub struct Scatter {
 }
 
 impl Scatter {
-    /// The distance from `place`, m, within which `ball` comes to rest in half of the successful attempts; `None` if
+    /// Returns the distance from `place`, m, within which `ball` comes to rest in half of the successful attempts; `None` if
     /// there are none.
     pub fn spread(&self, ball: usize, place: DVec2) -> Option<f64> {
         let mut distances: Vec<f64> = self.ends.iter().map(|end| end.balls[ball].distance(place)).collect();

@@ -149,7 +149,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// One in how many usual strokes gets an additional jump or massé in this round of sampling; `None` if none does.
+    /// Returns after how many usual strokes a jump or massé is added in this round of sampling; `None` if none is.
     fn elevated_tried(&self, round: usize) -> Option<u64> {
         let is_good =
             self.pool.first().is_some_and(|best| best.tried >= BLOCK * SECOND_LOOK && best.own.share >= GOOD_WITHOUT);
@@ -160,7 +160,7 @@ impl<'a> Search<'a> {
         Some(ELEVATED_TRIED[usize::from(round >= ROUNDS_OF_ELEVATED && !is_among)])
     }
 
-    /// Weight of the effort in a shot's score.
+    /// Returns the weight of the effort in a shot's score.
     const fn weight(&self) -> f64 {
         if self.plan { EFFORT_PENALTY_IN_A_PLAN } else { EFFORT_PENALTY }
     }

@@ -71,8 +71,8 @@ pub fn unhurried<T>(
 }
 
 impl Task<'_> {
-    /// The stroke as a player can play it here: see [`playable`]. Also `None` if the rules forbid it because it pushes
-    /// a ball that touches the cue ball.
+    /// Returns the stroke as a player can play it here: see [`playable`]. Also `None` if the rules forbid it because it
+    /// pushes a ball that touches the cue ball.
     pub fn playable(&self, cue: &CueInputs) -> Option<CueInputs> {
         if pushes_touching_ball(self.table, self.layout, cue) {
             return None;
@@ -100,7 +100,7 @@ impl Task<'_> {
         self.point().is_made(tally) && self.first.allows(tally) && self.allows(cue)
     }
 
-    /// The conditions of a point in this layout.
+    /// Returns the conditions of a point in this layout.
     pub fn point(&self) -> Point {
         Point::of(self.rule, self.table, self.layout)
     }
@@ -118,14 +118,14 @@ impl Task<'_> {
         (!hurried.late).then_some(hurried.referee.tally)
     }
 
-    /// The initial tally of a stroke if the balls really lie as in `layout`. Balls that touch in the task's own layout
-    /// count as touching.
+    /// Returns the initial tally of a stroke if the balls really lie as in `layout`. Balls that touch in the task's own
+    /// layout count as touching.
     #[inline]
     pub fn tally(&self, layout: &Layout, impulse: &Impulse) -> Tally {
         Tally { pushed: Touching::of(self.table, self.layout).pushed(layout, impulse), ..Tally::default() }
     }
 
-    /// The stroke that an attempt at `cue` results in, with the table and the layout on which it is played.
+    /// Returns the stroke that an attempt at `cue` results in, with the table and the layout on which it is played.
     #[inline]
     pub fn stroke<'w>(&'w self, cue: &CueInputs, draw: Draw<'w>) -> (CueInputs, &'w Table, &'w Layout) {
         match draw.world {

@@ -96,7 +96,7 @@ impl Verdict {
         }
     }
 
-    /// The balls that left the table, and how.
+    /// Returns the balls that left the table, and how.
     pub fn off_table(&self) -> impl Iterator<Item = (usize, OffTable)> {
         self.off.into_iter().enumerate().filter_map(|(ball, off)| Some((ball, off?)))
     }
@@ -134,12 +134,12 @@ impl Verdict {
         parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
-    /// The object balls in the order of contact.
+    /// Returns the object balls in the order of contact.
     const fn order(&self) -> (usize, usize) {
         if self.tally.red_first { (2, 1) } else { (1, 2) }
     }
 
-    /// What is missing for a point; `None` if the stroke makes the point.
+    /// Describes what is missing for a point; `None` if the stroke makes the point.
     fn missing(&self, cue_ball: CueBall, unit: LengthUnit) -> Option<String> {
         let (tally, names, wanted) = (&self.tally, cue_ball.names(), self.point.rule.cushions());
         let passed = |miss: Miss| {
@@ -191,13 +191,13 @@ fn spot_words(spot: DVec2) -> &'static str {
     }
 }
 
-/// The number of cushions in words.
+/// Returns the number of cushions in words.
 fn cushion_words(count: u32) -> String {
     let unit = if count == 1 { "cushion" } else { "cushions" };
     format!("{} {unit}", number_word(count))
 }
 
-/// The closest approach of the cue ball to one of these balls after its first `cushions` cushions. `None` if it only
+/// Finds the closest approach of the cue ball to one of these balls after its first `cushions` cushions. `None` if it only
 /// moves away from that ball, which then was not missed.
 fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) -> Option<Miss> {
     let rails = recording.events().iter().filter(|event| matches!(event.kind, EventKind::BallRail(0, _)));
@@ -210,7 +210,8 @@ fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) ->
     (time - start >= LOOK).then(|| Miss { ball, gap: gap.max(0.0), passed: passed(table, recording, ball, time) })
 }
 
-/// The moment from `start` on, s, at which the cue ball is nearest to `ball`, and the gap between them at that moment, m.
+/// Finds the moment from `start` on, s, at which the cue ball is nearest to `ball`, and the gap between them at that
+/// moment, m.
 fn nearest(table: &Table, recording: &Recording, start: f64, ball: usize) -> Option<(f64, f64)> {
     let gap = |time: f64| {
         let places = recording.positions(time);
@@ -230,7 +231,7 @@ fn nearest(table: &Table, recording: &Recording, start: f64, ball: usize) -> Opt
     Some((time, gap(time)))
 }
 
-/// How the cue ball missed the ball that it is nearest to at `time`, s.
+/// Determines how the cue ball missed the ball that it is nearest to at `time`, s.
 fn passed(table: &Table, recording: &Recording, ball: usize, time: f64) -> Passed {
     let [cue_ball, other] = [0, ball].map(|ball| recording.state(ball, time));
     let towards: DVec2 = other.position - cue_ball.position;

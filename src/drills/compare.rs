@@ -15,7 +15,7 @@ const ATTEMPTS: usize = 1000;
 /// luck does not affect their comparison, and differs between layouts, so that luck on one does not repeat on others.
 const SEED: u64 = 0x636f_6d70_6172_6521;
 
-/// How often a player makes the point with `cue`.
+/// Estimates how often a player makes the point with `cue`.
 pub fn chance(shooter: impl Into<Shooter>, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> SuccessRate {
     make_probability(shooter, rule, table, layout, cue, ATTEMPTS, layout_seed(SEED, layout_number(layout)))
 }
@@ -31,7 +31,7 @@ pub struct Advice {
     pub chance: SuccessRate,
 }
 
-/// The coach's stroke under the request's doubt. `None` if it finds no point, unless the coach is to play the shot
+/// Returns the coach's stroke under the request's doubt. `None` if it finds no point, unless the coach is to play the shot
 /// itself: then it is its best attempt.
 ///
 /// # Errors
@@ -48,7 +48,7 @@ pub fn advise(
     Ok(is_told.then(|| Advice { cue: answer.cue, solved: answer.solved, chance: chance(answer.cue) }))
 }
 
-/// The difference `meant` - `advised` in every input. The difference in direction is the smaller angle, from -π to π.
+/// Returns the difference `meant` - `advised` in every input. The difference in direction is the smaller angle, from -π to π.
 pub fn difference(meant: &CueInputs, advised: &CueInputs) -> CueInputs {
     CueInputs {
         a: meant.a - advised.a,

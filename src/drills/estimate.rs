@@ -67,12 +67,13 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Three-cushion averages of such a player: the lower end of the 95 % interval, the estimate, and the upper end.
+    /// Returns the three-cushion averages of such a player: the lower end of the 95 % interval, the estimate, and the
+    /// upper end.
     pub fn averages(&self) -> [f64; 3] {
         [self.high, self.scale, self.low].map(Skill::average)
     }
 
-    /// The average with its 95 % interval. If the interval reaches an end of the scale range, only the other end is
+    /// Formats the average with its 95 % interval. If the interval reaches an end of the scale range, only the other end is
     /// displayed.
     pub fn words(&self) -> String {
         let [least, average, most] = self.averages();
@@ -82,7 +83,7 @@ impl Estimate {
         }
     }
 
-    /// "at least" or "at most" with the known end of the average's interval, if the other end is unknown.
+    /// Returns "at least" or "at most" with the known end of the average's interval, if the other end is unknown.
     pub fn bound(&self) -> Option<(&'static str, f64)> {
         let [least, _, most] = self.averages();
         match openings(self.low, self.high) {
@@ -120,7 +121,7 @@ pub enum NoEstimate {
 /// The attempts that can be used.
 const COUNTED: &str = "Only strokes noted at a real table count: model shots with no ball shifted, and shots that a hint showed; no games";
 
-/// The progress towards the required attempts and shots.
+/// Describes the progress towards the required attempts and shots.
 fn so_far(attempts: usize, shots: usize) -> String {
     match (attempts < FEWEST, shots < FEWEST_SHOTS) {
         (true, true) => format!("{attempts} of {FEWEST} attempts, at {shots} of {FEWEST_SHOTS} different shots"),
@@ -165,7 +166,7 @@ pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
     })
 }
 
-/// The shots that were attempted at a real table, and the number of attempts whose shot is unknown.
+/// Returns the shots that were attempted at a real table, and the number of attempts whose shot is unknown.
 fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
     let (mut shots, mut left_out) = (Vec::<Shot>::new(), 0);
     for session in sessions.iter().filter(|session| session.venue == Venue::Table) {
@@ -204,7 +205,7 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
 }
 
 impl Shot {
-    /// `p_e(s)` at every scale: never 0 or 1, which a finite number of strokes cannot establish.
+    /// Estimates `p_e(s)` at every scale: never 0 or 1, which a finite number of strokes cannot establish.
     fn curve(&self) -> [f64; SCALES] {
         std::array::from_fn(|index| {
             let skill = Skill::level(scale(index as f64 / STEPS as f64));
@@ -214,12 +215,12 @@ impl Shot {
     }
 }
 
-/// The scale this number of powers of two above the smallest.
+/// Returns the scale this number of powers of two above the smallest.
 fn scale(powers: f64) -> f64 {
     (POWERS.0 + powers).exp2()
 }
 
-/// The maximum-likelihood scale for the counts (made, tried), between the ends of its interval. `None` if the interval
+/// Finds the maximum-likelihood scale for the counts (made, tried), between the ends of its interval. `None` if the interval
 /// contains all scales.
 fn fit(curves: &[[f64; SCALES]], counts: &[(usize, usize)]) -> Option<[f64; 3]> {
     let likelihood = |step: usize| -> f64 {

@@ -32,7 +32,7 @@ pub enum ExamError {
     },
 }
 
-/// The grades of the exercises in an exam of `level`; `None` if there is no such level.
+/// Returns the grades of the exercises in an exam of `level`; `None` if there is no such level.
 pub fn grades(level: u8) -> Option<std::ops::RangeInclusive<u8>> {
     GRADES.get(usize::from(level).wrapping_sub(1)).cloned()
 }
@@ -85,7 +85,7 @@ pub struct ExamScore {
     pub nearest: &'static str,
 }
 
-/// The score of the attempts so far; `None` before the first.
+/// Returns the score of the attempts so far; `None` before the first.
 pub fn score(session: &Session) -> Option<ExamScore> {
     let attempts = &session.attempts;
     let pars: Vec<Par> = attempts.iter().filter_map(|attempt| session.exercise_of(attempt)?.par).collect();

@@ -53,7 +53,7 @@ impl Category {
         Self::Own,
     ];
 
-    /// Name on the command line and in JSON.
+    /// Returns the name on the command line and in JSON.
     pub const fn name(self) -> &'static str {
         match self {
             Self::FirstCaroms => "first-caroms",
@@ -69,7 +69,7 @@ impl Category {
         }
     }
 
-    /// Heading on the screen.
+    /// Returns the heading on the screen.
     pub const fn title(self) -> &'static str {
         match self {
             Self::FirstCaroms => "First caroms",
@@ -144,7 +144,7 @@ pub const LONGEST_TITLE: usize = 400;
 /// Maximum length of a point that a player enters, bytes: some sentences.
 pub const LONGEST_POINT: usize = 4000;
 
-/// A tag without the `#` with which it is displayed and may be typed.
+/// Returns a tag without the `#` with which it is displayed and may be typed.
 pub fn bare_tag(tag: &str) -> &str {
     tag.trim_start_matches('#')
 }
@@ -215,7 +215,7 @@ impl Exercise {
         }
     }
 
-    /// The table of the exercise.
+    /// Returns the table of the exercise.
     ///
     /// # Errors
     /// Fails if the table is not bundled, or the layout is impossible on it.
@@ -225,7 +225,7 @@ impl Exercise {
         Ok(table)
     }
 
-    /// The table on which it is played: the player's `own` if it has the same size, otherwise the exercise's.
+    /// Returns the table on which it is played: the player's `own` if it has the same size, otherwise the exercise's.
     ///
     /// # Errors
     /// As for [`Exercise::table`].
@@ -234,7 +234,7 @@ impl Exercise {
         Ok(own.filter(|own| own.has_size_of(&table)).cloned().unwrap_or(table))
     }
 
-    /// The model shot; `None` if there is none, or the cue has no room for it.
+    /// Returns the model shot; `None` if there is none, or the cue has no room for it.
     pub fn model_shot(&self) -> Option<CueInputs> {
         let table = self.table().ok()?;
         self.shot.filter(|shot| has_room(&table, &self.layout, shot))

@@ -67,7 +67,7 @@ impl LibraryFile {
         Ok(serde_json::from_str(text)?)
     }
 
-    /// The file's text, with a line for each field of an exercise.
+    /// Returns the file's text, with a line for each field of an exercise.
     ///
     /// # Errors
     /// Fails if a value has no JSON form; none of this type's values does.

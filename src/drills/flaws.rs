@@ -105,8 +105,8 @@ const NEAR: f64 = 0.2;
 const HALF_MASSE: f64 = 30.0_f64.to_radians();
 const FULL_MASSE: f64 = 63.0_f64.to_radians();
 
-/// The promises of a shot with a raised cue, by its first tag: it flies over red, or its path bends, or it hops because
-/// the cue ball starts at a rail.
+/// Checks the promises of a shot with a raised cue, by its first tag: it flies over red, or its path bends, or it hops
+/// because the cue ball starts at a rail.
 fn raised(
     exercise: &Exercise,
     table: &Table,
@@ -148,7 +148,7 @@ fn raised(
     ])
 }
 
-/// The diamond system that describes the shot, with its numbers.
+/// Returns the diamond system that describes the shot, with its numbers.
 fn applied(exercise: &Exercise, table: &Table, cue: &CueInputs) -> Result<Option<Applied>, ExerciseError> {
     Ok(match guide(table, &Recording::new(table, &exercise.layout, cue)?) {
         Some(Guide::System(applied)) => Some(applied),
@@ -165,7 +165,7 @@ fn is_told(exercise: &Exercise, applied: &Applied) -> bool {
     told.zip(applied.shot_first).is_some_and(|(told, shot)| (told - shot).abs() <= twentieth)
 }
 
-/// The promises of the tags about the stroke and its course, each with whether the shot keeps it.
+/// Returns the promises of the tags about the stroke and its course, each with whether the shot keeps it.
 fn tagged(exercise: &Exercise, technique: &Technique, cue: &CueInputs) -> impl Iterator<Item = (&'static str, bool)> {
     let cushions = technique.before.len() + technique.between.len();
     let direct = matches!(exercise.category, Category::OneCushion | Category::Side);

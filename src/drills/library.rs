@@ -61,7 +61,7 @@ pub struct Library {
 }
 
 impl Library {
-    /// The bundled exercises, whose files are read once.
+    /// Returns the bundled exercises, whose files are read once.
     pub fn bundled() -> &'static Self {
         static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
             let read =
@@ -72,7 +72,7 @@ impl Library {
         &LIBRARY
     }
 
-    /// The bundled exercises together with these, and the errors of those that could not be added.
+    /// Returns the bundled exercises together with these, and the errors of those that could not be added.
     pub fn with_own(own: Vec<Exercise>) -> (Self, Vec<LibraryError>) {
         let mut library = Self::bundled().clone();
         let refused = own.into_iter().filter_map(|exercise| library.add(exercise).err()).collect();
@@ -91,7 +91,7 @@ impl Library {
         Ok(())
     }
 
-    /// The exercise with this name.
+    /// Finds the exercise with this name.
     ///
     /// # Errors
     /// [`LibraryError::Unknown`].
@@ -100,7 +100,8 @@ impl Library {
         named.ok_or_else(|| LibraryError::Unknown(name.to_owned()))
     }
 
-    /// The exercise that `text` refers to: its name; or its name or title, ignoring case; or an unambiguous prefix of either.
+    /// Finds the exercise that `text` refers to: its name; or its name or title, ignoring case; or an unambiguous
+    /// prefix of either.
     ///
     /// # Errors
     /// [`LibraryError::Unknown`] or [`LibraryError::Ambiguous`].
@@ -108,7 +109,7 @@ impl Library {
         self.titled(text).or_else(|_| self.only(text, |words, wanted| !wanted.is_empty() && words.starts_with(wanted)))
     }
 
-    /// The exercise with this name, or with this name or title, ignoring case.
+    /// Finds the exercise with this name, or with this name or title, ignoring case.
     ///
     /// # Errors
     /// [`LibraryError::Unknown`] or [`LibraryError::Ambiguous`].
@@ -116,7 +117,7 @@ impl Library {
         self.get(text).or_else(|_| self.only(text, |words, wanted| words == wanted))
     }
 
-    /// The only exercise for which `is_so` holds for its name or title and `text`, both in lower case and with spaces
+    /// Finds the only exercise for which `is_so` holds for its name or title and `text`, both in lower case and with spaces
     /// for hyphens.
     fn only(&self, text: &str, is_so: impl Fn(&str, &str) -> bool) -> Result<&Exercise, LibraryError> {
         let plain = |words: &str| words.to_lowercase().replace('-', " ");
@@ -130,7 +131,7 @@ impl Library {
         }
     }
 
-    /// The name of the exercise whose name or title is most similar to `text`, if one is similar enough.
+    /// Finds the name of the exercise whose name or title is most similar to `text`, if one is similar enough.
     pub fn like(&self, text: &str) -> Option<&str> {
         let wanted = text.to_lowercase();
         let alike = |exercise: &Exercise| {
@@ -142,7 +143,7 @@ impl Library {
         (alike > ALIKE).then_some(nearest.name.as_str())
     }
 
-    /// All exercises.
+    /// Returns all exercises.
     pub fn exercises(&self) -> &[Exercise] {
         &self.exercises
     }
@@ -152,7 +153,7 @@ impl Library {
         self.exercises[..self.bundled].iter().any(|exercise| exercise.name == name)
     }
 
-    /// The exercises that the filter accepts, in the order of the library.
+    /// Returns the exercises that the filter accepts, in the order of the library.
     pub fn find(&self, filter: &Filter) -> impl Iterator<Item = &Exercise> {
         self.exercises.iter().filter(|exercise| filter.accepts(exercise))
     }

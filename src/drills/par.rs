@@ -35,7 +35,7 @@ impl Par {
         }))
     }
 
-    /// The grade, 1 to 5, by the club player's share.
+    /// Returns the grade, 1 to 5, by the club player's share.
     pub fn grade(&self) -> u8 {
         1 + GRADES.iter().filter(|least| self.club < **least).count() as u8
     }

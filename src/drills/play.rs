@@ -80,14 +80,14 @@ pub fn check(table: &Table, cue: &CueInputs) -> Result<(), CueError> {
     cue.validate_tip(table.miscue_limit)
 }
 
-/// The intended stroke with the cue raised over the rails and balls behind it.
+/// Returns the intended stroke with the cue raised over the rails and balls behind it.
 fn raised(table: &Table, layout: &Layout, meant: &CueInputs) -> Result<CueInputs, PlayError> {
     check(table, meant)?;
     Ok(with_room(table, layout, meant)?)
 }
 
 impl Session {
-    /// The table and the layout of the next attempt; `None` if the session is over.
+    /// Returns the table and the layout of the next attempt; `None` if the session is over.
     ///
     /// # Errors
     /// Fails if the exercise is impossible.
@@ -152,7 +152,7 @@ impl Session {
 }
 
 impl Attempt {
-    /// An attempt made now, with its result only.
+    /// Creates an attempt made now, with its result only.
     pub fn new(exercise: &str, made: bool) -> Self {
         Self {
             exercise: exercise.to_owned(),

@@ -27,7 +27,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// The record of the player's attempts in `sessions` that `counts` accepts, without the coach's strokes. Attempts
+    /// Returns the record of the player's attempts in `sessions` that `counts` accepts, without the coach's strokes. Attempts
     /// without a known order are left out of innings, average and runs.
     pub fn of<'a>(
         sessions: impl IntoIterator<Item = &'a Session>,
@@ -39,12 +39,12 @@ impl Record {
         })
     }
 
-    /// The record of all attempts in a session, by either side.
+    /// Returns the record of all attempts in a session, by either side.
     pub fn of_session(session: &Session) -> Self {
         Self::of_all([session], |_, _| true)
     }
 
-    /// The record of the attempts in a session whose numbers, from 0 on, `counts` accepts.
+    /// Returns the record of the attempts in a session whose numbers, from 0 on, `counts` accepts.
     pub(super) fn of_part(session: &Session, counts: impl Fn(usize) -> bool) -> Self {
         Self::of_all([session], |_, number| counts(number))
     }
@@ -93,7 +93,7 @@ impl Record {
         }
     }
 
-    /// The same `record` separately for real tables and for the program, where there are attempts: results at one say
+    /// Returns the same `record` separately for real tables and for the program, where there are attempts: results at one say
     /// little about the other.
     pub fn apart<'a>(
         sessions: &'a [Session],
@@ -103,7 +103,7 @@ impl Record {
         Venue::ALL.into_iter().map(|venue| (venue, at(venue))).filter(|(_, record)| record.tried > 0).collect()
     }
 
-    /// The record of all repetitions of the exercise with this name; games do not count.
+    /// Returns the record of all repetitions of the exercise with this name; games do not count.
     pub fn of_exercise<'a>(sessions: impl IntoIterator<Item = &'a Session>, name: &str) -> Self {
         Self::of(sessions, |session, attempt| !session.is_game() && attempt.exercise == name)
     }

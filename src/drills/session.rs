@@ -45,7 +45,7 @@ impl Goal {
         matches!(self, Self::Game { .. } | Self::Match { .. })
     }
 
-    /// The name of such a session.
+    /// Returns the name of such a session.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Free => "practice",
@@ -56,7 +56,7 @@ impl Goal {
         }
     }
 
-    /// A short description.
+    /// Describes it in a few words.
     pub fn words(self) -> String {
         match self {
             Self::Free => "free repetition".to_owned(),
@@ -91,7 +91,7 @@ impl Venue {
     /// Both venues, the real table first.
     pub const ALL: [Self; 2] = [Self::Table, Self::Program];
 
-    /// The name in records.
+    /// Returns the name in records.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Program => "here",
@@ -180,7 +180,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// The player for make probabilities, with uncertain tables and ball positions, as for pars.
+    /// Returns the player for make probabilities, with uncertain tables and ball positions, as for pars.
     pub const fn shooter(&self) -> Shooter {
         Shooter { skill: self.skill, doubt: Doubt::FULL }
     }
@@ -209,7 +209,7 @@ impl Session {
         }
     }
 
-    /// The table on which an exercise is played.
+    /// Returns the table on which an exercise is played.
     ///
     /// # Errors
     /// Fails if the exercise is impossible.
@@ -217,7 +217,7 @@ impl Session {
         exercise.table_with(self.table.as_deref())
     }
 
-    /// The exercise's model shot. `None` if it has none, the cue has no room for it, or it makes no point on the
+    /// Returns the exercise's model shot. `None` if it has none, the cue has no room for it, or it makes no point on the
     /// player's own table.
     pub fn model_shot_of(&self, exercise: &Exercise) -> Option<CueInputs> {
         let table = self.table_of(exercise).ok()?;
@@ -237,7 +237,7 @@ impl Session {
         }
     }
 
-    /// The exercise of the next attempt; `None` if the session is over.
+    /// Returns the exercise of the next attempt; `None` if the session is over.
     pub fn exercise(&self) -> Option<&Exercise> {
         let number = if self.is_exam() { self.attempts.len() } else { 0 };
         self.exercises.get(number).filter(|_| !self.is_over())
@@ -263,12 +263,12 @@ impl Session {
         matches!(self.goal, Goal::Match { against_coach: true, .. })
     }
 
-    /// The cue ball of attempt `number`, which may be the next one. In a match it changes with each miss.
+    /// Returns the cue ball of attempt `number`, which may be the next one. In a match it changes with each miss.
     pub fn cue_ball_of(&self, number: usize) -> CueBall {
         self.cue_balls().nth(number).unwrap_or(self.cue_ball)
     }
 
-    /// The cue balls of all attempts and of the next one.
+    /// Returns the cue balls of all attempts and of the next one.
     fn cue_balls(&self) -> impl Iterator<Item = CueBall> {
         let change = |now: &mut CueBall, attempt: &Attempt| {
             if self.is_match() && !attempt.made {
@@ -279,7 +279,7 @@ impl Session {
         std::iter::once(self.cue_ball).chain(self.attempts.iter().scan(self.cue_ball, change))
     }
 
-    /// The cue ball of the next attempt.
+    /// Returns the cue ball of the next attempt.
     pub fn cue_ball_now(&self) -> CueBall {
         self.cue_ball_of(self.attempts.len())
     }
@@ -289,7 +289,7 @@ impl Session {
         self.is_against_coach() && self.cue_ball_now() != self.cue_ball
     }
 
-    /// The current inning, like `inning 2 of 10`; `None` if the session has no innings.
+    /// Returns the current inning, like `inning 2 of 10`; `None` if the session has no innings.
     pub fn inning_words(&self) -> Option<String> {
         let (innings, sides) = match self.goal {
             Goal::Game { innings } => (innings, 1),
@@ -300,7 +300,7 @@ impl Session {
         Some(if innings == 0 { format!("inning {now}") } else { format!("inning {} of {innings}", now.min(innings)) })
     }
 
-    /// The name of one side of a match.
+    /// Returns the name of one side of a match.
     fn side_name(&self, cue_ball: CueBall) -> &'static str {
         match self.goal {
             Goal::Match { against_coach: true, .. } if cue_ball == self.cue_ball => "you",
@@ -309,13 +309,13 @@ impl Session {
         }
     }
 
-    /// The name with the ball, like `you (white)`.
+    /// Returns the name with the ball, like `you (white)`.
     pub fn side_words(&self, cue_ball: CueBall) -> String {
         let name = self.side_name(cue_ball);
         if name == cue_ball.name() { name.to_owned() } else { format!("{name} ({cue_ball})") }
     }
 
-    /// The points of both sides of a match, like `you 3 : 1 coach`; `None` if it is not a match.
+    /// Returns the points of both sides of a match, like `you 3 : 1 coach`; `None` if it is not a match.
     pub fn score_words(&self) -> Option<String> {
         if !self.is_match() {
             return None;
@@ -325,23 +325,23 @@ impl Session {
         Some(format!("{} {} : {} {}", one.0, one.1, other.1, other.0))
     }
 
-    /// The score of one side of a match.
+    /// Returns the score of one side of a match.
     pub fn side(&self, cue_ball: CueBall) -> Record {
         let balls: Vec<CueBall> = self.cue_balls().collect();
         Record::of_part(self, |number| balls[number] == cue_ball)
     }
 
-    /// The exercise of an attempt, as stored in this session.
+    /// Returns the exercise of an attempt, as stored in this session.
     pub fn exercise_of(&self, attempt: &Attempt) -> Option<&Exercise> {
         self.exercises.iter().find(|exercise| exercise.name == attempt.exercise)
     }
 
-    /// The score, including the coach's strokes.
+    /// Returns the score, including the coach's strokes.
     pub fn record(&self) -> Record {
         Record::of_session(self)
     }
 
-    /// Current number of points in a row.
+    /// Returns the current number of points in a row.
     pub fn run(&self) -> u32 {
         self.attempts.iter().rev().take_while(|attempt| attempt.made).count() as u32
     }
@@ -351,7 +351,7 @@ impl Session {
     }
 }
 
-/// The current Unix time in seconds; 0 if the clock is before 1970.
+/// Returns the current Unix time in seconds; 0 if the clock is before 1970.
 pub(super) fn now() -> u64 {
     since_epoch().as_secs()
 }

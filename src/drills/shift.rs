@@ -14,7 +14,7 @@ const TOUCHING_GAP: f64 = 1e-4;
 /// Maximum number of random directions tried. Three touching balls in a corner find room in about one of 30.
 const TRIES: usize = 10_000;
 
-/// The layout of a repetition. Number 0 is exact; in each later one every ball is shifted by half a ball, one radius,
+/// Returns the layout of a repetition. Number 0 is exact; in each later one every ball is shifted by half a ball, one radius,
 /// in a random direction. Touching balls are moved together. If no shift leaves enough room, the layout is unchanged.
 ///
 /// The same seed and repetition give the same layout.
@@ -34,7 +34,7 @@ pub fn shifted(layout: &Layout, table: &Table, seed: u64, repetition: u32) -> La
     (0..TRIES).map(|_| attempt()).find(|moved| moved.validate(table).is_ok()).unwrap_or(*layout)
 }
 
-/// The ball with which each ball is moved: the first one of a touching group.
+/// Returns the ball with which each ball is moved: the first one of a touching group.
 fn leaders(layout: &Layout, radius: f64) -> [usize; BALLS] {
     let mut leaders: [usize; BALLS] = std::array::from_fn(|ball| ball);
     for (first, second) in PAIRS {

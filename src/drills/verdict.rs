@@ -22,8 +22,8 @@ impl Played {
     }
 }
 
-/// The changes that a player must make to get from the stroke `from` to `to`, the most important first; empty if the
-/// difference is too small to notice.
+/// Describes the changes that a player must make to get from the stroke `from` to `to`, the most important first; empty
+/// if the difference is too small to notice.
 pub fn changes(table: &Table, from: &CueInputs, to: &CueInputs, units: Units) -> Vec<String> {
     let by = difference(to, from);
     let turn = by.phi.to_degrees();

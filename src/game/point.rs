@@ -19,15 +19,15 @@ impl From<Rule> for Point {
 }
 
 impl Point {
-    /// The conditions for a shot from this layout. In the opening position by UMB rules, a three-cushion shot must hit
-    /// the red ball first.
+    /// Returns the conditions for a shot from this layout. In the opening position by UMB rules, a three-cushion shot
+    /// must hit the red ball first.
     #[inline]
     pub fn of(rule: Rule, table: &Table, layout: &Layout) -> Self {
         let asks = table.opening == Opening::Umb && rule == Rule::ThreeCushion;
         Self { rule, red_first: asks && layout.is_opening(table) }
     }
 
-    /// The object ball that must be hit first, or ball 1 if either may be.
+    /// Returns the object ball that must be hit first, or ball 1 if either may be.
     pub const fn first_ball(self) -> usize {
         if self.red_first { 2 } else { 1 }
     }

@@ -49,7 +49,7 @@ impl Reward {
     pub const ALL: [Self; 7] =
         [Self::R1, Self::R1Difficulty, Self::R2, Self::R3, Self::R4, Self::OneCushion, Self::ThreeCushion];
 
-    /// Name on the command line and in files.
+    /// Returns the name on the command line and in files.
     pub const fn name(self) -> &'static str {
         match self {
             Self::R1 => "r1",
@@ -62,7 +62,7 @@ impl Reward {
         }
     }
 
-    /// The largest reward that a shot can earn.
+    /// Returns the largest reward that a shot can earn.
     pub const fn highest(self) -> f64 {
         match self {
             Self::R2 | Self::R4 => 2.0,
@@ -70,7 +70,7 @@ impl Reward {
         }
     }
 
-    /// The rule for which the reward is exactly 1 for a point and 0 otherwise; `None` if it is not of this kind.
+    /// Returns the rule for which the reward is exactly 1 for a point and 0 otherwise; `None` if it is not of this kind.
     pub const fn rule(self) -> Option<Rule> {
         match self {
             Self::R3 => Some(Rule::StraightRail),
@@ -80,7 +80,7 @@ impl Reward {
         }
     }
 
-    /// The reward of a point under `rule`.
+    /// Returns the reward of a point under `rule`.
     pub const fn for_rule(rule: Rule) -> Self {
         match rule {
             Rule::StraightRail => Self::R3,
@@ -89,7 +89,7 @@ impl Reward {
         }
     }
 
-    /// The reward of a shot, simulated until it is decided. The layout and the stroke are not validated.
+    /// Returns the reward of a shot, simulated until it is decided. The layout and the stroke are not validated.
     pub fn of(self, table: &Table, layout: &Layout, cue: &CueInputs) -> f64 {
         self.within(table, layout, cue, u32::MAX)
     }
@@ -119,7 +119,7 @@ impl Reward {
         if has_room(table, layout, cue) { self.within(table, layout, cue, steps) } else { 0.0 }
     }
 
-    /// The reward of a shot with this `tally` and this final layout.
+    /// Returns the reward of a shot with this `tally` and this final layout.
     pub fn value(self, table: &Table, tally: &Tally, end: &Layout) -> f64 {
         let apart = match self {
             Self::R2 | Self::R4 => distance_reward(table, end),
@@ -128,7 +128,7 @@ impl Reward {
         self.of_meetings(tally) + apart
     }
 
-    /// The part of the reward that depends on the contacts of the cue ball.
+    /// Returns the part of the reward that depends on the contacts of the cue ball.
     fn of_meetings(self, tally: &Tally) -> f64 {
         let one = |made: bool| f64::from(u8::from(made));
         match self {
@@ -155,7 +155,7 @@ impl FromStr for Reward {
     }
 }
 
-/// The distance reward `r_d` (equation 50): 1 for balls close together, 0 for balls as far apart as the table allows.
+/// Returns the distance reward `r_d` (equation 50): 1 for balls close together, 0 for balls as far apart as the table allows.
 fn distance_reward(table: &Table, layout: &Layout) -> f64 {
     let [a, b, c] = layout.balls;
     let total = a.distance(b) + a.distance(c) + b.distance(c);

@@ -35,7 +35,7 @@ impl Rule {
     /// All rules.
     pub const ALL: [Self; 3] = [Self::StraightRail, Self::OneCushion, Self::ThreeCushion];
 
-    /// Name on the command line and in JSON.
+    /// Returns the name on the command line and in JSON.
     pub const fn name(self) -> &'static str {
         match self {
             Self::StraightRail => "straight",
@@ -44,7 +44,7 @@ impl Rule {
         }
     }
 
-    /// Cushion contacts needed before the second object ball.
+    /// Returns the cushion contacts needed before the second object ball.
     pub const fn cushions(self) -> u32 {
         match self {
             Self::StraightRail => 0,
@@ -98,7 +98,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// The initial tally of a stroke.
+    /// Creates the initial tally of a stroke.
     #[inline]
     pub fn from_stroke(table: &Table, layout: &Layout, impulse: &Impulse) -> Self {
         Self { pushed: Touching::of(table, layout).pushed(layout, impulse), ..Self::default() }
@@ -147,12 +147,12 @@ impl Tally {
         self.met[0] & self.met[1]
     }
 
-    /// The object ball that was hit first, if any: 1 or 2.
+    /// Returns the object ball that was hit first, if any: 1 or 2.
     pub fn first_ball(&self) -> Option<usize> {
         self.met_any().then_some(if self.red_first { 2 } else { 1 })
     }
 
-    /// The object balls that have not been hit yet.
+    /// Returns the object balls that have not been hit yet.
     pub fn unmet(&self) -> [bool; 2] {
         self.met.map(|met| !met)
     }

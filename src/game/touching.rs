@@ -22,7 +22,8 @@ impl Touching {
         Self(balls.map(|ball| cue_ball.distance_squared(ball) <= reach * reach))
     }
 
-    /// The ball, 1 or 2, that the cue ball pushes as it starts with `impulse`, given the real ball positions in `layout`.
+    /// Returns the ball, 1 or 2, that the cue ball pushes as it starts with `impulse`, given the real ball positions in
+    /// `layout`.
     #[inline]
     pub fn pushed(self, layout: &Layout, impulse: &Impulse) -> Option<usize> {
         let is_ahead = |ball: usize| (layout.balls[ball] - layout.balls[0]).dot(impulse.velocity) > 0.0;

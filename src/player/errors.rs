@@ -21,13 +21,13 @@ pub struct Halton {
 }
 
 impl Halton {
-    /// The sequence with the shift that `seed` draws.
+    /// Creates the sequence with the shift that `seed` draws.
     pub fn new(seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         Self { shift: std::array::from_fn(|_| rng.random()) }
     }
 
-    /// The `n`th errors of the sequence.
+    /// Returns the `n`th errors of the sequence.
     pub fn errors(&self, n: usize) -> Errors {
         let place = |index: usize| (self.shift[index] + radical_inverse(n as u32 + 1, BASES[index])).fract();
         std::array::from_fn(|index| quantile(place(index)))
@@ -49,7 +49,7 @@ impl Streams {
         Self { rng: Xoshiro256PlusPlus::seed_from_u64(seed), streams: Vec::new() }
     }
 
-    /// The `n`th number of a stream.
+    /// Returns the `n`th number of a stream.
     pub fn number(&mut self, stream: usize, n: usize) -> f64 {
         while self.streams.len() <= stream {
             let last = self.streams.last().map_or(1, |(root, _)| (root * root).round() as u32);
@@ -62,7 +62,7 @@ impl Streams {
     }
 }
 
-/// The radical inverse: the digits of `n` in a base, mirrored at the point.
+/// Returns the radical inverse: the digits of `n` in a base, mirrored at the point.
 fn radical_inverse(mut n: u32, base: u32) -> f64 {
     let (mut value, mut place) = (0.0, 1.0);
     while n > 0 {

@@ -28,7 +28,7 @@ impl Input {
     /// All five inputs.
     pub const ALL: [Self; 5] = [Self::Side, Self::Height, Self::Elevation, Self::Direction, Self::Speed];
 
-    /// The letter in the thesis.
+    /// Returns the letter in the thesis.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Side => "a",
@@ -39,7 +39,7 @@ impl Input {
         }
     }
 
-    /// The unit for display.
+    /// Returns the unit for display.
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Side | Self::Height => "mm",
@@ -48,7 +48,7 @@ impl Input {
         }
     }
 
-    /// The stroke with this input changed by `by` of its units.
+    /// Returns the stroke with this input changed by `by` of its units.
     #[must_use]
     pub fn shifted(self, table: &Table, cue: &CueInputs, by: f64) -> CueInputs {
         let mut cue = *cue;

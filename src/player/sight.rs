@@ -5,7 +5,7 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// A possible real layout behind the reported `layout`, whose coordinates each have a standard error of `placing` m. A
+/// Draws a possible real layout behind the reported `layout`, whose coordinates each have a standard error of `placing` m. A
 /// ball that would overlap another one or a cushion is moved less far.
 pub fn misplaced(table: &Table, layout: &Layout, placing: f64, mut normal: impl FnMut() -> f64) -> Layout {
     let mut moved = *layout;
@@ -25,7 +25,7 @@ pub fn misplaced(table: &Table, layout: &Layout, placing: f64, mut normal: impl 
     moved
 }
 
-/// The stroke of a player who is given `cue` for the `meant` layout but sees the `real` one. It is turned so that it
+/// Returns the stroke of a player who is given `cue` for the `meant` layout but sees the `real` one. It is turned so that it
 /// hits its first ball with the same fullness, or aims at the same point of a cushion if it hits no ball.
 pub fn aimed(table: &Table, meant: &Layout, real: &Layout, cue: &CueInputs) -> CueInputs {
     let [start, real_start] = [meant.balls[0], real.balls[0]];

@@ -41,9 +41,9 @@ impl Ease {
     /// The stronger one, about world class.
     pub const STRONG: Skill = Skill::level(1.25);
 
-    /// The current weights, from `cargo run --release --example ease -- 600`. Checked on 300 layouts per rule that took
-    /// no part in the fit: the weaker player missed the easiest fifth 14, 33 and 58 % of the time (estimated: 13, 27
-    /// and 59), the hardest fifth 58, 58 and 76 % (estimated: 62, 57 and 74).
+    /// Returns the current weights, from `cargo run --release --example ease -- 600`. Checked on 300 layouts per rule
+    /// that took no part in the fit: the weaker player missed the easiest fifth 14, 33 and 58 % of the time (estimated:
+    /// 13, 27 and 59), the hardest fifth 58, 58 and 76 % (estimated: 62, 57 and 74).
     pub const fn under(rule: Rule) -> Self {
         let (weights, power) = match rule {
             Rule::StraightRail => ([-0.0987, 0.2365, 0.499, -0.0411, -0.1112, -0.013, -0.0735, -0.0161], 2.37),
@@ -53,13 +53,13 @@ impl Ease {
         Self { weights, power }
     }
 
-    /// Probability of the point from `layout`, for a player of this skill who plays a good shot: a rough estimate for
-    /// ranking.
+    /// Estimates the probability of the point from `layout`, for a player of this skill who plays a good shot: a rough
+    /// estimate for ranking.
     pub fn probability(&self, table: &Table, layout: &Layout, skill: Skill) -> f64 {
         1.0 - self.missed(table, layout).powf(self.power_at(skill.scale()))
     }
 
-    /// The power for a player of this error scale: 1 for [`Ease::WEAK`], `power` for [`Ease::STRONG`], with linear
+    /// Returns the power for a player of this error scale: 1 for [`Ease::WEAK`], `power` for [`Ease::STRONG`], with linear
     /// interpolation and extrapolation on logarithmic axes.
     fn power_at(&self, scale: f64) -> f64 {
         let [weak, strong] = [Self::WEAK, Self::STRONG].map(|skill| skill.scale().ln());
@@ -72,14 +72,14 @@ impl Ease {
         *table == Table::default()
     }
 
-    /// Share of attempts that [`Ease::WEAK`] misses from `layout`.
+    /// Estimates the share of attempts that [`Ease::WEAK`] misses from `layout`.
     pub fn missed(&self, table: &Table, layout: &Layout) -> f64 {
         let share: f64 = self.weights.iter().zip(numbers(table, layout)).map(|(weight, number)| weight * number).sum();
         (SOFTNESS * (share / SOFTNESS).exp().ln_1p()).min(1.0)
     }
 }
 
-/// The features of the estimate, with distances scaled to the length of the `match` table.
+/// Computes the features of the estimate, with distances scaled to the length of the `match` table.
 fn numbers(table: &Table, layout: &Layout) -> [f64; NUMBERS] {
     let [cue, mut near, mut far] = layout.balls.map(|ball| ball * (MATCH_LENGTH / table.length));
     if cue.distance_squared(near) > cue.distance_squared(far) {

@@ -137,7 +137,7 @@ impl SpokenStroke {
         read::read(text)
     }
 
-    /// The stroke, for a player with `cue_ball`. Omitted properties are taken from `before`; without it the cue is
+    /// Computes the stroke, for a player with `cue_ball`. Omitted properties are taken from `before`; without it the cue is
     /// level and strikes the centre. If rails or balls behind the cue ball are in the way, the cue is raised as far as
     /// needed.
     ///
@@ -193,7 +193,8 @@ impl SpokenStroke {
         found.ok_or(SpokenError::NotMet(cue_ball.names()[ball]))
     }
 
-    /// Signed distance between the cue ball's line and the ball's centre, in ball diameters, positive to the left.
+    /// Returns the signed distance between the cue ball's line and the ball's centre, in ball diameters, positive to
+    /// the left.
     fn offset(&self) -> Result<f64, SpokenError> {
         let fullness = self.fullness.ok_or(SpokenError::NoAim)?.clamp(GRAZE, 1.0);
         match self.left {
@@ -206,21 +207,21 @@ impl SpokenStroke {
 }
 
 impl Mark {
-    /// Its position on the table, m.
+    /// Returns its position on the table, m.
     fn place(self, table: &Table) -> glam::DVec2 {
         let behind = if self.on_wood { BEHIND * table.diamond() } else { 0.0 };
         self.point.place(table) - behind * self.point.rail.normal()
     }
 }
 
-/// Signed distance between the cue ball's line and the centre of `ball` at impact, in ball diameters, positive to the
-/// left. `None` if the cue ball hits another ball first, or none.
+/// Returns the signed distance between the cue ball's line and the centre of `ball` at impact, in ball diameters,
+/// positive to the left. `None` if the cue ball hits another ball first, or none.
 fn passed(table: &Table, layout: &Layout, ball: usize, cue: &CueInputs) -> Result<Option<f64>, ShotError> {
     let hit = aim(table, layout, cue)?.hit.filter(|hit| hit.ball == ball);
     Ok(hit.map(|hit| if hit.left { 1.0 - hit.fullness } else { hit.fullness - 1.0 }))
 }
 
-/// The stroke, among directions up to `half` from `phi`, rad, whose offset from the ball is nearest to the wanted one.
+/// Finds the stroke, among directions up to `half` from `phi`, rad, whose offset from the ball is nearest to the wanted one.
 fn nearest(
     table: &Table,
     layout: &Layout,
@@ -235,7 +236,7 @@ fn nearest(
     known.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, cue)| cue)
 }
 
-/// The stroke whose offset from the ball at impact, in ball diameters, positive to the left, is the wanted one, or
+/// Finds the stroke whose offset from the ball at impact, in ball diameters, positive to the left, is the wanted one, or
 /// nearly so. `None` if none was found. The simulation includes squirt and the swerve of a raised cue.
 fn aim_at(
     table: &Table,
@@ -272,7 +273,7 @@ fn aim_at(
     ))
 }
 
-/// The cue speed at which a ball runs this number of table lengths, m/s.
+/// Returns the cue speed at which a ball runs this number of table lengths, m/s.
 fn speed_of(table: &Table, lengths: f64) -> Option<f64> {
     let (mut low, mut high) = (0.05, 12.0);
     if !(table_lengths(table, low)?..=table_lengths(table, high)?).contains(&lengths) {
@@ -285,7 +286,7 @@ fn speed_of(table: &Table, lengths: f64) -> Option<f64> {
     Some(0.5 * (low + high))
 }
 
-/// The tip position, radii. A position in half tips, as the coach reports it, may be rounded to slightly beyond the
+/// Returns the tip position, radii. A position in half tips, as the coach reports it, may be rounded to slightly beyond the
 /// miscue limit; it is moved back to the limit.
 fn on_ball([a, b]: [f64; 2], limit: f64) -> [f64; 2] {
     let (said, most) = (libm::hypot(a, b), limit.sqrt());

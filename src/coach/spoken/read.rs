@@ -103,7 +103,7 @@ fn set<T>(place: &mut Option<T>, value: Option<T>, twice: SpokenError) -> Result
     }
 }
 
-/// The start, if stated, and the end of a line of aim: "cue from 2.8 on the left short rail to 1.65 on the right one",
+/// Parses the start, if stated, and the end of a line of aim: "cue from 2.8 on the left short rail to 1.65 on the right one",
 /// "to 1.65 right", "left 2.8 → right 1.65", "through 2 top".
 fn line_of_cue(part: &str) -> Option<(Option<&str>, &str)> {
     let arrow = part.split_once('\u{2192}').or_else(|| part.split_once("->"));
@@ -128,13 +128,13 @@ fn mark(text: &str) -> Option<Mark> {
     Some(Mark { point, on_wood: wood || through.is_some() })
 }
 
-/// A point on a cushion; `None` beyond its ends.
+/// Creates a point on a cushion; `None` beyond its ends.
 fn rail_point(rail: Rail, diamond: f64) -> Option<RailPoint> {
     let along = if matches!(rail, Rail::Left | Rail::Right) { SIZE.y } else { SIZE.x };
     (0.0..=along).contains(&diamond).then_some(RailPoint { rail, diamond })
 }
 
-/// The rail named in a text; `None` unless it names exactly one.
+/// Finds the rail named in a text; `None` unless it names exactly one.
 fn rail_named(text: &str) -> Option<Rail> {
     let named = |rail: &Rail| text.split_whitespace().any(|word| word == rail.name());
     let mut rails = Rail::ALL.into_iter().filter(named);
@@ -169,7 +169,7 @@ fn elevation(part: &str) -> Option<f64> {
     number.or(raised)?.trim().parse().ok()
 }
 
-/// The colour named in a part, as an index into white, yellow and red, and the rest of the part.
+/// Finds the colour named in a part, as an index into white, yellow and red, and the rest of the part.
 fn colour(part: &str) -> (Option<usize>, String) {
     let named = |word: &str| BALL_NAMES.iter().position(|name| *name == word);
     let is_other = |word: &&str| named(word).is_none() && !["the", "ball"].contains(word);

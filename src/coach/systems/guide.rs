@@ -71,8 +71,8 @@ pub struct Applied {
 /// short rails have different spacings.
 const ASPECT: f64 = 0.05;
 
-/// What a player calculates for a recorded shot. `None` if it has no three cushions in a row, no system is near, or the
-/// table is not twice as long as wide.
+/// Returns what a player calculates for a recorded shot. `None` if it has no three cushions in a row, no system is
+/// near, or the table is not twice as long as wide.
 pub fn guide(table: &Table, recording: &Recording) -> Option<Guide> {
     if (table.length / table.width - 2.0).abs() > ASPECT {
         return None;
@@ -83,7 +83,7 @@ pub fn guide(table: &Table, recording: &Recording) -> Option<Guide> {
 }
 
 impl Guide {
-    /// The path on this table of a ball that is played by the guide, to the third cushion: the centres of the ball at
+    /// Returns the path on this table of a ball that is played by the guide, to the third cushion: the centres of the ball at
     /// the cushions, m.
     pub fn path(&self, table: &Table) -> Vec<DVec2> {
         match self {
@@ -134,15 +134,15 @@ impl Applied {
         })
     }
 
-    /// The system's textbook example, on this table.
+    /// Returns the system's textbook example, on this table.
     pub fn example(system: System, table: &Table) -> Option<Self> {
         let line = system.example();
         let from = line.from + EXAMPLE * line.way;
         Self::counted(system, table, Mirror::default(), from, system.third_along(system.numbers(&line)?.third)?)
     }
 
-    /// The path of the system's natural stroke on the system's line, as this table plays it, from the diamond behind it
-    /// to the third cushion: the centres of the ball at the cushions, m.
+    /// Returns the path of the system's natural stroke on the system's line, as this table plays it, from the diamond
+    /// behind it to the third cushion: the centres of the ball at the cushions, m.
     pub fn path(&self, table: &Table) -> Vec<DVec2> {
         let Self { system, mirror, line, .. } = self;
         let turned = |place: DVec2| metres(table, mirror.place(place));

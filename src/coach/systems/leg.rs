@@ -24,7 +24,8 @@ pub struct Leg {
 }
 
 impl Leg {
-    /// The first three consecutive cushions before the second object ball, from the stroke or from the first object ball.
+    /// Finds the first three consecutive cushions before the second object ball, from the stroke or from the first
+    /// object ball.
     pub fn of(table: &Table, recording: &Recording) -> Option<Self> {
         let mut from = recording.state(0, 0.0).position;
         let (mut hits, mut met) = (Vec::new(), 0);
@@ -52,12 +53,12 @@ impl Leg {
         None
     }
 
-    /// The line of the ball's centre from the start to the first cushion.
+    /// Returns the line of the ball's centre from the start to the first cushion.
     pub fn line(&self) -> Line {
         Line::between(self.from, self.hits[0].1)
     }
 
-    /// The cushions.
+    /// Returns the cushions.
     pub fn rails(&self) -> [Rail; 3] {
         self.hits.map(|(rail, _)| rail)
     }

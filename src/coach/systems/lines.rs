@@ -67,24 +67,24 @@ pub struct Line {
 }
 
 impl Line {
-    /// The line from one position to another.
+    /// Creates the line from one position to another.
     pub fn between(from: DVec2, to: DVec2) -> Self {
         Self { from, way: to - from }
     }
 
-    /// The `y` at which it meets the vertical line at `x`; `None` if it is parallel to that.
+    /// Returns the `y` at which it meets the vertical line at `x`; `None` if it is parallel to that.
     pub fn at_x(&self, x: f64) -> Option<f64> {
         let y = self.from.y + (x - self.from.x) / self.way.x * self.way.y;
         y.is_finite().then_some(y)
     }
 
-    /// The `x` at which it meets the horizontal line at `y`; `None` if it is parallel to that.
+    /// Returns the `x` at which it meets the horizontal line at `y`; `None` if it is parallel to that.
     pub fn at_y(&self, y: f64) -> Option<f64> {
         let x = self.from.x + (y - self.from.y) / self.way.y * self.way.x;
         x.is_finite().then_some(x)
     }
 
-    /// Where it meets the line of a cushion's diamonds, as the position along the cushion.
+    /// Returns where it meets the line of a cushion's diamonds, as the position along the cushion.
     pub fn at_rail(&self, rail: Rail) -> Option<f64> {
         match rail {
             Rail::Top => self.at_y(4.0 + BEHIND),
@@ -94,8 +94,8 @@ impl Line {
         }
     }
 
-    /// The start of a line that leads up and to the left, measured along the diamonds of the lower cushion to the right
-    /// and on up those of the right cushion; their corner is at 8.225.
+    /// Returns the start of a line that leads up and to the left, measured along the diamonds of the lower cushion to
+    /// the right and on up those of the right cushion; their corner is at 8.225.
     pub fn behind(&self) -> Option<f64> {
         if self.way.x >= 0.0 || self.way.y <= 0.0 {
             return None;
@@ -108,7 +108,7 @@ impl Line {
     }
 }
 
-/// The position at the diamonds of a cushion, `along` diamonds along it.
+/// Returns the position at the diamonds of a cushion, `along` diamonds along it.
 pub const fn edge(rail: Rail, along: f64) -> DVec2 {
     match rail {
         Rail::Top => DVec2::new(along, 4.0 + BEHIND),
@@ -118,7 +118,7 @@ pub const fn edge(rail: Rail, along: f64) -> DVec2 {
     }
 }
 
-/// The position at the diamonds for a value of [`Line::behind`].
+/// Returns the position at the diamonds for a value of [`Line::behind`].
 pub fn behind_at(along: f64) -> DVec2 {
     let corner = 8.0 + BEHIND;
     if along <= corner { DVec2::new(along, -BEHIND) } else { DVec2::new(corner, along - corner - BEHIND) }

@@ -36,13 +36,13 @@ impl Natural {
     }
 }
 
-/// The first five cushions that a ball alone on the table hits, with its centre in diamonds.
+/// Returns the first five cushions that a ball alone on the table hits, with its centre in diamonds.
 pub fn hits(table: &Table, from: DVec2, impulse: &Impulse) -> Vec<(Rail, DVec2)> {
     let followed = Follower::new(&[], MOST).of(table, &alone(from), impulse);
     followed.hits.into_iter().map(|(_, rail, place)| (rail, diamonds(table, place))).collect()
 }
 
-/// The direction after an ideal reflection from a cushion, without spin.
+/// Returns the direction after an ideal reflection from a cushion, without spin.
 pub fn reflected(way: DVec2, rail: Rail) -> DVec2 {
     way - 2.0 * way.dot(rail.normal()) * rail.normal()
 }

@@ -18,7 +18,7 @@ const ARRIVALS: [(f64, &[f64]); 7] = [
     (8.0, &[8.0, 9.0]),
 ];
 
-/// The arrival of a ball with the start number `start` that is aimed at the position `first`, both in diamonds.
+/// Returns the arrival of a ball with the start number `start` that is aimed at the position `first`, both in diamonds.
 pub fn third(start: f64, first: f64) -> Option<f64> {
     let column = |arrivals: &'static [f64]| {
         // In reverse order, so that the positions ascend.

@@ -5,23 +5,23 @@
 pub struct Scale(pub &'static [(f64, f64)]);
 
 impl Scale {
-    /// The number at a position; `None` beyond the ends.
+    /// Returns the number at a position; `None` beyond the ends.
     pub fn number(&self, place: f64) -> Option<f64> {
         between(self.0.iter().map(|(number, place)| (*place, *number)), place)
     }
 
-    /// The position of a number; `None` beyond the ends.
+    /// Returns the position of a number; `None` beyond the ends.
     pub fn place(&self, number: f64) -> Option<f64> {
         between(self.0.iter().copied(), number)
     }
 
-    /// The positions of both ends.
+    /// Returns the positions of both ends.
     pub fn ends(&self) -> [f64; 2] {
         [self.0[0].1, self.0[self.0.len() - 1].1]
     }
 }
 
-/// Linear interpolation at `x` between points whose first coordinates ascend; `None` beyond the ends.
+/// Interpolates linearly at `x` between points whose first coordinates ascend; `None` beyond the ends.
 pub fn between(points: impl Iterator<Item = (f64, f64)> + Clone, x: f64) -> Option<f64> {
     // Tolerance for rounding at the ends.
     const ROUNDING: f64 = 1e-9;

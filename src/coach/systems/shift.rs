@@ -43,7 +43,7 @@ pub struct Shift {
 }
 
 impl Shift {
-    /// The rule of the shift, as a sentence.
+    /// Returns the rule of the shift, as a sentence.
     pub fn rule(&self) -> &'static str {
         if self.by * (self.third - self.arrival) < 0.0 {
             "Aimed further along the first cushion, the ball comes as much less far along the third."
@@ -52,19 +52,19 @@ impl Shift {
         }
     }
 
-    /// Where the shot itself is aimed on the first cushion, in its diamonds.
+    /// Returns where the shot itself is aimed on the first cushion, in its diamonds.
     pub fn aimed(&self) -> f64 {
         self.diamond + self.by
     }
 
-    /// The diamonds of the first and the third cushion between which the neighbouring line runs, as positions on the
+    /// Returns the diamonds of the first and the third cushion between which the neighbouring line runs, as positions on the
     /// table's edge.
     pub fn ends(&self) -> [DVec2; 2] {
         let [first, third] = self.rails;
         [edge(first, self.diamond), edge(third, self.arrival)]
     }
 
-    /// The shift from the nearest line that leads to a diamond and takes the same cushions. `None` if there is no such
+    /// Finds the shift from the nearest line that leads to a diamond and takes the same cushions. `None` if there is no such
     /// line, its prediction is too far off, the shot's own line leads to a diamond, or the third cushion is not
     /// parallel to the first.
     pub(super) fn of(table: &Table, leg: &Leg) -> Option<Self> {
@@ -103,8 +103,8 @@ impl Shift {
     }
 }
 
-/// The path of the shot's ball, from its start to the third cushion, if it reached the first one `by` diamonds further
-/// along. `None` if it takes other cushions.
+/// Simulates the path of the shot's ball, from its start to the third cushion, if it reached the first one `by`
+/// diamonds further along. `None` if it takes other cushions.
 fn path_beside(table: &Table, leg: &Leg, by: f64) -> Option<[DVec2; 4]> {
     let (place, motion) = &leg.motion;
     let first = leg.hits[0].0;
@@ -122,7 +122,7 @@ fn path_beside(table: &Table, leg: &Leg, by: f64) -> Option<[DVec2; 4]> {
     same.then(|| [entry(leg.from + further, hits[0].1), hits[0].1, hits[1].1, hits[2].1])
 }
 
-/// The point at which the line between two positions enters the table; the second one is on the table.
+/// Returns the point at which the line between two positions enters the table; the second one is on the table.
 fn entry(from: DVec2, to: DVec2) -> DVec2 {
     let share = (from.clamp(DVec2::ZERO, SIZE) - to) / (from - to);
     // Along an axis one share is NaN, which `min` ignores.
@@ -133,7 +133,7 @@ const fn is_long(rail: Rail) -> bool {
     matches!(rail, Rail::Top | Rail::Bottom)
 }
 
-/// The position along a cushion, in diamonds.
+/// Returns the position along a cushion, in diamonds.
 const fn along(place: DVec2, rail: Rail) -> f64 {
     if is_long(rail) { place.x } else { place.y }
 }

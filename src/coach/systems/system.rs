@@ -94,7 +94,7 @@ impl System {
     /// All systems.
     pub const ALL: [Self; 3] = [Self::Corner5, Self::Plus, Self::Seven];
 
-    /// The name that players use.
+    /// Returns the name that players use.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Corner5 => "Corner-5",
@@ -103,7 +103,7 @@ impl System {
         }
     }
 
-    /// The name in files and in JSON.
+    /// Returns the name in files and in JSON.
     pub const fn id(self) -> &'static str {
         match self {
             Self::Corner5 => "corner5",
@@ -112,7 +112,7 @@ impl System {
         }
     }
 
-    /// Its arithmetic in words.
+    /// Returns its arithmetic in words.
     pub const fn rule(self) -> &'static str {
         match self {
             Self::Corner5 => "first = start - third",
@@ -121,7 +121,7 @@ impl System {
         }
     }
 
-    /// The cushions, in order.
+    /// Returns the cushions, in order.
     pub const fn rails(self) -> [Rail; 3] {
         match self {
             Self::Corner5 => [Rail::Top, Rail::Left, Rail::Bottom],
@@ -130,7 +130,7 @@ impl System {
         }
     }
 
-    /// The kinds of its cushions, in order, in words.
+    /// Returns the kinds of its cushions, in order, in words.
     pub const fn track(self) -> &'static str {
         match self {
             Self::Corner5 => "long, short, long",
@@ -144,8 +144,8 @@ impl System {
         !matches!(self, Self::Seven)
     }
 
-    /// The stroke that it assumes, one for all its lines. Fitted by `study::filmed` so that its arrivals are nearest to
-    /// those on the `match` table.
+    /// Returns the stroke that it assumes, one for all its lines. Fitted by `study::filmed` so that its arrivals are
+    /// nearest to those on the `match` table.
     pub const fn natural(self) -> Natural {
         match self {
             Self::Corner5 => Natural { side: 0.99, roll: 1.27, speed: 3.0 },
@@ -154,7 +154,8 @@ impl System {
         }
     }
 
-    /// The numbers of a line that leads up and to the left; `None` if its start, its end or its arrival is outside the scale.
+    /// Returns the numbers of a line that leads up and to the left; `None` if its start, its end or its arrival is
+    /// outside the scale.
     pub fn numbers(self, line: &Line) -> Option<Numbers> {
         let start = self.start_scale().number(line.behind()?)?;
         let place = self.first_along(line)?;
@@ -186,17 +187,17 @@ impl System {
         }
     }
 
-    /// Where a line meets the diamonds of the first cushion, as the position along them.
+    /// Returns where a line meets the diamonds of the first cushion, as the position along them.
     pub fn first_along(self, line: &Line) -> Option<f64> {
         line.at_rail(self.rails()[0])
     }
 
-    /// The position of a point at the first cushion's diamonds.
+    /// Returns the position of a point at the first cushion's diamonds.
     pub const fn first_at(self, along: f64) -> DVec2 {
         edge(self.rails()[0], along)
     }
 
-    /// The range of positions on the first cushion that lines may lead to: low and high.
+    /// Returns the range of positions on the first cushion that lines may lead to: low and high.
     pub fn first_ends(self) -> [f64; 2] {
         match self {
             Self::Corner5 => CORNER_5_FIRST.ends(),
@@ -205,7 +206,7 @@ impl System {
         }
     }
 
-    /// The arrival on the third cushion, in diamonds along it, of a ball whose centre moves from `before` to `place`.
+    /// Returns the arrival on the third cushion, in diamonds along it, of a ball whose centre moves from `before` to `place`.
     /// Measured at the nose, or at the diamonds towards which the ball would continue, depending on the system. `None`
     /// if the ball does not go there.
     pub fn arrival(self, table: &Table, before: DVec2, place: DVec2) -> Option<f64> {
@@ -218,7 +219,7 @@ impl System {
         }
     }
 
-    /// The number of an arrival, given in diamonds along the third cushion; `None` beyond the scale.
+    /// Returns the number of an arrival, given in diamonds along the third cushion; `None` beyond the scale.
     pub fn third_number(self, along: f64) -> Option<f64> {
         match self {
             Self::Corner5 => CORNER_5_THIRD.number(along),
@@ -227,7 +228,7 @@ impl System {
         }
     }
 
-    /// The arrival of a number, in diamonds along the third cushion.
+    /// Returns the arrival of a number, in diamonds along the third cushion.
     pub fn third_along(self, number: f64) -> Option<f64> {
         match self {
             Self::Corner5 => CORNER_5_THIRD.place(number),
@@ -236,7 +237,7 @@ impl System {
         }
     }
 
-    /// The position of an arrival.
+    /// Returns the position of an arrival.
     pub const fn third_at(self, along: f64) -> DVec2 {
         match self {
             Self::Corner5 => DVec2::new(along, 0.0),
@@ -256,7 +257,7 @@ impl System {
         self.arrival(table, hit(index - 1)?.1, hit(index)?.1)
     }
 
-    /// The system's textbook example.
+    /// Returns the system's textbook example.
     pub fn example(self) -> Line {
         match self {
             Self::Corner5 => Line::between(behind_at(8.0 + BEHIND), self.first_at(2.0)),
@@ -265,7 +266,7 @@ impl System {
         }
     }
 
-    /// The numbers to display at the rails.
+    /// Returns the numbers to display at the rails.
     pub fn labels(self) -> Labels {
         let scale = self.start_scale();
         let numbers: &[f64] = match self {

@@ -16,7 +16,7 @@ pub fn number(system: System, number: f64) -> String {
     }
 }
 
-/// One decimal, omitted if it is zero.
+/// Formats a number with one decimal, which is omitted if it is zero.
 fn tenth(number: f64) -> String {
     let text = format!("{number:.1}");
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
@@ -31,7 +31,7 @@ fn rounded(system: System, number: f64) -> f64 {
 }
 
 impl Applied {
-    /// The player's arithmetic with the displayed numbers: `50 - 30 = 20`.
+    /// Returns the player's arithmetic with the displayed numbers: `50 - 30 = 20`.
     pub fn arithmetic(&self) -> String {
         let Numbers { start, third, .. } = self.numbers;
         let (sign, [one, other]) = match self.system {
@@ -43,7 +43,7 @@ impl Applied {
         format!("{one} {sign} {other} = {}", self.aim())
     }
 
-    /// The result of the arithmetic: the number on the first cushion.
+    /// Returns the result of the arithmetic: the number on the first cushion.
     pub fn aim(&self) -> String {
         let Numbers { start, third, .. } = self.numbers;
         let [start, third] = [start, third].map(|number| rounded(self.system, number));
@@ -55,7 +55,7 @@ impl Applied {
         number(self.system, first)
     }
 
-    /// The correction for this table; empty if it is unknown.
+    /// Describes the correction for this table; empty if it is unknown.
     pub fn correction(&self) -> String {
         let said = |value: f64| number(self.system, value);
         match (self.table_first, self.table_third) {
@@ -69,8 +69,8 @@ impl Applied {
         }
     }
 
-    /// The number at which the shot itself is aimed, with its own side and speed; `None` if it is the number displayed
-    /// before.
+    /// Returns the number at which the shot itself is aimed, with its own side and speed; `None` if it is the number
+    /// displayed before.
     fn shot_number(&self) -> Option<String> {
         let said = |value: f64| number(self.system, value);
         let last = self.table_first.map_or_else(|| self.aim(), said);
@@ -87,7 +87,7 @@ impl fmt::Display for Applied {
 }
 
 impl Shift {
-    /// Where the line to the diamond leads, and the shot next to it: `aimed at diamond 3 of the top rail, the ball
+    /// Describes where the line to the diamond leads, and the shot next to it: `aimed at diamond 3 of the top rail, the ball
     /// comes to 5.1 of the bottom rail; aimed at 3.4, as here, to 4.7`.
     pub fn counted(&self) -> String {
         let Self { rails: [first, last], diamond, arrival, .. } = self;
@@ -100,8 +100,8 @@ impl Shift {
         )
     }
 
-    /// A shorter form, with the correction for this table: `diamond 3 of the top rail leads to 5.1 of the bottom rail;
-    /// 3.4, as here, to 4.7; on this table to 4.6`.
+    /// Like [`counted`](Self::counted) in fewer words, with the correction for this table: `diamond 3 of the top rail
+    /// leads to 5.1 of the bottom rail; 3.4, as here, to 4.7; on this table to 4.6`.
     pub fn brief(&self) -> String {
         let Self { rails: [first, last], diamond, arrival, .. } = self;
         let (first, last) = (first.name(), last.name());
@@ -113,13 +113,13 @@ impl Shift {
         )
     }
 
-    /// The correction for this table: `on this table to 4.6`; `None` if it makes no difference.
+    /// Describes the correction for this table: `on this table to 4.6`; `None` if it makes no difference.
     pub fn correction(&self) -> Option<String> {
         let is_other = tenth(self.told_third()) != tenth(self.table_third);
         is_other.then(|| format!("on this table to {:.1}", self.table_third))
     }
 
-    /// The predicted arrival, consistent with the displayed arrival and shift.
+    /// Returns the predicted arrival, consistent with the displayed arrival and shift.
     fn told_third(&self) -> f64 {
         let rounded = |number: f64| (10.0 * number).round() / 10.0;
         rounded(self.arrival) + rounded(self.third - self.arrival)
@@ -134,7 +134,7 @@ impl fmt::Display for Shift {
 }
 
 impl Guide {
-    /// The whole calculation for a shot in one line: the numbers, the correction for this table, and the number at
+    /// Describes the whole calculation for a shot in one line: the numbers, the correction for this table, and the number at
     /// which the shot itself is aimed, which a shift always contains: `Corner-5: 50 - 30 = 20, aim at 20 on the wood;
     /// on this table 19, this shot at 17`.
     pub fn shot_words(&self) -> String {

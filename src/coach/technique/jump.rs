@@ -11,7 +11,7 @@ const LOOK: f64 = 0.001;
 /// Minimum overlap of the balls, seen from above, for one to count as flown over, m.
 const INSIDE: f64 = 0.001;
 
-/// The first object ball, or the edge of one, that the cue ball passes in the air before its first contact.
+/// Finds the first object ball, or the edge of one, that the cue ball passes in the air before its first contact.
 pub fn flown_over(table: &Table, recording: &Recording) -> Option<usize> {
     let is_contact = |kind| matches!(kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _));
     let first = recording.events().iter().find(|event| is_contact(event.kind));

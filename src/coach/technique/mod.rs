@@ -111,7 +111,8 @@ impl Technique {
         technique
     }
 
-    /// Share of the first ball that is covered, seen along the cue ball's path: 1 is head-on, 0 a graze or no ball.
+    /// Returns the share of the first ball that is covered, seen along the cue ball's path: 1 is head-on, 0 a graze or
+    /// no ball.
     pub fn fullness(&self) -> f64 {
         self.first.map_or(0.0, |hit| hit.fullness)
     }
@@ -121,7 +122,7 @@ impl Technique {
         self.over.is_some() || self.bend > BENT
     }
 
-    /// All cushions before the second object ball, in order.
+    /// Returns all cushions before the second object ball, in order.
     pub fn cushions(&self) -> impl Iterator<Item = &Cushion> {
         self.before.iter().chain(&self.between)
     }
@@ -182,13 +183,13 @@ impl Technique {
     }
 }
 
-/// Gap between a ball at `place` and a cushion, m.
+/// Returns the gap between a ball at `place` and a cushion, m.
 fn space_at(table: &Table, rail: Rail, place: DVec2) -> f64 {
     let normal = rail.normal().abs();
     (table.reach() - place.abs()).dot(normal)
 }
 
-/// Largest distance between two balls, m.
+/// Returns the largest distance between two balls, m.
 fn spread(layout: &Layout) -> f64 {
     let [a, b, c] = layout.balls;
     a.distance(b).max(a.distance(c)).max(b.distance(c))

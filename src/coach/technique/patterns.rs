@@ -222,12 +222,12 @@ pub const PATTERNS: [Pattern; 31] = [
 ];
 
 impl Pattern {
-    /// The players' name of a shot; `None` if it does not hit both balls.
+    /// Finds the pattern of a shot; `None` if it does not hit both balls.
     pub fn of(technique: &Technique) -> Option<&'static Self> {
         PATTERNS.iter().find(|pattern| technique.tally.met_both() && (pattern.is_it)(technique))
     }
 
-    /// The course in words for this shot. Adds the number of cushions if the pattern only defines the first three and
+    /// Describes the course for this shot. Adds the number of cushions if the pattern only defines the first three and
     /// there are more.
     pub fn course_of(&self, technique: &Technique) -> String {
         let says_all =
@@ -242,7 +242,7 @@ impl Pattern {
     }
 }
 
-/// The cushions between the balls as letters: `l` and `s` for the first long and the first short cushion, `L` and `S`
+/// Returns the cushions between the balls as letters: `l` and `s` for the first long and the first short cushion, `L` and `S`
 /// for those opposite.
 fn course(technique: &Technique) -> String {
     let (mut long, mut short) = (None, None);
@@ -256,7 +256,7 @@ fn course(technique: &Technique) -> String {
     if technique.before.is_empty() { all } else { String::new() }
 }
 
-/// The first three letters of [`course`].
+/// Returns the first three letters of [`course`].
 fn start(technique: &Technique) -> String {
     course(technique).chars().take(3).collect()
 }

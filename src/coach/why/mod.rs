@@ -143,8 +143,8 @@ pub fn why(
     })
 }
 
-/// Total width by which the direction may be off, degrees. `None` if a player of this skill makes the shot much more
-/// often than the direction stays within that width: other directions make it too.
+/// Returns the total width by which the direction may be off, degrees. `None` if a player of this skill makes the shot
+/// much more often than the direction stays within that width: other directions make it too.
 fn aim_width(sensitivity: &Sensitivity, cue: &CueInputs, skill: Skill, made: Option<SuccessRate>) -> Option<f64> {
     let margin = sensitivity.margin(Input::Direction, cue)?;
     let width = margin.less? + margin.more?;
@@ -154,7 +154,7 @@ fn aim_width(sensitivity: &Sensitivity, cue: &CueInputs, skill: Skill, made: Opt
     explains.then_some(width)
 }
 
-/// The kiss that spoils the most of the player's attempts; `None` if none spoils at least 2 %.
+/// Finds the kiss that spoils the most of the player's attempts; `None` if none spoils at least 2 %.
 fn kiss(shooter: Shooter, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs, seed: u64) -> Option<Kiss> {
     if shooter.skill.is_perfect() {
         return None;
@@ -212,7 +212,7 @@ impl Contacts {
         self.met.iter().filter(|contact| contact.1 == pair).count()
     }
 
-    /// The first contact that does not occur in the intended shot: two balls meet more often than there.
+    /// Finds the first contact that does not occur in the intended shot: two balls meet more often than there.
     fn unexpected(&self, meant: &Self) -> Option<(f64, [usize; 2])> {
         let mut seen = Vec::new();
         self.met.iter().copied().find(|(_, pair)| {

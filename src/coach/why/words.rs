@@ -18,7 +18,7 @@ const FULLER: f64 = 0.06;
 const HARDER: f64 = 0.3;
 
 impl Why {
-    /// The reasons in sentences, for a player with `cue_ball`.
+    /// Describes the reasons in sentences, for a player with `cue_ball`.
     pub fn words(&self, cue_ball: CueBall, units: Units) -> String {
         let names = cue_ball.names();
         let mut parts = Vec::new();
@@ -86,7 +86,7 @@ impl Why {
         self.unsure.contains(&2) && !self.is_by_plan()
     }
 
-    /// The probability of the next point, compared with that after the second-best shot, which is called `other`.
+    /// Describes the probability of the next point, compared with that after the second-best shot, which is called `other`.
     fn plan_words(&self, other: &str) -> Option<String> {
         let there = self.second.as_ref().and_then(|second| second.next_probability);
         let there = there.map_or_else(String::new, |there| format!(" (after {other}: {})", percent(there)));
@@ -98,7 +98,7 @@ impl Why {
         }
     }
 
-    /// Short forms, for a display that already contains the make probability, and for a player with `cue_ball`. The
+    /// Returns short forms, for a display that already contains the make probability, and for a player with `cue_ball`. The
     /// difference from the second-best shot comes first, and the plan if it decides. The first text is complete; each
     /// further one has one fact fewer.
     pub fn brief(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
@@ -117,8 +117,8 @@ impl Why {
         ever_shorter(std::iter::once(first).chain(facts).collect())
     }
 
-    /// Short forms without what a list of the shots with their probabilities contains, each with one fact fewer; empty
-    /// if there are none.
+    /// Returns short forms without what a list of the shots with their probabilities contains, each with one fact
+    /// fewer; empty if there are none.
     pub fn beside_the_list(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let luck = match &self.unsure[..] {
             [] => None,
@@ -133,7 +133,7 @@ impl Why {
         ever_shorter(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| capital(&sentence))
     }
 
-    /// Facts that the list of the shots does not contain. If the plan decides, that comes first.
+    /// Returns facts that the list of the shots does not contain. If the plan decides, that comes first.
     fn facts(&self, cue_ball: CueBall) -> Vec<String> {
         let names = cue_ball.names();
         let mut parts = Vec::new();

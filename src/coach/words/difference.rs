@@ -57,7 +57,7 @@ impl ShotWords {
         parts
     }
 
-    /// The difference in the first contact, or in the fullness of the same contact.
+    /// Describes the difference in the first contact, or in the fullness of the same contact.
     fn contact_difference(&self, other: &Self, misses: bool, cue_ball: CueBall) -> Vec<String> {
         let names = cue_ball.names();
         let (Some(hit), Some(others)) = (self.first, other.first) else {
@@ -96,7 +96,7 @@ impl ShotWords {
         vec![part]
     }
 
-    /// How much further to one side the cue is aimed.
+    /// Describes how much further to one side the cue is aimed.
     fn aim_difference(&self, other: &Self) -> Option<String> {
         let degrees = other.direction.angle_to(self.direction).to_degrees();
         (degrees.abs() >= AIM).then(|| {
@@ -106,7 +106,7 @@ impl ShotWords {
     }
 }
 
-/// The size of a change of the tip position along one axis.
+/// Describes the size of a change of the tip position along one axis.
 fn tip_amount(tips: f64, radius: f64, unit: TipUnit) -> Option<String> {
     if tips.abs() < TIPS {
         return None;
@@ -124,8 +124,8 @@ fn tip_amount(tips: f64, radius: f64, unit: TipUnit) -> Option<String> {
     })
 }
 
-/// The direction of a change of side from one value to another; positive values are side of the first of the two names.
-/// It is more of one side, or less of the other.
+/// Describes the direction of a change of side from one value to another; positive values are side of the first of the
+/// two names. It is more of one side, or less of the other.
 fn way(from: f64, to: f64, [more, less]: [&str; 2]) -> String {
     let (towards, away) = if to > from { (more, less) } else { (less, more) };
     // A reduction that does not cross to the other side is less of the old side.

@@ -3,7 +3,7 @@
 use super::{LengthUnit, short};
 use crate::{simulation::Jump, table::Table};
 
-/// A height in the unit for small lengths: "12 mm", "0.5 in".
+/// Formats a height in the unit for small lengths: "12 mm", "0.5 in".
 pub fn height_words(metres: f64, unit: LengthUnit) -> String {
     match unit {
         // A hop is never displayed as zero.
@@ -14,12 +14,12 @@ pub fn height_words(metres: f64, unit: LengthUnit) -> String {
     }
 }
 
-/// The height and the distance of a jump: "12 mm high, 31 cm far".
+/// Describes the height and the distance of a jump: "12 mm high, 31 cm far".
 pub fn jump_words(jump: &Jump, unit: LengthUnit) -> String {
     format!("{} high, {} far", height_words(jump.height, unit), unit.words(jump.distance))
 }
 
-/// Why a shot shows no jump.
+/// Explains why a shot shows no jump.
 pub const fn no_jump_words(table: &Table) -> &'static str {
     if table.flight.is_none() {
         "no ball leaves this table's cloth: its file has no section [flight]"

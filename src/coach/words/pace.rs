@@ -12,8 +12,9 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// The number of table lengths, from cushion to cushion, that a ball runs if a level cue strikes its centre at `speed`,
-/// m/s. A tilted table is treated as level. `None` if the table is too small for three balls, or the speed is invalid.
+/// Computes the number of table lengths, from cushion to cushion, that a ball runs if a level cue strikes its centre at
+/// `speed`, m/s. A tilted table is treated as level. `None` if the table is too small for three balls, or the speed is
+/// invalid.
 pub fn table_lengths(table: &Table, speed: f64) -> Option<f64> {
     let level = Table { tilt: DVec2::ZERO, room: None, ..table.clone() };
     let (corner, start) = (level.reach(), DVec2::new(-0.25 * level.length, 0.0));
@@ -35,12 +36,12 @@ pub fn table_lengths(table: &Table, speed: f64) -> Option<f64> {
 /// Names of strokes of one table length, of two, and so on; longer ones have the last name.
 pub const PACES: [&str; 5] = ["very soft", "soft", "medium", "hard", "very hard"];
 
-/// The name of a stroke of this number of table lengths.
+/// Returns the name of a stroke of this number of table lengths.
 pub fn pace_word(lengths: f64) -> &'static str {
     PACES[(lengths.round() as usize).clamp(1, PACES.len()) - 1]
 }
 
-/// A number of table lengths in words, to a tenth.
+/// Formats a number of table lengths in words, to a tenth.
 pub fn lengths_words(lengths: f64) -> String {
     let number = short(lengths, 1);
     let plural = if number == "1" { "" } else { "s" };

@@ -8,7 +8,7 @@ use crate::{
 };
 
 impl ShotWords {
-    /// The stroke in one sentence, for a player with `cue_ball`.
+    /// Describes the stroke in one sentence, for a player with `cue_ball`.
     pub fn sentence(&self, cue_ball: CueBall, units: Units) -> String {
         // Side that is nearly straight above or below the centre has no clock position of its own.
         let clock = self.clock.filter(|clock| clock % 6.0 != 0.0);
@@ -29,7 +29,7 @@ impl ShotWords {
         capital(&format!("{first}; {tip}; {}{lengths}, {}.", pace_word(self.table_lengths), self.cue_words()))
     }
 
-    /// The path of the cue ball: balls, cushions with positions, and the hit on the second ball.
+    /// Describes the path of the cue ball: balls, cushions with positions, and the hit on the second ball.
     pub fn course(&self, cue_ball: CueBall, units: Units) -> String {
         let met = |hit: Hit| match (fullness_word(hit.fullness), hit.left) {
             ("full", _) => "full".to_owned(),
@@ -64,14 +64,14 @@ impl ShotWords {
         capital(&stops.join(" \u{2013} "))
     }
 
-    /// The line of aim from cushion to cushion, measured at the noses.
+    /// Describes the line of aim from cushion to cushion, measured at the noses.
     pub fn aim(&self, units: Units) -> String {
         let point =
             |point: RailPoint| format!("{} on the {}", self.place(point.diamond, units, 2), rail_words(point.rail));
         format!("Cue from {} to {}.", point(self.behind), point(self.ahead))
     }
 
-    /// The first object ball and its fullness, after any cushions before it and the position on the first of them.
+    /// Describes the first object ball and its fullness, after any cushions before it and the position on the first of them.
     fn first_words(&self, cue_ball: CueBall, units: Units) -> String {
         let ball = self.first.map(|hit| {
             let (full, is_middle) = numbers::fullness_words(hit.fullness);
@@ -100,7 +100,7 @@ impl ShotWords {
         }
     }
 
-    /// The tip position, with `clock` if there is side.
+    /// Describes the tip position, with `clock` if there is side.
     fn tip_words(&self, units: Units, clock: &str) -> String {
         let half_tips = |tips: f64| (2.0 * tips.abs()).round() as u32;
         let [side, height] = match units.tip {
@@ -132,7 +132,7 @@ impl ShotWords {
         }
     }
 
-    /// The elevation of the cue.
+    /// Describes the elevation of the cue.
     fn cue_words(&self) -> String {
         match self.elevation_deg.round() {
             _ if self.has_level_cue() => "level cue".to_owned(),
@@ -141,13 +141,13 @@ impl ShotWords {
         }
     }
 
-    /// A position along a cushion.
+    /// Formats a position along a cushion.
     fn place(&self, diamonds: f64, units: Units, decimals: usize) -> String {
         units.place.words(diamonds, self.diamond, decimals)
     }
 }
 
-/// The name of a cushion, by its position on the screen.
+/// Returns the name of a cushion, by its position on the screen.
 const fn rail_words(rail: Rail) -> &'static str {
     match rail {
         Rail::Top => "top long rail",

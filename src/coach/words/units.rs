@@ -94,7 +94,7 @@ impl LengthUnit {
     /// Both units, by name.
     pub const NAMED: [(&'static str, Self); 2] = [("metres", Self::Metres), ("feet", Self::Feet)];
 
-    /// The smaller of the two units: the number per metre, and the symbol.
+    /// Returns the smaller of the two units: the number per metre, and the symbol.
     pub const fn small(self) -> (f64, &'static str) {
         match self {
             Self::Metres => (100.0, "cm"),
@@ -102,7 +102,7 @@ impl LengthUnit {
         }
     }
 
-    /// The unit of ball positions: the number per metre, the symbol, and the number of decimals.
+    /// Returns the unit of ball positions: the number per metre, the symbol, and the number of decimals.
     pub const fn fine(self) -> (f64, &'static str, usize) {
         match self {
             Self::Metres => (1000.0, "mm", 1),
@@ -110,7 +110,7 @@ impl LengthUnit {
         }
     }
 
-    /// The unit of speed: the factor from m/s, and the symbol.
+    /// Returns the unit of speed: the factor from m/s, and the symbol.
     pub const fn speed(self) -> (f64, &'static str) {
         match self {
             Self::Metres => (1.0, "m/s"),

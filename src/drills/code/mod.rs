@@ -190,13 +190,13 @@ fn content_of(reader: &mut Reader) -> Result<Exercise, CodeError> {
     Ok(Exercise { title, tags, shot, ..Exercise::own(&name, rule, &table, Layout::new(balls)) })
 }
 
-/// A coordinate in tenths of a millimetre; `None` if it is out of range.
+/// Returns a coordinate in tenths of a millimetre; `None` if it is out of range.
 fn tenths(x: f64) -> Option<i16> {
     let tenths = (x * GRID).round();
     (tenths.abs() <= f64::from(i16::MAX)).then_some(tenths as i16)
 }
 
-/// A shot in [`SHOT_UNITS`]. The tip and the elevation are rounded towards zero, so that no limit is exceeded.
+/// Converts a shot to [`SHOT_UNITS`]. The tip and the elevation are rounded towards zero, so that no limit is exceeded.
 fn shot_in_units(shot: &CueInputs) -> [i32; 5] {
     // The tolerance keeps values that are integers up to rounding.
     let inward = |x: f64| ((x.abs() + 1e-6).floor() * x.signum()) as i32;

@@ -56,14 +56,14 @@ impl Store {
         Self { sessions, positions, player }
     }
 
-    /// All sessions, the oldest first.
+    /// Reads all sessions, the oldest first.
     pub fn sessions(&self) -> Found<Session> {
         let mut found = read_all(&self.sessions, read_session);
         found.items.sort_by(|x, y| (x.started, &x.id).cmp(&(y.started, &y.id)));
         found
     }
 
-    /// The session with this identifier, if there is one.
+    /// Reads the session with this identifier, if there is one.
     ///
     /// # Errors
     /// Fails if its file cannot be read.
@@ -133,14 +133,14 @@ impl Store {
         Lock::wait(&self.sessions).map_err(|error| StoreError::unwritten(&self.sessions, error))
     }
 
-    /// The player's own positions, by name.
+    /// Reads the player's own positions, by name.
     pub fn positions(&self) -> Found<Exercise> {
         let mut found = read_all(&self.positions, read_position);
         found.items.sort_by(|x, y| x.name.cmp(&y.name));
         found
     }
 
-    /// The library of bundled exercises and own positions, and a sentence for each position that cannot be used.
+    /// Returns the library of bundled exercises and own positions, and a sentence for each position that cannot be used.
     pub fn library(&self) -> (Library, Vec<String>) {
         let own = self.positions();
         let (library, refused) = Library::with_own(own.items);
@@ -190,12 +190,12 @@ impl Store {
     }
 }
 
-/// The text of a position's file: a library with one exercise.
+/// Returns the text of a position's file: a library with one exercise.
 fn position_text(position: &Exercise) -> Result<String, serde_json::Error> {
     LibraryFile::new(vec![Exercise { category: Category::Own, ..position.clone() }]).to_text()
 }
 
-/// The path of the file for `name`.
+/// Returns the path of the file for `name`.
 fn file(folder: &Path, name: &str) -> Result<PathBuf, StoreError> {
     if is_name(name) {
         Ok(folder.join(format!("{name}.{EXTENSION}")))

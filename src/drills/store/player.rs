@@ -24,7 +24,7 @@ pub struct OwnSkill {
 }
 
 impl Store {
-    /// The player's own skill; `None` if none is saved.
+    /// Reads the player's own skill; `None` if none is saved.
     ///
     /// # Errors
     /// Fails if the file cannot be read.

@@ -52,7 +52,7 @@ impl Practice {
 }
 
 impl Store {
-    /// All stored data, and a sentence for every unreadable file that is missing from it.
+    /// Returns all stored data, and a sentence for every unreadable file that is missing from it.
     pub fn export(&self) -> (Practice, Vec<String>) {
         let (positions, mut sessions) = (self.positions(), self.sessions());
         // A session without attempts is not exported.

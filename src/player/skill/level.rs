@@ -24,7 +24,7 @@ impl Skill {
     /// Averages about 0.15.
     pub const BEGINNER: Self = Self::level(8.8);
 
-    /// A player whose errors at the reference stroke are `scale` times an expert's, with the usual growth.
+    /// Returns a player whose errors at the reference stroke are `scale` times an expert's, with the usual growth.
     pub const fn level(scale: f64) -> Self {
         Self { growth: Growth::USUAL, ..Self::EXPERT.scaled(scale) }
     }
@@ -32,21 +32,21 @@ impl Skill {
     /// Range of the three-cushion averages that were measured, approximately; outside it, the errors of a player are unknown.
     pub const AVERAGES: (f64, f64) = (0.1, 2.5);
 
-    /// The level with this three-cushion average; `None` if it is outside the measured range.
+    /// Returns the level with this three-cushion average; `None` if it is outside the measured range.
     pub fn of_average(average: f64) -> Option<Self> {
         let (least, most) = Self::AVERAGES;
         let scale = (AVERAGE_OF_EXPERTS_ERRORS / average).powf(1.0 / FALL);
         (least..=most).contains(&average).then(|| Self::level(scale))
     }
 
-    /// The average for which [`Skill::of_average`] returns this player; `None` for the named levels.
+    /// Returns the average for which [`Skill::of_average`] returns this player; `None` for the named levels.
     pub fn as_average(&self) -> Option<f64> {
         // More digits would have no meaning.
         let average = (1e4 * Self::average(self.scale())).round() / 1e4;
         (Self::of_average(average) == Some(*self)).then_some(average)
     }
 
-    /// The three-cushion average of such a player.
+    /// Returns the three-cushion average of such a player.
     pub fn average(scale: f64) -> f64 {
         AVERAGE_OF_EXPERTS_ERRORS * scale.powf(-FALL)
     }

@@ -93,7 +93,7 @@ impl Skill {
         ("beginner", Self::BEGINNER),
     ];
 
-    /// The same player with all errors multiplied by `factor`.
+    /// Returns the same player with all errors multiplied by `factor`.
     #[must_use]
     pub const fn scaled(self, factor: f64) -> Self {
         Self {
@@ -106,7 +106,7 @@ impl Skill {
         }
     }
 
-    /// The errors at the reference stroke as a multiple of an expert's, averaged over the five inputs.
+    /// Returns the errors at the reference stroke as a multiple of an expert's, averaged over the five inputs.
     pub fn scale(&self) -> f64 {
         self.values().iter().zip(Self::EXPERT.values()).map(|(own, expert)| own / expert).sum::<f64>() / 5.0
     }
@@ -116,7 +116,7 @@ impl Skill {
         *self == Self::PERFECT
     }
 
-    /// The errors at one stroke, without further growth.
+    /// Returns the errors at one stroke, without further growth.
     #[inline]
     #[must_use]
     pub fn at(&self, cue: &CueInputs) -> Self {
@@ -133,7 +133,7 @@ impl Skill {
         }
     }
 
-    /// The stroke that results from an attempt at `cue` with these standard normal errors, on balls of `radius` m.
+    /// Returns the stroke that results from an attempt at `cue` with these standard normal errors, on balls of `radius` m.
     #[inline]
     pub fn stroke(&self, radius: f64, cue: &CueInputs, errors: &Errors) -> CueInputs {
         let own = self.at(cue);
@@ -148,13 +148,13 @@ impl Skill {
         }
     }
 
-    /// The standard error of one input at the reference stroke, in its unit; for other strokes see [`Skill::at`].
+    /// Returns the standard error of one input at the reference stroke, in its unit; for other strokes see [`Skill::at`].
     pub fn error(&self, input: Input) -> f64 {
         let index = input as usize;
         self.values()[index] / FORMS[index].2
     }
 
-    /// The five errors in the order of [`FORMS`] and [`Input::ALL`], in SI units.
+    /// Returns the five errors in the order of [`FORMS`] and [`Input::ALL`], in SI units.
     const fn values(&self) -> [f64; 5] {
         [self.a, self.b, self.theta, self.phi, self.speed]
     }
