@@ -28,7 +28,7 @@ impl RailPoint {
         Self { rail, diamond: along / table.diamond() }
     }
 
-    /// Returns its position on the table, m.
+    /// Returns the position of the point on the table, m.
     pub fn place(self, table: &Table) -> DVec2 {
         let half = 0.5 * DVec2::new(table.length, table.width);
         let along = self.diamond * table.diamond();

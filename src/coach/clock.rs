@@ -28,7 +28,7 @@ impl<'a> Clock<'a> {
         self.start + self.budget.mul_f64(share)
     }
 
-    /// Whether it is later than `moment`, or the search is cancelled.
+    /// Whether `moment` has passed, or the search is cancelled.
     #[inline]
     pub fn is_past(&self, moment: Instant) -> bool {
         self.is_cancelled() || Instant::now() >= moment
@@ -55,7 +55,7 @@ impl<'a> Clock<'a> {
         self.simulations.fetch_add(simulations, Ordering::Relaxed);
     }
 
-    /// Returns the shots simulated so far.
+    /// Returns the number of shots simulated so far.
     pub fn simulations(&self) -> u64 {
         self.simulations.load(Ordering::Relaxed)
     }

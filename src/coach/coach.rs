@@ -118,7 +118,7 @@ impl Coach {
         self.recommend_and_tell(layout, request, |_| {})
     }
 
-    /// Like [`recommend`](Self::recommend), and calls `tell` on this thread for every better shot as soon as it is found.
+    /// Like [`recommend`](Self::recommend), and calls `tell` on this thread as soon as a better shot is found.
     ///
     /// # Errors
     /// Fails if the layout is impossible.

@@ -77,7 +77,7 @@ impl Kind {
     }
 }
 
-/// Plain words for the way; a pattern's name says more to players.
+/// Avoids the players' terms, because their names of patterns and speeds are more specific than a kind.
 impl fmt::Display for Way {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.pad(match self {

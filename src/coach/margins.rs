@@ -163,9 +163,9 @@ impl<'a> Sensitivity<'a> {
         known.into_iter().chain(drawn).map(come_of)
     }
 
-    /// The outcomes around `middle`: `cells` columns and rows, an odd number so that the stroke itself is there, up to
-    /// so many units of each input to either side. Where there is a doubt, there is a point where one is within the
-    /// margins of `cue`, and else the outcome of most worlds.
+    /// Computes the outcomes around `middle`, up to `width` and `height` units of the two inputs to either side. There
+    /// are `cells` columns and rows, an odd number so that the central cell is `middle` itself. With a doubt,
+    /// a cell is a point if it meets the criterion of the margins of `cue`, otherwise the most frequent outcome.
     pub fn map(
         &self,
         cue: &CueInputs,
@@ -189,7 +189,7 @@ impl<'a> Sensitivity<'a> {
         Map { across, up, columns, rows, outcomes }
     }
 
-    /// Returns a point if at least `least` worlds make it, else the most frequent other outcome.
+    /// Returns [`Outcome::Point`] if at least `least` worlds make it, else the most frequent other outcome.
     fn usual(&self, cue: &CueInputs, least: usize) -> Outcome {
         let all: Vec<Outcome> = self.outcomes(cue).collect();
         let count = |outcome: Outcome| all.iter().filter(|one| **one == outcome).count();

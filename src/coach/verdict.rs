@@ -30,11 +30,11 @@ const AROUND: f64 = 0.002;
 /// How the cue ball missed an object ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Passed {
-    /// On the ball's left, as the cue ball came on.
+    /// On the ball's left, seen along the cue ball's path.
     Left,
-    /// On its right.
+    /// On the ball's right.
     Right,
-    /// Above it, in the air.
+    /// Above the ball, in the air.
     Over,
     /// Stopped before the ball.
     Short,
@@ -49,7 +49,7 @@ pub struct Miss {
     pub ball: usize,
     /// The gap between the two balls at that moment, m.
     pub gap: f64,
-    /// How it was missed.
+    /// How the ball was missed.
     pub passed: Passed,
 }
 

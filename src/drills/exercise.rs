@@ -18,7 +18,7 @@ use crate::{
 pub enum Category {
     /// Plain caroms from one ball to the other.
     FirstCaroms,
-    /// The cue ball comes back from the first ball.
+    /// The cue ball returns from the first ball.
     Draw,
     /// The cue ball runs on after the first ball.
     Follow,

@@ -152,7 +152,7 @@ pub struct Session {
     pub id: String,
     /// Start, Unix time in seconds.
     pub started: u64,
-    /// When it is over.
+    /// The condition for its end.
     pub goal: Goal,
     /// Where the strokes are played.
     pub venue: Venue,
@@ -243,7 +243,7 @@ impl Session {
         self.exercises.get(number).filter(|_| !self.is_over())
     }
 
-    /// Whether it is an exam.
+    /// Whether the session is an exam.
     pub fn is_exam(&self) -> bool {
         self.goal == Goal::Exam
     }

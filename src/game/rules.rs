@@ -44,7 +44,7 @@ impl Rule {
         }
     }
 
-    /// Returns the cushion contacts needed before the second object ball.
+    /// Returns the number of cushion contacts needed before the second object ball.
     pub const fn cushions(self) -> u32 {
         match self {
             Self::StraightRail => 0,

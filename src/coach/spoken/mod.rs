@@ -207,7 +207,7 @@ impl SpokenStroke {
 }
 
 impl Mark {
-    /// Returns its position on the table, m.
+    /// Returns the position of the mark on the table, m.
     fn place(self, table: &Table) -> glam::DVec2 {
         let behind = if self.on_wood { BEHIND * table.diamond() } else { 0.0 };
         self.point.place(table) - behind * self.point.rail.normal()

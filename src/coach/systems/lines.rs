@@ -72,19 +72,19 @@ impl Line {
         Self { from, way: to - from }
     }
 
-    /// Returns the `y` at which it meets the vertical line at `x`; `None` if it is parallel to that.
+    /// Returns the `y` of the intersection with the vertical line at `x`; `None` if the lines are parallel.
     pub fn at_x(&self, x: f64) -> Option<f64> {
         let y = self.from.y + (x - self.from.x) / self.way.x * self.way.y;
         y.is_finite().then_some(y)
     }
 
-    /// Returns the `x` at which it meets the horizontal line at `y`; `None` if it is parallel to that.
+    /// Returns the `x` of the intersection with the horizontal line at `y`; `None` if the lines are parallel.
     pub fn at_y(&self, y: f64) -> Option<f64> {
         let x = self.from.x + (y - self.from.y) / self.way.y * self.way.x;
         x.is_finite().then_some(x)
     }
 
-    /// Returns where it meets the line of a cushion's diamonds, as the position along the cushion.
+    /// Returns the intersection with the line of a cushion's diamonds, as the position along the cushion.
     pub fn at_rail(&self, rail: Rail) -> Option<f64> {
         match rail {
             Rail::Top => self.at_y(4.0 + BEHIND),

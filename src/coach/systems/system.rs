@@ -65,9 +65,9 @@ const CORNER_5_START: Scale = Scale(&[
     (80.0, 10.95),
     (90.0, 11.45),
 ]);
-/// Its first cushion: ten per diamond, and twenty from 50 on.
+/// First cushion of Corner-5: ten per diamond, and twenty from 50 on.
 const CORNER_5_FIRST: Scale = Scale(&[(0.0, 0.0), (50.0, 5.0), (90.0, 7.0)]);
-/// Its third cushion, at the nose.
+/// Third cushion of Corner-5, at the nose.
 const CORNER_5_THIRD: Scale = Scale(&[
     (0.0, 0.2),
     (10.0, 1.0),
@@ -84,9 +84,9 @@ const CORNER_5_THIRD: Scale = Scale(&[
 const PLUS_START: Scale = Scale(&[(2.0, 2.0), (7.0, 7.0), (8.0, 8.225)]);
 /// Start numbers of Seven: half a number per diamond, from the third diamond on.
 const SEVEN_START: Scale = Scale(&[(2.5, 3.0), (4.5, 7.0), (5.0, 8.225), (6.0, 9.45)]);
-/// Its first cushion: ten per diamond.
+/// First cushion of Seven: ten per diamond.
 const SEVEN_FIRST: Scale = Scale(&[(0.0, 0.0), (40.0, 4.0)]);
-/// Its third cushion, measured from the top down: see [`System::third_number`].
+/// Third cushion of Seven, measured from the top down: see [`System::third_number`].
 const SEVEN_THIRD: Scale =
     Scale(&[(4.0, 0.0), (5.0, 0.67), (6.0, 1.33), (7.0, 2.0), (8.0, 2.67), (9.0, 3.33), (10.0, 4.0)]);
 
@@ -112,7 +112,7 @@ impl System {
         }
     }
 
-    /// Returns its arithmetic in words.
+    /// Returns the system's arithmetic in words.
     pub const fn rule(self) -> &'static str {
         match self {
             Self::Corner5 => "first = start - third",
@@ -130,7 +130,7 @@ impl System {
         }
     }
 
-    /// Returns the kinds of its cushions, in order, in words.
+    /// Returns the kinds of the cushions, in order, in words.
     pub const fn track(self) -> &'static str {
         match self {
             Self::Corner5 => "long, short, long",
@@ -139,12 +139,12 @@ impl System {
         }
     }
 
-    /// Whether it assumes running side; otherwise it assumes none.
+    /// Whether the system assumes running side; otherwise it assumes none.
     pub const fn is_running(self) -> bool {
         !matches!(self, Self::Seven)
     }
 
-    /// Returns the stroke that it assumes, one for all its lines. Fitted by `study::filmed` so that its arrivals are
+    /// Returns the stroke that the system assumes, one for all its lines. Fitted by `study::filmed` so that its arrivals are
     /// nearest to those on the `match` table.
     pub const fn natural(self) -> Natural {
         match self {

@@ -13,9 +13,9 @@ use crate::{
 pub struct Pattern {
     /// The tag of the exercises that train it. Some patterns share one.
     pub tag: &'static str,
-    /// Its name in a sentence.
+    /// The name in a sentence.
     pub name: &'static str,
-    /// Its course in words.
+    /// The course of the cue ball in words.
     pub course: &'static str,
     is_it: fn(&Technique) -> bool,
 }

@@ -51,7 +51,7 @@ pub struct Kiss {
 pub struct Difference {
     /// The name of its pattern.
     pub pattern: Option<&'static str>,
-    /// Its first object ball, if it is another one.
+    /// Its first object ball, if that differs.
     pub first_ball: Option<usize>,
     /// How much fuller it hits the same first ball; negative is thinner.
     pub fuller: f64,

@@ -152,7 +152,7 @@ impl Store {
     /// [`Category::Own`].
     ///
     /// # Errors
-    /// Fails if it cannot be played, its name is taken, or the file cannot be written. An existing file is then unchanged.
+    /// Fails if the position cannot be played, its name is taken, or the file cannot be written. An existing file is then unchanged.
     pub fn save_position(&self, position: &Exercise, replaces: bool) -> Result<(), StoreError> {
         position.validate()?;
         if Library::bundled().get(&position.name).is_ok() {

@@ -17,7 +17,7 @@ const PLAYER: &str = "carom-player";
 /// A skill that the player has saved as their own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OwnSkill {
-    /// The errors.
+    /// The skill.
     pub skill: Skill,
     /// When it was saved, Unix time in seconds.
     pub since: u64,
