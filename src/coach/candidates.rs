@@ -50,7 +50,7 @@ pub fn variation(table: &Table, cue: &CueInputs, rng: &mut Xoshiro256PlusPlus) -
 }
 
 /// Draws any shot: half of them aim at one of the object balls, thick or thin, the others in any direction.
-pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
+pub fn any_stroke(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let [cue_ball, first, second] = layout.balls;
     let phi = if rng.random() {
         at(table, cue_ball, if rng.random() { first } else { second }, rng)
@@ -113,7 +113,7 @@ pub fn stratified(
 
 /// Draws the offset of a usual stroke's line of aim from the object ball's centre, in diameters, positive to the left.
 fn usual_offset(rng: &mut Xoshiro256PlusPlus) -> f64 {
-    let offset = usual(USUAL_OFFSET, rng);
+    let offset = gaussian(USUAL_OFFSET, rng);
     if rng.random() { offset } else { -offset }
 }
 
@@ -129,17 +129,17 @@ fn usual_speed(rule: Rule, rng: &mut Xoshiro256PlusPlus) -> f64 {
         Rule::ThreeCushion => USUAL_LOG_SPEED_AT_THREE_CUSHIONS,
         Rule::StraightRail | Rule::OneCushion => USUAL_LOG_SPEED,
     };
-    usual(log_speed, rng).exp()
+    gaussian(log_speed, rng).exp()
 }
 
 /// Draws a normally distributed number with this mean and standard deviation.
-fn usual([mean, deviation]: [f64; 2], rng: &mut Xoshiro256PlusPlus) -> f64 {
+fn gaussian([mean, deviation]: [f64; 2], rng: &mut Xoshiro256PlusPlus) -> f64 {
     mean + deviation * normal(rng)
 }
 
 /// Returns the stroke that results from `cue` played by this skill with these errors, kept within the limits of
 /// recommended strokes.
-pub fn towards(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) -> CueInputs {
+pub fn with_errors(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) -> CueInputs {
     let stroke = skill.stroke(table.radius, cue, errors);
     let theta = stroke.theta.clamp(0.0, steepest(cue));
     let (a, b) = within_limit(table, theta, stroke.a, stroke.b);
@@ -171,17 +171,17 @@ pub fn playable(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<CueIn
 
 /// Draws a random direction in which a straight-running ball hits `target`, uniform in thickness.
 fn at(table: &Table, cue_ball: DVec2, target: DVec2, rng: &mut Xoshiro256PlusPlus) -> f64 {
-    let apart = target - cue_ball;
-    let widest = (2.0 * table.radius / apart.length()).min(1.0).asin();
-    apart.to_angle() + rng.random_range(-widest..=widest)
+    let difference = target - cue_ball;
+    let widest = (2.0 * table.radius / difference.length()).min(1.0).asin();
+    difference.to_angle() + rng.random_range(-widest..=widest)
 }
 
 /// Returns the direction in which a straight-running ball passes the centre of `target` by `offset` diameters to the
 /// left. It just touches the ball if that is more than one.
 fn beside(table: &Table, cue_ball: DVec2, target: DVec2, offset: f64) -> f64 {
-    let apart = target - cue_ball;
-    let share = 2.0 * table.radius * offset.clamp(-1.0, 1.0) / apart.length();
-    apart.to_angle() + share.clamp(-1.0, 1.0).asin()
+    let difference = target - cue_ball;
+    let share = 2.0 * table.radius * offset.clamp(-1.0, 1.0) / difference.length();
+    difference.to_angle() + share.clamp(-1.0, 1.0).asin()
 }
 
 /// Draws a random point of the tip's disc, uniform in area.
@@ -220,10 +220,10 @@ mod tests {
             let table = Table::preset(name).unwrap();
             for n in 0..2000 {
                 let layout = Layout::random(&table, &mut rng);
-                let cue = anything(&table, &layout, &mut rng);
+                let cue = any_stroke(&table, &layout, &mut rng);
                 let rule = Rule::ALL[n as usize % Rule::ALL.len()];
                 let wide = stratified(&table, &layout, rule, FirstMet::Any, n, MIN_SPEED, &mut rng);
-                let moved = towards(&table, Skill::BEGINNER, &wide, &errors::one(&mut rng));
+                let moved = with_errors(&table, Skill::BEGINNER, &wide, &errors::one(&mut rng));
                 for cue in [moved, variation(&table, &cue, &mut rng), cue, wide] {
                     cue.validate().unwrap();
                     cue.validate_tip(table.miscue_limit).unwrap();

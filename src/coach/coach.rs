@@ -15,7 +15,7 @@ use super::{
     pool::Candidate,
     refinement::WORTH_A_CHANGE,
     search::Search,
-    trial::{Attempts, CONTACT_STEPS, ENDLESS, Task, unhurried},
+    trial::{Attempts, CONTACT_STEPS, Task, UNLIMITED_STEPS, without_limits},
 };
 use crate::{
     game::Rule,
@@ -91,10 +91,10 @@ impl Coach {
             Policies::None => None,
             Policies::One(policy) => Some(policy),
             Policies::Bundled(policies) => {
-                let errs = !skill.is_perfect();
+                let makes_errors = !skill.is_perfect();
                 // A test ensures that every bundled policy can be read.
-                let read = || Policy::bundled_for(&self.table, rule, errs)?.ok();
-                policies[rule as usize][usize::from(errs)].get_or_init(read).as_ref()
+                let read = || Policy::bundled_for(&self.table, rule, makes_errors)?.ok();
+                policies[rule as usize][usize::from(makes_errors)].get_or_init(read).as_ref()
             }
         }
     }
@@ -118,7 +118,7 @@ impl Coach {
         self.recommend_and_tell(layout, request, |_| {})
     }
 
-    /// Like [`recommend`](Self::recommend), and calls `tell` on this thread as soon as a better shot is found.
+    /// Like [`recommend`](Self::recommend), and calls `on_improvement` on this thread as soon as a better shot is found.
     ///
     /// # Errors
     /// Fails if the layout is impossible.
@@ -126,7 +126,7 @@ impl Coach {
         &self,
         layout: &Layout,
         request: &Request,
-        mut tell: impl FnMut(&Improvement),
+        mut on_improvement: impl FnMut(&Improvement),
     ) -> Result<Recommendation, LayoutError> {
         layout.validate(&self.table)?;
         let clock = Clock::start(request.budget, request.simulations, &request.cancel);
@@ -151,16 +151,16 @@ impl Coach {
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {
             first_point(&found)
         } else {
-            let mut told = None;
+            let mut last_reported = None;
             let search = Search::new(task, request.plan, request.threads, request.seed);
             let pool = search.run(&strokes, &found.solutions, &mut |leader| {
                 // The same shot with more attempts is not an improvement.
-                if told.replace(leader.shot.cue) != Some(leader.shot.cue) {
-                    tell(&improvement(leader, &clock));
+                if last_reported.replace(leader.shot.cue) != Some(leader.shot.cue) {
+                    on_improvement(&improvement(leader, &clock));
                 }
             });
             let until = task.until.max(Instant::now() + GRACE);
-            robust(&found, pool, &Task { worlds: &worlds, patience: ENDLESS, until, ..task }, request)
+            robust(&found, pool, &Task { worlds: &worlds, patience: UNLIMITED_STEPS, until, ..task }, request)
         };
         Ok(Recommendation { simulations: clock.simulations(), elapsed: clock.elapsed(), ..answer })
     }
@@ -181,8 +181,8 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     };
     let judged = |pieces: &[(usize, usize)]| {
         parallel::map(request.threads, pieces, |&(index, piece)| {
-            let own = || judging(task.worlds, request.seed, piece);
-            (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(own).iter()))
+            let draw = || judging(task.worlds, request.seed, piece);
+            (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw).iter()))
         })
     };
     let rate = |judged: &[(usize, Attempts)], candidate: usize| {
@@ -203,15 +203,15 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         }
         let best = made_more_often(&pool, &rates).first().copied().unwrap_or_default();
         // The attempts that chose this shot flatter it. If there is time, its rate comes from as many other attempts.
-        let told = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
-        if let Some(told) = told.filter(|rate| rate.trials == ATTEMPTS) {
-            (rates[best], judged_from) = (Some(told), ATTEMPTS);
+        let unbiased = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
+        if let Some(unbiased) = unbiased.filter(|rate| rate.trials == ATTEMPTS) {
+            (rates[best], judged_from) = (Some(unbiased), ATTEMPTS);
         }
         rates.swap(0, best);
         pool.swap(0, best);
     }
     let best = pool[0];
-    let told_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
+    let known_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
     let best_rate = rates[0].map_or(0.0, |rate| rate.rate);
     let is_worth = |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= WORTH_LISTING * best_rate);
     let mut alternatives: Vec<_> = (1..pool.len())
@@ -220,7 +220,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
             source: pool[index].shot.source,
             kind: pool[index].kind,
             make_probability: rates[index],
-            next_probability: told_next(pool[index].next),
+            next_probability: known_next(pool[index].next),
         })
         .filter(is_worth)
         .collect();
@@ -237,7 +237,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         make_probability: rates[0],
         judged_from,
         risk: risk(&best.shot.cue, task, request, judging_seed(request.seed)),
-        next_probability: told_next(best.next),
+        next_probability: known_next(best.next),
         is_planned: request.plan,
         alternatives,
         ..first_point(found)
@@ -356,7 +356,7 @@ pub fn make_probability(
     attempts: usize,
     seed: u64,
 ) -> SuccessRate {
-    unhurried(table, layout, rule, shooter.into(), ENDLESS, &AtomicBool::new(false), |task| {
+    without_limits(table, layout, rule, shooter.into(), UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
         let attempts = task.attempts(cue, Draws::independent(attempts, task.worlds, seed).iter());
         SuccessRate::new(attempts.made, attempts.tried)
     })
@@ -375,7 +375,7 @@ pub fn judge(
     attempts: Range<usize>,
     seed: u64,
 ) -> SuccessRate {
-    unhurried(table, layout, rule, shooter, ENDLESS, &AtomicBool::new(false), |task| {
+    without_limits(table, layout, rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
         let pieces = attempts.start / PIECE..attempts.end.div_ceil(PIECE);
         let pieces = pieces.map(|piece| task.attempts(cue, judging(task.worlds, seed, piece).iter()));
         let (made, tried) = pieces.fold((0, 0), |sum, part| (sum.0 + part.made, sum.1 + part.tried));
@@ -409,7 +409,7 @@ mod tests {
             points: 0,
             own: Rate::default(),
             larger: Rate::default(),
-            next: NextValue::Supposed(1.0),
+            next: NextValue::Assumed(1.0),
             effort_penalty,
         }
     }

@@ -17,8 +17,8 @@ pub struct Doubt {
 /// Error: a text that cannot be parsed as a doubt.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error(
-    "\"{0}\" is no doubt; use none, full, or a multiple of what is unknown of the table from 0 to 10 and the error of the \
-     balls' places from 0 to 50 mm like \"table=1,placing=3\""
+    "\"{0}\" is not accepted as doubt; use none, full, or two numbers like \"table=1,placing=3\": a multiple of the table's \
+     uncertainty from 0 to 10, and the error of the ball positions from 0 to 50 mm"
 )]
 pub struct UnknownDoubt(String);
 

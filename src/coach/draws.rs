@@ -139,17 +139,17 @@ pub struct Worlds {
 impl Worlds {
     /// Creates a distribution around `table` and `layout`.
     pub fn new(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        Self::known_as(&|| TableDoubt::of(table), table, layout, doubt)
+        Self::with_table_doubt(&|| TableDoubt::of(table), table, layout, doubt)
     }
 
     /// Like [`new`](Self::new), but without uncertainty about the table's tilt, for choosing between shots. A tilted
     /// table costs twice the time, and as the direction of the tilt is unknown, the choice hardly depends on it.
     pub fn level(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
         let known = || TableDoubt::of(table).without(|name| name.starts_with("tilt"));
-        Self::known_as(&known, table, layout, doubt)
+        Self::with_table_doubt(&known, table, layout, doubt)
     }
 
-    fn known_as(known: &dyn Fn() -> TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
+    fn with_table_doubt(known: &dyn Fn() -> TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
         let sampler = if doubt.table > 0.0 { TableSampler::new(table, &known(), doubt.table) } else { None };
         Self { table: table.clone(), layout: *layout, sampler, placing: doubt.placing }
     }

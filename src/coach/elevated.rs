@@ -27,10 +27,10 @@ const MASSE_SPEEDS: [f64; 2] = [0.8, 5.0];
 const MASSE_REACH: f64 = 1.2;
 
 /// Minimum clearance of a jump over the edge of a ball, m.
-const CLEAR: f64 = 0.002;
+const CLEARANCE: f64 = 0.002;
 
 /// Number of moments at which a massé's curve is sampled.
-const MOMENTS: u32 = 24;
+const CURVE_SAMPLES: u32 = 24;
 
 /// Elevation up to which no stroke bends a ball's path as a massé does, rad, and the upward speed, m/s, below which no
 /// ball clears another or its edge: it rises by 10 mm.
@@ -64,30 +64,30 @@ pub fn raised(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> O
 fn jump(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option<CueInputs> {
     let [cue_ball, first, second] = layout.balls;
     let (over, other) = if rng.random() { (first, second) } else { (second, first) };
-    let (way, diameter) = (over - cue_ball, 2.0 * table.radius);
+    let (to_ball, diameter) = (over - cue_ball, 2.0 * table.radius);
     let target = match rng.random_range(0..10) {
         0..7 => other - cue_ball,
-        _ => way,
+        _ => to_ball,
     };
     let widest = (diameter / target.length()).min(1.0).asin();
     let direction = DVec2::from_angle(target.to_angle() + rng.random_range(-widest..=widest));
     // Distance to the ball along the direction and beside it, and the height that the centre needs there.
-    let (along, aside) = (direction.dot(way), direction.perp_dot(way));
+    let (along, aside) = (direction.dot(to_ball), direction.perp_dot(to_ball));
     let needed = (diameter * diameter - aside * aside).max(0.0).sqrt();
-    if along <= 0.0 || needed == 0.0 || target != way && along >= target.length() {
+    if along <= 0.0 || needed == 0.0 || target != to_ball && along >= target.length() {
         return None;
     }
     (0..8).find_map(|_| {
         let theta = rng.random_range(JUMPS[0]..JUMPS[1]);
         let speed = rng.random_range(JUMP_SPEEDS[0]..JUMP_SPEEDS[1]);
-        let (a, b) = across(table, theta, 0.5, rng);
+        let (a, b) = raised_tip(table, theta, 0.5, rng);
         let cue = CueInputs { a, b, theta, phi: direction.to_angle(), speed };
         let impulse = strike(table, &cue);
         let time = along / impulse.velocity.length();
         let height = impulse.lift * time - 0.5 * table.gravity * time * time;
         // The tip offset deflects the ball: the direction is corrected so that it flies as intended.
         let turned = direction.angle_to(impulse.velocity);
-        (height >= needed + CLEAR).then_some(CueInputs { phi: cue.phi - turned, ..cue })
+        (height >= needed + CLEARANCE).then_some(CueInputs { phi: cue.phi - turned, ..cue })
     })
 }
 
@@ -101,36 +101,36 @@ fn masse(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option
     }
     let theta = rng.random_range(MAX_ELEVATION..STEEPEST);
     let speed = rng.random_range(MASSE_SPEEDS[0]..MASSE_SPEEDS[1]);
-    let (a, b) = across(table, theta, 1.0, rng);
+    let (a, b) = raised_tip(table, theta, 1.0, rng);
     let cue = CueInputs { a, b, theta, phi: 0.0, speed };
-    let passed = passes(table, &cue, distance)?;
+    let direction = direction_at(table, &cue, distance)?;
     let widest = (2.0 * table.radius / distance).min(1.0).asin();
-    let phi = target.to_angle() + rng.random_range(-widest..=widest) - passed;
+    let phi = target.to_angle() + rng.random_range(-widest..=widest) - direction;
     Some(CueInputs { phi: (phi + PI).rem_euclid(TAU) - PI, ..cue })
 }
 
 /// Returns the direction of the cue ball from its start when it reaches `distance`, rad; `None` if it does not reach
 /// it. Hops are neglected: their friction impulses add up to the same, only less evenly.
-fn passes(table: &Table, cue: &CueInputs, distance: f64) -> Option<f64> {
+fn direction_at(table: &Table, cue: &CueInputs, distance: f64) -> Option<f64> {
     let impulse = strike(table, cue);
     let friction = table.sliding_friction * table.gravity;
     let slips = slip(table.radius, impulse.velocity, impulse.spin);
     let (against, sliding) = (-friction * slips.normalize_or_zero(), 2.0 * slips.length() / (7.0 * friction));
-    let place = |time: f64| time * impulse.velocity + 0.5 * time * time * against;
-    let met = (1..=MOMENTS).map(|n| place(sliding * f64::from(n) / f64::from(MOMENTS)));
-    if let Some(place) = met.into_iter().find(|place| place.length() >= distance) {
-        return Some(place.to_angle());
+    let position = |time: f64| time * impulse.velocity + 0.5 * time * time * against;
+    let samples = (1..=CURVE_SAMPLES).map(|n| position(sliding * f64::from(n) / f64::from(CURVE_SAMPLES)));
+    if let Some(position) = samples.into_iter().find(|position| position.length() >= distance) {
+        return Some(position.to_angle());
     }
     // From here it rolls on straight: find where the line meets the circle.
-    let (from, ahead) = (place(sliding), (impulse.velocity + sliding * against).try_normalize()?);
+    let (from, ahead) = (position(sliding), (impulse.velocity + sliding * against).try_normalize()?);
     let along = from.dot(ahead);
-    let way = (along * along + distance * distance - from.length_squared()).sqrt() - along;
-    Some((from + way * ahead).to_angle())
+    let rolled = (along * along + distance * distance - from.length_squared()).sqrt() - along;
+    Some((from + rolled * ahead).to_angle())
 }
 
 /// Draws a tip position for a raised cue, uniform in area within this share of the miscue limit around the point where
 /// the cue's line passes through the centre.
-fn across(table: &Table, theta: f64, share: f64, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
+fn raised_tip(table: &Table, theta: f64, share: f64, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
     let radius = share * TIP_SHARE * (table.miscue_limit.min(1.0) * rng.random::<f64>()).sqrt();
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
     on_ball(theta, radius * cos, radius * sin)

@@ -5,7 +5,7 @@
 //! Guibas 1995, normalised by the sum of the weights). A few hundred attempts thus estimate the make rate of every
 //! stroke among them, and which is made most often.
 
-use super::{Skill, candidates::towards, draws::ErrorSize};
+use super::{Skill, candidates::with_errors, draws::ErrorSize};
 use crate::{
     physics::{CueInputs, turn},
     player::errors::Errors,
@@ -18,19 +18,19 @@ const CLIMBING_ROUNDS: usize = 2;
 
 /// Maximum move of a stroke before it is tried again, in its standard errors: further away, the attempts contain little
 /// information.
-const FARTHEST: f64 = 1.0;
+const MAX_MOVE: f64 = 1.0;
 
 /// The five inputs of a stroke that errors change: a, b, theta, phi and V.
-type Place = [f64; 5];
+type InputVector = [f64; 5];
 
 /// An intended stroke and the distribution of its outcomes.
 #[derive(Clone, Copy, Debug)]
 pub struct Distribution {
     cue: CueInputs,
-    at: Place,
+    at: InputVector,
     /// The standard errors and their reciprocals; both zero for an input without error.
-    deviations: Place,
-    inverse_deviations: Place,
+    deviations: InputVector,
+    inverse_deviations: InputVector,
     /// Product of the reciprocals, under the player's own errors and under the larger ones.
     height: [f64; 2],
 }
@@ -48,12 +48,12 @@ impl Distribution {
     }
 
     /// Returns the stroke that results with these errors.
-    fn outcome(&self, errors: &Errors) -> Place {
+    fn outcome(&self, errors: &Errors) -> InputVector {
         std::array::from_fn(|input| self.at[input] + self.deviations[input] * errors[input])
     }
 
     /// Returns the difference of an outcome or another stroke from this one, in standard errors.
-    fn errors_to(&self, place: &Place) -> Errors {
+    fn errors_to(&self, place: &InputVector) -> Errors {
         let mut errors: Errors = std::array::from_fn(|input| place[input] - self.at[input]);
         // Directions wrap around: half a turn to the left equals half a turn to the right.
         errors[3] = turn(self.at[3], place[3]);
@@ -68,7 +68,7 @@ impl Distribution {
     /// Returns the density of an outcome under the player's errors and under the larger ones, up to a factor that all
     /// strokes share.
     #[inline]
-    fn densities(&self, outcome: &Place) -> [f64; 2] {
+    fn densities(&self, outcome: &InputVector) -> [f64; 2] {
         // The variance of the larger errors is three times that of the player's own.
         let larger = libm::exp(squared(&self.errors_to(outcome)) / -6.0);
         [self.height[0] * larger * larger * larger, self.height[1] * larger]
@@ -113,7 +113,7 @@ pub type Trial = (Errors, ErrorSize, bool);
 /// One attempt, by its outcome.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
-    outcome: Place,
+    outcome: InputVector,
     made: bool,
     /// Density of its outcome under all attempts together.
     density: f64,
@@ -134,7 +134,7 @@ impl Evidence {
         for (_, size, _) in trials {
             counts[*size as usize] += 1.0;
         }
-        let density = |(stroke, counts): &(Distribution, [f64; 2]), outcome: &Place| {
+        let density = |(stroke, counts): &(Distribution, [f64; 2]), outcome: &InputVector| {
             let [own, larger] = stroke.densities(outcome);
             counts[0] * own + counts[1] * larger
         };
@@ -177,8 +177,8 @@ impl Evidence {
             }
             errors = sum.map(|sum| sum / weights);
             let distance = squared(&errors).sqrt();
-            if distance > FARTHEST {
-                return errors.map(|error| error * FARTHEST / distance);
+            if distance > MAX_MOVE {
+                return errors.map(|error| error * MAX_MOVE / distance);
             }
             climber.at = stroke.outcome(&errors);
         }
@@ -188,12 +188,12 @@ impl Evidence {
     /// Returns improved strokes, best first, as far as they can be recommended: the estimated optimum, the point half-way to
     /// it, and the successful outcome nearest to it. The last one is needed because the mean of successful outcomes
     /// need not make the point.
-    pub fn ways_up(&self, table: &Table, skill: Skill, stroke: &Distribution) -> [CueInputs; 3] {
+    pub fn improved_strokes(&self, table: &Table, skill: Skill, stroke: &Distribution) -> [CueInputs; 3] {
         let top = self.climb(stroke);
-        let apart = |errors: &Errors| squared(&std::array::from_fn(|input| errors[input] - top[input]));
+        let distance = |errors: &Errors| squared(&std::array::from_fn(|input| errors[input] - top[input]));
         let made = self.samples.iter().filter(|sample| sample.made).map(|sample| stroke.errors_to(&sample.outcome));
-        let nearest = made.min_by(|one, other| apart(one).total_cmp(&apart(other))).unwrap_or_default();
-        [top, top.map(|error| 0.5 * error), nearest].map(|errors| towards(table, skill, &stroke.cue, &errors))
+        let nearest = made.min_by(|one, other| distance(one).total_cmp(&distance(other))).unwrap_or_default();
+        [top, top.map(|error| 0.5 * error), nearest].map(|errors| with_errors(table, skill, &stroke.cue, &errors))
     }
 }
 
@@ -264,7 +264,7 @@ mod tests {
         let made = own.iter().filter(|(_, _, made)| *made).count();
         let [rate, _] = evidence.rates(&stroke);
         assert!((rate.share - made as f64 / 300.0).abs() < 1e-12 && (rate.attempts - 300.0).abs() < 1e-9, "{rate:?}");
-        let ways = evidence.ways_up(&Table::default(), skill, &stroke);
+        let ways = evidence.improved_strokes(&Table::default(), skill, &stroke);
         assert!(ways.iter().all(|cue| cue.theta == MEANT.theta) && ways[0] != ways[1], "{ways:?}");
         let is_way = |errors: &Errors| (skill.stroke(RADIUS, &MEANT, errors).phi - ways[2].phi).abs() < 1e-12;
         assert!(own.iter().any(|(errors, _, made)| *made && is_way(errors)), "{ways:?}");

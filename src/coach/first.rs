@@ -5,9 +5,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Source, Suggestion,
-    candidates::{TIP_SHARE, anything, variation},
+    candidates::{TIP_SHARE, any_stroke, variation},
     elevated::raised,
-    trial::{CONTACT_STEPS, ENDLESS, Task},
+    trial::{CONTACT_STEPS, Task, UNLIMITED_STEPS},
 };
 use crate::{
     game::{Rule, Tally},
@@ -24,10 +24,10 @@ pub const FAVOURITES: usize = 4;
 /// Steps of resting contacts after which a shot of the search is given up: there are always more. A tenth of a second
 /// then suffices for 2.2 times as many shots on `thesis` as without a limit, and finds three-cushion shots on 86
 /// instead of 79 % of 300 layouts.
-const HASTE: u32 = 5;
+const SEARCH_CONTACT_STEPS: u32 = 5;
 
 /// One in this number of those shots is followed further: if balls touch from the start, all others may be given up.
-const FOLLOWED: u64 = 50;
+const ONE_FOLLOWED_IN: u64 = 50;
 
 /// Usual strokes that are tried before any jump or massé: if that many made no point, hardly any usual stroke does.
 const USUAL_BEFORE_ELEVATED: u64 = 4000;
@@ -85,7 +85,7 @@ impl<'a> FirstShotSearch<'a> {
             let is_raised =
                 self.task.seeks_jumps() && tried > USUAL_BEFORE_ELEVATED && tried.is_multiple_of(ONE_ELEVATED_IN);
             let elevated = if is_raised { raised(table, layout, &mut rng) } else { None };
-            let cue = elevated.unwrap_or_else(|| anything(table, layout, &mut rng));
+            let cue = elevated.unwrap_or_else(|| any_stroke(table, layout, &mut rng));
             self.play(cue, Source::Search);
         }
         // Without any time and without a policy, nothing was tried.
@@ -116,9 +116,9 @@ impl<'a> FirstShotSearch<'a> {
         self.task.clock.count(1);
         let Some(cue) = self.task.playable(&cue) else { return };
         let patience = match source {
-            Source::Policy | Source::Former => ENDLESS,
-            _ if self.task.clock.simulations().is_multiple_of(FOLLOWED) => CONTACT_STEPS,
-            _ => HASTE,
+            Source::Policy | Source::Former => UNLIMITED_STEPS,
+            _ if self.task.clock.simulations().is_multiple_of(ONE_FOLLOWED_IN) => CONTACT_STEPS,
+            _ => SEARCH_CONTACT_STEPS,
         };
         // A shot that took too long still counts as an attempt.
         let tally = Task { patience, ..self.task }.play(&cue).unwrap_or_default();

@@ -23,11 +23,11 @@ pub enum FirstMet {
 }
 
 /// Note on the reported stroke if no attempt begins as requested.
-pub const NO_ATTEMPT: &str = "no attempt begins so either; this is a plain stroke";
+pub const NO_ATTEMPT: &str = "no such attempt either; this is a plain stroke";
 
 /// Error: an unknown name of what is hit first.
 #[derive(Debug, thiserror::Error, PartialEq)]
-#[error("\"{word}\" cannot be met first; use {}", FirstMet::ALL.map(|first| first.word(*names)).join(", "))]
+#[error("\"{word}\" cannot be hit first; use {}", FirstMet::ALL.map(|first| first.word(*names)).join(", "))]
 pub struct UnknownFirstMet {
     word: String,
     names: [&'static str; BALLS],
@@ -115,6 +115,6 @@ mod tests {
         assert_eq!("yellow".parse(), Ok(FirstMet::OtherCueBall));
         assert_eq!(FirstMet::said("white", ["yellow", "white", "red"]), Ok(FirstMet::OtherCueBall));
         let unknown = "white".parse::<FirstMet>().unwrap_err().to_string();
-        assert_eq!(unknown, "\"white\" cannot be met first; use any, yellow, red, cushion");
+        assert_eq!(unknown, "\"white\" cannot be hit first; use any, yellow, red, cushion");
     }
 }

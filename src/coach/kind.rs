@@ -113,7 +113,7 @@ impl Kind {
         let pace = pace.words(unit) + if raised { ", raised" } else { "" };
         let start = if cushion_first { "cushion first to" } else { "first" };
         match first_ball {
-            0 => format!("meets no ball, {pace}"),
+            0 => format!("hits no ball, {pace}"),
             _ => format!("{start} {}, {way}, {pace}", BALL_NAMES[first_ball.min(BALLS - 1)]),
         }
     }

@@ -11,8 +11,8 @@ pub const fn layout_seed(seed: u64, number: u32) -> u64 {
 /// have equal numbers.
 pub fn layout_number(layout: &Layout) -> u32 {
     // Maps -0 to +0.
-    let places = layout.balls.iter().flat_map(|place| [place.x + 0.0, place.y + 0.0]);
-    let bytes = places.flat_map(|place| place.to_bits().to_le_bytes());
+    let positions = layout.balls.iter().flat_map(|position| [position.x + 0.0, position.y + 0.0]);
+    let bytes = positions.flat_map(|position| position.to_bits().to_le_bytes());
     bytes.fold(0x811c_9dc5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }
 

@@ -27,14 +27,14 @@ pub enum NextValue {
     /// An estimate, from where the shot leaves the balls.
     Known(f64),
     /// A placeholder until the value is estimated.
-    Supposed(f64),
+    Assumed(f64),
 }
 
 impl NextValue {
     /// Returns the value to count with.
     pub const fn value(self) -> f64 {
         match self {
-            Self::Known(value) | Self::Supposed(value) => value,
+            Self::Known(value) | Self::Assumed(value) => value,
         }
     }
 
@@ -42,7 +42,7 @@ impl NextValue {
     pub const fn known(self) -> Option<f64> {
         match self {
             Self::Known(value) => Some(value),
-            Self::Supposed(_) => None,
+            Self::Assumed(_) => None,
         }
     }
 }
@@ -59,7 +59,7 @@ pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) ->
             return None;
         }
         task.clock.count(1);
-        if let Some(end) = end_of(task, cue, draw) {
+        if let Some(end) = final_layout(task, cue, draw) {
             sum += Ease::under(task.rule).probability(task.table, &end, task.skill);
             made += 1;
         }
@@ -69,27 +69,27 @@ pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) ->
 }
 
 /// Returns the layout that an attempt at `cue` leaves if it makes the point.
-pub fn end_of(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> {
+pub fn final_layout(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> {
     let (stroke, table, layout) = task.stroke(cue, draw);
     if stroke.is_miscue(table) {
         return None;
     }
     let impulse = strike(table, &stroke);
     let tally = task.tally(layout, &impulse);
-    let mut whole = Whole { tally, patience: StepBudget(task.patience), task, given_up: false };
-    let end = simulate(table, layout, &impulse, &mut whole);
-    (task.point().is_made(&whole.tally) && !whole.given_up).then(|| end.layout(table))
+    let mut observer = FullShot { tally, patience: StepBudget(task.patience), task, given_up: false };
+    let end = simulate(table, layout, &impulse, &mut observer);
+    (task.point().is_made(&observer.tally) && !observer.given_up).then(|| end.layout(table))
 }
 
 /// Observes a shot to its end, or until it takes too long.
-struct Whole<'a> {
+struct FullShot<'a> {
     tally: Tally,
     patience: StepBudget,
     task: &'a Task<'a>,
     given_up: bool,
 }
 
-impl Observer for Whole<'_> {
+impl Observer for FullShot<'_> {
     /// The final layout counts only if the shot makes the point.
     fn awaited(&self) -> Option<[bool; BALLS - 1]> {
         (!self.tally.met_both()).then(|| self.tally.unmet())

@@ -147,7 +147,7 @@ impl Candidate {
             points: 0,
             own: Rate::default(),
             larger: Rate::default(),
-            next: NextValue::Supposed(1.0),
+            next: NextValue::Assumed(1.0),
             effort_penalty: weight * effort(cue) + if tally.met_again { AGAIN } else { 0.0 },
         }
     }
@@ -166,11 +166,11 @@ fn effort(cue: &CueInputs) -> f64 {
 }
 
 /// Assigns the worst known next value to all candidates without one, so that a lack of time cannot make a shot better.
-pub fn suppose_the_worst<'c>(candidates: impl Iterator<Item = &'c mut Candidate>) {
+pub fn assume_the_worst<'c>(candidates: impl Iterator<Item = &'c mut Candidate>) {
     let candidates: Vec<_> = candidates.collect();
     let worst = candidates.iter().filter_map(|candidate| candidate.next.known()).fold(1.0, f64::min);
     for candidate in candidates.into_iter().filter(|candidate| candidate.next.known().is_none()) {
-        candidate.next = NextValue::Supposed(worst);
+        candidate.next = NextValue::Assumed(worst);
     }
 }
 
@@ -221,14 +221,14 @@ mod tests {
     fn a_shot_that_nobody_has_looked_at_ranks_behind_those_that_leave_a_good_next_one() {
         let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 };
         let candidate = |share, next| candidate(cue, share, next);
-        let (good, bad, unseen) = (NextValue::Known(0.9), NextValue::Known(0.6), NextValue::Supposed(1.0));
+        let (good, bad, unseen) = (NextValue::Known(0.9), NextValue::Known(0.6), NextValue::Assumed(1.0));
         let mut pool = vec![candidate(1.0, unseen), candidate(1.0, bad), candidate(0.9, good)];
-        suppose_the_worst(pool.iter_mut());
+        assume_the_worst(pool.iter_mut());
         keep(&mut pool, 3, 1);
         assert_eq!(pool.iter().map(|shot| shot.next.known()).collect::<Vec<_>>(), [Some(0.9), None, Some(0.6)]);
         // If no candidate has a known value, none gets worse.
         let mut pool = [candidate(1.0, unseen)];
-        suppose_the_worst(pool.iter_mut());
+        assume_the_worst(pool.iter_mut());
         assert_eq!(pool[0].next, unseen);
     }
 }

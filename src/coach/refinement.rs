@@ -5,14 +5,14 @@ use super::{
     Source, Suggestion,
     evidence::{Distribution, Evidence, Trial},
     next::{FEWEST_POINTS, MOST_POINTS, NextValue},
-    pool::{BLOCK, Candidate, Race, suppose_the_worst},
+    pool::{BLOCK, Candidate, Race, assume_the_worst},
     trial::Task,
 };
 use crate::{physics::CueInputs, platform::parallel};
 
 /// Strokes that are intended within this distance of each other, in standard errors, are merged: they would climb to
 /// the same optimum.
-const ALIKE: f64 = 1.0;
+const MERGE_DISTANCE: f64 = 1.0;
 
 /// One stroke enters the refinement per this number of remaining simulations, in addition to the best of each kind.
 const SIMULATIONS_EACH: f64 = 100.0;
@@ -80,8 +80,8 @@ fn sort(climbers: &mut [Climber]) {
 /// Moves the former recommendation to the front unless another stroke is better by enough.
 fn prefer_former(climbers: &mut [Climber]) {
     let bar = climbers.first().map_or(0.0, |best| (1.0 - WORTH_A_CHANGE) * best.best.score());
-    if let Some(place) = climbers.iter().position(|climber| climber.is_former() && climber.best.score() >= bar) {
-        climbers[..=place].rotate_right(1);
+    if let Some(position) = climbers.iter().position(|climber| climber.is_former() && climber.best.score() >= bar) {
+        climbers[..=position].rotate_right(1);
     }
 }
 
@@ -89,8 +89,8 @@ fn prefer_former(climbers: &mut [Climber]) {
 /// recommendation worse. Returns how many climbers go on, given that the best `live` do.
 fn keep_former(climbers: &mut [Climber], live: usize) -> usize {
     match climbers.iter().position(Climber::is_former) {
-        Some(place) if place >= live => {
-            climbers[live..=place].rotate_right(1);
+        Some(position) if position >= live => {
+            climbers[live..=position].rotate_right(1);
             live + 1
         }
         _ => live,
@@ -119,9 +119,9 @@ impl Refinement<'_> {
         ((simulations / SIMULATIONS_EACH) as usize).clamp(FEWEST, most)
     }
 
-    /// Refines the best of a pool and returns them, best first. Calls `tell` for every new leader.
-    pub fn run(mut self, pool: &[Candidate], tell: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
-        let mut climbers = self.gathered(pool);
+    /// Refines the best of a pool and returns them, best first. Calls `on_leader` for every new leader.
+    pub fn run(mut self, pool: &[Candidate], on_leader: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
+        let mut climbers = self.merged(pool);
         let all = climbers.len() as f64;
         let rounds = libm::log2(all).ceil() + 1.0;
         let begins = self.task.clock.used();
@@ -146,7 +146,7 @@ impl Refinement<'_> {
             }
             sort(&mut climbers[..live]);
             prefer_former(&mut climbers[..live]);
-            tell(&climbers[0].best);
+            on_leader(&climbers[0].best);
             if climbers[0].is_certain() && !self.plan {
                 break;
             }
@@ -155,7 +155,7 @@ impl Refinement<'_> {
     }
 
     /// Merges the strokes of a pool that are alike, with all attempts at them.
-    fn gathered(&self, pool: &[Candidate]) -> Vec<Climber> {
+    fn merged(&self, pool: &[Candidate]) -> Vec<Climber> {
         let mut climbers: Vec<Climber> = Vec::new();
         for candidate in pool {
             let distribution = self.distribution(&candidate.shot.cue);
@@ -177,7 +177,7 @@ impl Refinement<'_> {
             }
             let near = climbers
                 .iter_mut()
-                .find(|climber| !climber.is_former() && climber.distribution.distance(&distribution) < ALIKE);
+                .find(|climber| !climber.is_former() && climber.distribution.distance(&distribution) < MERGE_DISTANCE);
             if let Some(near) = near {
                 near.evidence.add(&distribution, &trials);
                 near.judge();
@@ -203,11 +203,11 @@ impl Refinement<'_> {
         let moved = parallel::map(threads, climbers, |climber| {
             let Climber { best, distribution, evidence, .. } = climber;
             let source = if best.shot.source == Source::Search { Source::Search } else { Source::Variation };
-            let ways = evidence.ways_up(task.table, task.skill, distribution);
+            let ways = evidence.improved_strokes(task.table, task.skill, distribution);
             let mut ways = ways.into_iter().filter(|_| !climber.is_former());
             let moved = ways.find_map(|cue| Candidate::new(task, cue, source, self.weight)).unwrap_or(*best);
             // Until it is estimated, the next value is the old one.
-            let next = NextValue::Supposed(best.next.value());
+            let next = NextValue::Assumed(best.next.value());
             let moved = Candidate { next, ..moved };
             if self.plan { race.look_ahead(task, &moved, points).unwrap_or(moved) } else { moved }
         });
@@ -215,7 +215,7 @@ impl Refinement<'_> {
             (climber.distribution, climber.best) = (self.distribution(&best.shot.cue), best);
         }
         if self.plan {
-            suppose_the_worst(climbers.iter_mut().map(|climber| &mut climber.best));
+            assume_the_worst(climbers.iter_mut().map(|climber| &mut climber.best));
         }
     }
 
@@ -314,14 +314,14 @@ mod tests {
         let made = (-40..=0).filter_map(|n| Candidate::new(&task, turned(n), Source::Search, 0.0));
         let pool: Vec<_> = made.take(2).map(|candidate| race.go_on(&task, &candidate, 8).unwrap()).collect();
         let refinement = Refinement { task, threads: 2, ends: 1.0, plan: false, weight: 0.0, race };
-        let gathered = refinement.gathered(&pool);
-        assert_eq!((gathered.len(), gathered[0].blocks), (1, 8));
-        assert!(gathered[0].best.own.attempts > 40.0, "both have 24: {:?}", gathered[0].best);
-        let mut told = 0;
-        let refined = refinement.run(&pool, &mut |_| told += 1);
+        let merged = refinement.merged(&pool);
+        assert_eq!((merged.len(), merged[0].blocks), (1, 8));
+        assert!(merged[0].best.own.attempts > 40.0, "both have 24: {:?}", merged[0].best);
+        let mut reported = 0;
+        let refined = refinement.run(&pool, &mut |_| reported += 1);
         let chance = |cue: CueInputs| make_probability(skill, rule, &table, &layout, &cue, 4000, 1).rate;
         let [before, after] = [pool[0].shot.cue, refined[0].shot.cue].map(chance);
-        assert!(after > before + 0.01 && told > 1, "{before} {after}");
+        assert!(after > before + 0.01 && reported > 1, "{before} {after}");
         assert!((refined[0].own.share - after).abs() < 0.04, "{:?} {after}", refined[0]);
     }
 }

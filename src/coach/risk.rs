@@ -67,7 +67,7 @@ impl Risk {
     pub fn words(&self, missed: Option<f64>) -> String {
         let [hand, table, placing] = [self.hand, self.table, self.placing].map(|share| 100.0 * share);
         let alone = format!(
-            "missed by the hand alone {hand:.0} %, by what is not known of the table {table:.0} %, of the balls' places {placing:.0} %"
+            "missed due to the hand alone {hand:.0} %, the unknown table alone {table:.0} %, the ball positions alone {placing:.0} %"
         );
         match self.main_cause(missed) {
             _ if self.is_at_edge(missed) => format!(
@@ -85,7 +85,7 @@ impl fmt::Display for Cause {
         formatter.pad(match self {
             Self::Hand => "the hand",
             Self::Table => "the table",
-            Self::Placing => "the places",
+            Self::Placing => "the ball positions",
         })
     }
 }
@@ -109,7 +109,8 @@ mod tests {
         assert!(risk.words(Some(0.354)).contains("two of these alone miss as often as all together"));
         assert_eq!((risk.main_cause(Some(0.354)), risk.main_cause(Some(0.7))), (None, Some(Cause::Placing)));
         assert!(
-            risk.words(Some(0.7)).ends_with("mostly the places") && risk.words(None).ends_with("mostly the places")
+            risk.words(Some(0.7)).ends_with("mostly the ball positions")
+                && risk.words(None).ends_with("mostly the ball positions")
         );
         let hand = Risk { hand: 0.37, table: 0.05, placing: 0.02 };
         assert!(hand.words(Some(0.38)).ends_with("mostly the hand"));

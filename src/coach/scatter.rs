@@ -7,8 +7,8 @@ use glam::DVec2;
 use super::{
     Shooter,
     draws::Draws,
-    next::end_of,
-    trial::{CONTACT_STEPS, unhurried},
+    next::final_layout,
+    trial::{CONTACT_STEPS, without_limits},
 };
 use crate::{
     game::Rule,
@@ -50,11 +50,11 @@ pub fn scatter(
     seed: u64,
     cancel: &AtomicBool,
 ) -> Scatter {
-    let ends = unhurried(table, layout, rule, shooter.into(), CONTACT_STEPS, cancel, |task| {
+    let ends = without_limits(table, layout, rule, shooter.into(), CONTACT_STEPS, cancel, |task| {
         let draws = Draws::independent(attempts, task.worlds, seed);
         let draws: Vec<_> = draws.iter().collect();
         parallel::map(platform::threads(), &draws, |draw| {
-            if task.clock.is_cancelled() { None } else { end_of(task, cue, *draw) }
+            if task.clock.is_cancelled() { None } else { final_layout(task, cue, *draw) }
         })
     });
     let ends: Vec<Layout> = ends.into_iter().flatten().collect();

@@ -91,12 +91,12 @@ impl<'a> Search<'a> {
     }
 
     /// Searches from the successful shots in `found` and from variations of `proposals`. Returns the candidates, best
-    /// first; never empty if `found` is not empty, however little time there is. Calls `tell` for every new leader.
+    /// first; never empty if `found` is not empty, however little time there is. Calls `on_leader` for every new leader.
     pub fn run(
         mut self,
         proposals: &[CueInputs],
         found: &[(Suggestion, Tally)],
-        tell: &mut dyn FnMut(&Candidate),
+        on_leader: &mut dyn FnMut(&Candidate),
     ) -> Vec<Candidate> {
         self.task.until = self.task.clock.moment(self.sampling_ends);
         let weight = self.weight();
@@ -112,11 +112,11 @@ impl<'a> Search<'a> {
         self.race.extend_to(self.task.worlds, SECOND_LOOK);
         let raced = |candidate: &Candidate| self.race.go_on(&self.task, candidate, SECOND_LOOK).unwrap_or(*candidate);
         self.pool = parallel::map(self.threads, &found, raced);
-        self.sample(proposals, tell);
-        self.refine(tell)
+        self.sample(proposals, on_leader);
+        self.refine(on_leader)
     }
 
-    fn sample(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
+    fn sample(&mut self, proposals: &[CueInputs], on_leader: &mut dyn FnMut(&Candidate)) {
         let Task { table, layout, rule, first, .. } = self.task;
         let varied = &proposals[..proposals.len().min(FAVOURITES)];
         let variations = |numbers: Range<u64>, rng: &mut Xoshiro256PlusPlus| {
@@ -145,7 +145,7 @@ impl<'a> Search<'a> {
             rounds += 1;
             let speeds = self.pool.iter().map(|candidate| candidate.shot.cue.speed);
             softest = (SOFTER * speeds.fold(f64::INFINITY, f64::min)).clamp(MIN_SPEED, SOFT);
-            self.tell(tell);
+            self.report_leader(on_leader);
         }
     }
 
@@ -195,19 +195,19 @@ impl<'a> Search<'a> {
     }
 
     /// Refines the best candidates.
-    fn refine(mut self, tell: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
+    fn refine(mut self, on_leader: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
         self.task.until = self.task.clock.moment(self.refinement_ends);
         let size = Refinement::size(self.task.clock.simulations_until(self.refinement_ends), SHORTLIST);
         keep(&mut self.pool, size, OF_EACH_KIND);
         let weight = self.weight();
         let Self { task, threads, refinement_ends: ends, plan, race, pool, .. } = self;
-        Refinement { task, threads, ends, plan, weight, race }.run(&pool, tell)
+        Refinement { task, threads, ends, plan, weight, race }.run(&pool, on_leader)
     }
 
-    fn tell(&self, tell: &mut dyn FnMut(&Candidate)) {
+    fn report_leader(&self, on_leader: &mut dyn FnMut(&Candidate)) {
         let tried = self.pool.iter().filter(|candidate| candidate.tried > 0);
         if let Some(best) = tried.max_by(|a, b| a.score().total_cmp(&b.score())) {
-            tell(best);
+            on_leader(best);
         }
     }
 }
@@ -262,9 +262,9 @@ mod tests {
         let found = FirstShotSearch::new(task).run(&[], &[], 1);
         // Simulates a first shot that was hard to find.
         thread::sleep(budget.mul_f64(0.5).saturating_sub(clock.elapsed()));
-        let mut told = 0;
-        let pool = Search::new(task, false, 2, 1).run(&[], &found.solutions, &mut |_| told += 1);
-        assert!(pool[0].own.attempts > 100.0 && told > 1, "{told} {:?}", pool[0]);
+        let mut reported = 0;
+        let pool = Search::new(task, false, 2, 1).run(&[], &found.solutions, &mut |_| reported += 1);
+        assert!(pool[0].own.attempts > 100.0 && reported > 1, "{reported} {:?}", pool[0]);
         assert!(pool.iter().any(|candidate| candidate.shot != found.solutions[0].0), "{pool:?}");
         // Without any time left, the result is what was found before.
         cancel.store(true, std::sync::atomic::Ordering::Relaxed);

@@ -10,8 +10,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Coach, Doubt, Request, Shooter,
     draws::{Draw, World, Worlds},
-    next::end_of,
-    trial::{ENDLESS, unhurried},
+    next::final_layout,
+    trial::{UNLIMITED_STEPS, without_limits},
 };
 use crate::{
     physics::CueInputs,
@@ -40,7 +40,7 @@ pub struct Inning {
 /// Plays from `layout` until a miss, `most` points or the time `until`. The coach gets `request` with another seed
 /// every turn, and the errors of its shots are drawn from `rng`.
 /// If anything is in doubt, the inning is played on a table that is drawn for it, and the coach gets ball positions
-/// with the placing errors of the doubt. Calls `tell` after every point with the layout that it leaves.
+/// with the placing errors of the doubt. Calls `on_point` after every point with the layout that it leaves.
 ///
 /// # Errors
 /// Fails if `layout` is impossible; later layouts come from simulated shots and are possible.
@@ -51,7 +51,7 @@ pub fn inning(
     most: u32,
     until: Instant,
     rng: &mut Xoshiro256PlusPlus,
-    tell: &mut dyn FnMut(&Inning, &Layout),
+    on_point: &mut dyn FnMut(&Inning, &Layout),
 ) -> Result<Inning, LayoutError> {
     // A perfect player has no doubts.
     let doubt = request.shooter().doubts();
@@ -60,20 +60,20 @@ pub fn inning(
     let real = Worlds::new(coach.table(), &layout, Doubt { placing: 0.0, ..doubt }).draw(|| errors::normal(rng)).table;
     while inning.points < most && Instant::now() < until {
         let request = Request { seed: request.seed.wrapping_add(u64::from(inning.points)), ..request.clone() };
-        let told = misplaced(coach.table(), &layout, doubt.placing, || errors::normal(rng));
-        let advice = coach.recommend(&told, &request)?;
+        let reported = misplaced(coach.table(), &layout, doubt.placing, || errors::normal(rng));
+        let advice = coach.recommend(&reported, &request)?;
         inning.simulations += advice.simulations;
         inning.elapsed += advice.elapsed;
         inning.slowest = inning.slowest.max(advice.elapsed);
         let world = World { table: real.clone(), layout };
-        let end = turn(coach.table(), &told, &request, &advice.cue, &errors::one(rng), &world);
+        let end = turn(coach.table(), &reported, &request, &advice.cue, &errors::one(rng), &world);
         let Some(end) = end else {
             inning.missed = true;
             break;
         };
         inning.points += 1;
         layout = end;
-        tell(&inning, &layout);
+        on_point(&inning, &layout);
     }
     Ok(inning)
 }
@@ -89,8 +89,8 @@ fn turn(
 ) -> Option<Layout> {
     // The simulation of the real stroke has no limits.
     let shooter = Shooter { skill: request.skill, doubt: Doubt::NONE };
-    unhurried(table, layout, request.rule, shooter, ENDLESS, &AtomicBool::new(false), |task| {
-        end_of(task, cue, Draw { errors, world: Some(world) })
+    without_limits(table, layout, request.rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
+        final_layout(task, cue, Draw { errors, world: Some(world) })
     })
 }
 
@@ -111,8 +111,8 @@ mod tests {
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
             let until = Instant::now() + Duration::from_secs(600);
             let mut ends = Vec::new();
-            let mut tell = |_: &Inning, end: &Layout| ends.push(*end);
-            let inning = inning(&coach, &layout, &request, 4, until, &mut rng, &mut tell).unwrap();
+            let mut on_point = |_: &Inning, end: &Layout| ends.push(*end);
+            let inning = inning(&coach, &layout, &request, 4, until, &mut rng, &mut on_point).unwrap();
             assert_eq!((inning.points, inning.missed), (4, false));
             ends
         });

@@ -51,11 +51,11 @@ pub struct Task<'a> {
 pub const CONTACT_STEPS: u32 = 100;
 
 /// Value of `patience` that follows every contact to its end.
-pub const ENDLESS: u32 = u32::MAX;
+pub const UNLIMITED_STEPS: u32 = u32::MAX;
 
 /// Runs `play` with a task for strokes of `shooter` without limits on time and simulations. It ends early only if
 /// another thread sets `cancel`.
-pub fn unhurried<T>(
+pub fn without_limits<T>(
     table: &Table,
     layout: &Layout,
     rule: Rule,
@@ -113,9 +113,9 @@ impl Task<'_> {
     fn play_on(&self, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Tally> {
         let impulse = strike(table, cue);
         let referee = Referee::new(Some(2), self.patience).beginning(self.tally(layout, &impulse));
-        let mut hurried = Hurried { referee, late: false, task: self };
-        watch_with::<All, _>(table, layout, &impulse, &mut hurried);
-        (!hurried.late).then_some(hurried.referee.tally)
+        let mut observer = TimeLimited { referee, timed_out: false, task: self };
+        watch_with::<All, _>(table, layout, &impulse, &mut observer);
+        (!observer.timed_out).then_some(observer.referee.tally)
     }
 
     /// Returns the initial tally of a stroke if the balls really lie as in `layout`. Balls that touch in the task's own
@@ -172,13 +172,13 @@ pub struct Attempts {
 }
 
 /// A referee that aborts a shot when time is up.
-struct Hurried<'a> {
+struct TimeLimited<'a> {
     referee: Referee,
-    late: bool,
+    timed_out: bool,
     task: &'a Task<'a>,
 }
 
-impl Observer for Hurried<'_> {
+impl Observer for TimeLimited<'_> {
     fn wants_ends(&self) -> bool {
         self.referee.wants_ends()
     }
@@ -194,7 +194,7 @@ impl Observer for Hurried<'_> {
 
     fn contact_step(&mut self) -> ControlFlow<()> {
         if self.task.clock.is_past(self.task.until) {
-            self.late = true;
+            self.timed_out = true;
             return ControlFlow::Break(());
         }
         self.referee.contact_step()

@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// Sampling interval for the distance between balls, s: a fast ball moves 2 cm in it.
-const LOOK: f64 = 0.005;
+const SAMPLING_INTERVAL: f64 = 0.005;
 
 /// A cue ball that comes to rest within this distance of its closest point to a ball stopped short of it, m: distances
 /// are reported to a centimetre.
@@ -23,9 +23,9 @@ const HAIR: f64 = 0.001;
 const MOVING: f64 = 0.05;
 
 /// Cosine of the smallest angle between the relative motion and the line between two balls at which one passes the
-/// other. The condition must hold [`AROUND`] s before and after the moment of closest approach.
-const PAST: f64 = 0.5;
-const AROUND: f64 = 0.002;
+/// other. The condition must hold [`PASSING_WINDOW`] s before and after the moment of closest approach.
+const PASSING_COSINE: f64 = 0.5;
+const PASSING_WINDOW: f64 = 0.002;
 
 /// How the cue ball missed an object ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,7 +110,7 @@ impl Verdict {
         });
         let one = |(ball, off): (usize, OffTable)| {
             let (name, rail, spot) = (cue_ball.names()[ball], off.over.name(), spot_words(off.spot));
-            format!("{name} left the table over the {rail} rail and comes on the {spot}")
+            format!("{name} left the table over the {rail} rail and goes to the {spot}")
         };
         let mut all: Vec<String> = pushed.into_iter().chain(self.off_table().map(one)).collect();
         if all.is_empty() && self.tally.left_table {
@@ -156,15 +156,15 @@ impl Verdict {
         let (first, second) = self.order();
         Some(match (tally.met_any(), tally.met_both()) {
             (false, _) => match self.miss {
-                Some(miss) => format!("no ball was met, {}", passed(miss)),
-                None => "no ball was met".to_owned(),
+                Some(miss) => format!("no ball was hit, {}", passed(miss)),
+                None => "no ball was hit".to_owned(),
             },
             (true, false) => self.miss.map_or_else(|| self.second_missed(names), passed),
             _ if tally.cushions_before_second < wanted => {
                 let made = cushion_words(tally.cushions_before_second);
                 format!("{made} before {}, {} needed", names[second], number_word(wanted))
             }
-            _ if !self.is_made() => format!("{} was met first, a game opens with {}", names[first], names[second]),
+            _ if !self.is_made() => format!("{} was hit first, a game opens with {}", names[first], names[second]),
             _ => return None,
         })
     }
@@ -173,7 +173,7 @@ impl Verdict {
     fn second_missed(&self, names: [&str; BALLS]) -> String {
         let (tally, wanted) = (&self.tally, self.point.rule.cushions());
         let [met, missed] = if tally.met[0] { [1, 2] } else { [2, 1] }.map(|ball| names[ball]);
-        let said = format!("{met} was met, {missed} was not");
+        let said = format!("{met} was hit, {missed} was not");
         if tally.cushions < wanted {
             format!("{said}; {}, {} needed", cushion_words(tally.cushions), number_word(wanted))
         } else {
@@ -207,7 +207,11 @@ fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) ->
     };
     let all = balls.iter().filter_map(|ball| Some((*ball, nearest(table, recording, start, *ball)?)));
     let (ball, (time, gap)) = all.min_by(|(_, (_, one)), (_, (_, other))| one.total_cmp(other))?;
-    (time - start >= LOOK).then(|| Miss { ball, gap: gap.max(0.0), passed: passed(table, recording, ball, time) })
+    (time - start >= SAMPLING_INTERVAL).then(|| Miss {
+        ball,
+        gap: gap.max(0.0),
+        passed: passed(table, recording, ball, time),
+    })
 }
 
 /// Finds the moment from `start` on, s, at which the cue ball is nearest to `ball`, and the gap between them at that
@@ -218,11 +222,12 @@ fn nearest(table: &Table, recording: &Recording, start: f64, ball: usize) -> Opt
         let higher = recording.height(0, time) - recording.height(ball, time);
         places[0].distance(places[ball]).hypot(higher) - 2.0 * table.radius
     };
-    let looks = ((recording.duration() - start) / LOOK).ceil() as usize;
-    let times = (0..=looks).map(|look| (start + LOOK * look as f64).min(recording.duration()));
+    let samples = ((recording.duration() - start) / SAMPLING_INTERVAL).ceil() as usize;
+    let times = (0..=samples).map(|sample| (start + SAMPLING_INTERVAL * sample as f64).min(recording.duration()));
     let (_, near) = times.map(|time| (gap(time), time)).min_by(|one, other| one.0.total_cmp(&other.0))?;
     // Between two samples the gap has a single minimum.
-    let (mut from, mut to) = ((near - LOOK).max(start), (near + LOOK).min(recording.duration()));
+    let (mut from, mut to) =
+        ((near - SAMPLING_INTERVAL).max(start), (near + SAMPLING_INTERVAL).min(recording.duration()));
     for _ in 0..30 {
         let third = (to - from) / 3.0;
         if gap(from + third) < gap(to - third) { to -= third } else { from += third }
@@ -237,10 +242,11 @@ fn passed(table: &Table, recording: &Recording, ball: usize, time: f64) -> Passe
     let towards: DVec2 = other.position - cue_ball.position;
     let rest = recording.state(0, recording.duration()).position;
     // If a collision deflects one of the two at that moment, it is the closest approach, but they do not pass each other.
-    let goes_past = [time - AROUND, time + AROUND].into_iter().all(|time| {
+    let goes_past = [time - PASSING_WINDOW, time + PASSING_WINDOW].into_iter().all(|time| {
         let [cue_ball, other] = [0, ball].map(|ball| recording.state(ball, time.clamp(0.0, recording.duration())));
         let (towards, motion) = (other.position - cue_ball.position, cue_ball.velocity - other.velocity);
-        cue_ball.velocity.length() > MOVING && motion.dot(towards).abs() < PAST * motion.length() * towards.length()
+        cue_ball.velocity.length() > MOVING
+            && motion.dot(towards).abs() < PASSING_COSINE * motion.length() * towards.length()
     });
     match cue_ball.velocity.perp_dot(towards) {
         _ if towards.length() < 2.0 * table.radius => Passed::Over,
@@ -282,19 +288,19 @@ mod tests {
             let tally = Tally { met, cushions: 2, cushions_before_second, ..Tally::default() };
             told(rule.into(), tally, CueBall::White)
         };
-        assert_eq!(said([false, false], 0, Rule::StraightRail), "No point: no ball was met");
-        assert_eq!(said([false, true], 0, Rule::OneCushion), "No point: red was met, yellow was not");
+        assert_eq!(said([false, false], 0, Rule::StraightRail), "No point: no ball was hit");
+        assert_eq!(said([false, true], 0, Rule::OneCushion), "No point: red was hit, yellow was not");
         let few = said([true, false], 0, Rule::ThreeCushion);
-        assert_eq!(few, "No point: yellow was met, red was not; two cushions, three needed");
+        assert_eq!(few, "No point: yellow was hit, red was not; two cushions, three needed");
         let short = said([true, true], 2, Rule::ThreeCushion);
         assert_eq!(short, "No point: two cushions before red, three needed");
         let opening = Point { rule: Rule::ThreeCushion, red_first: true };
         let off_red = Tally { met: [true; 2], red_first: true, cushions_before_second: 3, ..Tally::default() };
         assert_eq!(told(opening, off_red, CueBall::White), "Point: red, three cushions, yellow");
         let wrong = told(opening, Tally { red_first: false, ..off_red }, CueBall::White);
-        assert_eq!(wrong, "No point: yellow was met first, a game opens with red");
+        assert_eq!(wrong, "No point: yellow was hit first, a game opens with red");
         let one = Tally { met: [true, false], ..Tally::default() };
-        assert_eq!(told(Rule::StraightRail.into(), one, CueBall::Yellow), "No point: white was met, red was not");
+        assert_eq!(told(Rule::StraightRail.into(), one, CueBall::Yellow), "No point: white was hit, red was not");
     }
 
     fn verdict(layout: &str, cue: &str, rule: Rule) -> Verdict {
@@ -313,7 +319,7 @@ mod tests {
         assert!((gap - (0.1 - 2.0 * Table::default().radius)).abs() < 1e-4, "{gap}");
         let mirrored = verdict("-1,0 0,-0.1 -1.3,0.6", "0,0,0,0,2", Rule::StraightRail);
         let said = mirrored.words(CueBall::White, LengthUnit::Metres);
-        assert_eq!(said, "No point: no ball was met, passed yellow by 3.9 cm on the left");
+        assert_eq!(said, "No point: no ball was hit, passed yellow by 3.9 cm on the left");
     }
 
     fn flown(layout: &str, cue: &str, cue_ball: CueBall) -> String {
@@ -323,11 +329,11 @@ mod tests {
     #[test]
     fn a_ball_off_the_table_is_a_foul_that_says_over_which_rail_and_where_the_ball_comes() {
         let said = |cue_ball| flown("0.9,0 0.1,0.3 0.1,-0.3", "0,0,30,0,9", cue_ball);
-        assert_eq!(said(CueBall::White), "Foul: white left the table over the right rail and comes on the middle spot");
+        assert_eq!(said(CueBall::White), "Foul: white left the table over the right rail and goes to the middle spot");
         assert!(said(CueBall::Yellow).starts_with("Foul: yellow left the table over the right rail"));
         // The middle spot is occupied: the ball is placed on the spot of the ball that is in the way.
         let taken = flown("0.9,0 0,0 0.1,-0.3", "0,0,30,0,9", CueBall::White);
-        assert_eq!(taken, "Foul: white left the table over the right rail and comes on the near spot");
+        assert_eq!(taken, "Foul: white left the table over the right rail and goes to the near spot");
     }
 
     #[test]
@@ -349,7 +355,7 @@ mod tests {
     #[test]
     fn a_ball_that_was_flown_over_was_not_passed_at_its_side() {
         let said = flown("-0.5,0 -0.2,0 -1.2,-0.5", "0,0,45,0,5", CueBall::White);
-        assert_eq!(said, "No point: no ball was met, flew over yellow");
+        assert_eq!(said, "No point: no ball was hit, flew over yellow");
     }
 
     #[test]
@@ -371,11 +377,11 @@ mod tests {
         assert_eq!(drawn, "No point: came within 22 cm of red");
         // The cue ball stops level with yellow, or beyond it.
         let short = |place: &str| said(&format!("-1,0 {place},0.15 -1.3,-0.6"), "0,0,0,0,0.17");
-        assert_eq!(short("-0.595"), "No point: no ball was met, stopped 8.8 cm short of yellow");
-        assert_eq!(short("-0.8"), "No point: no ball was met, passed yellow by 8.9 cm on the right");
+        assert_eq!(short("-0.595"), "No point: no ball was hit, stopped 8.8 cm short of yellow");
+        assert_eq!(short("-0.8"), "No point: no ball was hit, passed yellow by 8.9 cm on the right");
         // A ball that is left behind was not missed, even if the other one is farther away.
-        assert_eq!(said("-1,0 -1.1,0 1.3,0.6", "0,0,0,0,0.15"), "No point: no ball was met");
-        assert_eq!(said("-1,0 -1.1,0 -1.1,0.1", "0,0,0,0,0.15"), "No point: no ball was met");
+        assert_eq!(said("-1,0 -1.1,0 1.3,0.6", "0,0,0,0,0.15"), "No point: no ball was hit");
+        assert_eq!(said("-1,0 -1.1,0 -1.1,0.1", "0,0,0,0,0.15"), "No point: no ball was hit");
     }
 
     #[test]

@@ -35,7 +35,7 @@ const SCALES: usize = (POWERS.1 - POWERS.0) as usize * STEPS + 1;
 
 /// Interpolation steps between two simulated scales, for the estimate and its interval: 0.5 % each. With a thousand
 /// attempts the interval is 40 of them wide.
-const FINER: usize = 32;
+const SUBSTEPS: usize = 32;
 
 /// Simulated strokes per scale and shot, with the same errors for all scales. The curve `p_e(s)` is therefore smooth,
 /// and its error is typically at most 1.6 %.
@@ -43,7 +43,7 @@ const STROKES: usize = 1000;
 
 /// Maximum drop of the log-likelihood below its maximum within the 95 % interval: half of the 95 % quantile of the
 /// chi-squared distribution with one degree of freedom.
-const DEPTH: f64 = 1.920_729;
+const MAX_LOG_LIKELIHOOD_DROP: f64 = 1.920_729;
 
 /// The estimate of a player's skill.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,7 @@ impl Estimate {
     /// Returns "at least" or "at most" with the known end of the average's interval, if the other end is unknown.
     pub fn bound(&self) -> Option<(&'static str, f64)> {
         let [least, _, most] = self.averages();
-        match openings(self.low, self.high) {
+        match open_ends(self.low, self.high) {
             [true, _] => Some(("at least", least)),
             [_, true] => Some(("at most", most)),
             _ => None,
@@ -95,7 +95,7 @@ impl Estimate {
 }
 
 /// Whether an interval reaches the lower and the upper end of the scale range.
-fn openings(low: f64, high: f64) -> [bool; 2] {
+fn open_ends(low: f64, high: f64) -> [bool; 2] {
     [low <= scale(0.0), high >= scale(POWERS.1 - POWERS.0)]
 }
 
@@ -111,7 +111,7 @@ pub enum NoEstimate {
         shots: usize,
     },
     /// The results are equally likely for players of any skill.
-    #[error("{attempts} attempts tell nothing yet: their shots are too easy or too hard to tell players apart by")]
+    #[error("{attempts} attempts show nothing yet: their shots are too easy or too hard to distinguish players")]
     Uninformative {
         /// Attempts so far.
         attempts: usize,
@@ -155,7 +155,7 @@ pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
     let [low, scale, high] = fit(&curves, &counts).ok_or(NoEstimate::Uninformative { attempts })?;
     Ok(Estimate {
         // More digits would have no meaning.
-        skill: (openings(low, high) == [false; 2]).then(|| Skill::level((100.0 * scale).round() / 100.0)),
+        skill: (open_ends(low, high) == [false; 2]).then(|| Skill::level((100.0 * scale).round() / 100.0)),
         scale,
         low,
         high,
@@ -224,7 +224,7 @@ fn scale(powers: f64) -> f64 {
 /// contains all scales.
 fn fit(curves: &[[f64; SCALES]], counts: &[(usize, usize)]) -> Option<[f64; 3]> {
     let likelihood = |step: usize| -> f64 {
-        let (index, share) = (step / FINER, (step % FINER) as f64 / FINER as f64);
+        let (index, share) = (step / SUBSTEPS, (step % SUBSTEPS) as f64 / SUBSTEPS as f64);
         let term = |(curve, (made, tried)): (&[f64; SCALES], &(usize, usize))| {
             let logit = |index: usize| (curve[index] / (1.0 - curve[index])).ln();
             let logit = logit(index) + share * (logit((index + 1).min(SCALES - 1)) - logit(index));
@@ -233,15 +233,15 @@ fn fit(curves: &[[f64; SCALES]], counts: &[(usize, usize)]) -> Option<[f64; 3]> 
         };
         curves.iter().zip(counts).map(term).sum()
     };
-    let last = (SCALES - 1) * FINER;
+    let last = (SCALES - 1) * SUBSTEPS;
     let likelihood: Vec<f64> = (0..=last).map(likelihood).collect();
     // The smallest scale among equals: the errors of a player who has missed nothing may be arbitrarily small.
     let best = (0..=last).rev().max_by(|x, y| likelihood[*x].total_cmp(&likelihood[*y]))?;
-    let is_inside = |step: &usize| likelihood[*step] >= likelihood[best] - DEPTH;
+    let is_inside = |step: &usize| likelihood[*step] >= likelihood[best] - MAX_LOG_LIKELIHOOD_DROP;
     let (low, high) = ((0..best).find(is_inside).unwrap_or(best), (best..=last).rfind(is_inside).unwrap_or(best));
     // The ends lie halfway between the last step inside and the first one outside.
     let ends = [(low as f64 - 0.5).max(0.0), best as f64, (high as f64 + 0.5).min(last as f64)];
-    ((low, high) != (0, last)).then(|| ends.map(|step| scale(step / (STEPS * FINER) as f64)))
+    ((low, high) != (0, last)).then(|| ends.map(|step| scale(step / (STEPS * SUBSTEPS) as f64)))
 }
 
 #[cfg(test)]

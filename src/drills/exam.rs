@@ -60,10 +60,10 @@ pub fn draw(library: &[Exercise], level: u8, seed: u64) -> Result<Vec<Exercise>,
     while drawn.len() < LENGTH {
         // Take the category with the fewest exercises so far, then the grade; ties are resolved by the shuffled order.
         let taken = |same: &dyn Fn(&&&Exercise) -> bool| drawn.iter().filter(same).count();
-        let crowd = |exercise: &&Exercise| {
+        let counts = |exercise: &&Exercise| {
             (taken(&|other| other.category == exercise.category), taken(&|other| other.grade == exercise.grade))
         };
-        let next = (0..left.len()).min_by_key(|index| crowd(&left[*index])).unwrap_or(0);
+        let next = (0..left.len()).min_by_key(|index| counts(&left[*index])).unwrap_or(0);
         drawn.push(left.remove(next));
     }
     drawn.sort_by_key(|exercise| exercise.grade);

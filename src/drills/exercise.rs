@@ -157,7 +157,7 @@ pub(super) fn match_table() -> String {
 #[derive(Debug, thiserror::Error)]
 pub enum ExerciseError {
     /// The name is not valid on the command line or in a file.
-    #[error("{0:?} is no name for an exercise; accepted are {NAME_RULE}")]
+    #[error("{0:?} is not a valid exercise name; accepted are {NAME_RULE}")]
     Name(String),
     /// A text contains characters that would move the cursor or reverse the text direction.
     #[error("the {field} {text:?} has a character that cannot be shown; accepted is one line of text")]
@@ -168,13 +168,13 @@ pub enum ExerciseError {
         text: String,
     },
     /// The table is not a bundled one.
-    #[error("an exercise lies on a bundled table, and {0:?} is none; accepted are {names}", names = PRESETS.join(", "))]
+    #[error("{0:?} is not a bundled table; accepted are {names}", names = PRESETS.join(", "))]
     Table(String),
     /// The grade is above 5.
-    #[error("grade {0} is not accepted; grades go from 0, for none, to 5")]
+    #[error("grade {0} is not accepted; grades are 0 (none) to 5")]
     Grade(u8),
     /// A make rate is not from 0 to 1.
-    #[error("{0} is no share of strokes that are made; accepted is a number from 0 to 1")]
+    #[error("{0} is not a valid make rate; accepted is a number from 0 to 1")]
     Share(f64),
     /// The layout is impossible.
     #[error(transparent)]

@@ -31,10 +31,10 @@ pub struct LibraryFile {
 #[derive(Debug, thiserror::Error)]
 pub enum LibraryFileError {
     /// The file is not JSON, or has the wrong structure.
-    #[error("this is no file of exercises: {}; {ACCEPTED}", json_flaw(_0))]
+    #[error("this is not a file of exercises: {}; {ACCEPTED}", json_flaw(_0))]
     Syntax(#[from] serde_json::Error),
     /// The file is JSON without the fields that identify its format.
-    #[error("this is no file of exercises: it does not begin with a \"format\" and a \"version\"; {ACCEPTED}")]
+    #[error("this is not a file of exercises: it does not begin with a \"format\" and a \"version\"; {ACCEPTED}")]
     NoHeader,
     /// The format is another one, or its version is not supported.
     #[error(transparent)]
@@ -193,7 +193,7 @@ mod tests {
         assert!(newer.contains("version 7") && newer.contains("1 to 1"), "{newer}");
         assert!(said(r#"{"format": "pool", "version": 1}"#).contains("\"pool\""));
         assert!(said("half a fi").contains(
-            "this is no file of exercises: line 1, column 1 is no JSON; accepted is a JSON file as carom drill"
+            "this is not a file of exercises: line 1, column 1 is no JSON; accepted is a JSON file as carom drill"
         ));
         for text in ["[1,2]", "3", r#"{"version": 1}"#, r#"{"format": 3, "version": 1}"#] {
             assert!(said(text).contains("does not begin with a \"format\""), "{}", said(text));

@@ -40,10 +40,10 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         ("the cue has room for it", has_room(&table, layout, &cue)),
         ("it makes the point by its rule", point.is_made(&technique.tally)),
         (
-            "it meets yellow first, or red in the opening",
+            "it hits yellow first, or red in the opening",
             technique.first.is_some_and(|hit| hit.ball == point.first_ball()),
         ),
-        ("it meets the first ball only once before the second", technique.again.is_none()),
+        ("it hits the first ball only once before the second", technique.again.is_none()),
         ("it covers at least a twentieth of the first ball", technique.fullness() >= 0.05),
         ("yellow stays away from red but in a time shot", technique.drives_second == is_tagged("time")),
     ];
@@ -88,7 +88,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
             vec![
                 ("the rule is three-cushion", exercise.rule.cushions() == 3),
                 ("the first tag names the system that describes it", exercise.tags.first() == name.as_ref()),
-                ("it goes through the number that the point tells", applied.is_some_and(|one| is_told(exercise, &one))),
+                ("it is aimed at the number in the point", applied.is_some_and(|one| matches_point(exercise, &one))),
             ]
         }
         Category::JumpAndMasse => raised(exercise, &table, &technique, &cue)?,
@@ -157,12 +157,12 @@ fn applied(exercise: &Exercise, table: &Table, cue: &CueInputs) -> Result<Option
 }
 
 /// Whether the shot itself is aimed at the result of the sum in the point, to a twentieth of a diamond.
-fn is_told(exercise: &Exercise, applied: &Applied) -> bool {
+fn matches_point(exercise: &Exercise, applied: &Applied) -> bool {
     let sum =
         exercise.point.split_once("= ").map(|(_, sum)| sum.split([',', ':', ';', ' ']).next().unwrap_or_default());
-    let told: Option<f64> = sum.and_then(|sum| sum.trim_end_matches('.').parse().ok());
+    let stated: Option<f64> = sum.and_then(|sum| sum.trim_end_matches('.').parse().ok());
     let twentieth = if applied.system == System::Plus { 0.05 } else { 0.5 };
-    told.zip(applied.shot_first).is_some_and(|(told, shot)| (told - shot).abs() <= twentieth)
+    stated.zip(applied.shot_first).is_some_and(|(stated, shot)| (stated - shot).abs() <= twentieth)
 }
 
 /// Returns the promises of the tags about the stroke and its course, each with whether the shot keeps it.

@@ -22,12 +22,12 @@ pub enum MarkError {
         accepted: &'static str,
     },
     /// The version is not supported, most likely because a newer program wrote the file.
-    #[error("it is of version {0}; versions 1 to {NEWEST} are understood, a newer carom may have written it")]
+    #[error("it has version {0}; versions 1 to {NEWEST} can be read, a newer carom may have written it")]
     Version(u32),
 }
 
 #[derive(Serialize)]
-struct Marked<'a, T> {
+struct WithHeader<'a, T> {
     format: &'static str,
     version: u32,
     /// The version of carom that writes the file.
@@ -47,7 +47,7 @@ struct Header {
 /// # Errors
 /// Fails if a value has no JSON form.
 pub fn write<T: Serialize>(format: &'static str, content: &T) -> Result<Vec<u8>, serde_json::Error> {
-    let mut bytes = serde_json::to_vec(&Marked { format, version: NEWEST, carom: VERSION, content })?;
+    let mut bytes = serde_json::to_vec(&WithHeader { format, version: NEWEST, carom: VERSION, content })?;
     bytes.push(b'\n');
     Ok(bytes)
 }

@@ -60,7 +60,7 @@ impl Played {
     }
 
     /// Like [`of`](Self::of), and determines how a ball was missed, for which the shot is recorded.
-    fn told(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
+    fn recorded(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
         match Recording::new(table, layout, &stroke) {
             Ok(recording) if !stroke.is_miscue(table) => {
                 let verdict = Verdict::of(rule, table, layout, &recording);
@@ -120,7 +120,7 @@ impl Session {
         let number = self.attempts.len();
         let errors = errors::independent(number + 1, self.seed ^ ERRORS)[number];
         let stroke = self.skill.stroke(table.radius, &meant, &errors);
-        let played = Played::told(exercise.rule, &table, &layout, stroke);
+        let played = Played::recorded(exercise.rule, &table, &layout, stroke);
         let attempt = Attempt {
             layout: (layout != exercise.layout).then_some(layout),
             meant: Some(meant),
@@ -187,9 +187,9 @@ mod tests {
         let exercise = Exercise::own("passed", Rule::StraightRail, "match", layout);
         let mut session = Session::new(Goal::Free, Venue::Program, vec![exercise], Skill::PERFECT, 1);
         let played = session.play(CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 }, false).unwrap();
-        let told = |unit| played.words(CueBall::White, unit);
-        assert_eq!(told(LengthUnit::Metres), "No point: no ball was met, passed yellow by 3.9 cm on the right");
-        assert!(told(LengthUnit::Feet).ends_with("passed yellow by 1.5 in on the right"));
+        let words = |unit| played.words(CueBall::White, unit);
+        assert_eq!(words(LengthUnit::Metres), "No point: no ball was hit, passed yellow by 3.9 cm on the right");
+        assert!(words(LengthUnit::Feet).ends_with("passed yellow by 1.5 in on the right"));
     }
 
     #[test]

@@ -18,10 +18,10 @@ pub enum SessionError {
         error: ExerciseError,
     },
     /// An attempt is at an exercise that the session does not contain.
-    #[error("it has an attempt at {0:?}, which is none of its exercises")]
+    #[error("it has an attempt at {0:?}, which is not one of its exercises")]
     Stray(String),
     /// A time that is not a valid date.
-    #[error("the time {0} is no date; accepted are seconds from 1970 to the year 9999")]
+    #[error("the time {0} is not a valid date; accepted are seconds from 1970 to the year 9999")]
     Time(u64),
     /// An attempt with invalid values.
     #[error("attempt {number}: {error}")]
@@ -108,7 +108,7 @@ mod tests {
             &|session| session.attempts[1].layout = Some(Layout::new([DVec2::ZERO; 3])),
         ];
         for (change, says) in refused.into_iter().zip([
-            "no share",
+            "make rate",
             "time 18446",
             "time 253",
             "attempt 2",

@@ -110,7 +110,7 @@ impl Reward {
             self.value(table, &referee.tally, &end.layout(table))
         } else {
             watch_with::<All, _>(table, layout, &impulse, &mut referee);
-            self.of_meetings(&referee.tally)
+            self.contact_reward(&referee.tally)
         }
     }
 
@@ -121,15 +121,15 @@ impl Reward {
 
     /// Returns the reward of a shot with this `tally` and this final layout.
     pub fn value(self, table: &Table, tally: &Tally, end: &Layout) -> f64 {
-        let apart = match self {
+        let distance = match self {
             Self::R2 | Self::R4 => distance_reward(table, end),
             _ => 0.0,
         };
-        self.of_meetings(tally) + apart
+        self.contact_reward(tally) + distance
     }
 
     /// Returns the part of the reward that depends on the contacts of the cue ball.
-    fn of_meetings(self, tally: &Tally) -> f64 {
+    fn contact_reward(self, tally: &Tally) -> f64 {
         let one = |made: bool| f64::from(u8::from(made));
         match self {
             Self::R1 | Self::R2 => one(tally.met_any()),
@@ -173,8 +173,8 @@ mod tests {
     fn the_distance_reward_spans_nought_to_one() {
         let table = Table::default();
         let reach = table.reach();
-        let apart = Layout::new([-reach, reach, DVec2::new(reach.x, -reach.y)]);
-        assert!(distance_reward(&table, &apart).abs() < 1e-15);
+        let corners = Layout::new([-reach, reach, DVec2::new(reach.x, -reach.y)]);
+        assert!(distance_reward(&table, &corners).abs() < 1e-15);
         assert!(distance_reward(&table, &Layout::new([DVec2::ZERO; 3])) == 1.0);
     }
 

@@ -31,9 +31,9 @@ pub fn aimed(table: &Table, meant: &Layout, real: &Layout, cue: &CueInputs) -> C
     let [start, real_start] = [meant.balls[0], real.balls[0]];
     let along = glam::DVec2::from_angle(cue.phi + squirt(table, cue.a));
     let ahead = |ball: &usize| {
-        let apart = meant.balls[*ball] - start;
-        let distance = apart.dot(along);
-        (distance > 0.0 && along.perp_dot(apart).abs() < 2.0 * table.radius).then_some(distance)
+        let to_ball = meant.balls[*ball] - start;
+        let distance = to_ball.dot(along);
+        (distance > 0.0 && along.perp_dot(to_ball).abs() < 2.0 * table.radius).then_some(distance)
     };
     let first = [1, 2].into_iter().filter_map(|ball| Some((ball, ahead(&ball)?))).min_by(|a, b| a.1.total_cmp(&b.1));
     let (target, real_target) = if let Some((ball, _)) = first {

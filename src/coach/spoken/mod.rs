@@ -50,10 +50,10 @@ pub enum SpokenError {
     )]
     Part(String),
     /// A property is stated twice.
-    #[error("{0} is said twice, last as \"{1}\"; say it once")]
+    #[error("{0} is given twice, last as \"{1}\"; give it once")]
     Twice(&'static str, String),
     /// The text states nothing.
-    #[error("no stroke is said; accepted is a text like \"red 1/2 right, 1.5 left, 2 up, 3.5 lengths\"")]
+    #[error("the text has no stroke; accepted is a text like \"red 1/2 right, 1.5 left, 2 up, 3.5 lengths\"")]
     Nothing,
     /// The named ball is the player's cue ball.
     #[error("{0} is the cue ball; aim at one of the others")]
@@ -64,18 +64,18 @@ pub enum SpokenError {
     )]
     NoAim,
     /// The text states the fullness of the hit, but not the side.
-    #[error("on which side of the ball is missing; say \"right\" or \"left\" behind how full it is hit")]
+    #[error("the side of the ball is missing; add \"right\" or \"left\" after the fullness")]
     NoSide,
     /// The text does not state a speed.
     #[error(
-        "how hard is missing; say it in table lengths, like \"3.5 lengths\", in m/s, or as very soft, soft, medium, hard or very hard"
+        "the speed is missing; give it in table lengths, like \"3.5 lengths\", in m/s, or as very soft, soft, medium, hard or very hard"
     )]
     NoSpeed,
     /// The speed is outside the range of cue speeds.
     #[error("no stroke on this table makes a ball run {0} lengths; accepted are those of 0.05 to 12 m/s")]
     Lengths(f64),
     /// The ball cannot be hit like this from the cue ball's position.
-    #[error("{0} cannot be met so: something is in the way, or it is too far to the side")]
+    #[error("{0} cannot be hit like this: something is in the way, or it is too far to the side")]
     NotMet(&'static str),
     /// An input of the stroke is outside its range.
     #[error(transparent)]

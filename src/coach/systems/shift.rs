@@ -146,7 +146,7 @@ mod tests {
     use super::*;
     use crate::{
         coach::{
-            candidates::anything,
+            candidates::any_stroke,
             systems::{Guide, guide},
         },
         simulation::Recording,
@@ -158,7 +158,7 @@ mod tests {
         let (table, mut rng) = (Table::default(), Xoshiro256PlusPlus::seed_from_u64(3));
         let shots = (0..4000).filter_map(|_| {
             let layout = Layout::random(&table, &mut rng);
-            let cue = anything(&table, &layout, &mut rng);
+            let cue = any_stroke(&table, &layout, &mut rng);
             match guide(&table, &Recording::new(&table, &layout, &cue).ok()?)? {
                 Guide::Shift(shift) => Some(shift),
                 Guide::System(_) => None,

@@ -96,7 +96,7 @@ impl Shift {
             "aimed at diamond {diamond:.0} of the {first} rail, the ball comes to {arrival:.1} of the {last} rail; aimed at {:.1}, as \
              here, to {:.1}",
             self.aimed(),
-            self.told_third()
+            self.displayed_third()
         )
     }
 
@@ -109,18 +109,18 @@ impl Shift {
         format!(
             "diamond {diamond:.0} of the {first} rail leads to {arrival:.1} of the {last} rail; {:.1}, as here, to {:.1}{more}",
             self.aimed(),
-            self.told_third()
+            self.displayed_third()
         )
     }
 
     /// Describes the correction for this table: `on this table to 4.6`; `None` if it makes no difference.
     pub fn correction(&self) -> Option<String> {
-        let is_other = tenth(self.told_third()) != tenth(self.table_third);
+        let is_other = tenth(self.displayed_third()) != tenth(self.table_third);
         is_other.then(|| format!("on this table to {:.1}", self.table_third))
     }
 
     /// Returns the predicted arrival, consistent with the displayed arrival and shift.
-    fn told_third(&self) -> f64 {
+    fn displayed_third(&self) -> f64 {
         let rounded = |number: f64| (10.0 * number).round() / 10.0;
         rounded(self.arrival) + rounded(self.third - self.arrival)
     }

@@ -6,7 +6,7 @@ use crate::{
 };
 
 /// Sampling interval of a flight, s: a ball at 8 m/s flies 8 mm in it.
-const LOOK: f64 = 0.001;
+const SAMPLING_INTERVAL: f64 = 0.001;
 
 /// Minimum overlap of the balls, seen from above, for one to count as flown over, m.
 const INSIDE: f64 = 0.001;
@@ -20,8 +20,8 @@ pub fn flown_over(table: &Table, recording: &Recording) -> Option<usize> {
     let of_cue_ball = recording.jumps().into_iter().filter(|jump| jump.ball == 0 && jump.is_told());
     of_cue_ball.filter(|jump| jump.start < until).find_map(|jump| {
         let end = jump.end.min(until);
-        let looks = ((end - jump.start) / LOOK).ceil() as usize;
-        (0..=looks).map(|look| (jump.start + LOOK * look as f64).min(end)).find_map(|time| {
+        let samples = ((end - jump.start) / SAMPLING_INTERVAL).ceil() as usize;
+        (0..=samples).map(|sample| (jump.start + SAMPLING_INTERVAL * sample as f64).min(end)).find_map(|time| {
             let places = recording.positions(time);
             let is_below = |ball: &usize| places[0].distance(places[*ball]) < reach;
             // A ball on which it lands is not flown over.

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::{
     Alternative, Input, Pattern, Recommendation, Sensitivity, Shooter, Skill, Technique,
     draws::Draws,
-    trial::{CONTACT_STEPS, Task, unhurried},
+    trial::{CONTACT_STEPS, Task, without_limits},
     words::table_lengths,
 };
 use crate::{
@@ -159,7 +159,9 @@ fn kiss(shooter: Shooter, rule: Rule, table: &Table, layout: &Layout, cue: &CueI
     if shooter.skill.is_perfect() {
         return None;
     }
-    unhurried(table, layout, rule, shooter, CONTACT_STEPS, &AtomicBool::new(false), |task| worst_kiss(task, cue, seed))
+    without_limits(table, layout, rule, shooter, CONTACT_STEPS, &AtomicBool::new(false), |task| {
+        worst_kiss(task, cue, seed)
+    })
 }
 
 fn worst_kiss(task: &Task, cue: &CueInputs, seed: u64) -> Option<Kiss> {

@@ -11,7 +11,7 @@ use crate::{
 
 /// Make probabilities that differ by no more than this are reported as "about as often". It is one standard error of
 /// the difference if half of a thousand and of four hundred attempts make the point.
-const TOLD_APART: f64 = 0.03;
+const NOTABLE_DIFFERENCE: f64 = 0.03;
 
 /// Minimum differences that are reported, of fullness and of table lengths.
 const FULLER: f64 = 0.06;
@@ -27,8 +27,8 @@ impl Why {
         let plan = self.plan_words("the second shot");
         parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
             let [own, its] = [rate, other].map(percent);
-            if (rate - other).abs() > TOLD_APART {
-                let luck = if self.is_unsure() { ", which is not surely more" } else { "" };
+            if (rate - other).abs() > NOTABLE_DIFFERENCE {
+                let luck = if self.is_unsure() { ", maybe by chance" } else { "" };
                 format!("it is made {own} of the time, the second shot {its}{luck}")
             } else {
                 format!("it is made {own} of the time, about as often as the second shot ({its})")
@@ -39,9 +39,9 @@ impl Why {
         parts.extend(plan.clone().filter(|_| self.is_by_plan()));
         parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
             Some(other) => {
-                format!("its aim may be {} off in all, that of the second shot {}", degrees(width), degrees(other))
+                format!("its aim tolerance is {} wide, that of the second shot {}", degrees(width), degrees(other))
             }
-            None => format!("its aim may be {} off in all", degrees(width)),
+            None => format!("its aim tolerance is {} wide", degrees(width)),
         }));
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], place }| {
             let (diamond, middle) = self.scale;
@@ -108,13 +108,13 @@ impl Why {
             || alone.to_owned(),
             |second| {
                 let made = second.make_probability.map_or_else(String::new, |rate| format!(": {}", percent(rate)));
-                let luck = if self.is_unsure() { ", not surely more" } else { "" };
+                let luck = if self.is_unsure() { ", maybe by chance" } else { "" };
                 format!("shot 2 ({}){made}{luck}", second.parts(names))
             },
         );
         let mut facts = self.facts(cue_ball);
         let first = if self.is_by_plan() { format!("{second}; {}", facts.remove(0)) } else { second };
-        ever_shorter(std::iter::once(first).chain(facts).collect())
+        shortened_texts(std::iter::once(first).chain(facts).collect())
     }
 
     /// Returns short forms without what a list of the shots with their probabilities contains, each with one fact
@@ -124,13 +124,13 @@ impl Why {
             [] => None,
             // The plan does not rank them by the make probability alone.
             _ if self.is_by_plan() => None,
-            [number] => Some(format!("shot {number} is not surely made more often")),
+            [number] => Some(format!("shot {number}'s higher rate may be chance")),
             [numbers @ .., last] => {
                 let numbers: Vec<_> = numbers.iter().map(usize::to_string).collect();
-                Some(format!("shots {} and {last} are not surely made more often", numbers.join(", ")))
+                Some(format!("shots {} and {last}: higher rates may be chance", numbers.join(", ")))
             }
         };
-        ever_shorter(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| capital(&sentence))
+        shortened_texts(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| capital(&sentence))
     }
 
     /// Returns facts that the list of the shots does not contain. If the plan decides, that comes first.
@@ -140,7 +140,7 @@ impl Why {
         parts.extend(self.aim_deg.map(|width| {
             let other = self.second.as_ref().and_then(|second| second.aim_deg);
             let there = other.map_or_else(String::new, |width| format!(", shot 2's {}", degrees(width)));
-            format!("the aim may be {} off in all{there}", degrees(width))
+            format!("the aim tolerance is {} wide{there}", degrees(width))
         }));
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
             format!("{} and {} kiss in {}", names[one], names[other], percent(share))
@@ -154,7 +154,7 @@ impl Why {
 }
 
 /// Joins the parts into a text; the first one has all parts, each further one drops the last part.
-fn ever_shorter(parts: Vec<String>) -> impl Iterator<Item = String> {
+fn shortened_texts(parts: Vec<String>) -> impl Iterator<Item = String> {
     (1..=parts.len()).rev().map(move |many| format!("{}.", parts[..many].join("; ")))
 }
 
@@ -202,8 +202,8 @@ mod tests {
         assert!(why.second.is_some() && !advice.alternatives.is_empty());
         let sentences: Vec<String> = why.brief(CueBall::White).collect();
         let [brief, .., least] = &sentences[..] else { panic!("{sentences:?}") };
-        assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
-        assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("off in all"), "{least}");
+        assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} wide") && brief.len() < 170, "{brief}");
+        assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("tolerance"), "{least}");
         let said = why.words(CueBall::White, Units::default());
         assert!(said.ends_with('.') && said.contains("The second shot is ") && !said.contains(';'), "{said}");
         // If the next point counts too, a shot with a lower make probability may lead.
@@ -235,13 +235,13 @@ mod tests {
             Why { make_probability: Some(0.48), second, is_planned: false, unsure: unsure.to_vec(), ..why.clone() }
         };
         let said = second(&[2]).words(CueBall::White, Units::default());
-        assert!(said.contains("made 48 % of the time, the second shot 54 %, which is not surely more. "), "{said}");
+        assert!(said.contains("made 48 % of the time, the second shot 54 %, maybe by chance. "), "{said}");
         for sentence in second(&[2]).brief(CueBall::White) {
-            assert!(sentence.contains("%, not surely more"), "{sentence}");
+            assert!(sentence.contains("%, maybe by chance"), "{sentence}");
         }
         let first = second(&[2]).beside_the_list(CueBall::White).next().unwrap();
-        assert!(first.starts_with("Shot 2 is not surely made more often"), "{first}");
-        for (unsure, words) in [(&[3][..], "Shot 3 is not surely"), (&[2, 3], "Shots 2 and 3 are not surely")] {
+        assert!(first.starts_with("Shot 2's higher rate may be chance"), "{first}");
+        for (unsure, words) in [(&[3][..], "Shot 3's higher rate"), (&[2, 3], "Shots 2 and 3: higher rates")] {
             let first = second(unsure).beside_the_list(CueBall::White).next().unwrap();
             assert!(first.starts_with(words), "{first}");
         }

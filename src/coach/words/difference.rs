@@ -5,7 +5,7 @@ use crate::table::CueBall;
 
 /// Differences of fullness, as shares of a ball: below the first they are not reported, below the second they are "a
 /// hair", and below the third "a little". Larger ones are reported in eighths.
-const UNTOLD: f64 = 0.008;
+const NEGLIGIBLE: f64 = 0.008;
 const HAIR: f64 = 1.0 / 32.0;
 const LITTLE: f64 = 3.0 / 32.0;
 const EIGHTHS: [&str; 9] = [
@@ -37,8 +37,9 @@ impl ShotWords {
         }
         let tip = |by: f64| tip_amount(by, self.radius, units.tip);
         parts.extend(
-            tip(self.tips_right - other.tips_right)
-                .map(|amount| format!("{amount} {}", way(other.tips_right, self.tips_right, ["right", "left"]))),
+            tip(self.tips_right - other.tips_right).map(|amount| {
+                format!("{amount} {}", side_change(other.tips_right, self.tips_right, ["right", "left"]))
+            }),
         );
         parts.extend(
             tip(self.tips_above - other.tips_above).map(|amount| {
@@ -61,11 +62,11 @@ impl ShotWords {
     fn contact_difference(&self, other: &Self, misses: bool, cue_ball: CueBall) -> Vec<String> {
         let names = cue_ball.names();
         let (Some(hit), Some(others)) = (self.first, other.first) else {
-            let met = self.first.map(|hit| format!("meets {}", names[hit.ball]));
+            let met = self.first.map(|hit| format!("hits {}", names[hit.ball]));
             return if self.first.is_none() && other.first.is_none() {
                 Vec::new()
             } else {
-                vec![met.unwrap_or_else(|| "meets no ball".to_owned())]
+                vec![met.unwrap_or_else(|| "hits no ball".to_owned())]
             };
         };
         if self.before.is_empty() != other.before.is_empty() {
@@ -73,7 +74,7 @@ impl ShotWords {
             return vec![if self.before.is_empty() { straight() } else { "a cushion first".to_owned() }];
         }
         if hit.ball != others.ball {
-            return vec![format!("meets {} first", names[hit.ball])];
+            return vec![format!("hits {} first", names[hit.ball])];
         }
         // A full hit has no side.
         let has_side = |hit: Hit| !numbers::fullness_words(hit.fullness).1;
@@ -83,7 +84,7 @@ impl ShotWords {
         let fuller = hit.fullness - others.fullness;
         let words = if fuller > 0.0 { ["thicker", "too thick"] } else { ["thinner", "too thin"] };
         let part = match fuller.abs() {
-            by if by < UNTOLD => return Vec::new(),
+            by if by < NEGLIGIBLE => return Vec::new(),
             by if by < LITTLE => {
                 let little = if by < HAIR { "a hair" } else { "a little" };
                 format!("{little} {}", words[usize::from(misses)])
@@ -126,7 +127,7 @@ fn tip_amount(tips: f64, radius: f64, unit: TipUnit) -> Option<String> {
 
 /// Describes the direction of a change of side from one value to another; positive values are side of the first of the
 /// two names. It is more of one side, or less of the other.
-fn way(from: f64, to: f64, [more, less]: [&str; 2]) -> String {
+fn side_change(from: f64, to: f64, [more, less]: [&str; 2]) -> String {
     let (towards, away) = if to > from { (more, less) } else { (less, more) };
     // A reduction that does not cross to the other side is less of the old side.
     let is_less = from.abs() > TIPS && (to * from > 0.0 || to.abs() < TIPS) && to.abs() < from.abs();
@@ -190,7 +191,7 @@ mod tests {
         let full = of("-0.2,0.1,0,-2.4,3");
         assert!(full.first.is_some_and(|hit| hit.fullness > 0.97), "{:?}", full.first);
         assert!(told("-0.2,0.1,0,-2.4,3", true).starts_with("too thick by "), "{}", told("-0.2,0.1,0,-2.4,3", true));
-        assert_eq!(told("-0.2,0.1,0,17.4,3", true), "meets yellow first");
-        assert_eq!(told("-0.2,0.1,0,10,0.3", true).split(", ").next(), Some("meets no ball"));
+        assert_eq!(told("-0.2,0.1,0,17.4,3", true), "hits yellow first");
+        assert_eq!(told("-0.2,0.1,0,10,0.3", true).split(", ").next(), Some("hits no ball"));
     }
 }

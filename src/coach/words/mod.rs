@@ -34,7 +34,7 @@ use crate::{
 pub const TIP: f64 = 0.1;
 
 /// Minimum english that is reported, R w / v.
-const TOLD: f64 = 0.1;
+const MIN_ENGLISH: f64 = 0.1;
 
 /// Elevation below which a cue is called level, degrees: no player sees the difference.
 const LEVEL: f64 = 2.0;
@@ -118,8 +118,8 @@ impl ShotWords {
         let least = least_elevation(table, layout, cue).map_or(0.0, |least| least.theta);
         let first = technique.first;
         let english = match technique.english {
-            english if english > TOLD => Some(English::Running),
-            english if english < -TOLD => Some(English::Reverse),
+            english if english > MIN_ENGLISH => Some(English::Running),
+            english if english < -MIN_ENGLISH => Some(English::Reverse),
             _ => None,
         };
         Self {

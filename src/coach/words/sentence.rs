@@ -59,7 +59,7 @@ impl ShotWords {
         stops.extend(cushions(since));
         stops.extend(self.second.map(|hit| names[hit.ball].to_owned()));
         if stops.is_empty() {
-            return "Meets neither ball nor cushion".to_owned();
+            return "Hits neither ball nor cushion".to_owned();
         }
         capital(&stops.join(" \u{2013} "))
     }

@@ -2,7 +2,7 @@
 
 /// Error: the bytes end too early, or a text is not UTF-8.
 #[derive(Debug)]
-pub struct Cut;
+pub struct Truncated;
 
 /// Writes values into bytes.
 #[derive(Debug, Default)]
@@ -46,26 +46,26 @@ impl<'a> Reader<'a> {
         Self { rest: bytes }
     }
 
-    pub fn chunk<const N: usize>(&mut self) -> Result<[u8; N], Cut> {
-        let (chunk, rest) = self.rest.split_first_chunk().ok_or(Cut)?;
+    pub fn chunk<const N: usize>(&mut self) -> Result<[u8; N], Truncated> {
+        let (chunk, rest) = self.rest.split_first_chunk().ok_or(Truncated)?;
         self.rest = rest;
         Ok(*chunk)
     }
 
-    pub fn byte(&mut self) -> Result<u8, Cut> {
+    pub fn byte(&mut self) -> Result<u8, Truncated> {
         self.chunk().map(|[byte]| byte)
     }
 
-    pub fn number(&mut self) -> Result<i32, Cut> {
+    pub fn number(&mut self) -> Result<i32, Truncated> {
         // The arithmetic shift restores the sign.
         self.chunk().map(|[high, middle, low]| i32::from_be_bytes([high, middle, low, 0]) >> 8)
     }
 
-    pub fn text(&mut self) -> Result<String, Cut> {
+    pub fn text(&mut self) -> Result<String, Truncated> {
         let length = usize::from(self.byte()?);
-        let (text, rest) = self.rest.split_at_checked(length).ok_or(Cut)?;
+        let (text, rest) = self.rest.split_at_checked(length).ok_or(Truncated)?;
         self.rest = rest;
-        String::from_utf8(text.to_vec()).map_err(|_| Cut)
+        String::from_utf8(text.to_vec()).map_err(|_| Truncated)
     }
 
     pub const fn is_at_end(&self) -> bool {

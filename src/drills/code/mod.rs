@@ -10,7 +10,7 @@ mod bytes;
 use crc::{CRC_32_ISO_HDLC, Crc};
 use glam::DVec2;
 
-use self::bytes::{Cut, Reader, Writer};
+use self::bytes::{Reader, Truncated, Writer};
 use super::{Exercise, ExerciseError, bare_tag, exercise::match_table};
 use crate::{game::Rule, physics::CueInputs, table::Layout};
 
@@ -44,26 +44,26 @@ const SHOT_UNITS: [f64; 5] = [1e5, 1e5, 1e3, 1e3, 1e4];
 #[derive(Debug, thiserror::Error)]
 pub enum CodeError {
     /// The text is not a share code.
-    #[error("\"{0}\" is no share code; one begins with \"{PREFIX}\"")]
+    #[error("\"{0}\" is not a share code; start with \"{PREFIX}\"")]
     Prefix(String),
     /// A letter that cannot occur in a code.
-    #[error("a share code has no '{0}'; it is made of letters and digits without u")]
+    #[error("a share code cannot contain '{0}'; it is made of letters and digits without u")]
     Letter(char),
     /// The code was changed in transit.
     #[error(
-        "the share code is damaged: a letter is wrong, missing or too many; copy it again, from \"{PREFIX}\" to its end"
+        "the share code is damaged: a letter is wrong, missing or extra; copy it again, from \"{PREFIX}\" to its end"
     )]
     Damaged,
     /// The code was written by a newer version.
-    #[error("the share code is of version {0}; versions 1 to {VERSION} are understood, a newer carom has written it")]
+    #[error("the share code has version {0}; versions 1 to {VERSION} can be read, a newer carom has written it")]
     Version(u8),
     /// The exercise in the code cannot be played.
     #[error(transparent)]
     Exercise(#[from] ExerciseError),
 }
 
-impl From<Cut> for CodeError {
-    fn from(_: Cut) -> Self {
+impl From<Truncated> for CodeError {
+    fn from(_: Truncated) -> Self {
         Self::Damaged
     }
 }
@@ -158,7 +158,7 @@ fn content_of(reader: &mut Reader) -> Result<Exercise, CodeError> {
     if has & !(EXACT | SHOT) != 0 {
         return Err(CodeError::Damaged);
     }
-    let mut coordinate = || -> Result<f64, Cut> {
+    let mut coordinate = || -> Result<f64, Truncated> {
         if has & EXACT == 0 {
             Ok(f64::from(i16::from_be_bytes(reader.chunk()?)) / GRID)
         } else {

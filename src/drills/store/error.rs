@@ -43,7 +43,7 @@ pub enum StoreError {
         error: LibraryFileError,
     },
     /// A position's file contains no exercise, or several.
-    #[error("{}: there are {found} exercises in it; a position's file has one, carom drill import takes more", path.display())]
+    #[error("{}: it contains {found} exercises; a position's file has one, carom drill import accepts more", path.display())]
     Many {
         /// The file.
         path: PathBuf,
@@ -59,7 +59,7 @@ pub enum StoreError {
         error: ExerciseError,
     },
     /// The file's name differs from the name in it.
-    #[error("{}: it holds \"{name}\"; rename the file or remove it", path.display())]
+    #[error("{}: it contains \"{name}\"; rename the file or remove it", path.display())]
     Copy {
         /// The file.
         path: PathBuf,
@@ -75,10 +75,10 @@ pub enum StoreError {
         error: SessionError,
     },
     /// Another program has added or removed attempts in this session. Contains the session as it is stored now.
-    #[error("another program has changed the session \"{}\" meanwhile; nothing of yours was written over it", .0.id)]
+    #[error("another program has changed the session \"{}\" meanwhile; your changes were not written", .0.id)]
     Changed(Box<Session>),
     /// A session has different new attempts here and in an imported file.
-    #[error("the session \"{0}\" has gone on both here and in the file, so it stays as it is here")]
+    #[error("the session \"{0}\" was continued both here and in the file; the one here is kept")]
     Diverged(String),
     /// An exercise cannot be played.
     #[error(transparent)]

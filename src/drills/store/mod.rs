@@ -97,22 +97,22 @@ impl Store {
         let path = file(&self.sessions, &session.id)?;
         let is_new = !path.exists();
         if !is_new {
-            let kept: Kept = read_marked(&path)?;
-            is_called(&path, &kept.id)?;
+            let stored: StoredSession = read_marked(&path)?;
+            check_name(&path, &stored.id)?;
             // The file may have fewer attempts than `before`, because attempts that could not be written exist only here.
-            if kept.attempts.len() < safe || !Attempt::is_prefix(&kept.attempts, before) {
+            if stored.attempts.len() < safe || !Attempt::is_prefix(&stored.attempts, before) {
                 return Err(StoreError::Changed(Box::new(read_session(&path)?)));
             }
         }
         let written = self.write(lock, session);
         if is_new {
-            self.remove_leavings();
+            self.remove_abandoned();
         }
         written
     }
 
     /// Removes the temporary files of programs that were killed while writing a session.
-    fn remove_leavings(&self) {
+    fn remove_abandoned(&self) {
         // Failing to remove them does not matter.
         let _ = remove_abandoned_files(&self.sessions);
     }
@@ -206,7 +206,7 @@ fn file(folder: &Path, name: &str) -> Result<PathBuf, StoreError> {
 
 /// The part of a session's file that is needed to detect changes by other programs.
 #[derive(Deserialize)]
-struct Kept {
+struct StoredSession {
     id: String,
     attempts: Vec<Attempt>,
 }
@@ -218,7 +218,7 @@ fn read_marked<T: DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
 
 fn read_session(path: &Path) -> Result<Session, StoreError> {
     let session: Session = read_marked(path)?;
-    is_called(path, &session.id)?;
+    check_name(path, &session.id)?;
     validate(&session)?;
     Ok(session)
 }
@@ -232,7 +232,7 @@ fn read_position(path: &Path) -> Result<Exercise, StoreError> {
     let library = LibraryFile::parse(&text).map_err(|error| StoreError::Library { path: path.into(), error })?;
     let [exercise] = <[Exercise; 1]>::try_from(library.exercises)
         .map_err(|found| StoreError::Many { path: path.into(), found: found.len() })?;
-    is_called(path, &exercise.name)?;
+    check_name(path, &exercise.name)?;
     exercise.validate().map_err(|error| StoreError::Impossible { path: path.into(), error })?;
     // The category in the file is ignored.
     Ok(Exercise { category: Category::Own, ..exercise })
@@ -240,7 +240,7 @@ fn read_position(path: &Path) -> Result<Exercise, StoreError> {
 
 /// Checks that the file has the name of its content. Names are unique because file names are, so a copy under another
 /// name is rejected.
-fn is_called(path: &Path, name: &str) -> Result<(), StoreError> {
+fn check_name(path: &Path, name: &str) -> Result<(), StoreError> {
     if path.file_stem().is_some_and(|stem| stem == name) {
         Ok(())
     } else {

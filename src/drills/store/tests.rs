@@ -169,7 +169,7 @@ fn what_is_exported_here_is_imported_there_once_and_the_longer_session_wins() {
     yours.log(false).unwrap();
     there.save(&yours, &yours.attempts[..4], 4).unwrap();
     let refused = here.import(&there.export().0).refused;
-    assert!(refused.iter().any(|one| one.contains("gone on both here")), "{refused:?}");
+    assert!(refused.iter().any(|one| one.contains("continued both here")), "{refused:?}");
     assert_eq!((here.sessions().items, there.sessions().items), (vec![mine], vec![yours]));
 }
 

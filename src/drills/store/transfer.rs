@@ -84,7 +84,7 @@ impl Store {
         }
         if imported.sessions > 0 {
             // Done once: for each session, scanning the growing folder would take more and more time.
-            self.remove_leavings();
+            self.remove_abandoned();
         }
         if let Some(own) = &practice.player {
             let kept = self.own_skill().and_then(|here| if here.is_none() { self.write_own(own) } else { Ok(()) });

@@ -16,7 +16,7 @@ pub enum SkillError {
     Unknown(String),
     /// The average is outside the measured range.
     #[error(
-        "no player was measured who averages {}; accepted are {} to {} points an inning at three-cushion, or world-class \
+        "no measured player averages {}; accepted are {} to {} points an inning at three-cushion, or world-class \
          (about 2), national (1), club (0.5) and beginner (0.15)",
         number(*_0), Skill::AVERAGES.0, Skill::AVERAGES.1
     )]
