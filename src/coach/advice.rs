@@ -1,4 +1,4 @@
-//! What the coach answers.
+//! The output of a recommendation.
 
 use std::{fmt, time::Duration};
 
@@ -7,19 +7,19 @@ use serde::Serialize;
 use super::{Kind, Risk};
 use crate::{physics::CueInputs, statistics::SuccessRate};
 
-/// Where a shot comes from.
+/// The origin of a shot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
     /// The policy's own shot.
     Policy,
     /// Near a shot of the policy: its direction and speed with another tip position and elevation (thesis 5.1), or a
-    /// refinement of it. In JSON a search too.
+    /// refinement of it. Written as `search` in JSON.
     #[serde(rename = "search")]
     Variation,
     /// The wider search.
     Search,
-    /// A former answer to the same question, or near a shot of it. In JSON a search too.
+    /// An earlier answer to the same question, or a shot near one. Written as `search` in JSON.
     #[serde(rename = "search")]
     Former,
 }
@@ -34,12 +34,12 @@ impl fmt::Display for Source {
     }
 }
 
-/// A shot and where it comes from.
+/// A shot and its origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Suggestion {
     /// The stroke.
     pub cue: CueInputs,
-    /// Who thought of it.
+    /// The origin of the shot.
     pub source: Source,
 }
 
@@ -48,28 +48,29 @@ pub struct Suggestion {
 pub struct Alternative {
     /// The stroke.
     pub cue: CueInputs,
-    /// Who thought of it.
+    /// The origin of the shot.
     pub source: Source,
-    /// What sort of shot it is.
+    /// The kind of the shot.
     pub kind: Kind,
-    /// How often the player makes it; `None` where time ran out before a single attempt.
+    /// How often the player makes it; `None` if time ran out before the first attempt.
     pub make_probability: Option<SuccessRate>,
-    /// Probability of the point after this one, where that was asked for.
+    /// Probability of the point after this one, if the request asked for it.
     pub next_probability: Option<f64>,
 }
 
-/// The best shot so far, while the search goes on.
+/// The best shot so far, reported during the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Improvement {
     /// The stroke.
     pub cue: CueInputs,
-    /// What sort of shot it is.
+    /// The kind of the shot.
     pub kind: Kind,
-    /// The share of points in the errors that it was chosen by, which flatters it a little; the answer has the honest one.
+    /// Share of points under the errors by which the shot was chosen. This flatters it a little; the final answer has
+    /// an unbiased rate.
     pub make_probability: SuccessRate,
     /// Shots simulated so far.
     pub simulations: u64,
-    /// Time since the question.
+    /// Time since the start of the request.
     pub elapsed: Duration,
 }
 
@@ -78,29 +79,30 @@ pub struct Improvement {
 pub struct Recommendation {
     /// The stroke: it makes the point if `solved`, else it is the best attempt.
     pub cue: CueInputs,
-    /// Whether it makes the point when it is played as meant, by simulation.
+    /// Whether the simulated stroke makes the point when it is played as intended.
     pub solved: bool,
-    /// Where it comes from.
+    /// The origin of the shot.
     pub source: Source,
-    /// What sort of shot it is, if it makes the point.
+    /// The kind of the shot, if it makes the point.
     pub kind: Option<Kind>,
-    /// How often the player makes it, from independent attempts that took no part in the choice; `None` where there is no
-    /// such shot or time ran out before a single attempt. A perfect player always makes what makes the point.
+    /// How often the player makes it, from independent attempts that took no part in the choice. `None` if there is no
+    /// such shot, or time ran out before the first attempt. A perfect player makes every shot that makes the point.
     pub make_probability: Option<SuccessRate>,
-    /// The first attempt behind `make_probability`, as [`judge`](super::judge) counts them: above 0 where earlier attempts took part in the
-    /// choice.
+    /// Index of the first attempt behind `make_probability`, as [`judge`](super::judge) counts them: above 0 if earlier
+    /// attempts took part in the choice.
     pub judged_from: usize,
-    /// What would miss it by itself, where anything is in doubt and time did not run out.
+    /// How often each cause alone would miss the shot, if anything is in doubt and time did not run out.
     pub risk: Option<Risk>,
-    /// Probability of the point after this one, an estimate, where that was asked for and the table is the one that the
+    /// Estimated probability of the point after this one, if the request asked for it and the table is the one that the
     /// estimate was fitted on.
     pub next_probability: Option<f64>,
-    /// Whether the shots are ranked by this point and the next, so that one may lead that is made less often than another.
+    /// Whether the shots are ranked by this point and the next. The first one may then have a lower make probability
+    /// than another.
     pub is_planned: bool,
-    /// Other strokes that make the point, the best of each kind, the best first; none that is made less than half as often
-    /// as the recommended one.
+    /// Other strokes that make the point: the best of each kind, best first, each made at least half as often as the
+    /// recommended one.
     pub alternatives: Vec<Alternative>,
-    /// Shots simulated.
+    /// Number of simulated shots.
     pub simulations: u64,
     /// Time taken.
     pub elapsed: Duration,

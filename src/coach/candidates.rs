@@ -1,4 +1,4 @@
-//! Shots to try: variations of a good one, and samples of all that a player could do.
+//! Candidate shots: variations of a good shot, and samples of the whole space of strokes.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,39 +17,40 @@ use crate::{
     table::{Layout, Rail, Table},
 };
 
-/// Fastest stroke that is recommended, m/s: the thesis' limit (its 4.1.3).
+/// Fastest recommended stroke, m/s: the thesis' limit (its 4.1.3).
 pub const MAX_SPEED: f64 = 6.0;
 
-/// Slowest stroke that is tried, m/s.
+/// Slowest stroke that the search tries, m/s.
 pub const MIN_SPEED: f64 = 0.4;
 
-/// Steepest cue that is tried, rad: 30°, beyond which a stroke is a massé.
+/// Steepest ordinary cue that the search tries, rad: 30°. A stroke beyond it is a massé.
 pub const MAX_ELEVATION: f64 = PI / 6.0;
 
-/// Tips are tried up to this share of the miscue limit's radius, so that rounding never oversteps it.
+/// Candidate tip positions stay within this share of the miscue limit's radius, so that rounding never exceeds the limit.
 pub const TIP_SHARE: f64 = 0.98;
 
-/// How usual strokes are spread, mean and standard deviation: how far beside an object ball's centre their line of aim passes, in
-/// diameters, and the logarithm of the speed in m/s. So are those that players make most often, by what long searches found on `match`
-/// for beginners, club players and world-class ones (1,100 layouts, 40,000 and 60,000 simulations each). The players differ little, the
-/// rules in speed alone.
+/// Distribution of usual strokes, as mean and standard deviation: the distance between the line of aim and the object
+/// ball's centre, in diameters, and the logarithm of the speed in m/s.
+/// Fitted to the shots that players make most often, as found by long searches on `match` for beginners, club players
+/// and world-class players (1,100 layouts, 40,000 and 60,000 simulations each). The players differ little; the rules
+/// differ in speed only.
 const USUAL_OFFSET: [f64; 2] = [0.6, 0.2];
 const USUAL_LOG_SPEED: [f64; 2] = [0.7, 0.6];
 const USUAL_LOG_SPEED_AT_THREE_CUSHIONS: [f64; 2] = [0.95, 0.42];
 
-/// Lowest tip of a usual stroke, in R: one of thirty of those shots is struck lower.
+/// Lowest tip position of a usual stroke, in R: one in thirty of those shots is struck lower.
 const LOWEST_USUAL: f64 = -0.1;
 
-/// The thesis' way out where the policy's shot misses (its 5.1): the same direction and speed, another tip position and
-/// elevation.
+/// Draws a random variation of the policy's shot when that misses (thesis 5.1): the same direction and speed, another tip
+/// position and elevation.
 pub fn variation(table: &Table, cue: &CueInputs, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let (a, b) = random_tip(table, rng);
     let phi = cue.phi + squirt(table, cue.a) - squirt(table, a);
     CueInputs { a, b, theta: rng.random_range(0.0..MAX_ELEVATION), phi, ..*cue }
 }
 
-/// Any shot: half of them at one of the object balls, thick or thin, the others in any direction.
-pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
+/// Draws any shot: half of them aim at one of the object balls, thick or thin, the others in any direction.
+pub fn any_stroke(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let [cue_ball, first, second] = layout.balls;
     let phi = if rng.random() {
         at(table, cue_ball, if rng.random() { first } else { second }, rng)
@@ -61,13 +62,18 @@ pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) ->
     CueInputs { a, b, theta: rng.random_range(0.0..0.2), phi, speed: rng.random_range(MIN_SPEED..MAX_SPEED) }
 }
 
-/// Stratified sampling: the `n`th of a series of shots in which every ten are eight at an object ball, four at either; one at an object
-/// ball's image in a cushion, which comes off that cushion to it; and one anywhere. Where the player wants a ball met first, the eight are
-/// at it; where a cushion, they are at images as the ninth is. Of fifty the first twenty are of any kind:
-/// their thicknesses are all alike, their tips fill the disc, and their speeds, from `softest` on, are alike in their logarithm, as errors
-/// of the speed are a share of it. The others are spread as usual strokes are. The cue is level, for a player lifts it only with a
-/// reason. Usual strokes, and fewer shots in later stages where time was short, raised what a club player made of three-cushion
-/// shots that were looked for in 30 ms from 25.3 to 27.8 % (200 layouts, with the search of that day).
+/// Returns the `n`th stroke of a stratified sample.
+///
+/// Of every ten strokes, eight aim at an object ball (four at each), one at an object ball's mirror image in a cushion (a
+/// one-cushion bank), and one in any direction. If the player wants a certain ball first, the eight aim at it; if a cushion
+/// first, they are banks too.
+///
+/// Of every fifty strokes, the first twenty are of any kind: uniform in thickness, in tip position over the disc, and
+/// in the logarithm of the speed from `softest` up, as speed errors are relative. The others follow the distribution of
+/// usual strokes. The cue is level, because a player raises it only with a reason.
+///
+/// Usual strokes, and fewer shots in later stages when time was short, raised a club player's make rate at
+/// three-cushion shots found in 30 ms from 25.3 to 27.8 % (200 layouts, with the search of that time).
 pub fn stratified(
     table: &Table,
     layout: &Layout,
@@ -92,7 +98,7 @@ pub fn stratified(
             let target = if rng.random() { first } else { second };
             let rail = [Rail::Right, Rail::Left, Rail::Top, Rail::Bottom][rng.random_range(0..4)];
             let image = rail.image(table.reach(), target);
-            // Side spin and the cushion's friction turn the rebound: a wider window than the ball's own.
+            // Side spin and cushion friction turn the rebound, so the window is wider than for the ball itself.
             (image - cue_ball).to_angle() + rng.random_range(-0.15..=0.15)
         }
         _ => rng.random_range(-PI..PI),
@@ -105,34 +111,35 @@ pub fn stratified(
     CueInputs { a, b, theta: 0.0, phi: phi - squirt(table, a), speed }
 }
 
-/// How far beside an object ball's centre the line of aim of a usual stroke passes, in diameters, to the left if positive.
+/// Draws the offset of a usual stroke's line of aim from the object ball's centre, in diameters, positive to the left.
 fn usual_offset(rng: &mut Xoshiro256PlusPlus) -> f64 {
-    let offset = usual(USUAL_OFFSET, rng);
+    let offset = gaussian(USUAL_OFFSET, rng);
     if rng.random() { offset } else { -offset }
 }
 
-/// The tip's place in a usual stroke: what would be lower is as far above the centre.
+/// Draws the tip position of a usual stroke. A position that is too low is mirrored to above the centre.
 fn usual_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
     let (a, b) = random_tip(table, rng);
     (a, if b < LOWEST_USUAL { -b } else { b })
 }
 
-/// The speed of a usual stroke, m/s.
+/// Draws the speed of a usual stroke, m/s.
 fn usual_speed(rule: Rule, rng: &mut Xoshiro256PlusPlus) -> f64 {
     let log_speed = match rule {
         Rule::ThreeCushion => USUAL_LOG_SPEED_AT_THREE_CUSHIONS,
         Rule::StraightRail | Rule::OneCushion => USUAL_LOG_SPEED,
     };
-    usual(log_speed, rng).exp()
+    gaussian(log_speed, rng).exp()
 }
 
-/// A normal number with this mean and standard deviation.
-fn usual([mean, deviation]: [f64; 2], rng: &mut Xoshiro256PlusPlus) -> f64 {
+/// Draws a normally distributed number with this mean and standard deviation.
+fn gaussian([mean, deviation]: [f64; 2], rng: &mut Xoshiro256PlusPlus) -> f64 {
     mean + deviation * normal(rng)
 }
 
-/// The stroke that a player of this skill makes of `cue` with these errors, kept within what can be recommended.
-pub fn towards(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) -> CueInputs {
+/// Returns the stroke that results from `cue` played by this skill with these errors, kept within the limits of
+/// recommended strokes.
+pub fn with_errors(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) -> CueInputs {
     let stroke = skill.stroke(table.radius, cue, errors);
     let theta = stroke.theta.clamp(0.0, steepest(cue));
     let (a, b) = within_limit(table, theta, stroke.a, stroke.b);
@@ -145,13 +152,15 @@ pub fn towards(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) ->
     }
 }
 
-/// How far the cue may be raised for what comes of a stroke: a jump or a massé stays one, and nothing else becomes one.
+/// Returns the steepest cue allowed for a stroke derived from `cue`: a jump or massé may stay one, and no other stroke
+/// may become one.
 pub fn steepest(cue: &CueInputs) -> f64 {
     if cue.theta > MAX_ELEVATION { STEEPEST } else { MAX_ELEVATION }
 }
 
-/// The stroke as a player can play it from where the balls lie: the cue is raised where a rail or a ball is in its way. `None` where that
-/// takes more than usual strokes have, 30°, or no elevation does; a cue that is raised more for a jump or a massé may be raised further.
+/// Returns the stroke as a player can play it in this layout: the cue is raised if a rail or a ball is in its way. `None` if
+/// that needs more than 30°, the limit of usual strokes, or no elevation helps. A jump or massé cue may be raised
+/// further.
 #[inline]
 pub fn playable(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<CueInputs> {
     if has_room(table, layout, cue) {
@@ -160,22 +169,22 @@ pub fn playable(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<CueIn
     with_room(table, layout, cue).ok().filter(|raised| raised.theta <= steepest(cue))
 }
 
-/// A direction in which a ball that runs straight meets `target`, each thickness alike.
+/// Draws a random direction in which a straight-running ball hits `target`, uniform in thickness.
 fn at(table: &Table, cue_ball: DVec2, target: DVec2, rng: &mut Xoshiro256PlusPlus) -> f64 {
-    let apart = target - cue_ball;
-    let widest = (2.0 * table.radius / apart.length()).min(1.0).asin();
-    apart.to_angle() + rng.random_range(-widest..=widest)
+    let difference = target - cue_ball;
+    let widest = (2.0 * table.radius / difference.length()).min(1.0).asin();
+    difference.to_angle() + rng.random_range(-widest..=widest)
 }
 
-/// The direction in which a ball that runs straight passes the centre of `target` so many diameters to the left, and just touches it
-/// where that is more than one.
+/// Returns the direction in which a straight-running ball passes the centre of `target` by `offset` diameters to the
+/// left. It just touches the ball if that is more than one.
 fn beside(table: &Table, cue_ball: DVec2, target: DVec2, offset: f64) -> f64 {
-    let apart = target - cue_ball;
-    let share = 2.0 * table.radius * offset.clamp(-1.0, 1.0) / apart.length();
-    apart.to_angle() + share.clamp(-1.0, 1.0).asin()
+    let difference = target - cue_ball;
+    let share = 2.0 * table.radius * offset.clamp(-1.0, 1.0) / difference.length();
+    difference.to_angle() + share.clamp(-1.0, 1.0).asin()
 }
 
-/// A point of the tip's disc, each area alike.
+/// Draws a random point of the tip's disc, uniform in area.
 fn random_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
     let radius = TIP_SHARE * (table.miscue_limit * rng.random::<f64>()).sqrt();
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
@@ -197,7 +206,7 @@ mod tests {
             .map(|n| stratified(&table, &layout, Rule::ThreeCushion, FirstMet::Any, n, MIN_SPEED, &mut rng))
             .collect();
         let share = |is: fn(&CueInputs) -> bool| strokes.iter().filter(|cue| is(cue)).count() as f64 / 20_000.0;
-        // The part of the disc below a third of R has 11 % of it, and 30 % of the speeds' logarithms lie below 0.9 m/s.
+        // The part of the disc below a third of R is 11 % of its area, and 30 % of the log-speed range lies below 0.9 m/s.
         let [low, soft] = [share(|cue| cue.b < -0.33), share(|cue| cue.speed < 0.9)];
         assert!((0.03..0.06).contains(&low) && (0.11..0.15).contains(&soft), "{low} {soft}");
         let follow = share(|cue| cue.b > 0.1);
@@ -211,10 +220,10 @@ mod tests {
             let table = Table::preset(name).unwrap();
             for n in 0..2000 {
                 let layout = Layout::random(&table, &mut rng);
-                let cue = anything(&table, &layout, &mut rng);
+                let cue = any_stroke(&table, &layout, &mut rng);
                 let rule = Rule::ALL[n as usize % Rule::ALL.len()];
                 let wide = stratified(&table, &layout, rule, FirstMet::Any, n, MIN_SPEED, &mut rng);
-                let moved = towards(&table, Skill::BEGINNER, &wide, &errors::one(&mut rng));
+                let moved = with_errors(&table, Skill::BEGINNER, &wide, &errors::one(&mut rng));
                 for cue in [moved, variation(&table, &cue, &mut rng), cue, wide] {
                     cue.validate().unwrap();
                     cue.validate_tip(table.miscue_limit).unwrap();

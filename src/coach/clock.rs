@@ -1,11 +1,11 @@
-//! When a search has to end: when its time or its simulations are used up, or nobody waits any more.
+//! The end of a search: its time or its simulations are used up, or it is cancelled.
 
 use std::{
     sync::atomic::{AtomicBool, AtomicU64, Ordering},
     time::{Duration, Instant},
 };
 
-/// What a search may use, and what it has used.
+/// The limits of a search, and what it has used.
 #[derive(Debug)]
 pub struct Clock<'a> {
     start: Instant,
@@ -16,32 +16,32 @@ pub struct Clock<'a> {
 }
 
 impl<'a> Clock<'a> {
-    /// Starts it.
+    /// Starts the clock.
     pub fn start(budget: Duration, most_simulations: u64, cancel: &'a AtomicBool) -> Self {
-        // A moment beyond the clock's range would be a panic; nobody waits for a year.
+        // An instant beyond the clock's range would panic; no search runs for a year.
         let budget = budget.min(Duration::from_secs(365 * 24 * 3600));
         Self { start: Instant::now(), budget, most_simulations, cancel, simulations: AtomicU64::new(0) }
     }
 
-    /// The moment at which this share of the time is used up.
+    /// Returns the instant at which this share of the time is used up.
     pub fn moment(&self, share: f64) -> Instant {
         self.start + self.budget.mul_f64(share)
     }
 
-    /// Whether it is later than `moment`, or nobody waits.
+    /// Whether `moment` has passed, or the search is cancelled.
     #[inline]
     pub fn is_past(&self, moment: Instant) -> bool {
         self.is_cancelled() || Instant::now() >= moment
     }
 
-    /// Whether nobody waits any more.
+    /// Whether the search is cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.load(Ordering::Relaxed)
     }
 
-    /// The share that is used of the time or of the simulations, whichever is more; infinite where nobody waits. Between
-    /// rounds of a search the simulations are those of whole rounds, whatever the threads do: where they decide, the same
-    /// search takes the same course.
+    /// Returns the used share of the time or of the simulations, whichever is larger; infinite if cancelled. Between
+    /// rounds of a search, the simulations are those of whole rounds on any number of threads. If they limit the search, its
+    /// course is therefore reproducible.
     pub fn used(&self) -> f64 {
         if self.is_cancelled() {
             return f64::INFINITY;
@@ -50,22 +50,22 @@ impl<'a> Clock<'a> {
         time.max(self.simulations() as f64 / self.most_simulations as f64)
     }
 
-    /// Takes note of simulations.
+    /// Adds to the number of simulations.
     pub fn count(&self, simulations: u64) {
         self.simulations.fetch_add(simulations, Ordering::Relaxed);
     }
 
-    /// Shots simulated so far.
+    /// Returns the number of shots simulated so far.
     pub fn simulations(&self) -> u64 {
         self.simulations.load(Ordering::Relaxed)
     }
 
-    /// How many simulations are left until a share of the budget is used, as far as is known by now.
+    /// Returns the estimated number of simulations left until this share of the budget is used, at the rate so far.
     pub fn simulations_until(&self, share: f64) -> f64 {
         (self.simulations() as f64 * (share / self.used() - 1.0)).max(0.0)
     }
 
-    /// Time since the start.
+    /// Returns the time since the start.
     pub fn elapsed(&self) -> Duration {
         self.start.elapsed()
     }

@@ -1,4 +1,4 @@
-//! The recommender: from a layout and a request to the shot that this player makes most often.
+//! The recommender: finds the shot that a given player makes most often, from a layout and a request.
 
 use std::{
     ops::Range,
@@ -15,7 +15,7 @@ use super::{
     pool::Candidate,
     refinement::WORTH_A_CHANGE,
     search::Search,
-    trial::{Attempts, CONTACT_STEPS, ENDLESS, Task, unhurried},
+    trial::{Attempts, CONTACT_STEPS, Task, UNLIMITED_STEPS, without_limits},
 };
 use crate::{
     game::Rule,
@@ -26,28 +26,28 @@ use crate::{
     table::{Layout, LayoutError, Table},
 };
 
-/// Independent attempts from which the make probability is estimated; its standard error is at most 1.6 %, and 0.3 % for
-/// a shot that is made 99 times of 100.
+/// Independent attempts from which the make probability is estimated. Its standard error is at most 1.6 %, and 0.3 %
+/// for a shot that is made 99 times in 100.
 const ATTEMPTS: usize = 1000;
 
-/// The same for each alternative.
+/// Attempts for the make probability of each alternative.
 const ATTEMPTS_AT_ALTERNATIVE: usize = 400;
 
-/// The same for each cause of a miss.
+/// Attempts for each cause of a miss.
 const ATTEMPTS_AT_RISK: usize = 300;
 
-/// Time that judging the answer has at least, however late it is: where other programs hold a thread up, a shot whose
-/// probability nobody knows would be the price of these milliseconds.
+/// Minimum time for judging the answer, even after the budget is used up. If other programs delay a thread, the answer
+/// would otherwise have no make probability.
 const GRACE: Duration = Duration::from_millis(3);
 
-/// Attempts of one piece of work.
+/// Attempts in one work item of a thread.
 const PIECE: usize = 25;
 
-/// Alternatives that are listed.
+/// Maximum number of alternatives listed.
 const ALTERNATIVES: usize = 5;
 
-/// Share of the best shot's probability below which another one is not listed: one that is made not even half as often is
-/// a gamble, and no choice for a player who wants the point.
+/// Alternatives below this share of the best shot's make probability are not listed: a shot that is made less than half
+/// as often is a gamble for a player who wants the point.
 const WORTH_LISTING: f64 = 0.5;
 
 /// A coach for one table. Cheap to share between threads.
@@ -57,75 +57,76 @@ pub struct Coach {
     policies: Policies,
 }
 
-/// What a coach may ask.
+/// The policies that a coach can query.
 #[derive(Clone, Debug)]
 enum Policies {
     None,
-    /// One policy, whatever the rule is: a shot that makes some point is a good start of a search.
+    /// One policy for all rules: a shot that makes a point under any rule is a good start for a search.
     One(Box<Policy>),
-    /// Those that are bundled for its table, each read when it is first asked: by rule, for players without errors and others.
+    /// The policies bundled for the table, each loaded on first use. Indexed by rule, then by whether the player makes
+    /// errors.
     Bundled(Arc<[[OnceLock<Option<Policy>>; 2]; Rule::ALL.len()]>),
 }
 
 impl Coach {
-    /// A coach with the policies that are bundled for this table, if there are any; without, it searches.
+    /// Creates a coach with the policies that are bundled for this table. Without any, it uses the search alone.
     pub fn new(table: Table) -> Self {
         Self { table, policies: Policies::Bundled(Arc::default()) }
     }
 
-    /// A coach that has no policy: it searches.
+    /// Creates a coach without a policy: it uses the search alone.
     pub const fn without_policy(table: Table) -> Self {
         Self { table, policies: Policies::None }
     }
 
-    /// The same coach with one other policy, which it asks whatever the rule is.
+    /// Replaces the policies by one that is used for all rules.
     #[must_use]
     pub fn with_policy(self, policy: Policy) -> Self {
         Self { policies: Policies::One(Box::new(policy)), ..self }
     }
 
-    /// The policy that it asks under `rule` for a player of this skill.
+    /// Returns the policy for `rule` and a player of this skill.
     pub fn policy(&self, rule: Rule, skill: &Skill) -> Option<&Policy> {
         match &self.policies {
             Policies::None => None,
             Policies::One(policy) => Some(policy),
             Policies::Bundled(policies) => {
-                let errs = !skill.is_perfect();
-                // A test rules out that one of them is damaged.
-                let read = || Policy::bundled_for(&self.table, rule, errs)?.ok();
-                policies[rule as usize][usize::from(errs)].get_or_init(read).as_ref()
+                let makes_errors = !skill.is_perfect();
+                // A test ensures that every bundled policy can be read.
+                let read = || Policy::bundled_for(&self.table, rule, makes_errors)?.ok();
+                policies[rule as usize][usize::from(makes_errors)].get_or_init(read).as_ref()
             }
         }
     }
 
-    /// The table that it knows.
+    /// Returns the table of this coach.
     pub const fn table(&self) -> &Table {
         &self.table
     }
 
-    /// The policy's own shot under `rule` for a player of this skill, unchecked; `None` where there is no policy.
+    /// Returns the policy's own shot under `rule` for a player of this skill, unchecked; `None` if there is no policy.
     pub fn policy_shot(&self, layout: &Layout, rule: Rule, skill: &Skill) -> Option<CueInputs> {
         self.policy(rule, skill).map(|policy| policy.propose(&self.table, layout, skill))
     }
 
-    /// Looks for the shot that the player makes most often, or with [`Request::plan`] the one after which the next is
-    /// easiest too. The shot never oversteps the table's miscue limit.
+    /// Searches for the shot that the player makes most often. With [`Request::plan`], the ease of the next shot counts
+    /// too. The shot never exceeds the table's miscue limit.
     ///
     /// # Errors
-    /// Where the layout is impossible.
+    /// Fails if the layout is impossible.
     pub fn recommend(&self, layout: &Layout, request: &Request) -> Result<Recommendation, LayoutError> {
         self.recommend_and_tell(layout, request, |_| {})
     }
 
-    /// The same, and `tell` hears of every better shot as soon as it is found, on this thread.
+    /// Like [`recommend`](Self::recommend), and calls `on_improvement` on this thread as soon as a better shot is found.
     ///
     /// # Errors
-    /// Where the layout is impossible.
+    /// Fails if the layout is impossible.
     pub fn recommend_and_tell(
         &self,
         layout: &Layout,
         request: &Request,
-        mut tell: impl FnMut(&Improvement),
+        mut on_improvement: impl FnMut(&Improvement),
     ) -> Result<Recommendation, LayoutError> {
         layout.validate(&self.table)?;
         let clock = Clock::start(request.budget, request.simulations, &request.cancel);
@@ -150,28 +151,29 @@ impl Coach {
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {
             first_point(&found)
         } else {
-            let mut told = None;
+            let mut last_reported = None;
             let search = Search::new(task, request.plan, request.threads, request.seed);
             let pool = search.run(&strokes, &found.solutions, &mut |leader| {
-                // The same shot with more attempts is no news.
-                if told.replace(leader.shot.cue) != Some(leader.shot.cue) {
-                    tell(&improvement(leader, &clock));
+                // The same shot with more attempts is not an improvement.
+                if last_reported.replace(leader.shot.cue) != Some(leader.shot.cue) {
+                    on_improvement(&improvement(leader, &clock));
                 }
             });
             let until = task.until.max(Instant::now() + GRACE);
-            robust(&found, pool, &Task { worlds: &worlds, patience: ENDLESS, until, ..task }, request)
+            robust(&found, pool, &Task { worlds: &worlds, patience: UNLIMITED_STEPS, until, ..task }, request)
         };
         Ok(Recommendation { simulations: clock.simulations(), elapsed: clock.elapsed(), ..answer })
     }
 }
 
-/// The answer for a player who errs: the head of the pool, which is not empty, judged by errors that took no part in the
-/// choice, and the heads of the other kinds. A search with few attempts may be mistaken: where one of those seems to be made more often,
-/// both are judged by as many attempts, and the better one is the answer.
+/// Returns the answer for a player who makes errors. Judges the first shot of the (non-empty) pool and the first shots of the
+/// other kinds by errors that took no part in the choice.
+/// A search with few attempts may choose wrongly: if another shot seems to be made more often, both are judged by as
+/// many attempts, and the better one is the answer.
 fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
     keep_one_of_each(&mut pool, task.skill, task.table.radius);
     pool.truncate(1 + ALTERNATIVES);
-    // Drawn by whoever is the first to need them: where there is no time for them, neither is there for their drawing.
+    // Each piece is drawn by the first thread that needs it, so that no time is spent on pieces that are never used.
     let attempts: Vec<OnceLock<Draws>> = (0..2 * ATTEMPTS).step_by(PIECE).map(|_| OnceLock::new()).collect();
     let pieces_of = |candidates: &[usize], attempts: Range<usize>| -> Vec<(usize, usize)> {
         let pieces = attempts.step_by(PIECE).map(|attempt| attempt / PIECE);
@@ -179,8 +181,8 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     };
     let judged = |pieces: &[(usize, usize)]| {
         parallel::map(request.threads, pieces, |&(index, piece)| {
-            let own = || judging(task.worlds, request.seed, piece);
-            (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(own).iter()))
+            let draw = || judging(task.worlds, request.seed, piece);
+            (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw).iter()))
         })
     };
     let rate = |judged: &[(usize, Attempts)], candidate: usize| {
@@ -200,16 +202,16 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
             rates[candidate] = rate(&made, candidate);
         }
         let best = made_more_often(&pool, &rates).first().copied().unwrap_or_default();
-        // Told without the attempts that have chosen it, which flatter it, if there is time for as many others.
-        let told = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
-        if let Some(told) = told.filter(|rate| rate.trials == ATTEMPTS) {
-            (rates[best], judged_from) = (Some(told), ATTEMPTS);
+        // The attempts that chose this shot flatter it. If there is time, its rate comes from as many other attempts.
+        let unbiased = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
+        if let Some(unbiased) = unbiased.filter(|rate| rate.trials == ATTEMPTS) {
+            (rates[best], judged_from) = (Some(unbiased), ATTEMPTS);
         }
         rates.swap(0, best);
         pool.swap(0, best);
     }
     let best = pool[0];
-    let told_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
+    let known_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
     let best_rate = rates[0].map_or(0.0, |rate| rate.rate);
     let is_worth = |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= WORTH_LISTING * best_rate);
     let mut alternatives: Vec<_> = (1..pool.len())
@@ -218,11 +220,11 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
             source: pool[index].shot.source,
             kind: pool[index].kind,
             make_probability: rates[index],
-            next_probability: told_next(pool[index].next),
+            next_probability: known_next(pool[index].next),
         })
         .filter(is_worth)
         .collect();
-    // Where the next point counts, too, the order is that of the search.
+    // If the next point counts too, the order of the search is kept.
     if !request.plan {
         let chance = |shot: &Alternative| shot.make_probability.map_or(0.0, |rate| rate.rate);
         alternatives.sort_by(|one, other| chance(other).total_cmp(&chance(one)));
@@ -235,15 +237,15 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         make_probability: rates[0],
         judged_from,
         risk: risk(&best.shot.cue, task, request, judging_seed(request.seed)),
-        next_probability: told_next(best.next),
+        next_probability: known_next(best.next),
         is_planned: request.plan,
         alternatives,
         ..first_point(found)
     }
 }
 
-/// The shots that are made more often than the first one, most often first, each less what its effort costs. Where the first one was
-/// advised before, another must be better by [`WORTH_A_CHANGE`].
+/// Returns the indices of the shots that are made more often than the first one, less their effort penalties, best
+/// first. If the first one is a former answer, another shot must be better by [`WORTH_A_CHANGE`].
 fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usize> {
     let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
     let was_advised = pool.first().is_some_and(|first| first.shot.source == Source::Former);
@@ -254,7 +256,7 @@ fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usi
     better
 }
 
-/// What misses a shot by itself; `None` where nothing is in doubt, or time runs out.
+/// Estimates how often each cause alone misses a shot; `None` if nothing is in doubt, or time runs out.
 fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Risk> {
     if task.worlds.is_certain() || task.clock.is_past(task.until) {
         return None;
@@ -272,8 +274,9 @@ fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Ri
     Some(Risk { hand: hand?, table: table?, placing: placing? })
 }
 
-/// The best first, in the order that they have, and after it the best of each other kind, but none that who means one of those may as
-/// well play: no input is further off than its standard error. A stroke that makes the point in two ways, whichever happens, is one.
+/// Keeps the first shot and, in the given order, the first of each other kind. Drops a shot if every input is within
+/// one standard error of a kept one:
+/// a stroke that makes the point in two ways, depending on its errors, is one stroke.
 fn keep_one_of_each(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
     let mut kept: Vec<Candidate> = Vec::new();
     for candidate in pool.drain(..) {
@@ -294,7 +297,7 @@ fn keep_one_of_each(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
     *pool = kept;
 }
 
-/// The answer for a player without errors, or where no shot was found.
+/// Returns the answer for a perfect player, or for a search without a result.
 fn first_point(found: &Found) -> Recommendation {
     let mut seen = Vec::new();
     let others = found.solutions.iter().map(|(shot, tally)| (shot, Kind::of(tally, &shot.cue)));
@@ -342,8 +345,8 @@ fn improvement(leader: &Candidate, clock: &Clock) -> Improvement {
     }
 }
 
-/// The share of `attempts` at `cue` that make a point, with its interval: a plain Monte-Carlo estimate. The same seed
-/// draws the same attempts for every shot. A perfect player has no doubts.
+/// Estimates the share of `attempts` at `cue` that make a point, with its confidence interval: a plain Monte Carlo
+/// estimate. The same seed draws the same attempts for every shot. A perfect player has no doubts.
 pub fn make_probability(
     shooter: impl Into<Shooter>,
     rule: Rule,
@@ -353,15 +356,16 @@ pub fn make_probability(
     attempts: usize,
     seed: u64,
 ) -> SuccessRate {
-    unhurried(table, layout, rule, shooter.into(), ENDLESS, &AtomicBool::new(false), |task| {
+    without_limits(table, layout, rule, shooter.into(), UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
         let attempts = task.attempts(cue, Draws::independent(attempts, task.worlds, seed).iter());
         SuccessRate::new(attempts.made, attempts.tried)
     })
 }
 
-/// How often a stroke is made in these `attempts` (widened to whole pieces of 25), with the errors by which the answer to a request with
-/// `seed` is judged. Given the range that the answer used, from [`Recommendation::judged_from`] on for the recommended stroke and from 0 on
-/// for an alternative, this is the answer's number, if there was time for all of its attempts.
+/// Estimates how often a stroke is made in these `attempts` (widened to whole pieces of 25), with the errors by which
+/// the answer to a request with `seed` is judged.
+/// The result equals the make probability in the answer, if there was time for all of its attempts, for the range that
+/// the answer used: from [`Recommendation::judged_from`] for the recommended stroke, and from 0 for an alternative.
 pub fn judge(
     shooter: Shooter,
     rule: Rule,
@@ -371,7 +375,7 @@ pub fn judge(
     attempts: Range<usize>,
     seed: u64,
 ) -> SuccessRate {
-    unhurried(table, layout, rule, shooter, ENDLESS, &AtomicBool::new(false), |task| {
+    without_limits(table, layout, rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
         let pieces = attempts.start / PIECE..attempts.end.div_ceil(PIECE);
         let pieces = pieces.map(|piece| task.attempts(cue, judging(task.worlds, seed, piece).iter()));
         let (made, tried) = pieces.fold((0, 0), |sum, part| (sum.0 + part.made, sum.1 + part.tried));
@@ -379,7 +383,8 @@ pub fn judge(
     })
 }
 
-/// One piece of the errors by which the answer to a request with `seed` is judged: another stream than that of the search.
+/// Draws one piece of the errors by which the answer to a request with `seed` is judged. Its random stream differs from that
+/// of the search.
 fn judging(worlds: &Worlds, seed: u64, piece: usize) -> Draws {
     Draws::independent(PIECE, worlds, judging_seed(seed).wrapping_add(piece as u64))
 }
@@ -404,7 +409,7 @@ mod tests {
             points: 0,
             own: Rate::default(),
             larger: Rate::default(),
-            next: NextValue::Supposed(1.0),
+            next: NextValue::Assumed(1.0),
             effort_penalty,
         }
     }
@@ -412,7 +417,7 @@ mod tests {
     #[test]
     fn what_is_made_more_often_is_found() {
         let cue = CueInputs { a: 0.0, b: 0.3, theta: 0.01, phi: 1.0, speed: 3.0 };
-        // The first is made 220 times of 1000; of the others each is made so often of 400, and costs so much.
+        // The first is made 220 times in 1000. Each of the others has a count of made attempts in 400 and an effort penalty.
         let better = |others: &[(usize, f64)]| {
             let mut pool = vec![candidate(cue, Way::Direct, 0.0)];
             pool.extend(others.iter().map(|(_, penalty)| candidate(cue, Way::OffCushion, *penalty)));

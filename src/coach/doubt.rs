@@ -1,36 +1,35 @@
-//! What the coach does not know when it chooses a shot: the table's constants, and where exactly the balls lie.
+//! The uncertainty under which the coach chooses a shot: the table's constants and the exact ball positions.
 
 use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-/// How much of what is not known counts. In text `none`, `full`, or its two numbers like `table=1,placing=3`, the
-/// second in mm.
+/// The amount of uncertainty. Its text form is `none`, `full`, or two numbers like `table=1,placing=3`, the second in mm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct Doubt {
     /// Multiple of the standard deviations of the table's constants ([`crate::table::TableDoubt`]).
     pub table: f64,
-    /// Standard deviation of each coordinate of each ball, m: positions are told by sight.
+    /// Standard deviation of each coordinate of each ball, m: players report positions by sight.
     pub placing: f64,
 }
 
-/// A text that is no doubt.
+/// Error: a text that cannot be parsed as a doubt.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error(
-    "\"{0}\" is no doubt; use none, full, or a multiple of what is unknown of the table from 0 to 10 and the error of the \
-     balls' places from 0 to 50 mm like \"table=1,placing=3\""
+    "\"{0}\" is not accepted as doubt; use none, full, or two numbers like \"table=1,placing=3\": a multiple of the table's \
+     uncertainty from 0 to 10, and the error of the ball positions from 0 to 50 mm"
 )]
 pub struct UnknownDoubt(String);
 
-/// The largest numbers that are accepted: multiple, and m.
+/// Maximum accepted values: multiple, and m.
 const MOST: [f64; 2] = [10.0, 0.05];
 
 impl Doubt {
-    /// A table that is exactly as its file says, with the balls exactly where they are said to be.
+    /// The table and the ball positions are exactly as given.
     pub const NONE: Self = Self { table: 0.0, placing: 0.0 };
 
-    /// The table as well as it is known, and balls within a few millimetres of where they are said to be.
+    /// The table as precisely as it is usually known, and balls within a few millimetres of the given positions.
     pub const FULL: Self = Self { table: 1.0, placing: 3e-3 };
 }
 
@@ -45,7 +44,7 @@ impl fmt::Display for Doubt {
         match *self {
             Self::NONE => formatter.pad("none"),
             Self::FULL => formatter.pad("full"),
-            // Twelve digits: what was read in mm is written as it was.
+            // Twelve digits, so that a value read in mm is written unchanged.
             Self { table, placing } => {
                 formatter.pad(&format!("table={table},placing={}", (placing * 1e15).round() / 1e12))
             }

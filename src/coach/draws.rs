@@ -1,4 +1,4 @@
-//! The attempts at which shots are compared and judged: the errors of a hand, each on a table that may be the real one.
+//! Random attempts by which shots are compared and judged: execution errors, each on a possible real table.
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -12,24 +12,25 @@ use crate::{
     table::{Layout, Table, TableDoubt, TableSampler},
 };
 
-/// Tells the numbers of worlds from those of errors.
+/// Separates the random stream of the worlds from that of the errors.
 const WORLDS: u64 = 0x776f_726c_6473;
 
-/// Worlds that are drawn for comparing shots; then they come again with other errors of the hand. To draw one takes a good part of the time
-/// of a simulation. A prime number: those that have the same world must not have much else in common.
+/// Number of distinct worlds drawn for comparing shots; they repeat with other execution errors. Drawing one takes a
+/// good part of the time of a simulation. The number is prime, so that attempts that share a world have little else in
+/// common.
 const MOST_WORLDS: usize = 509;
 
-/// How large the errors of an attempt are.
+/// The size of an attempt's errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorSize {
     /// The player's own.
     Own,
-    /// Larger ones. Of shots that hardly ever miss, these tell apart the one that forgives more.
+    /// Larger ones. Among shots that hardly ever miss, these show which one is more forgiving.
     Larger,
 }
 
 impl ErrorSize {
-    /// How many times the player's own.
+    /// Returns the multiple of the player's own errors.
     pub const fn factor(self) -> f64 {
         match self {
             Self::Own => 1.0,
@@ -39,34 +40,34 @@ impl ErrorSize {
     }
 }
 
-/// What is really there: a table and where the balls lie, either not quite as the coach believes.
+/// A possible reality: a table and ball positions, both slightly different from what the coach assumes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct World {
     /// The table.
     pub table: Table,
-    /// Where the balls lie.
+    /// The ball positions.
     pub layout: Layout,
 }
 
-/// One attempt.
+/// One random attempt.
 #[derive(Clone, Copy, Debug)]
 pub struct Draw<'a> {
-    /// The hand's errors.
+    /// The execution errors.
     pub errors: &'a Errors,
-    /// What is really there; `None` where it is just what the coach believes.
+    /// The real table and layout; `None` if they are just as the coach assumes.
     pub world: Option<&'a World>,
 }
 
-/// Many attempts.
+/// Many random attempts.
 #[derive(Clone, Debug, Default)]
 pub struct Draws {
     errors: Vec<Errors>,
-    /// One an attempt, or fewer, that come again; none at all where nothing is in doubt.
+    /// One per attempt, or fewer, which repeat; empty if nothing is in doubt.
     worlds: Vec<World>,
 }
 
 impl Draws {
-    /// Independent attempts, for judging a shot.
+    /// Draws independent attempts, for judging a shot.
     pub fn independent(count: usize, worlds: &Worlds, seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ WORLDS);
         let real = |_| worlds.draw(|| errors::normal(&mut rng));
@@ -74,26 +75,26 @@ impl Draws {
         Self { errors: errors::independent(count, seed), worlds }
     }
 
-    /// Those in this range, fewer where there are not so many.
+    /// Returns the attempts in this range, as far as they exist.
     pub fn range(&self, from: usize, to: usize) -> impl Iterator<Item = Draw<'_>> + Clone {
         let to = to.min(self.errors.len());
         let world = |index: usize| self.worlds.get(index % self.worlds.len().max(1));
         (from.min(to)..to).map(move |index| Draw { errors: &self.errors[index], world: world(index) })
     }
 
-    /// All of them.
+    /// Returns all attempts.
     pub fn iter(&self) -> impl Iterator<Item = Draw<'_>> + Clone {
         self.range(0, self.len())
     }
 
-    /// How many there are.
+    /// Returns the number of attempts.
     pub const fn len(&self) -> usize {
         self.errors.len()
     }
 }
 
-/// Attempts from quasi-random sequences, which cover what may happen more evenly than chance, for comparing shots on the same
-/// attempts. They are drawn when they are first needed: a search with little time ends before most of them.
+/// Attempts from quasi-random sequences, which cover the possible errors more evenly than random numbers. Used for
+/// comparing shots on the same attempts. They are drawn on demand: a search with little time ends before most of them.
 #[derive(Debug)]
 pub struct QuasiRandomDraws {
     size: ErrorSize,
@@ -103,12 +104,12 @@ pub struct QuasiRandomDraws {
 }
 
 impl QuasiRandomDraws {
-    /// At errors of a hand that are so large.
+    /// Creates sequences for errors of this size.
     pub fn new(size: ErrorSize, seed: u64) -> Self {
         Self { size, errors: Halton::new(seed), streams: Streams::new(seed ^ WORLDS), drawn: Draws::default() }
     }
 
-    /// Draws them up to the `count`th.
+    /// Draws attempts up to the `count`th.
     pub fn extend_to(&mut self, worlds: &Worlds, count: usize) {
         for n in self.drawn.len()..count {
             self.drawn.errors.push(self.errors.errors(n).map(|error| self.size.factor() * error));
@@ -120,13 +121,13 @@ impl QuasiRandomDraws {
         }
     }
 
-    /// Those that are drawn.
+    /// Returns the attempts drawn so far.
     pub const fn drawn(&self) -> &Draws {
         &self.drawn
     }
 }
 
-/// Where worlds are drawn from: what the coach believes, and how much of it is in doubt.
+/// The distribution of worlds: what the coach assumes, and the uncertainty of it.
 #[derive(Debug)]
 pub struct Worlds {
     table: Table,
@@ -136,29 +137,29 @@ pub struct Worlds {
 }
 
 impl Worlds {
-    /// Around `table` and `layout`.
+    /// Creates a distribution around `table` and `layout`.
     pub fn new(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        Self::known_as(&|| TableDoubt::of(table), table, layout, doubt)
+        Self::with_table_doubt(&|| TableDoubt::of(table), table, layout, doubt)
     }
 
-    /// The same on tables that lean no other way than this one, for choosing between shots: a table that leans costs
-    /// twice the time, and as nobody knows which way it leans, which shot is the best hardly depends on it.
+    /// Like [`new`](Self::new), but without uncertainty about the table's tilt, for choosing between shots. A tilted
+    /// table costs twice the time, and as the direction of the tilt is unknown, the choice hardly depends on it.
     pub fn level(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
         let known = || TableDoubt::of(table).without(|name| name.starts_with("tilt"));
-        Self::known_as(&known, table, layout, doubt)
+        Self::with_table_doubt(&known, table, layout, doubt)
     }
 
-    fn known_as(known: &dyn Fn() -> TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
+    fn with_table_doubt(known: &dyn Fn() -> TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
         let sampler = if doubt.table > 0.0 { TableSampler::new(table, &known(), doubt.table) } else { None };
         Self { table: table.clone(), layout: *layout, sampler, placing: doubt.placing }
     }
 
-    /// Whether the only world is the one that the coach believes in.
+    /// Whether the only possible world is the assumed one.
     pub fn is_certain(&self) -> bool {
         self.sampler.is_none() && self.placing == 0.0
     }
 
-    /// One world, from standard normal numbers.
+    /// Draws one world, from standard normal numbers.
     pub fn draw(&self, mut normal: impl FnMut() -> f64) -> World {
         let layout = misplaced(&self.table, &self.layout, self.placing, &mut normal);
         let table = self.sampler.as_ref().map_or_else(|| self.table.clone(), |sampler| sampler.draw(normal));

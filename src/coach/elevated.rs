@@ -15,30 +15,30 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Steepest cue that is tried, rad: 80°.
+/// Steepest cue that the search tries, rad: 80°.
 pub const STEEPEST: f64 = 80.0_f64.to_radians();
 
-/// Elevations and speeds of jumps that are tried, rad and m/s: a flatter or softer one clears no ball.
+/// Ranges of elevation and speed of the jumps that are tried, rad and m/s: a flatter or softer stroke clears no ball.
 const JUMPS: [f64; 2] = [12.0_f64.to_radians(), 60.0_f64.to_radians()];
 const JUMP_SPEEDS: [f64; 2] = [2.0, MAX_SPEED];
 
-/// The speeds of massés, m/s, and how far away they are played, m.
+/// Range of massé speeds, m/s, and maximum distance of the target, m.
 const MASSE_SPEEDS: [f64; 2] = [0.8, 5.0];
 const MASSE_REACH: f64 = 1.2;
 
-/// How far a jump's edge has to pass over that of a ball, m.
-const CLEAR: f64 = 0.002;
+/// Minimum clearance of a jump over the edge of a ball, m.
+const CLEARANCE: f64 = 0.002;
 
-/// Moments of a massé's curve at which it is looked where the ball is.
-const MOMENTS: u32 = 24;
+/// Number of moments at which a massé's curve is sampled.
+const CURVE_SAMPLES: u32 = 24;
 
-/// Elevation up to which no stroke bends a ball's way as a massé does, rad, and the upward speed below which no ball passes
-/// over another, or its edge, m/s: it rises by 10 mm.
+/// Elevation up to which no stroke bends a ball's path as a massé does, rad, and the upward speed, m/s, below which no
+/// ball clears another or its edge: it rises by 10 mm.
 const FLAT: f64 = 10.0_f64.to_radians();
 const LOW_LIFT: f64 = 0.44;
 
-/// Whether a club that forbids jumps and massés forbids this stroke: the cue ball flies over a ball, its way bends as a
-/// massé's does, or the cue is raised by more than 30 degrees.
+/// Whether a club that forbids jumps and massés forbids this stroke: the cue ball flies over a ball, its path bends as
+/// a massé's does, or the cue is raised by more than 30°.
 pub fn is_jump_or_masse(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     if cue.theta > MAX_ELEVATION {
         return true;
@@ -49,49 +49,49 @@ pub fn is_jump_or_masse(table: &Table, layout: &Layout, cue: &CueInputs) -> bool
     makes_jump_or_masse(table, layout, cue)
 }
 
-/// Whether the cue ball flies over a ball, or its way bends as a massé's does; what cannot be played does neither.
+/// Whether the cue ball flies over a ball, or its path bends as a massé's does; false for a stroke that cannot be played.
 pub fn makes_jump_or_masse(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     Technique::of(table, layout, cue).is_ok_and(|technique| technique.is_jump_or_masse())
 }
 
-/// A jump over a ball that is in the way, or a massé; `None` where the direction that is drawn asks for neither.
+/// Draws a jump over a ball that is in the way, or a massé; `None` if the drawn direction or tip position does not allow one.
 pub fn raised(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option<CueInputs> {
     let cue = if rng.random() { jump(table, layout, rng) } else { masse(table, layout, rng) };
     cue.filter(|cue| cue.validate_tip(table.miscue_limit).is_ok())
 }
 
-/// A jump over either object ball, at the other one, its image in a cushion, or anywhere beyond.
+/// Draws a jump over one object ball, aimed at the other one (7 in 10) or in any direction across the ball that it clears.
 fn jump(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option<CueInputs> {
     let [cue_ball, first, second] = layout.balls;
     let (over, other) = if rng.random() { (first, second) } else { (second, first) };
-    let (way, diameter) = (over - cue_ball, 2.0 * table.radius);
+    let (to_ball, diameter) = (over - cue_ball, 2.0 * table.radius);
     let target = match rng.random_range(0..10) {
         0..7 => other - cue_ball,
-        _ => way,
+        _ => to_ball,
     };
     let widest = (diameter / target.length()).min(1.0).asin();
     let direction = DVec2::from_angle(target.to_angle() + rng.random_range(-widest..=widest));
-    // Over which part of the ball, and how high the centre has to be there.
-    let (along, aside) = (direction.dot(way), direction.perp_dot(way));
+    // Distance to the ball along the direction and beside it, and the height that the centre needs there.
+    let (along, aside) = (direction.dot(to_ball), direction.perp_dot(to_ball));
     let needed = (diameter * diameter - aside * aside).max(0.0).sqrt();
-    if along <= 0.0 || needed == 0.0 || target != way && along >= target.length() {
+    if along <= 0.0 || needed == 0.0 || target != to_ball && along >= target.length() {
         return None;
     }
     (0..8).find_map(|_| {
         let theta = rng.random_range(JUMPS[0]..JUMPS[1]);
         let speed = rng.random_range(JUMP_SPEEDS[0]..JUMP_SPEEDS[1]);
-        let (a, b) = across(table, theta, 0.5, rng);
+        let (a, b) = raised_tip(table, theta, 0.5, rng);
         let cue = CueInputs { a, b, theta, phi: direction.to_angle(), speed };
         let impulse = strike(table, &cue);
         let time = along / impulse.velocity.length();
         let height = impulse.lift * time - 0.5 * table.gravity * time * time;
-        // The way of a ball with side is bent: it leaves so that it flies over where it is meant to.
+        // The tip offset deflects the ball: the direction is corrected so that it flies as intended.
         let turned = direction.angle_to(impulse.velocity);
-        (height >= needed + CLEAR).then_some(CueInputs { phi: cue.phi - turned, ..cue })
+        (height >= needed + CLEARANCE).then_some(CueInputs { phi: cue.phi - turned, ..cue })
     })
 }
 
-/// A massé whose curve comes to either object ball, thick or thin.
+/// Draws a massé whose curve reaches one of the object balls, thick or thin.
 fn masse(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option<CueInputs> {
     let [cue_ball, first, second] = layout.balls;
     let target = if rng.random() { first } else { second } - cue_ball;
@@ -101,51 +101,52 @@ fn masse(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option
     }
     let theta = rng.random_range(MAX_ELEVATION..STEEPEST);
     let speed = rng.random_range(MASSE_SPEEDS[0]..MASSE_SPEEDS[1]);
-    let (a, b) = across(table, theta, 1.0, rng);
+    let (a, b) = raised_tip(table, theta, 1.0, rng);
     let cue = CueInputs { a, b, theta, phi: 0.0, speed };
-    let passed = passes(table, &cue, distance)?;
+    let direction = direction_at(table, &cue, distance)?;
     let widest = (2.0 * table.radius / distance).min(1.0).asin();
-    let phi = target.to_angle() + rng.random_range(-widest..=widest) - passed;
+    let phi = target.to_angle() + rng.random_range(-widest..=widest) - direction;
     Some(CueInputs { phi: (phi + PI).rem_euclid(TAU) - PI, ..cue })
 }
 
-/// In which direction the cue ball is when it has come so far away from where it lay, rad; `None` where it does not. As if it
-/// were on the cloth all the time: hops are rubbed by the cloth as much, only less evenly.
-fn passes(table: &Table, cue: &CueInputs, distance: f64) -> Option<f64> {
+/// Returns the direction of the cue ball from its start when it reaches `distance`, rad; `None` if it does not reach
+/// it. Hops are neglected: their friction impulses add up to the same, only less evenly.
+fn direction_at(table: &Table, cue: &CueInputs, distance: f64) -> Option<f64> {
     let impulse = strike(table, cue);
     let friction = table.sliding_friction * table.gravity;
     let slips = slip(table.radius, impulse.velocity, impulse.spin);
     let (against, sliding) = (-friction * slips.normalize_or_zero(), 2.0 * slips.length() / (7.0 * friction));
-    let place = |time: f64| time * impulse.velocity + 0.5 * time * time * against;
-    let met = (1..=MOMENTS).map(|n| place(sliding * f64::from(n) / f64::from(MOMENTS)));
-    if let Some(place) = met.into_iter().find(|place| place.length() >= distance) {
-        return Some(place.to_angle());
+    let position = |time: f64| time * impulse.velocity + 0.5 * time * time * against;
+    let samples = (1..=CURVE_SAMPLES).map(|n| position(sliding * f64::from(n) / f64::from(CURVE_SAMPLES)));
+    if let Some(position) = samples.into_iter().find(|position| position.length() >= distance) {
+        return Some(position.to_angle());
     }
-    // From where it rolls on straight: where the line meets the circle.
-    let (from, ahead) = (place(sliding), (impulse.velocity + sliding * against).try_normalize()?);
+    // From here it rolls on straight: find where the line meets the circle.
+    let (from, ahead) = (position(sliding), (impulse.velocity + sliding * against).try_normalize()?);
     let along = from.dot(ahead);
-    let way = (along * along + distance * distance - from.length_squared()).sqrt() - along;
-    Some((from + way * ahead).to_angle())
+    let rolled = (along * along + distance * distance - from.length_squared()).sqrt() - along;
+    Some((from + rolled * ahead).to_angle())
 }
 
-/// A tip place for a raised cue: anywhere within so much of the miscue limit around where its line goes through the centre.
-fn across(table: &Table, theta: f64, share: f64, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
+/// Draws a tip position for a raised cue, uniform in area within this share of the miscue limit around the point where
+/// the cue's line passes through the centre.
+fn raised_tip(table: &Table, theta: f64, share: f64, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
     let radius = share * TIP_SHARE * (table.miscue_limit.min(1.0) * rng.random::<f64>()).sqrt();
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
     on_ball(theta, radius * cos, radius * sin)
 }
 
-/// Where on the ball a cue raised by `theta` meets it whose line passes the centre by `a` to the left and `lever` above, in
-/// units of R.
+/// Returns the tip position of a cue raised by `theta` whose line passes the ball's centre by `a` to the left and `lever`
+/// above, in units of R.
 fn on_ball(theta: f64, a: f64, lever: f64) -> (f64, f64) {
     let ring = (1.0 - a * a).sqrt();
-    // Beyond the top there is no other half that a cue from behind could meet.
+    // A cue from behind cannot hit the ball beyond its top.
     let up = (theta + (lever / ring).clamp(-1.0, 1.0).asin()).min(STEEPEST);
     (a, ring * up.sin())
 }
 
-/// A tip place near the limit, brought back within it: towards the centre of the ball for a usual cue, towards where the
-/// line goes through it for a steep one.
+/// Moves a tip position back within the limit: towards the centre of the ball for an ordinary cue, and towards the
+/// point where the line passes through the centre for a steep one.
 pub fn within_limit(table: &Table, theta: f64, a: f64, b: f64) -> (f64, f64) {
     let most = TIP_SHARE * table.miscue_limit.sqrt();
     if theta <= MAX_ELEVATION {
@@ -217,7 +218,7 @@ mod tests {
         let layout = Layout::opening(&table);
         let counts = |text: &str| is_jump_or_masse(&table, &layout, &CueInputs::parse(text).unwrap());
         assert!(!counts("0.3,-0.3,0,10,6") && !counts("0.3,-0.3,5,10,3") && counts("0.1,0.6,40,10,1"));
-        // 25 degrees alone are none.
+        // An elevation of 25° alone is neither.
         assert!(!counts("0,0.4,25,100,1"));
     }
 }

@@ -1,11 +1,11 @@
-//! How often a stroke is made, by all attempts at strokes near it: importance sampling.
+//! Estimates how often a stroke is made from all attempts at strokes near it: importance sampling.
 //!
-//! An attempt at one stroke, with the errors that it had, counts for another as much as that stroke's own attempts would have been likely
-//! to come out like it: by the density of its outcomes there, divided by that of the outcomes of all that was tried (the balance heuristic
-//! of Veach and Guibas 1995, normalised by the sum of the weights). So a few hundred attempts tell of every stroke among them, and which
-//! is made most often.
+//! An attempt at one stroke, with its errors, also counts for another stroke. Its weight is the density of its outcome
+//! under that stroke, divided by the density under all strokes that were tried (the balance heuristic of Veach and
+//! Guibas 1995, normalised by the sum of the weights). A few hundred attempts thus estimate the make rate of every
+//! stroke among them, and which is made most often.
 
-use super::{Skill, candidates::towards, draws::ErrorSize};
+use super::{Skill, candidates::with_errors, draws::ErrorSize};
 use crate::{
     physics::{CueInputs, turn},
     player::errors::Errors,
@@ -13,29 +13,30 @@ use crate::{
     table::Table,
 };
 
-/// Rounds of expectation maximization from one round of attempts to the next: more would climb what is chance.
+/// Rounds of expectation maximization between two rounds of attempts: more would fit noise.
 const CLIMBING_ROUNDS: usize = 2;
 
-/// How far a stroke may move before it is tried again, in its standard errors: further away, the attempts tell little.
-const FARTHEST: f64 = 1.0;
+/// Maximum move of a stroke before it is tried again, in its standard errors: further away, the attempts contain little
+/// information.
+const MAX_MOVE: f64 = 1.0;
 
-/// The five inputs of a stroke, as far as errors change them: a, b, theta, phi and V.
-type Place = [f64; 5];
+/// The five inputs of a stroke that errors change: a, b, theta, phi and V.
+type InputVector = [f64; 5];
 
-/// A stroke as it is meant, and how its outcomes are spread.
+/// An intended stroke and the distribution of its outcomes.
 #[derive(Clone, Copy, Debug)]
 pub struct Distribution {
     cue: CueInputs,
-    at: Place,
-    /// The standard errors, and their reciprocals; both zero where there is no error.
-    deviations: Place,
-    inverse_deviations: Place,
-    /// The product of the reciprocals, and what larger errors make of it.
+    at: InputVector,
+    /// The standard errors and their reciprocals; both zero for an input without error.
+    deviations: InputVector,
+    inverse_deviations: InputVector,
+    /// Product of the reciprocals, under the player's own errors and under the larger ones.
     height: [f64; 2],
 }
 
 impl Distribution {
-    /// `cue` as this player strikes balls of `radius` m.
+    /// Creates the distribution of `cue` for a player with this skill and balls of `radius` m.
     pub fn new(skill: &Skill, radius: f64, cue: &CueInputs) -> Self {
         let Skill { a, b, theta, phi, speed, .. } = skill.at(cue);
         let deviations = [a / radius, b / radius, theta, phi, speed];
@@ -46,27 +47,28 @@ impl Distribution {
         Self { cue: *cue, at: [cue.a, cue.b, cue.theta, cue.phi, cue.speed], deviations, inverse_deviations, height }
     }
 
-    /// What comes of it with these errors.
-    fn outcome(&self, errors: &Errors) -> Place {
+    /// Returns the stroke that results with these errors.
+    fn outcome(&self, errors: &Errors) -> InputVector {
         std::array::from_fn(|input| self.at[input] + self.deviations[input] * errors[input])
     }
 
-    /// An outcome's or another stroke's place, in standard errors from this one.
-    fn errors_to(&self, place: &Place) -> Errors {
+    /// Returns the difference of an outcome or another stroke from this one, in standard errors.
+    fn errors_to(&self, place: &InputVector) -> Errors {
         let mut errors: Errors = std::array::from_fn(|input| place[input] - self.at[input]);
-        // Half a turn to the left is half a turn to the right.
+        // Directions wrap around: half a turn to the left equals half a turn to the right.
         errors[3] = turn(self.at[3], place[3]);
         std::array::from_fn(|input| errors[input] * self.inverse_deviations[input])
     }
 
-    /// How far another stroke is meant from this one, in standard errors.
+    /// Returns the distance to another intended stroke, in standard errors.
     pub fn distance(&self, other: &Self) -> f64 {
         squared(&self.errors_to(&other.at)).sqrt()
     }
 
-    /// The density of an outcome under the player's errors and under the larger ones, but for a factor that all strokes share.
+    /// Returns the density of an outcome under the player's errors and under the larger ones, up to a factor that all
+    /// strokes share.
     #[inline]
-    fn densities(&self, outcome: &Place) -> [f64; 2] {
+    fn densities(&self, outcome: &InputVector) -> [f64; 2] {
         // The variance of the larger errors is three times that of the player's own.
         let larger = libm::exp(squared(&self.errors_to(outcome)) / -6.0);
         [self.height[0] * larger * larger * larger, self.height[1] * larger]
@@ -82,12 +84,12 @@ fn squared(errors: &Errors) -> f64 {
 pub struct Rate {
     /// As a share, 0 to 1.
     pub share: f64,
-    /// The number of its own attempts that would tell it as well.
+    /// Effective sample size: the number of the stroke's own attempts that would be as precise.
     pub attempts: f64,
 }
 
 impl Rate {
-    /// Adds up attempts by their weights.
+    /// Sums up attempts by their weights.
     fn of(weights: impl Iterator<Item = (f64, bool)>) -> Self {
         let (mut made, mut sum, mut squares) = (0.0, 0.0, 0.0);
         for (weight, is_made) in weights {
@@ -98,7 +100,7 @@ impl Rate {
         if sum > 0.0 { Self { share: made / sum, attempts: sum * sum / squares } } else { Self::default() }
     }
 
-    /// As if it had been counted, with its interval.
+    /// Returns the equivalent counted rate, with its confidence interval.
     pub fn as_counted(self) -> SuccessRate {
         let tried = self.attempts.round();
         SuccessRate::new((self.share * tried).round() as usize, tried as usize)
@@ -108,19 +110,19 @@ impl Rate {
 /// One attempt: its errors and their size, and whether it made the point.
 pub type Trial = (Errors, ErrorSize, bool);
 
-/// One attempt by what came of it.
+/// One attempt, by its outcome.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
-    outcome: Place,
+    outcome: InputVector,
     made: bool,
-    /// The density of its outcome among all outcomes that were to be expected.
+    /// Density of its outcome under all attempts together.
     density: f64,
 }
 
 /// Attempts at strokes near each other.
 #[derive(Clone, Debug, Default)]
 pub struct Evidence {
-    /// What was tried, and how often under errors of either size.
+    /// The strokes that were tried, and the number of attempts with errors of either size.
     tried: Vec<(Distribution, [f64; 2])>,
     samples: Vec<Sample>,
 }
@@ -132,7 +134,7 @@ impl Evidence {
         for (_, size, _) in trials {
             counts[*size as usize] += 1.0;
         }
-        let density = |(stroke, counts): &(Distribution, [f64; 2]), outcome: &Place| {
+        let density = |(stroke, counts): &(Distribution, [f64; 2]), outcome: &InputVector| {
             let [own, larger] = stroke.densities(outcome);
             counts[0] * own + counts[1] * larger
         };
@@ -147,7 +149,7 @@ impl Evidence {
         }
     }
 
-    /// How often a stroke is made under the player's errors, and under the larger ones.
+    /// Estimates the make rate of a stroke under the player's errors, and under the larger ones.
     pub fn rates(&self, stroke: &Distribution) -> [Rate; 2] {
         let weights: Vec<([f64; 2], bool)> = self
             .samples
@@ -157,8 +159,8 @@ impl Evidence {
         [0, 1].map(|size| Rate::of(weights.iter().map(|(weights, made)| (weights[size], *made))))
     }
 
-    /// The errors that would turn `stroke` into a stroke that is made more often: steps of expectation maximization (Dayan and Hinton 1997) to
-    /// the middle of what makes the point, without another attempt.
+    /// Returns the errors that would turn `stroke` into a stroke that is made more often. Takes steps of expectation
+    /// maximization (Dayan and Hinton 1997) to the mean of the successful outcomes, without further attempts.
     fn climb(&self, stroke: &Distribution) -> Errors {
         let mut errors = [0.0; 5];
         let mut climber = *stroke;
@@ -175,22 +177,23 @@ impl Evidence {
             }
             errors = sum.map(|sum| sum / weights);
             let distance = squared(&errors).sqrt();
-            if distance > FARTHEST {
-                return errors.map(|error| error * FARTHEST / distance);
+            if distance > MAX_MOVE {
+                return errors.map(|error| error * MAX_MOVE / distance);
             }
             climber.at = stroke.outcome(&errors);
         }
         errors
     }
 
-    /// Strokes to climb to from this one, the best first, as far as they can be recommended: the top, half-way to it, and the outcome
-    /// nearest to it of all that made the point, for what lies in the middle of those need not make it.
-    pub fn ways_up(&self, table: &Table, skill: Skill, stroke: &Distribution) -> [CueInputs; 3] {
+    /// Returns improved strokes, best first, as far as they can be recommended: the estimated optimum, the point half-way to
+    /// it, and the successful outcome nearest to it. The last one is needed because the mean of successful outcomes
+    /// need not make the point.
+    pub fn improved_strokes(&self, table: &Table, skill: Skill, stroke: &Distribution) -> [CueInputs; 3] {
         let top = self.climb(stroke);
-        let apart = |errors: &Errors| squared(&std::array::from_fn(|input| errors[input] - top[input]));
+        let distance = |errors: &Errors| squared(&std::array::from_fn(|input| errors[input] - top[input]));
         let made = self.samples.iter().filter(|sample| sample.made).map(|sample| stroke.errors_to(&sample.outcome));
-        let nearest = made.min_by(|one, other| apart(one).total_cmp(&apart(other))).unwrap_or_default();
-        [top, top.map(|error| 0.5 * error), nearest].map(|errors| towards(table, skill, &stroke.cue, &errors))
+        let nearest = made.min_by(|one, other| distance(one).total_cmp(&distance(other))).unwrap_or_default();
+        [top, top.map(|error| 0.5 * error), nearest].map(|errors| with_errors(table, skill, &stroke.cue, &errors))
     }
 }
 
@@ -204,7 +207,7 @@ mod tests {
     const RADIUS: f64 = 0.03;
     const MEANT: CueInputs = CueInputs { a: 0.1, b: 0.2, theta: 0.1, phi: 1.0, speed: 2.5 };
 
-    /// Attempts at `stroke` that make the point where the direction is within a standard error to the left of `middle`, and their number.
+    /// Attempts at `stroke` that make the point if the direction is within one standard error of `middle`.
     fn attempts(stroke: &Distribution, middle: f64, count: usize, seed: u64) -> Vec<Trial> {
         let own = (0..count).map(|n| (Halton::new(seed).errors(n), ErrorSize::Own));
         let larger = (0..count / 3).map(|n| (Halton::new(!seed).errors(n), ErrorSize::Larger));
@@ -226,8 +229,8 @@ mod tests {
         for (off, seed) in [(-1.0, 1), (0.8, 2)] {
             evidence.add(&stroke(off), &attempts(&stroke(off), MEANT.phi, 3000, seed));
         }
-        // Of a normal distribution this much is within one deviation of what is so far off the middle; the larger errors have the
-        // square root of three as their deviation.
+        // The share of a normal distribution within one deviation of a point that is `off` deviations from its mean;
+        // the larger errors have the square root of three as their deviation.
         for (off, own, larger) in [(0.0, 0.6827, 0.4363), (0.5, 0.6247, 0.4210)] {
             let rates = evidence.rates(&stroke(off));
             assert!((rates[0].share - own).abs() < 0.015 && (rates[1].share - larger).abs() < 0.03, "{off} {rates:?}");
@@ -261,7 +264,7 @@ mod tests {
         let made = own.iter().filter(|(_, _, made)| *made).count();
         let [rate, _] = evidence.rates(&stroke);
         assert!((rate.share - made as f64 / 300.0).abs() < 1e-12 && (rate.attempts - 300.0).abs() < 1e-9, "{rate:?}");
-        let ways = evidence.ways_up(&Table::default(), skill, &stroke);
+        let ways = evidence.improved_strokes(&Table::default(), skill, &stroke);
         assert!(ways.iter().all(|cue| cue.theta == MEANT.theta) && ways[0] != ways[1], "{ways:?}");
         let is_way = |errors: &Errors| (skill.stroke(RADIUS, &MEANT, errors).phi - ways[2].phi).abs() < 1e-12;
         assert!(own.iter().any(|(errors, _, made)| *made && is_way(errors)), "{ways:?}");

@@ -1,13 +1,13 @@
-//! The first shot that makes the point: the policy's own, the thesis' variation of it (its 5.1), a wider search.
+//! Finds the first shot that makes the point: the policy's own, the thesis' variation of it (its 5.1), or a wider search.
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Source, Suggestion,
-    candidates::{TIP_SHARE, anything, variation},
+    candidates::{TIP_SHARE, any_stroke, variation},
     elevated::raised,
-    trial::{CONTACT_STEPS, ENDLESS, Task},
+    trial::{CONTACT_STEPS, Task, UNLIMITED_STEPS},
 };
 use crate::{
     game::{Rule, Tally},
@@ -15,33 +15,35 @@ use crate::{
     table::Layout,
 };
 
-/// Variations tried of each of the policy's favourites.
+/// Variations tried of each of the policy's best proposals.
 const VARIATIONS: u32 = 64;
 
-/// How many of the policy's favourites are varied.
+/// Number of the policy's best proposals that are varied.
 pub const FAVOURITES: usize = 4;
 
-/// Steps of resting contacts after which a shot is given up that is not the policy's: there are always more. So a tenth of a second
-/// is enough for 2.2 times as many shots on `thesis` as without a limit, and finds three cushions on 86 instead of 79 % of 300 layouts.
-const HASTE: u32 = 5;
+/// Steps of resting contacts after which a shot of the search is given up: there are always more. A tenth of a second
+/// then suffices for 2.2 times as many shots on `thesis` as without a limit, and finds three-cushion shots on 86
+/// instead of 79 % of 300 layouts.
+const SEARCH_CONTACT_STEPS: u32 = 5;
 
-/// One in so many of them is followed further: where balls touch from the start, all others may be given up.
-const FOLLOWED: u64 = 50;
+/// One in this number of those shots is followed further: if balls touch from the start, all others may be given up.
+const ONE_FOLLOWED_IN: u64 = 50;
 
-/// Usual strokes that are tried before any jump or massé: where so many made no point, hardly any does.
+/// Usual strokes that are tried before any jump or massé: if that many made no point, hardly any usual stroke does.
 const USUAL_BEFORE_ELEVATED: u64 = 4000;
 
-/// From then on one stroke in so many is a jump or a massé.
+/// From then on, one stroke in this number is a jump or a massé.
 const ONE_ELEVATED_IN: u64 = 4;
 
-/// How good a shot is that makes no point: object balls met, then cushions on the way as far as the rule wants them.
+/// Quality of a shot that makes no point: object balls hit, then cushions before the second, up to the number that the
+/// rule requires.
 type Merit = (u32, u32);
 
-/// What was found: shots that make the point, the policy's favourites first, and the best attempt where there are none.
+/// The result: shots that make the point, the policy's first, and the best attempt if there are none.
 pub struct Found {
     /// Shots that make the point, with their tallies.
     pub solutions: Vec<(Suggestion, Tally)>,
-    /// The best of those that do not.
+    /// The best of the shots that make no point.
     pub attempt: Suggestion,
 }
 
@@ -53,12 +55,13 @@ pub struct FirstShotSearch<'a> {
 }
 
 impl<'a> FirstShotSearch<'a> {
-    /// A search on a task.
+    /// Creates a search for a task.
     pub const fn new(task: Task<'a>) -> Self {
         Self { task, best: None, solutions: Vec::new() }
     }
 
-    /// Tries the proposals and the shots of a former answer, whatever the time, then looks until a shot has been found or time is up.
+    /// Tries the proposals and the shots of a former answer, whatever the time. Then searches until a shot is found or
+    /// time is up.
     pub fn run(mut self, proposals: &[CueInputs], former: &[CueInputs], seed: u64) -> Found {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let (table, layout) = (self.task.table, self.task.layout);
@@ -82,17 +85,17 @@ impl<'a> FirstShotSearch<'a> {
             let is_raised =
                 self.task.seeks_jumps() && tried > USUAL_BEFORE_ELEVATED && tried.is_multiple_of(ONE_ELEVATED_IN);
             let elevated = if is_raised { raised(table, layout, &mut rng) } else { None };
-            let cue = elevated.unwrap_or_else(|| anything(table, layout, &mut rng));
+            let cue = elevated.unwrap_or_else(|| any_stroke(table, layout, &mut rng));
             self.play(cue, Source::Search);
         }
-        // With no time at all and no policy, nothing was tried.
+        // Without any time and without a policy, nothing was tried.
         let attempt = self.best.map(|(_, shot)| shot);
         let attempt = attempt.unwrap_or_else(|| Suggestion { cue: self.plain(), source: Source::Search });
         Found { solutions: self.solutions, attempt }
     }
 
-    /// A plain stroke at the first ball; where the cue has no room for it, the one nearest in direction and with the lowest tip
-    /// for which it has.
+    /// Returns a plain stroke at the first ball. If the cue has no room for it, the nearest direction with the lowest tip
+    /// position that has room.
     fn plain(&self) -> CueInputs {
         let Layout { balls: [cue_ball, first, _] } = self.task.layout;
         let plain = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: (first - cue_ball).to_angle(), speed: 2.0 };
@@ -113,11 +116,11 @@ impl<'a> FirstShotSearch<'a> {
         self.task.clock.count(1);
         let Some(cue) = self.task.playable(&cue) else { return };
         let patience = match source {
-            Source::Policy | Source::Former => ENDLESS,
-            _ if self.task.clock.simulations().is_multiple_of(FOLLOWED) => CONTACT_STEPS,
-            _ => HASTE,
+            Source::Policy | Source::Former => UNLIMITED_STEPS,
+            _ if self.task.clock.simulations().is_multiple_of(ONE_FOLLOWED_IN) => CONTACT_STEPS,
+            _ => SEARCH_CONTACT_STEPS,
         };
-        // A shot that took too long has at least been thought of.
+        // A shot that took too long still counts as an attempt.
         let tally = Task { patience, ..self.task }.play(&cue).unwrap_or_default();
         let suggestion = Suggestion { cue, source };
         if self.task.suits(&cue, &tally) {

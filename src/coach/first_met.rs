@@ -1,4 +1,4 @@
-//! What the cue ball is to meet first, for a player who wants to see the shots that begin so.
+//! The player's choice of what the cue ball hits first.
 
 use std::str::FromStr;
 
@@ -8,36 +8,36 @@ use crate::{
     table::{BALL_NAMES, BALLS},
 };
 
-/// What the cue ball is to meet first.
+/// What the cue ball must hit first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FirstMet {
-    /// Whatever is best.
+    /// No preference.
     #[default]
     Any,
     /// The other cue ball, with no cushion before it.
     OtherCueBall,
     /// The red ball, with no cushion before it.
     Red,
-    /// A cushion, whichever ball comes then, after as many cushions as it may be.
+    /// At least one cushion before the first ball, which may be either.
     Cushion,
 }
 
-/// What is said of the stroke that is told where no attempt begins as it should.
-pub const NO_ATTEMPT: &str = "no attempt begins so either; this is a plain stroke";
+/// Note on the reported stroke if no attempt begins as requested.
+pub const NO_ATTEMPT: &str = "no such attempt either; this is a plain stroke";
 
-/// A name of what is met first that is not known.
+/// Error: an unknown name of what is hit first.
 #[derive(Debug, thiserror::Error, PartialEq)]
-#[error("\"{word}\" cannot be met first; use {}", FirstMet::ALL.map(|first| first.word(*names)).join(", "))]
+#[error("\"{word}\" cannot be hit first; use {}", FirstMet::ALL.map(|first| first.word(*names)).join(", "))]
 pub struct UnknownFirstMet {
     word: String,
     names: [&'static str; BALLS],
 }
 
 impl FirstMet {
-    /// All of them.
+    /// All variants.
     pub const ALL: [Self; 4] = [Self::Any, Self::OtherCueBall, Self::Red, Self::Cushion];
 
-    /// In a word, where the balls are called so, the cue ball first.
+    /// Returns the name of this choice, given the names of the balls, cue ball first.
     pub const fn word(self, [_, other, red]: [&'static str; BALLS]) -> &'static str {
         match self {
             Self::Any => "any",
@@ -47,27 +47,27 @@ impl FirstMet {
         }
     }
 
-    /// How a shot begins, behind what is said of it; empty where anything may be met.
+    /// Returns the suffix that describes how a shot begins; empty for [`Any`](Self::Any).
     pub fn begins(self, names: [&'static str; BALLS]) -> String {
         if self == Self::Any { String::new() } else { format!(" with {} first", self.word(names)) }
     }
 
-    /// Which of them `word` says, where the balls are called so.
+    /// Parses `word`, given the names of the balls, cue ball first.
     ///
     /// # Errors
-    /// [`UnknownFirstMet`], which lists them.
+    /// [`UnknownFirstMet`], which lists the accepted names.
     pub fn said(word: &str, names: [&'static str; BALLS]) -> Result<Self, UnknownFirstMet> {
         let said = Self::ALL.into_iter().find(|first| first.word(names) == word);
         said.ok_or_else(|| UnknownFirstMet { word: word.to_owned(), names })
     }
 
-    /// Whether a shot with this tally begins so.
+    /// Whether a shot with this tally begins as chosen.
     pub fn allows(self, tally: &Tally) -> bool {
         let met = if tally.cushions_before_first > 0 { Self::Cushion } else { Self::of_ball(tally.first_ball()) };
         self == Self::Any || self == met
     }
 
-    /// Whether a shot that is told so begins so.
+    /// Whether a shot that is described by `words` begins as chosen.
     pub fn allows_told(self, words: &ShotWords) -> bool {
         let met = match words.first {
             Some(_) if !words.before.is_empty() => Self::Cushion,
@@ -85,7 +85,7 @@ impl FirstMet {
     }
 }
 
-/// As on the command line, where white is the cue ball.
+/// Parses the names of the command line, where white is the cue ball.
 impl FromStr for FirstMet {
     type Err = UnknownFirstMet;
 
@@ -115,6 +115,6 @@ mod tests {
         assert_eq!("yellow".parse(), Ok(FirstMet::OtherCueBall));
         assert_eq!(FirstMet::said("white", ["yellow", "white", "red"]), Ok(FirstMet::OtherCueBall));
         let unknown = "white".parse::<FirstMet>().unwrap_err().to_string();
-        assert_eq!(unknown, "\"white\" cannot be met first; use any, yellow, red, cushion");
+        assert_eq!(unknown, "\"white\" cannot be hit first; use any, yellow, red, cushion");
     }
 }

@@ -1,4 +1,4 @@
-//! What sort of shot it is: shots of one kind are variations of each other, shots of different kinds are alternatives.
+//! The kind of a shot: shots of one kind are variations of each other, shots of different kinds are alternatives.
 
 use std::fmt;
 
@@ -14,14 +14,14 @@ use crate::{
     table::{BALL_NAMES, BALLS},
 };
 
-/// Strokes from this speed on are of the harder kind, m/s. A ball struck so in its centre runs 7.3 to 8.4 m along a
-/// `match` table, between two and a half and three lengths.
+/// Speed from which on a stroke counts as hard, m/s. A ball struck at this speed in its centre runs 7.3 to 8.4 m along
+/// a `match` table, between two and a half and three lengths.
 const HARD: f64 = 2.5;
 
-/// Cushions from which on the cue ball goes around the table.
+/// Number of cushions from which on the cue ball goes around the table.
 const AROUND: u32 = 3;
 
-/// How the cue ball comes to the second object ball.
+/// How the cue ball reaches the second object ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Way {
@@ -43,14 +43,14 @@ pub enum Pace {
     Hard,
 }
 
-/// What sort of shot it is.
+/// The kind of a shot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct Kind {
-    /// The object ball that is met first, 1 or 2; 0 where none is met.
+    /// The object ball that is hit first, 1 or 2; 0 if none is hit.
     pub first_ball: usize,
-    /// Whether a cushion comes before it.
+    /// Whether the cue ball hits a cushion before it.
     pub cushion_first: bool,
-    /// How the cue ball comes to the second object ball.
+    /// How the cue ball reaches the second object ball.
     pub way: Way,
     /// How hard the stroke is.
     pub pace: Pace,
@@ -60,7 +60,7 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// The kind of a shot with this tally.
+    /// Returns the kind of a shot with this tally.
     pub fn of(tally: &Tally, cue: &CueInputs) -> Self {
         let way = match tally.cushions_before_second {
             0 => Way::Direct,
@@ -77,7 +77,7 @@ impl Kind {
     }
 }
 
-/// In other words than players', whose names of patterns and paces say more than a kind does.
+/// Avoids the players' terms, because their names of patterns and speeds are more specific than a kind.
 impl fmt::Display for Way {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.pad(match self {
@@ -89,7 +89,7 @@ impl fmt::Display for Way {
 }
 
 impl Pace {
-    /// In words, for who is told distances in `unit`.
+    /// Describes the pace, with speeds in the system of `unit`.
     pub fn words(self, unit: LengthUnit) -> String {
         let (in_it, symbol) = unit.speed();
         let speed = short(in_it * HARD, 1);
@@ -107,13 +107,13 @@ impl fmt::Display for Pace {
 }
 
 impl Kind {
-    /// In words, for who plays with white and is told distances in `unit`.
+    /// Describes the kind for a player with the white ball, with speeds in the system of `unit`.
     pub fn words(self, unit: LengthUnit) -> String {
         let Self { first_ball, cushion_first, way, pace, raised } = self;
         let pace = pace.words(unit) + if raised { ", raised" } else { "" };
         let start = if cushion_first { "cushion first to" } else { "first" };
         match first_ball {
-            0 => format!("meets no ball, {pace}"),
+            0 => format!("hits no ball, {pace}"),
             _ => format!("{start} {}, {way}, {pace}", BALL_NAMES[first_ball.min(BALLS - 1)]),
         }
     }

@@ -1,18 +1,18 @@
-//! Seeds of random numbers, one for each layout: luck on one layout is no luck on another.
+//! Random seeds that differ from layout to layout, so that luck on one layout does not repeat on another.
 
 use crate::table::Layout;
 
-/// The seed of what is drawn for the layout with this number.
+/// Returns the seed for the layout with this number.
 pub const fn layout_seed(seed: u64, number: u32) -> u64 {
     seed ^ ((number as u64) << 32)
 }
 
-/// A number for a layout among all that there may be, by Fowler, Noll and Vo's hash of where the balls lie: the same balls have the
-/// same one.
+/// Returns a number that identifies a layout: the Fowler–Noll–Vo hash (FNV-1a) of the ball positions. Equal layouts
+/// have equal numbers.
 pub fn layout_number(layout: &Layout) -> u32 {
-    // Nought has one sign.
-    let places = layout.balls.iter().flat_map(|place| [place.x + 0.0, place.y + 0.0]);
-    let bytes = places.flat_map(|place| place.to_bits().to_le_bytes());
+    // Maps -0 to +0.
+    let positions = layout.balls.iter().flat_map(|position| [position.x + 0.0, position.y + 0.0]);
+    let bytes = positions.flat_map(|position| position.to_bits().to_le_bytes());
     bytes.fold(0x811c_9dc5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }
 

@@ -1,4 +1,4 @@
-//! How far off a stroke may be: the nearest miss on either side of each input, and maps of the outcome over two of them.
+//! Margins of error of a stroke: the nearest miss on either side of each input, and maps of the outcome over two inputs.
 
 use serde::Serialize;
 
@@ -17,22 +17,23 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// How far one input may be off while the others are as meant.
+/// How far one input may be off if the others are exact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Margin {
     /// The input.
     pub input: Input,
     /// Its unit.
     pub unit: &'static str,
-    /// How much less it may be, in that unit; `None` where no miss was found: within 15 mm, 15° of elevation, 5° of
-    /// direction or 3 m/s, or before the input comes to its own end.
+    /// How much less it may be, in that unit. `None` if no miss was found within 15 mm, 15° of elevation, 5° of
+    /// direction or 3 m/s, or before the input reaches its own limit.
     pub less: Option<f64>,
     /// How much more it may be.
     pub more: Option<f64>,
 }
 
 impl Input {
-    /// What it is told in where distances are told in `unit`: how many of that are one of its own unit, and the symbol.
+    /// Returns the conversion to the unit in which this input is displayed if distances are in `unit`: the factor from
+    /// the input's own unit, and the symbol.
     pub const fn told_in(self, unit: LengthUnit) -> (f64, &'static str) {
         match self {
             Self::Side | Self::Height => {
@@ -45,18 +46,19 @@ impl Input {
     }
 }
 
-/// What comes of a stroke.
+/// The outcome of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
-    /// No stroke: the tip slips off, the cue has no room, is below the cloth or stands still, or it pushes a ball that touches the cue
-    /// ball.
+    /// No valid stroke: the tip slips off, the cue has no room, is below the cloth or has no speed, or the stroke
+    /// pushes a ball that touches the cue ball.
     NoStroke,
-    /// No object ball is met.
+    /// No object ball is hit.
     NoBall,
-    /// One is.
+    /// One object ball is hit.
     OneBall,
-    /// Both are, with too few cushions before the second, as a game opens with the wrong ball first, or a ball leaves the table.
+    /// Both are hit, but with too few cushions before the second, the wrong ball first at the opening of a game, or a
+    /// ball off the table.
     TooFewCushions,
     /// A point.
     Point,
@@ -69,33 +71,33 @@ pub struct Map {
     pub across: Input,
     /// The input that grows upwards.
     pub up: Input,
-    /// Changes of the first, one a column, in its unit.
+    /// Changes of `across`, one per column, in its unit.
     pub columns: Vec<f64>,
-    /// Changes of the second, one a row, the lowest first, in its unit.
+    /// Changes of `up`, one per row, the lowest first, in its unit.
     pub rows: Vec<f64>,
     /// The outcomes, row by row.
     pub outcomes: Vec<Vec<Outcome>>,
 }
 
-/// Worlds in which a stroke is tried where something is in doubt.
+/// Number of worlds in which a stroke is tried if something is in doubt.
 const WORLDS: usize = 12;
 
-/// Seed of those worlds: the same for every stroke, so that strokes are compared by what they are.
+/// Seed of those worlds: the same for every stroke, so that the comparison is fair.
 const SEED: u64 = 0x6d61_7267_696e_7321;
 
-/// What strokes are tried at: a rule, a table and a layout, and what may really be there.
+/// Evaluates variations of a stroke under a rule, a table and a layout, with their uncertainty.
 #[derive(Clone, Debug)]
 pub struct Sensitivity<'a> {
     point: Point,
     table: &'a Table,
     layout: &'a Layout,
-    /// None where nothing is in doubt.
+    /// Empty if nothing is in doubt.
     worlds: Vec<World>,
 }
 
 impl<'a> Sensitivity<'a> {
-    /// That of strokes on this table, from where the balls lie. Where there is a doubt, they are tried in worlds that are drawn
-    /// from it; tables that lean are not among them, as in the search.
+    /// Prepares the evaluation of strokes from this layout. With a doubt, strokes are tried in worlds that are drawn
+    /// from it; as in the search, tilted tables are not among them.
     pub fn new(rule: Rule, table: &'a Table, layout: &'a Layout, doubt: Doubt) -> Self {
         let mut draws = QuasiRandomDraws::new(ErrorSize::Own, SEED);
         draws.extend_to(&Worlds::level(table, layout, doubt), WORLDS);
@@ -103,15 +105,16 @@ impl<'a> Sensitivity<'a> {
         Self { point: Point::of(rule, table, layout), table, layout, worlds }
     }
 
-    /// The margins of a shot that makes the point, in the order of [`Input::ALL`]. Between two steps of the scan a miss can
-    /// hide; the end of the margin is then found to a thousandth of a step. Where there is a doubt, a margin ends where the
-    /// point is made in less than half of the worlds in which it is made as meant. `None` where that is in none.
+    /// Finds the margins of a shot that makes the point, in the order of [`Input::ALL`]. The scan can overlook a miss between
+    /// two of its steps; the end of a margin is found to a thousandth of a step.
+    /// With a doubt, a margin ends where the point is made in less than half of the worlds in which the intended stroke
+    /// makes it. `None` if the intended stroke makes it in none.
     pub fn margins(&self, cue: &CueInputs) -> Option<[Margin; 5]> {
         let least = self.least(cue)?;
         parallel::map(platform::threads(), &Input::ALL, |input| self.around(*input, cue, least)).try_into().ok()
     }
 
-    /// The margin of one input alone.
+    /// Returns the margin of a single input.
     pub fn margin(&self, input: Input, cue: &CueInputs) -> Option<Margin> {
         Some(self.around(input, cue, self.least(cue)?))
     }
@@ -128,25 +131,26 @@ impl<'a> Sensitivity<'a> {
         Margin { input, unit: input.unit(), less: side(-1.0), more: side(1.0) }
     }
 
-    /// A stroke whose cue has come too low for the rail or the balls is played with the cue raised, as a player would, unless it is
-    /// the elevation itself that is off.
+    /// Raises the cue if the shifted stroke is too low for the rail or the balls, as a player would do, unless the
+    /// elevation itself is the shifted input.
     fn raised(&self, cue: &CueInputs, off: &[Input]) -> CueInputs {
         let raised = if off.contains(&Input::Elevation) { None } else { playable(self.table, self.layout, cue) };
         raised.unwrap_or(*cue)
     }
 
-    /// In how many worlds a stroke is to make the point for it to count as made beside `cue`; `None` where `cue` makes none.
+    /// Returns the number of worlds in which a variation of `cue` must make the point to count as made; `None` if `cue`
+    /// makes none.
     fn least(&self, cue: &CueInputs) -> Option<usize> {
         let made = self.outcomes(cue).filter(|outcome| *outcome == Outcome::Point).count();
         (made > 0).then(|| made.div_ceil(2))
     }
 
-    /// Whether a stroke makes the point in so many worlds.
+    /// Whether a stroke makes the point in at least `least` worlds.
     fn makes(&self, cue: &CueInputs, least: usize) -> bool {
         self.outcomes(cue).filter(|outcome| *outcome == Outcome::Point).take(least).count() == least
     }
 
-    /// What comes of a stroke in each world, or in the one that is known.
+    /// Returns the outcome of a stroke in each world, or in the assumed one if nothing is in doubt.
     fn outcomes(&self, cue: &CueInputs) -> impl Iterator<Item = Outcome> {
         let Self { point, table, layout, worlds } = self;
         let is_stroke = is_stroke(table, layout, cue);
@@ -159,9 +163,9 @@ impl<'a> Sensitivity<'a> {
         known.into_iter().chain(drawn).map(come_of)
     }
 
-    /// The outcomes around `middle`: `cells` columns and rows, an odd number so that the stroke itself is there, up to so many
-    /// units of each input to either side. Where there is a doubt, there is a point where one is within the margins of `cue`,
-    /// and else the outcome of most worlds.
+    /// Computes the outcomes around `middle`, up to `width` and `height` units of the two inputs to either side. There
+    /// are `cells` columns and rows, an odd number so that the central cell is `middle` itself. With a doubt,
+    /// a cell is a point if it meets the criterion of the margins of `cue`, otherwise the most frequent outcome.
     pub fn map(
         &self,
         cue: &CueInputs,
@@ -175,7 +179,7 @@ impl<'a> Sensitivity<'a> {
             (0..=2 * half).map(|index| span * (index as f64 - half as f64) / half as f64).collect()
         };
         let (columns, rows) = (line(width), line(height));
-        // Around a stroke that makes no point, one counts as made that is made in half of the worlds.
+        // Around a stroke that makes no point, a variation counts as made if half of the worlds make it.
         let least = self.least(cue).unwrap_or(self.worlds.len().div_ceil(2).max(1));
         let outcomes = parallel::map(platform::threads(), &rows, |&y| {
             let row = up.shifted(self.table, middle, y);
@@ -185,7 +189,7 @@ impl<'a> Sensitivity<'a> {
         Map { across, up, columns, rows, outcomes }
     }
 
-    /// A point where so many worlds make it, else the outcome of most others.
+    /// Returns [`Outcome::Point`] if at least `least` worlds make it, else the most frequent other outcome.
     fn usual(&self, cue: &CueInputs, least: usize) -> Outcome {
         let all: Vec<Outcome> = self.outcomes(cue).collect();
         let count = |outcome: Outcome| all.iter().filter(|one| **one == outcome).count();
@@ -198,8 +202,8 @@ impl<'a> Sensitivity<'a> {
 }
 
 impl Input {
-    /// How far the nearest miss is looked for, and in what steps, in that unit. The steps are a fifth of an expert's
-    /// standard error or less.
+    /// Returns the range and step of the scan for the nearest miss, in the input's unit. A step is at most a fifth of
+    /// an expert's standard error.
     const fn scan(self) -> (f64, f64) {
         match self {
             Self::Side | Self::Height => (15.0, 0.1),
@@ -209,13 +213,13 @@ impl Input {
         }
     }
 
-    /// Whether it is one whose end is the tip slipping off, which is a miss like any other.
+    /// Whether its range ends where the tip slips off, which counts as a miss.
     const fn is_tip(self) -> bool {
         matches!(self, Self::Side | Self::Height)
     }
 }
 
-/// How far an input may go until `makes` fails; `None` where it does not before the scan's end or `is_possible` does.
+/// Finds how far an input may go until `makes` fails; `None` if `is_possible` fails first, or the scan ends.
 fn nearest_miss(input: Input, makes: impl Fn(f64) -> bool, is_possible: impl Fn(f64) -> bool) -> Option<f64> {
     const HALVINGS: u32 = 10;
     let (reach, step) = input.scan();
@@ -241,7 +245,7 @@ fn nearest_miss(input: Input, makes: impl Fn(f64) -> bool, is_possible: impl Fn(
     None
 }
 
-/// What comes of a stroke that is one. A shot whose resting contacts take more than 200 steps counts as decided by then.
+/// Returns the outcome of a valid stroke. A shot whose resting contacts take more than 200 steps counts as decided by then.
 fn outcome(point: Point, touching: Touching, table: &Table, layout: &Layout, cue: &CueInputs) -> Outcome {
     let impulse = strike(table, cue);
     if touching.pushed(layout, &impulse).is_some() {
@@ -258,7 +262,7 @@ fn outcome(point: Point, touching: Touching, table: &Table, layout: &Layout, cue
     }
 }
 
-/// Steps of resting contacts that are followed: a map has a thousand shots, and one of them can take seconds.
+/// Maximum steps of resting contacts: a map has a thousand shots, and a single one can take seconds.
 const CONTACT_STEPS: u32 = 200;
 
 fn is_stroke(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
@@ -270,11 +274,11 @@ mod tests {
     use super::*;
     use glam::DVec2;
 
-    /// Two balls near each other straight ahead: a plain shot with a wide margin of speed.
+    /// Two balls near each other straight ahead: a simple shot with a wide speed margin.
     fn shot() -> (Table, Layout, CueInputs) {
         let table = Table::default();
         let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(0.0, 0.0), DVec2::new(0.3, 0.1)]);
-        // Made on this very table, and on one of those that it may be.
+        // Made both on the nominal table and on a possible real one.
         let [certain, doubted] =
             [Doubt::NONE, Doubt::FULL].map(|doubt| Sensitivity::new(Rule::StraightRail, &table, &layout, doubt));
         let cue = (0..4000)
@@ -348,7 +352,7 @@ mod tests {
             assert_eq!(sensitivity.worlds.len(), if doubt == Doubt::NONE { 0 } else { WORLDS });
             sensitivity.margin(Input::Direction, &cue).unwrap().less.unwrap()
         };
-        // The first direction of the scan that makes the point: on this very table a hair less misses.
+        // The first direction of the scan that makes the point: on the nominal table a slightly smaller one misses.
         let [certain, doubted] = [Doubt::NONE, Doubt::FULL].map(less);
         assert!(certain < 0.01 && doubted > 2.0 * certain, "{certain} {doubted}");
         assert_eq!(less(Doubt::FULL), doubted, "the same worlds every time");
@@ -360,7 +364,7 @@ mod tests {
         for doubt in [Doubt::NONE, Doubt::FULL] {
             let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, doubt);
             let more = sensitivity.margins(&cue).unwrap()[3].more.unwrap();
-            // Its columns stand where the scan has looked: between two of its steps a miss can hide.
+            // The columns coincide with the scan's steps: between two steps a miss can hide.
             let step = Input::Direction.scan().1;
             let width = 20.0 * step * (2.0 * more / (20.0 * step)).ceil();
             let map = sensitivity.map(&cue, &cue, (Input::Direction, width), (Input::Speed, 3.0), 41);
@@ -369,7 +373,7 @@ mod tests {
             for (by, outcome) in map.columns.iter().zip(&map.outcomes[20]).skip(20) {
                 assert!(*by > more || *outcome == Outcome::Point, "{by} of {more}");
             }
-            // 2.5 m/s less is no stroke.
+            // 2.5 m/s less leaves no stroke.
             assert_eq!(map.outcomes[0][20], Outcome::NoStroke);
         }
     }

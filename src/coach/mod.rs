@@ -1,4 +1,4 @@
-//! Recommendations: the shot that a player makes most often, how far off it may be, and what comes next.
+//! Shot recommendations: the shot that a player makes most often, its margins of error, and the position that it leaves.
 
 mod advice;
 mod aim;

@@ -1,4 +1,4 @@
-//! What comes next: where the balls may come to rest, and how easy the next point is from there.
+//! The next shot: possible resting positions of the balls, and how easy the next point is from there.
 
 use std::ops::ControlFlow;
 
@@ -14,11 +14,11 @@ use crate::{
     table::{BALLS, Layout},
 };
 
-/// Fewest made attempts that tell how easy the next point is, and as many as tell it to three in a hundred.
+/// Minimum successful attempts for an estimate of the next point, and the number that makes it precise to three percent.
 pub const FEWEST_POINTS: usize = 8;
 pub const MOST_POINTS: usize = 64;
 
-/// Most attempts that are followed, for each that is to make the point: what a beginner plays is made rarely.
+/// Maximum attempts that are simulated per successful one: a beginner makes few.
 const ATTEMPTS_EACH: usize = 12;
 
 /// The probability of the next point after a shot.
@@ -26,29 +26,29 @@ const ATTEMPTS_EACH: usize = 12;
 pub enum NextValue {
     /// An estimate, from where the shot leaves the balls.
     Known(f64),
-    /// Nobody has looked; it counts as this until somebody does.
-    Supposed(f64),
+    /// A placeholder until the value is estimated.
+    Assumed(f64),
 }
 
 impl NextValue {
-    /// What it counts as.
+    /// Returns the value to count with.
     pub const fn value(self) -> f64 {
         match self {
-            Self::Known(value) | Self::Supposed(value) => value,
+            Self::Known(value) | Self::Assumed(value) => value,
         }
     }
 
-    /// The estimate, where there is one.
+    /// Returns the estimate, if there is one.
     pub const fn known(self) -> Option<f64> {
         match self {
             Self::Known(value) => Some(value),
-            Self::Supposed(_) => None,
+            Self::Assumed(_) => None,
         }
     }
 }
 
-/// The mean probability of the next point over the layouts that `cue` leaves in the first so many of these attempts that make a point.
-/// `None` where none does, or time ran out.
+/// Estimates the mean probability of the next point over the layouts that `cue` leaves, from the first `points` of
+/// these attempts that make the point. `None` if no attempt does, or time ran out.
 pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0);
     for draw in draws.range(0, ATTEMPTS_EACH * points) {
@@ -59,38 +59,38 @@ pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) ->
             return None;
         }
         task.clock.count(1);
-        if let Some(end) = end_of(task, cue, draw) {
+        if let Some(end) = final_layout(task, cue, draw) {
             sum += Ease::under(task.rule).probability(task.table, &end, task.skill);
             made += 1;
         }
     }
-    // The last attempt may have been broken off.
+    // The last attempt may have been aborted.
     (made > 0 && !task.clock.is_past(task.until)).then(|| sum / made as f64)
 }
 
-/// Where an attempt at `cue` leaves the balls if it makes the point.
-pub fn end_of(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> {
+/// Returns the layout that an attempt at `cue` leaves if it makes the point.
+pub fn final_layout(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> {
     let (stroke, table, layout) = task.stroke(cue, draw);
     if stroke.is_miscue(table) {
         return None;
     }
     let impulse = strike(table, &stroke);
     let tally = task.tally(layout, &impulse);
-    let mut whole = Whole { tally, patience: StepBudget(task.patience), task, given_up: false };
-    let end = simulate(table, layout, &impulse, &mut whole);
-    (task.point().is_made(&whole.tally) && !whole.given_up).then(|| end.layout(table))
+    let mut observer = FullShot { tally, patience: StepBudget(task.patience), task, given_up: false };
+    let end = simulate(table, layout, &impulse, &mut observer);
+    (task.point().is_made(&observer.tally) && !observer.given_up).then(|| end.layout(table))
 }
 
-/// Watches a shot to its end, or until it takes too long.
-struct Whole<'a> {
+/// Observes a shot to its end, or until it takes too long.
+struct FullShot<'a> {
     tally: Tally,
     patience: StepBudget,
     task: &'a Task<'a>,
     given_up: bool,
 }
 
-impl Observer for Whole<'_> {
-    /// Where a shot ends counts only if it makes the point.
+impl Observer for FullShot<'_> {
+    /// The final layout counts only if the shot makes the point.
     fn awaited(&self) -> Option<[bool; BALLS - 1]> {
         (!self.tally.met_both()).then(|| self.tally.unmet())
     }

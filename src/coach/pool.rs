@@ -1,4 +1,4 @@
-//! Candidates of a search and how they stand: ranked by the share of the same errors under which each makes the point.
+//! The candidates of a search and their ranking: by the share of the same random errors under which each makes the point.
 
 use std::ops::Range;
 
@@ -12,27 +12,28 @@ use super::{
 };
 use crate::{game::Tally, physics::CueInputs, player::errors::Errors};
 
-/// What a point under the larger errors is worth against one under the player's own.
+/// Weight of a point under the larger errors, relative to one under the player's own errors.
 const WORTH_OF_LARGER: f64 = 0.3;
 
-/// Speed up to which strokes are usual, m/s. The ball leaves such a stroke at 5.6 m/s, and one of 91 filmed shots is faster.
+/// Maximum speed of usual strokes, m/s. The ball leaves such a stroke at 5.6 m/s; one of 91 filmed shots is faster.
 const HARDEST_USUAL: f64 = 4.0;
 
-/// Effort of every m/s beyond. A harder stroke is not worth a point or two in a hundred: what is not simulated, such as how high
-/// a ball comes off a nose that pressed it down, makes it less certain than it looks. With it 2.5 % of the three-cushion
-/// shots for a club player are struck harder than 5 m/s, without 5.8 %, and as many of all are made within 0.2 in a hundred
-/// (120 layouts).
+/// Effort of every m/s beyond [`HARDEST_USUAL`]. A harder stroke is not worth one or two percent: effects that are not
+/// simulated, such as how high a ball rises from a cushion nose that pressed it down, make it less certain than it
+/// looks.
+/// With this penalty a club player strikes 2.5 % of the three-cushion shots harder than 5 m/s, without it 5.8 %; the
+/// make rate stays the same within 0.2 % (120 layouts).
 const HARDER: f64 = 2.0;
 
-/// What is taken off for a shot that meets the first ball twice before the second: nobody means it so, and after a kiss a model
-/// knows least where balls go. A club player makes as many points with it, 33.8 of 33.9 % at three cushions and 60.2 of
-/// 60.2 at straight rail (300 layouts each).
+/// Penalty for a shot that hits the first ball twice before the second: nobody intends this, and the model is least
+/// reliable after a kiss. A club player makes as many points with it: 33.8 instead of 33.9 % at three cushions and 60.2
+/// instead of 60.2 % at straight rail (300 layouts each).
 const AGAIN: f64 = 0.05;
 
-/// Attempts of a block: the last of them is at larger errors.
+/// Attempts in a block; the last one has larger errors.
 pub const BLOCK: usize = 4;
 
-/// The errors that shots are compared on, in blocks: each shot has the same ones, as far as it is tried.
+/// The random errors on which shots are compared, in blocks: common random numbers for all shots.
 #[derive(Debug)]
 pub struct Race {
     own: QuasiRandomDraws,
@@ -40,7 +41,7 @@ pub struct Race {
 }
 
 impl Race {
-    /// With the errors that `seed` draws.
+    /// Creates the race for the errors that `seed` draws.
     pub fn new(seed: u64) -> Self {
         Self {
             own: QuasiRandomDraws::new(ErrorSize::Own, seed),
@@ -48,13 +49,13 @@ impl Race {
         }
     }
 
-    /// Makes sure that shots can be tried at so many blocks of errors, each in one of the worlds.
+    /// Draws errors for at least this number of blocks, each attempt in one of the worlds.
     pub fn extend_to(&mut self, worlds: &Worlds, blocks: usize) {
         self.own.extend_to(worlds, (BLOCK - 1) * blocks);
         self.larger.extend_to(worlds, blocks);
     }
 
-    /// The errors of one attempt, and in which world.
+    /// Returns the errors and the world of one attempt; `None` if they are not drawn yet.
     fn draw(&self, attempt: usize) -> Option<(Draw<'_>, ErrorSize)> {
         let (block, n) = (attempt / BLOCK, attempt % BLOCK);
         let (draws, index, size) = if n < BLOCK - 1 {
@@ -65,20 +66,20 @@ impl Race {
         Some((draws.drawn().range(index, index + 1).next()?, size))
     }
 
-    /// What its errors make of each attempt in these blocks, as far as they are drawn.
+    /// Returns the errors of each attempt in these blocks, as far as they are drawn.
     pub fn errors(&self, blocks: Range<usize>) -> impl Iterator<Item = (Errors, ErrorSize)> + Clone {
         let attempts = BLOCK * blocks.start..BLOCK * blocks.end;
         attempts.filter_map(|attempt| self.draw(attempt).map(|(draw, size)| (*draw.errors, size)))
     }
 
-    /// Finds out how easy the next point is after a candidate, by so many `points` if it makes them; `None` where none of its attempts
-    /// makes the point, or time ran out.
+    /// Estimates the probability of the next point after a candidate, from up to `points` successful attempts. `None`
+    /// if no attempt makes the point, or time ran out.
     pub fn look_ahead(&self, task: &Task, candidate: &Candidate, points: usize) -> Option<Candidate> {
         let next = NextValue::Known(next_value(task, &candidate.shot.cue, self.own.drawn(), points)?);
         Some(Candidate { next, ..*candidate })
     }
 
-    /// Tries a stroke at the errors of these blocks; `None` where time ran out, or they are not drawn.
+    /// Tries a stroke at the errors of these blocks; `None` if time ran out, or they are not drawn.
     pub fn attempts(&self, task: &Task, cue: &CueInputs, blocks: Range<usize>) -> Option<Vec<Trial>> {
         let all = BLOCK * blocks.start..BLOCK * blocks.end;
         let wanted = all.len();
@@ -91,7 +92,7 @@ impl Race {
         (trials.len() == wanted).then_some(trials)
     }
 
-    /// Tries a candidate at the errors up to this block; `None` where time ran out.
+    /// Tries a candidate at the errors up to this block; `None` if time ran out.
     pub fn go_on(&self, task: &Task, candidate: &Candidate, blocks: usize) -> Option<Candidate> {
         let mut after = *candidate;
         for (_, size, made) in self.attempts(task, &after.shot.cue, after.tried / BLOCK..blocks)? {
@@ -105,30 +106,30 @@ impl Race {
     }
 }
 
-/// A shot that makes the point when it is played as meant, and how it does in the race.
+/// A shot that makes the point when it is played as intended, and its results in the race.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
     /// The shot.
     pub shot: Suggestion,
-    /// What sort of shot.
+    /// The kind of the shot.
     pub kind: Kind,
-    /// Attempts of the race that it was tried at by itself, at most as many as `points` has bits.
+    /// Attempts of the race that this shot itself was tried at, at most the number of bits of `points`.
     pub tried: usize,
-    /// Which of them made the point: one bit each, the first is the lowest.
+    /// Which of these attempts made the point: one bit each, the first attempt in the lowest bit.
     pub points: u32,
-    /// How often it is made under the player's errors, as far as is known; it flatters whoever was chosen by it.
+    /// Estimated make rate under the player's errors. It flatters a shot that was chosen by it.
     pub own: Rate,
-    /// The same under the larger errors.
+    /// Estimated make rate under the larger errors.
     pub larger: Rate,
-    /// Probability of the next point; supposed to be 1 until candidates are looked at for it.
+    /// Probability of the next point; assumed to be 1 until it is estimated.
     pub next: NextValue,
-    /// What is taken off for a stroke that is hard to play or meets the first ball twice, whatever its errors.
+    /// Penalty for a stroke that is hard to play or that hits the first ball twice, independent of its errors.
     pub effort_penalty: f64,
 }
 
 impl Candidate {
-    /// `cue` as a candidate, raised where it must be, if it makes the point; of two that make it as often, the softer and more
-    /// level one is better, by `weight`.
+    /// Makes a candidate of `cue`, raised if it must be, if it makes the point. `weight` is the cost of effort: it
+    /// prefers the softer and more level of two equally successful strokes.
     pub fn new(task: &Task, cue: CueInputs, source: Source, weight: f64) -> Option<Self> {
         let cue = task.playable(&cue)?;
         let tally = task.play(&cue)?;
@@ -136,7 +137,7 @@ impl Candidate {
         task.suits(&cue, &tally).then(|| Self::of(Suggestion { cue, source }, &tally, weight))
     }
 
-    /// A shot with this tally, which makes the point.
+    /// Creates the candidate for a shot with this tally, which must make the point.
     pub fn of(shot: Suggestion, tally: &Tally, weight: f64) -> Self {
         let cue = &shot.cue;
         Self {
@@ -146,40 +147,39 @@ impl Candidate {
             points: 0,
             own: Rate::default(),
             larger: Rate::default(),
-            next: NextValue::Supposed(1.0),
+            next: NextValue::Assumed(1.0),
             effort_penalty: weight * effort(cue) + if tally.met_again { AGAIN } else { 0.0 },
         }
     }
 
-    /// What candidates are ranked by.
+    /// Returns the ranking criterion.
     pub fn score(&self) -> f64 {
         let larger = if self.larger.attempts > 0.0 { self.larger } else { self.own };
         (self.own.share + WORTH_OF_LARGER * larger.share) * self.next.value() - self.effort_penalty
     }
 }
 
-/// How hard a stroke is to play, whatever its errors: a share of the steepest cue, one of the hardest stroke, and more for a
-/// stroke beyond the usual.
+/// Rates how hard a stroke is to play, independent of its errors: its share of the steepest cue plus its share of the hardest
+/// stroke, plus an extra for speeds beyond the usual.
 fn effort(cue: &CueInputs) -> f64 {
     cue.theta / MAX_ELEVATION + cue.speed / MAX_SPEED + HARDER * (cue.speed - HARDEST_USUAL).max(0.0)
 }
 
-/// Those that nobody has looked at for the next point count as the worst of those that somebody has: time must not make a
-/// shot better.
-pub fn suppose_the_worst<'c>(candidates: impl Iterator<Item = &'c mut Candidate>) {
+/// Assigns the worst known next value to all candidates without one, so that a lack of time cannot make a shot better.
+pub fn assume_the_worst<'c>(candidates: impl Iterator<Item = &'c mut Candidate>) {
     let candidates: Vec<_> = candidates.collect();
     let worst = candidates.iter().filter_map(|candidate| candidate.next.known()).fold(1.0, f64::min);
     for candidate in candidates.into_iter().filter(|candidate| candidate.next.known().is_none()) {
-        candidate.next = NextValue::Supposed(worst);
+        candidate.next = NextValue::Assumed(worst);
     }
 }
 
-/// Share of the best one's score that a jump or a massé needs to be kept for its kind's sake: usual shots of all kinds are followed,
-/// for they may still get better; these cost as much, and hardly ever lead.
+/// Minimum share of the best score for a jump or massé to be kept as one of its kind. Usual shots of all kinds are kept
+/// because they may still improve; jumps and massés cost as much and hardly ever lead.
 const NEAR: f64 = 0.8;
 
-/// Sorts the best first, and keeps the first `best`, the first `of_each` of every kind, and what was advised before, which a few
-/// unlucky attempts must not drop. Equals stay in their order.
+/// Sorts the candidates, best first (stable), and keeps the first `best`, the first `of_each` of every kind, and the
+/// former recommendation, which a few unlucky attempts must not drop.
 pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
     candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
     let mut seen: Vec<(Kind, usize)> = Vec::new();
@@ -221,14 +221,14 @@ mod tests {
     fn a_shot_that_nobody_has_looked_at_ranks_behind_those_that_leave_a_good_next_one() {
         let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 };
         let candidate = |share, next| candidate(cue, share, next);
-        let (good, bad, unseen) = (NextValue::Known(0.9), NextValue::Known(0.6), NextValue::Supposed(1.0));
+        let (good, bad, unseen) = (NextValue::Known(0.9), NextValue::Known(0.6), NextValue::Assumed(1.0));
         let mut pool = vec![candidate(1.0, unseen), candidate(1.0, bad), candidate(0.9, good)];
-        suppose_the_worst(pool.iter_mut());
+        assume_the_worst(pool.iter_mut());
         keep(&mut pool, 3, 1);
         assert_eq!(pool.iter().map(|shot| shot.next.known()).collect::<Vec<_>>(), [Some(0.9), None, Some(0.6)]);
-        // Where nobody was looked at, none is worse for it.
+        // If no candidate has a known value, none gets worse.
         let mut pool = [candidate(1.0, unseen)];
-        suppose_the_worst(pool.iter_mut());
+        assume_the_worst(pool.iter_mut());
         assert_eq!(pool[0].next, unseen);
     }
 }

@@ -1,50 +1,53 @@
-//! The refinement of a search: successive halving (Jamieson and Talwalkar 2016) of strokes that climb, from round to round, to where more
-//! attempts at them make the point.
+//! The refinement stage of a search: successive halving (Jamieson and Talwalkar 2016) of strokes that climb from round
+//! to round towards a higher make rate.
 
 use super::{
     Source, Suggestion,
     evidence::{Distribution, Evidence, Trial},
     next::{FEWEST_POINTS, MOST_POINTS, NextValue},
-    pool::{BLOCK, Candidate, Race, suppose_the_worst},
+    pool::{BLOCK, Candidate, Race, assume_the_worst},
     trial::Task,
 };
 use crate::{physics::CueInputs, platform::parallel};
 
-/// Strokes that are meant within so many standard errors of each other are one: they would climb to the same place.
-const ALIKE: f64 = 1.0;
+/// Strokes that are intended within this distance of each other, in standard errors, are merged: they would climb to
+/// the same optimum.
+const MERGE_DISTANCE: f64 = 1.0;
 
-/// How many strokes begin, besides the best of each kind: one for so many simulations that are left.
+/// One stroke enters the refinement per this number of remaining simulations, in addition to the best of each kind.
 const SIMULATIONS_EACH: f64 = 100.0;
 const FEWEST: usize = 24;
 
-/// From all to one, the number of strokes falls by this power of the share of the time: the best has the last of it for itself.
+/// Rate of the halving: after the share p of the time, n^(1 - HALVING p) of n strokes are left. The best one thus has the
+/// last part of the time alone.
 const HALVING: f64 = 1.2;
 
-/// Blocks of a stroke in a round.
+/// Blocks per stroke in a round.
 const FEWEST_BLOCKS: usize = 2;
 const MOST_BLOCKS: usize = 256;
 
-/// Blocks of a stroke in all: then its share is known to half a percent.
+/// Maximum blocks of a stroke in total: its make rate is then known to half a percent.
 const ENOUGH_BLOCKS: usize = 4096;
 
-/// In a plan there is a look at the next point after so many attempts of a round: a point takes several, and each is followed to its end.
+/// In a plan, the next point is estimated from one successful attempt per this number of attempts in a round: each
+/// needs several attempts, and each is simulated to its end.
 const ATTEMPTS_A_POINT: usize = 16;
 
-/// What another shot must be better by than the one that was advised, as a share: whoever asks again wants no other shot for next to
-/// nothing, which may be chance.
+/// Share by which another shot must be better than the former recommendation to replace it: a player who asks again
+/// does not want another shot for a tiny gain that may be chance.
 pub const WORTH_A_CHANGE: f64 = 0.02;
 
-/// Blocks of one piece of work.
+/// Blocks in one work item of a thread.
 const PIECE: usize = 4;
 
-/// Blocks of evidence from which on to climb it is shared out between threads: less takes no longer than to wake them.
+/// Blocks of evidence from which on the climb uses several threads; below, waking them takes longer.
 const SHARED_FROM: usize = 2000;
 
-/// Attempts after which a stroke that has never missed, to a ten-thousandth, is good enough, and time may be left.
+/// Attempts after which a stroke that has never missed, within [`NEXT_TO_NO_MISS`], is good enough to end the search early.
 const ENOUGH_WITHOUT_A_MISS: f64 = 576.0;
 const NEXT_TO_NO_MISS: f64 = 1e-4;
 
-/// A stroke on its way up, and what was tried on it.
+/// A stroke that is being improved, and the attempts at it.
 struct Climber {
     best: Candidate,
     distribution: Distribution,
@@ -54,7 +57,7 @@ struct Climber {
 }
 
 impl Climber {
-    /// Reads off how often the stroke is made.
+    /// Updates the make rates from the evidence.
     fn judge(&mut self) {
         [self.best.own, self.best.larger] = self.evidence.rates(&self.distribution);
     }
@@ -69,56 +72,56 @@ impl Climber {
     }
 }
 
-/// The best first; equals stay in their order.
+/// Sorts by score, best first (stable).
 fn sort(climbers: &mut [Climber]) {
     climbers.sort_by(|a, b| b.best.score().total_cmp(&a.best.score()));
 }
 
-/// What was advised stays first where no other is better by enough.
+/// Moves the former recommendation to the front unless another stroke is better by enough.
 fn prefer_former(climbers: &mut [Climber]) {
     let bar = climbers.first().map_or(0.0, |best| (1.0 - WORTH_A_CHANGE) * best.best.score());
-    if let Some(place) = climbers.iter().position(|climber| climber.is_former() && climber.best.score() >= bar) {
-        climbers[..=place].rotate_right(1);
+    if let Some(position) = climbers.iter().position(|climber| climber.is_former() && climber.best.score() >= bar) {
+        climbers[..=position].rotate_right(1);
     }
 }
 
-/// What was advised goes on to the end, or else a few unlucky attempts at it would make the advice worse than that was. Gives how many go
-/// on where `live` are the best.
+/// Keeps the former recommendation in the race to the end; otherwise a few unlucky attempts at it would make the new
+/// recommendation worse. Returns how many climbers go on, given that the best `live` do.
 fn keep_former(climbers: &mut [Climber], live: usize) -> usize {
     match climbers.iter().position(Climber::is_former) {
-        Some(place) if place >= live => {
-            climbers[live..=place].rotate_right(1);
+        Some(position) if position >= live => {
+            climbers[live..=position].rotate_right(1);
             live + 1
         }
         _ => live,
     }
 }
 
-/// A refinement on its way.
+/// The settings of a refinement.
 pub struct Refinement<'a> {
-    /// What the strokes are tried at.
+    /// The problem for which strokes are tried.
     pub task: Task<'a>,
-    /// With so many threads.
+    /// Number of worker threads.
     pub threads: usize,
     /// The share of the budget at which it ends.
     pub ends: f64,
-    /// Whether the next point counts, too.
+    /// Whether the next point counts too.
     pub plan: bool,
-    /// What effort costs in a shot's score.
+    /// Cost of effort in a shot's score.
     pub weight: f64,
-    /// The errors of all attempts.
+    /// The random errors of all attempts.
     pub race: Race,
 }
 
 impl Refinement<'_> {
-    /// How many strokes a refinement begins with that has so many simulations.
+    /// Returns the number of strokes that enter a refinement with this number of simulations, at most `most`.
     pub fn size(simulations: f64, most: usize) -> usize {
         ((simulations / SIMULATIONS_EACH) as usize).clamp(FEWEST, most)
     }
 
-    /// Refines the best of a pool, and returns them, the best first. `tell` hears of every new leader.
-    pub fn run(mut self, pool: &[Candidate], tell: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
-        let mut climbers = self.gathered(pool);
+    /// Refines the best of a pool and returns them, best first. Calls `on_leader` for every new leader.
+    pub fn run(mut self, pool: &[Candidate], on_leader: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
+        let mut climbers = self.merged(pool);
         let all = climbers.len() as f64;
         let rounds = libm::log2(all).ceil() + 1.0;
         let begins = self.task.clock.used();
@@ -132,7 +135,7 @@ impl Refinement<'_> {
             let progress = ((used - begins) / (self.ends - begins)).max(round / rounds);
             let simulations = self.task.clock.simulations_until(self.ends) / (rounds - round).max(1.0);
             let blocks = simulations / BLOCK as f64;
-            // Where there are more simulations than one stroke needs, others may still get better.
+            // With more simulations than one stroke can use, others may still improve.
             let fewest = (blocks / MOST_BLOCKS as f64).ceil().max(1.0);
             live = live.min(libm::pow(all, 1.0 - HALVING * progress).max(fewest).ceil() as usize);
             live = keep_former(&mut climbers, live);
@@ -143,7 +146,7 @@ impl Refinement<'_> {
             }
             sort(&mut climbers[..live]);
             prefer_former(&mut climbers[..live]);
-            tell(&climbers[0].best);
+            on_leader(&climbers[0].best);
             if climbers[0].is_certain() && !self.plan {
                 break;
             }
@@ -151,8 +154,8 @@ impl Refinement<'_> {
         climbers.into_iter().map(|climber| climber.best).collect()
     }
 
-    /// Those of a pool that are not alike, with all that was tried on those that are.
-    fn gathered(&self, pool: &[Candidate]) -> Vec<Climber> {
+    /// Merges the strokes of a pool that are alike, with all attempts at them.
+    fn merged(&self, pool: &[Candidate]) -> Vec<Climber> {
         let mut climbers: Vec<Climber> = Vec::new();
         for candidate in pool {
             let distribution = self.distribution(&candidate.shot.cue);
@@ -166,7 +169,7 @@ impl Refinement<'_> {
                 climber.evidence.add(&distribution, &trials);
                 climber
             };
-            // What was advised stays as it is, for it has climbed before, and another begins there.
+            // The former recommendation stays as it is, because it has climbed before; a copy of it climbs on.
             let mut source = candidate.shot.source;
             if source == Source::Former {
                 climbers.push(climber(source));
@@ -174,7 +177,7 @@ impl Refinement<'_> {
             }
             let near = climbers
                 .iter_mut()
-                .find(|climber| !climber.is_former() && climber.distribution.distance(&distribution) < ALIKE);
+                .find(|climber| !climber.is_former() && climber.distribution.distance(&distribution) < MERGE_DISTANCE);
             if let Some(near) = near {
                 near.evidence.add(&distribution, &trials);
                 near.judge();
@@ -190,8 +193,8 @@ impl Refinement<'_> {
         Distribution::new(&self.task.skill, self.task.table.radius, cue)
     }
 
-    /// Moves each stroke to where the attempts so far make the point more often, and looks at what comes next as closely as so many blocks
-    /// of attempts `each` are worth.
+    /// Moves each stroke to where the attempts so far make the point more often. In a plan, estimates the next point
+    /// with a precision that matches `each` blocks of attempts.
     fn climb(&self, climbers: &mut [Climber], each: usize) {
         let Self { task, race, .. } = self;
         let points = (BLOCK * each / ATTEMPTS_A_POINT).clamp(FEWEST_POINTS, MOST_POINTS);
@@ -200,11 +203,11 @@ impl Refinement<'_> {
         let moved = parallel::map(threads, climbers, |climber| {
             let Climber { best, distribution, evidence, .. } = climber;
             let source = if best.shot.source == Source::Search { Source::Search } else { Source::Variation };
-            let ways = evidence.ways_up(task.table, task.skill, distribution);
+            let ways = evidence.improved_strokes(task.table, task.skill, distribution);
             let mut ways = ways.into_iter().filter(|_| !climber.is_former());
             let moved = ways.find_map(|cue| Candidate::new(task, cue, source, self.weight)).unwrap_or(*best);
-            // Until it is known, what comes next is what has come so far.
-            let next = NextValue::Supposed(best.next.value());
+            // Until it is estimated, the next value is the old one.
+            let next = NextValue::Assumed(best.next.value());
             let moved = Candidate { next, ..moved };
             if self.plan { race.look_ahead(task, &moved, points).unwrap_or(moved) } else { moved }
         });
@@ -212,11 +215,11 @@ impl Refinement<'_> {
             (climber.distribution, climber.best) = (self.distribution(&best.shot.cue), best);
         }
         if self.plan {
-            suppose_the_worst(climbers.iter_mut().map(|climber| &mut climber.best));
+            assume_the_worst(climbers.iter_mut().map(|climber| &mut climber.best));
         }
     }
 
-    /// Tries each stroke at so many blocks of errors; tells whether there was anything to try.
+    /// Tries each stroke at `each` more blocks of errors. Returns whether anything was tried.
     fn attempt(&mut self, climbers: &mut [Climber], each: usize) -> bool {
         let wanted = |climber: &Climber| climber.blocks..(climber.blocks + each).min(ENOUGH_BLOCKS);
         let most = climbers.iter().map(|climber| wanted(climber).end).max().unwrap_or(0);
@@ -305,20 +308,20 @@ mod tests {
         };
         let mut race = Race::new(1);
         race.extend_to(&worlds, 8);
-        // Of the directions about a shot that makes the point those that do it, too; the first is at the edge.
+        // Directions around a shot that makes the point and that make it too; the first is at the edge.
         let found = FirstShotSearch::new(Task { clock: &unlimited, ..task }).run(&[], &[], 1).solutions[0].0.cue;
         let turned = |n: i32| CueInputs { phi: found.phi + 0.1 * f64::from(n) * skill.at(&found).phi, ..found };
         let made = (-40..=0).filter_map(|n| Candidate::new(&task, turned(n), Source::Search, 0.0));
         let pool: Vec<_> = made.take(2).map(|candidate| race.go_on(&task, &candidate, 8).unwrap()).collect();
         let refinement = Refinement { task, threads: 2, ends: 1.0, plan: false, weight: 0.0, race };
-        let gathered = refinement.gathered(&pool);
-        assert_eq!((gathered.len(), gathered[0].blocks), (1, 8));
-        assert!(gathered[0].best.own.attempts > 40.0, "both have 24: {:?}", gathered[0].best);
-        let mut told = 0;
-        let refined = refinement.run(&pool, &mut |_| told += 1);
+        let merged = refinement.merged(&pool);
+        assert_eq!((merged.len(), merged[0].blocks), (1, 8));
+        assert!(merged[0].best.own.attempts > 40.0, "both have 24: {:?}", merged[0].best);
+        let mut reported = 0;
+        let refined = refinement.run(&pool, &mut |_| reported += 1);
         let chance = |cue: CueInputs| make_probability(skill, rule, &table, &layout, &cue, 4000, 1).rate;
         let [before, after] = [pool[0].shot.cue, refined[0].shot.cue].map(chance);
-        assert!(after > before + 0.01 && told > 1, "{before} {after}");
+        assert!(after > before + 0.01 && reported > 1, "{before} {after}");
         assert!((refined[0].own.share - after).abs() < 0.04, "{:?} {after}", refined[0]);
     }
 }

@@ -1,4 +1,4 @@
-//! What the coach is asked for.
+//! The input of a recommendation.
 
 use std::{
     sync::{Arc, atomic::AtomicBool},
@@ -8,64 +8,64 @@ use std::{
 use super::{Doubt, FirstMet, Skill};
 use crate::{game::Rule, physics::CueInputs, platform};
 
-/// Who plays, and how much of the table and of the balls' places is in doubt.
+/// A player, and the uncertainty about the table and the ball positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shooter {
-    /// The hand's errors.
+    /// The player's execution errors.
     pub skill: Skill,
-    /// What is not known.
+    /// The uncertainty.
     pub doubt: Doubt,
 }
 
 impl Shooter {
-    /// The doubt that counts: none for a perfect player.
+    /// Returns the effective doubt: none for a perfect player.
     pub fn doubts(&self) -> Doubt {
         if self.skill.is_perfect() { Doubt::NONE } else { self.doubt }
     }
 }
 
-/// With nothing in doubt.
+/// A shooter without doubt.
 impl From<Skill> for Shooter {
     fn from(skill: Skill) -> Self {
         Self { skill, doubt: Doubt::NONE }
     }
 }
 
-/// What the coach is asked for.
+/// The input of a recommendation.
 #[derive(Clone, Debug)]
 pub struct Request {
     /// What counts as a point.
     pub rule: Rule,
-    /// Who is to play the shot. For a perfect player any shot that makes the point will do, and the first is the answer;
-    /// for anybody else the whole budget goes into finding the one that this player makes most often. A perfect
-    /// player's answer is the first point with a plan too.
+    /// The player. For a perfect player the first shot found that makes the point is the answer, with a plan too. For
+    /// any other player the whole budget is used to find the shot that this player makes most often.
     pub skill: Skill,
-    /// How much of the table and of the balls' places is in doubt. A perfect player has no doubts.
+    /// The uncertainty about the table and the ball positions. A perfect player has no doubts.
     pub doubt: Doubt,
-    /// Whether what comes next counts: shots are then ranked by their make probability times that of the shot after them.
+    /// Whether the next shot counts: shots are then ranked by their make probability times that of the shot after them.
     pub plan: bool,
-    /// Whether jumps over a ball and massés may be advised; most clubs forbid them.
+    /// Whether jumps over a ball and massés may be recommended; most clubs forbid them.
     pub jumps: bool,
-    /// What the shot that is looked for, as it is meant, meets first. An attempt that begins otherwise by mistake and makes the point all the
-    /// same counts.
+    /// What the cue ball must hit first when the shot is played as intended. An attempt that begins otherwise by
+    /// mistake and still makes the point counts.
     pub first: FirstMet,
-    /// Time to look for a shot.
+    /// Time limit of the search.
     pub budget: Duration,
-    /// Simulations after which the search ends, or a little later: it ends between rounds.
+    /// Simulations after which the search ends. It may run slightly longer, as it ends between rounds.
     pub simulations: u64,
-    /// Threads that work at it.
+    /// Worker threads.
     pub threads: usize,
-    /// Seed of the search: while time does not run out, the same request finds the same shot, with any number of threads.
+    /// Seed of the search. Unless time runs out, the same request finds the same shot with any number of threads.
     pub seed: u64,
-    /// Shots of a former answer to the same question, the advice first. They take part again, and the advice stays unless another shot is
-    /// clearly better: asking once more makes it no worse, and does not swap it for one that is as good.
+    /// Shots of an earlier answer to the same question, the recommended one first. They compete again, and the
+    /// recommendation changes only if another shot is clearly better.
+    /// A repeated request therefore never gives a worse shot, nor swaps one for an equally good one.
     pub former: Vec<CueInputs>,
-    /// Set from another thread, it ends the search.
+    /// Ends the search when set from another thread.
     pub cancel: Arc<AtomicBool>,
 }
 
 impl Request {
-    /// Who plays, and what is in doubt.
+    /// Returns the player, and what is in doubt.
     pub const fn shooter(&self) -> Shooter {
         Shooter { skill: self.skill, doubt: self.doubt }
     }

@@ -1,4 +1,4 @@
-//! What a shot is missed by: the hand, what is not known of the table, or where the balls lie.
+//! Why a shot misses: execution errors, unknown table constants, or unknown ball positions.
 
 use std::fmt;
 
@@ -6,36 +6,36 @@ use serde::Serialize;
 
 use super::Doubt;
 
-/// How often a shot would be missed if only one thing were uncertain, as shares of the attempts.
+/// How often a shot would be missed if only one source of error existed, as shares of the attempts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Risk {
-    /// By the hand alone.
+    /// Due to execution errors alone.
     pub hand: f64,
-    /// By the table alone.
+    /// Due to unknown table constants alone.
     pub table: f64,
-    /// By the balls' places alone.
+    /// Due to the ball positions alone.
     pub placing: f64,
 }
 
-/// Share of attempts from which on a cause is told.
+/// Minimum share of attempts for a cause to be reported.
 const LEAST: f64 = 0.02;
 
-/// One of the three.
+/// A source of error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cause {
-    /// The player's hand.
+    /// The player's execution errors.
     Hand,
     /// The table's constants.
     Table,
-    /// The balls' places.
+    /// The ball positions.
     Placing,
 }
 
 impl Cause {
-    /// All three.
+    /// All causes.
     pub const ALL: [Self; 3] = [Self::Hand, Self::Table, Self::Placing];
 
-    /// What is left of a doubt where only this is uncertain, and whether the hand errs.
+    /// Returns the doubt that remains if this is the only cause, and whether the player makes execution errors.
     pub(super) const fn alone(self, doubt: Doubt) -> (Doubt, bool) {
         match self {
             Self::Hand => (Doubt::NONE, true),
@@ -46,8 +46,8 @@ impl Cause {
 }
 
 impl Risk {
-    /// What misses the shot most often by itself, of one that is missed so often in all; `None` where nothing does in two of a
-    /// hundred attempts, or where it is at the edge.
+    /// Returns the cause that alone misses the shot most often, given the total share of misses. `None` if no cause misses at
+    /// least 2 % of the attempts, or the shot is at its limit.
     pub fn main_cause(&self, missed: Option<f64>) -> Option<Cause> {
         let all = [(Cause::Hand, self.hand), (Cause::Table, self.table), (Cause::Placing, self.placing)];
         let [first, ..] = all;
@@ -55,19 +55,19 @@ impl Risk {
         (largest.1 >= LEAST && !self.is_at_edge(missed)).then_some(largest.0)
     }
 
-    /// Whether the stroke as it is meant is at the edge of what makes the point: then any error misses, so that two of them alone
-    /// miss as often as all together.
+    /// Whether the intended stroke is at the edge of the region that makes the point. There any error misses, so that
+    /// two causes alone miss as often as all together.
     fn is_at_edge(&self, missed: Option<f64>) -> bool {
         let mut shares = [self.hand, self.table, self.placing];
         shares.sort_by(f64::total_cmp);
         missed.is_some_and(|missed| shares[1] >= LEAST && shares[1] > 0.9 * missed)
     }
 
-    /// In a sentence, of a shot that is missed so often in all.
+    /// Describes the risk in a sentence, given the total share of misses.
     pub fn words(&self, missed: Option<f64>) -> String {
         let [hand, table, placing] = [self.hand, self.table, self.placing].map(|share| 100.0 * share);
         let alone = format!(
-            "missed by the hand alone {hand:.0} %, by what is not known of the table {table:.0} %, of the balls' places {placing:.0} %"
+            "missed due to the hand alone {hand:.0} %, the unknown table alone {table:.0} %, the ball positions alone {placing:.0} %"
         );
         match self.main_cause(missed) {
             _ if self.is_at_edge(missed) => format!(
@@ -85,7 +85,7 @@ impl fmt::Display for Cause {
         formatter.pad(match self {
             Self::Hand => "the hand",
             Self::Table => "the table",
-            Self::Placing => "the places",
+            Self::Placing => "the ball positions",
         })
     }
 }
@@ -109,7 +109,8 @@ mod tests {
         assert!(risk.words(Some(0.354)).contains("two of these alone miss as often as all together"));
         assert_eq!((risk.main_cause(Some(0.354)), risk.main_cause(Some(0.7))), (None, Some(Cause::Placing)));
         assert!(
-            risk.words(Some(0.7)).ends_with("mostly the places") && risk.words(None).ends_with("mostly the places")
+            risk.words(Some(0.7)).ends_with("mostly the ball positions")
+                && risk.words(None).ends_with("mostly the ball positions")
         );
         let hand = Risk { hand: 0.37, table: 0.05, placing: 0.02 };
         assert!(hand.words(Some(0.38)).ends_with("mostly the hand"));

@@ -1,4 +1,4 @@
-//! Where the balls come to rest when a player tries a shot again and again.
+//! Resting positions of the balls when a player tries the same shot many times.
 
 use std::sync::atomic::AtomicBool;
 
@@ -7,8 +7,8 @@ use glam::DVec2;
 use super::{
     Shooter,
     draws::Draws,
-    next::end_of,
-    trial::{CONTACT_STEPS, unhurried},
+    next::final_layout,
+    trial::{CONTACT_STEPS, without_limits},
 };
 use crate::{
     game::Rule,
@@ -18,18 +18,18 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// What comes of many attempts at a shot.
+/// Results of many attempts at a shot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter {
-    /// Where the balls come to rest, m, for each attempt that makes the point.
+    /// Positions of the balls at rest, m, for each attempt that makes the point.
     pub ends: Vec<Layout>,
-    /// The share of attempts that make it.
+    /// The share of attempts that make the point.
     pub made: SuccessRate,
 }
 
 impl Scatter {
-    /// The distance from `place`, m, within which `ball` comes to rest in half of the attempts that make the point; `None`
-    /// where none does.
+    /// Returns the distance from `place`, m, within which `ball` comes to rest in half of the successful attempts; `None` if
+    /// there are none.
     pub fn spread(&self, ball: usize, place: DVec2) -> Option<f64> {
         let mut distances: Vec<f64> = self.ends.iter().map(|end| end.balls[ball].distance(place)).collect();
         distances.sort_by(f64::total_cmp);
@@ -37,8 +37,8 @@ impl Scatter {
     }
 }
 
-/// Lets a player try `cue` so many times, on all cores. The same seed draws the same errors. `cancel`, set
-/// from another thread, ends it: what is left then counts as missed.
+/// Simulates `attempts` of a player at `cue`, on all cores. The same seed draws the same errors. If another thread sets
+/// `cancel`, the remaining attempts count as missed.
 #[expect(clippy::too_many_arguments, reason = "a question, a shot, and how it is to be tried")]
 pub fn scatter(
     shooter: impl Into<Shooter>,
@@ -50,11 +50,11 @@ pub fn scatter(
     seed: u64,
     cancel: &AtomicBool,
 ) -> Scatter {
-    let ends = unhurried(table, layout, rule, shooter.into(), CONTACT_STEPS, cancel, |task| {
+    let ends = without_limits(table, layout, rule, shooter.into(), CONTACT_STEPS, cancel, |task| {
         let draws = Draws::independent(attempts, task.worlds, seed);
         let draws: Vec<_> = draws.iter().collect();
         parallel::map(platform::threads(), &draws, |draw| {
-            if task.clock.is_cancelled() { None } else { end_of(task, cue, *draw) }
+            if task.clock.is_cancelled() { None } else { final_layout(task, cue, *draw) }
         })
     });
     let ends: Vec<Layout> = ends.into_iter().flatten().collect();

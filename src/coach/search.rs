@@ -1,4 +1,4 @@
-//! The search for the shot that a player is most likely to make: sampling widely, a race on common random numbers, refinement.
+//! Search for the shot that a player is most likely to make: wide sampling, a race on common random numbers, refinement.
 
 use std::{mem::replace, ops::Range};
 
@@ -16,59 +16,60 @@ use super::{
 };
 use crate::{game::Tally, physics::CueInputs, platform::parallel};
 
-/// Blocks of errors at which sampled shots are tried: all of them, and those that are still among the better ones.
+/// Blocks of errors at which sampled shots are tried: first all shots, then those that still rank well.
 const FIRST_LOOK: usize = 2;
 const SECOND_LOOK: usize = 8;
 
-/// Shares of what is left of the budget when the search begins, after which the sampling and the refinement end. The
-/// rest is for judging the answer.
+/// Shares of the budget left at the start of the search, after which the sampling and the refinement end. The rest is
+/// for judging the answer.
 const SAMPLING_ENDS: f64 = 0.5;
 const REFINEMENT_ENDS: f64 = 0.88;
 
-/// Shots of the first round of sampling; each later one has twice as many, up to [`LARGEST_BATCH`].
+/// Shots in the first round of sampling; each later round has twice as many, up to [`LARGEST_BATCH`].
 const FIRST_BATCH: u64 = 256;
 const LARGEST_BATCH: u64 = 4096;
 
-/// Shots of a round of sampling that has few simulations left.
+/// Minimum shots in a round of sampling when few simulations are left.
 const SMALLEST_BATCH: u64 = 64;
 
-/// How often each of the policy's favourites is varied.
+/// Variations of each of the policy's best proposals.
 const VARIATIONS_OF_EACH: u64 = 16;
 
-/// How much softer than the softest shot that has made the point sampled strokes may be, and the speed from which on all are
-/// tried in any case, m/s.
+/// Sampled strokes may be softer than the softest successful shot by this factor. All speeds from [`SOFT`] on, m/s, are
+/// always tried.
 const SOFTER: f64 = 0.7;
 const SOFT: f64 = 1.0;
 
-/// One stroke in so many of the first rounds of sampling is a jump or a massé, and of the later ones where none of these is
-/// among the better half of what stays in; none is where the best shot so far is made this often.
+/// One stroke in `ELEVATED_TRIED[0]` is a jump or a massé in the first [`ROUNDS_OF_ELEVATED`] rounds of sampling. Later
+/// it is one in `ELEVATED_TRIED[1]`, unless a jump or massé is in the better half of the pool. None is tried once the
+/// best shot is made as often as [`GOOD_WITHOUT`].
 const ELEVATED_TRIED: [u64; 2] = [8, 64];
 const ROUNDS_OF_ELEVATED: usize = 3;
 const GOOD_WITHOUT: f64 = 0.9;
 
-/// Shots that leave the sampling, besides the best of each kind.
+/// Shots that are kept after sampling, in addition to the best of each kind.
 const SHORTLIST: usize = 128;
 
-/// Shots of each kind that begin the refinement, however they stand.
+/// Shots of each kind that enter the refinement, whatever their rank.
 const OF_EACH_KIND: usize = 1;
 
-/// Shots of each kind that stay in while others are sampled.
+/// Shots of each kind that are kept during sampling.
 const OF_EACH_KIND_AT_FIRST: usize = 3;
 
-/// What a unit of effort costs in a shot's score: a player is not to strike with all force and a raised cue for the last
-/// percent. In a plan it only decides between equals: where runs of
-/// hundreds of points are at stake, layouts differ by less than a thousandth.
+/// Cost of a unit of effort in a shot's score: a player should not need full power and a raised cue for the last
+/// percent. In a plan it only breaks ties: at stake are runs of hundreds of points, and layouts differ by less than a
+/// thousandth.
 const EFFORT_PENALTY: f64 = 0.01;
 const EFFORT_PENALTY_IN_A_PLAN: f64 = 0.0001;
 
-/// Shots of one piece of work: enough that handing it out costs nothing.
+/// Shots in one work item of a thread: enough to make the scheduling cost negligible.
 const PIECE: usize = 32;
 
-/// A search on its way.
+/// The state of a search.
 pub struct Search<'a> {
     task: Task<'a>,
     threads: usize,
-    /// The two moments as shares of the whole budget.
+    /// The end times of the two stages, as shares of the whole budget.
     sampling_ends: f64,
     refinement_ends: f64,
     rng: Xoshiro256PlusPlus,
@@ -78,8 +79,8 @@ pub struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// A search on a task, with so many threads; with a `plan` for the next point too. It shares out the time that is left
-    /// now.
+    /// Creates a search for `task` on this number of threads. With `plan`, the next point counts too. The time that is
+    /// left now is divided among the stages.
     pub fn new(task: Task<'a>, plan: bool, threads: usize, seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let race = Race::new(rng.random());
@@ -89,17 +90,18 @@ impl<'a> Search<'a> {
         Self { task, threads, sampling_ends, refinement_ends, rng, plan, race, pool: Vec::new() }
     }
 
-    /// Looks for shots, starting from those that were `found` to make the point and from variations of `proposals`; the best
-    /// comes first, and where something was found there is one, however little time. `tell` hears of every new leader.
+    /// Searches from the successful shots in `found` and from variations of `proposals`. Returns the candidates, best
+    /// first; never empty if `found` is not empty, however little time there is. Calls `on_leader` for every new leader.
     pub fn run(
         mut self,
         proposals: &[CueInputs],
         found: &[(Suggestion, Tally)],
-        tell: &mut dyn FnMut(&Candidate),
+        on_leader: &mut dyn FnMut(&Candidate),
     ) -> Vec<Candidate> {
         self.task.until = self.task.clock.moment(self.sampling_ends);
         let weight = self.weight();
-        // The first shot of a former answer was the advice, which is held on to; the others are shots like any.
+        // The first shot of a former answer was the recommendation, which keeps its status; its other shots are
+        // ordinary candidates.
         let mut former = false;
         let candidate = |(shot, tally): &(Suggestion, Tally)| {
             let is_other = shot.source == Source::Former && replace(&mut former, true);
@@ -110,11 +112,11 @@ impl<'a> Search<'a> {
         self.race.extend_to(self.task.worlds, SECOND_LOOK);
         let raced = |candidate: &Candidate| self.race.go_on(&self.task, candidate, SECOND_LOOK).unwrap_or(*candidate);
         self.pool = parallel::map(self.threads, &found, raced);
-        self.sample(proposals, tell);
-        self.refine(tell)
+        self.sample(proposals, on_leader);
+        self.refine(on_leader)
     }
 
-    fn sample(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
+    fn sample(&mut self, proposals: &[CueInputs], on_leader: &mut dyn FnMut(&Candidate)) {
         let Task { table, layout, rule, first, .. } = self.task;
         let varied = &proposals[..proposals.len().min(FAVOURITES)];
         let variations = |numbers: Range<u64>, rng: &mut Xoshiro256PlusPlus| {
@@ -133,7 +135,7 @@ impl<'a> Search<'a> {
                 strokes.extend(elevated.filter_map(|_| raised(table, layout, rng)));
                 strokes
             };
-            // More than there is room for would take from the refinement, where simulations end the search.
+            // If simulations limit the search, a larger batch would take its simulations from the refinement.
             let of_a_stroke = (self.task.clock.simulations() - begun) as f64 / (drawn as f64).max(1.0);
             let room = self.task.clock.simulations_until(self.sampling_ends) / of_a_stroke.max(1.0);
             let count = batch.min((room as u64).max(SMALLEST_BATCH));
@@ -143,11 +145,11 @@ impl<'a> Search<'a> {
             rounds += 1;
             let speeds = self.pool.iter().map(|candidate| candidate.shot.cue.speed);
             softest = (SOFTER * speeds.fold(f64::INFINITY, f64::min)).clamp(MIN_SPEED, SOFT);
-            self.tell(tell);
+            self.report_leader(on_leader);
         }
     }
 
-    /// After how many usual strokes a jump or a massé is tried in a round of sampling, if any is.
+    /// Returns after how many usual strokes a jump or massé is added in this round of sampling; `None` if none is.
     fn elevated_tried(&self, round: usize) -> Option<u64> {
         let is_good =
             self.pool.first().is_some_and(|best| best.tried >= BLOCK * SECOND_LOOK && best.own.share >= GOOD_WITHOUT);
@@ -158,19 +160,19 @@ impl<'a> Search<'a> {
         Some(ELEVATED_TRIED[usize::from(round >= ROUNDS_OF_ELEVATED && !is_among)])
     }
 
-    /// What the hardest stroke and the steepest cue cost.
+    /// Returns the weight of the effort in a shot's score.
     const fn weight(&self) -> f64 {
         if self.plan { EFFORT_PENALTY_IN_A_PLAN } else { EFFORT_PENALTY }
     }
 
-    /// Judges the strokes with these numbers, which are drawn in pieces, each with random numbers of its own.
+    /// Judges the strokes with these numbers. They are drawn in pieces, each with its own random generator.
     fn try_strokes(
         &mut self,
         numbers: Range<u64>,
         source: Source,
         draw: impl Fn(Range<u64>, &mut Xoshiro256PlusPlus) -> Vec<CueInputs> + Sync,
     ) {
-        // Who does not come near those who stay in is not looked at twice.
+        // A shot that ranks far behind the kept shots gets no second look.
         let bar = self.pool.get(SHORTLIST / 2).map_or(0.0, |candidate| candidate.score() - 0.2);
         let (task, race, weight, seed) = (&self.task, &self.race, self.weight(), self.rng.random::<u64>());
         let pieces: Vec<_> =
@@ -192,20 +194,20 @@ impl<'a> Search<'a> {
         self.pool.extend(found.into_iter().flatten());
     }
 
-    /// Refines the better ones.
-    fn refine(mut self, tell: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
+    /// Refines the best candidates.
+    fn refine(mut self, on_leader: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
         self.task.until = self.task.clock.moment(self.refinement_ends);
         let size = Refinement::size(self.task.clock.simulations_until(self.refinement_ends), SHORTLIST);
         keep(&mut self.pool, size, OF_EACH_KIND);
         let weight = self.weight();
         let Self { task, threads, refinement_ends: ends, plan, race, pool, .. } = self;
-        Refinement { task, threads, ends, plan, weight, race }.run(&pool, tell)
+        Refinement { task, threads, ends, plan, weight, race }.run(&pool, on_leader)
     }
 
-    fn tell(&self, tell: &mut dyn FnMut(&Candidate)) {
+    fn report_leader(&self, on_leader: &mut dyn FnMut(&Candidate)) {
         let tried = self.pool.iter().filter(|candidate| candidate.tried > 0);
         if let Some(best) = tried.max_by(|a, b| a.score().total_cmp(&b.score())) {
-            tell(best);
+            on_leader(best);
         }
     }
 }
@@ -220,7 +222,7 @@ mod tests {
     };
     use std::{sync::atomic::AtomicBool, thread, time::Duration};
 
-    /// The task of an expert who knows the table.
+    /// The task of an expert player without doubt.
     fn expert<'a>(
         table: &'a Table,
         layout: &'a Layout,
@@ -258,13 +260,13 @@ mod tests {
         let clock = Clock::start(budget, u64::MAX, &cancel);
         let task = expert(&table, &layout, Rule::StraightRail, &worlds, &clock);
         let found = FirstShotSearch::new(task).run(&[], &[], 1);
-        // As if the first shot had been hard to find.
+        // Simulates a first shot that was hard to find.
         thread::sleep(budget.mul_f64(0.5).saturating_sub(clock.elapsed()));
-        let mut told = 0;
-        let pool = Search::new(task, false, 2, 1).run(&[], &found.solutions, &mut |_| told += 1);
-        assert!(pool[0].own.attempts > 100.0 && told > 1, "{told} {:?}", pool[0]);
+        let mut reported = 0;
+        let pool = Search::new(task, false, 2, 1).run(&[], &found.solutions, &mut |_| reported += 1);
+        assert!(pool[0].own.attempts > 100.0 && reported > 1, "{reported} {:?}", pool[0]);
         assert!(pool.iter().any(|candidate| candidate.shot != found.solutions[0].0), "{pool:?}");
-        // No time at all: what was found is all there is.
+        // Without any time left, the result is what was found before.
         cancel.store(true, std::sync::atomic::Ordering::Relaxed);
         let pool = Search::new(task, true, 2, 1).run(&[], &found.solutions, &mut |_| panic!("nothing is known"));
         assert_eq!(pool.iter().map(|candidate| candidate.shot).collect::<Vec<_>>(), [found.solutions[0].0]);

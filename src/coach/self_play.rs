@@ -1,4 +1,4 @@
-//! Innings that the coach plays against nobody: its shots, played with a player's errors, until one misses.
+//! Innings that the coach plays alone: its shots, played with a player's errors until one misses.
 
 use std::{
     sync::atomic::AtomicBool,
@@ -10,8 +10,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Coach, Doubt, Request, Shooter,
     draws::{Draw, World, Worlds},
-    next::end_of,
-    trial::{ENDLESS, unhurried},
+    next::final_layout,
+    trial::{UNLIMITED_STEPS, without_limits},
 };
 use crate::{
     physics::CueInputs,
@@ -25,25 +25,25 @@ use crate::{
 /// One inning.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Inning {
-    /// Points, one a turn.
+    /// Points, one per turn.
     pub points: u32,
-    /// Whether it ended with a miss; if not, it was broken off.
+    /// Whether it ended with a miss; otherwise it was cut off.
     pub missed: bool,
     /// Shots simulated by the coach.
     pub simulations: u64,
-    /// How long the coach took for all turns.
+    /// Total time that the coach took.
     pub elapsed: Duration,
-    /// The longest that it took for a turn.
+    /// Longest time that the coach took for one turn.
     pub slowest: Duration,
 }
 
-/// Plays from `layout` until a miss, `most` points or the time `until`. The coach gets `request` with another seed every
-/// turn, and the errors of its shots are drawn from `rng`. Where anything is in doubt, the inning is played on a table that is
-/// drawn for it, and the coach is told where the balls lie with the errors of who tells it. `tell` hears of every point and where it
-/// leaves the balls.
+/// Plays from `layout` until a miss, `most` points or the time `until`. The coach gets `request` with another seed
+/// every turn, and the errors of its shots are drawn from `rng`.
+/// If anything is in doubt, the inning is played on a table that is drawn for it, and the coach gets ball positions
+/// with the placing errors of the doubt. Calls `on_point` after every point with the layout that it leaves.
 ///
 /// # Errors
-/// Where a layout is impossible: the first one, for those that a shot leaves are possible.
+/// Fails if `layout` is impossible; later layouts come from simulated shots and are possible.
 pub fn inning(
     coach: &Coach,
     layout: &Layout,
@@ -51,34 +51,34 @@ pub fn inning(
     most: u32,
     until: Instant,
     rng: &mut Xoshiro256PlusPlus,
-    tell: &mut dyn FnMut(&Inning, &Layout),
+    on_point: &mut dyn FnMut(&Inning, &Layout),
 ) -> Result<Inning, LayoutError> {
-    // A perfect player has none.
+    // A perfect player has no doubts.
     let doubt = request.shooter().doubts();
     let mut inning = Inning::default();
     let mut layout = *layout;
     let real = Worlds::new(coach.table(), &layout, Doubt { placing: 0.0, ..doubt }).draw(|| errors::normal(rng)).table;
     while inning.points < most && Instant::now() < until {
         let request = Request { seed: request.seed.wrapping_add(u64::from(inning.points)), ..request.clone() };
-        let told = misplaced(coach.table(), &layout, doubt.placing, || errors::normal(rng));
-        let advice = coach.recommend(&told, &request)?;
+        let reported = misplaced(coach.table(), &layout, doubt.placing, || errors::normal(rng));
+        let advice = coach.recommend(&reported, &request)?;
         inning.simulations += advice.simulations;
         inning.elapsed += advice.elapsed;
         inning.slowest = inning.slowest.max(advice.elapsed);
         let world = World { table: real.clone(), layout };
-        let end = turn(coach.table(), &told, &request, &advice.cue, &errors::one(rng), &world);
+        let end = turn(coach.table(), &reported, &request, &advice.cue, &errors::one(rng), &world);
         let Some(end) = end else {
             inning.missed = true;
             break;
         };
         inning.points += 1;
         layout = end;
-        tell(&inning, &layout);
+        on_point(&inning, &layout);
     }
     Ok(inning)
 }
 
-/// Plays one stroke with a player's errors in the real world: where the balls come to rest if it makes the point, else `None`.
+/// Plays one stroke with a player's errors in the real world. Returns the layout at rest if it makes the point, else `None`.
 fn turn(
     table: &Table,
     layout: &Layout,
@@ -87,10 +87,10 @@ fn turn(
     errors: &Errors,
     world: &World,
 ) -> Option<Layout> {
-    // Nothing breaks a stroke off that has been made.
+    // The simulation of the real stroke has no limits.
     let shooter = Shooter { skill: request.skill, doubt: Doubt::NONE };
-    unhurried(table, layout, request.rule, shooter, ENDLESS, &AtomicBool::new(false), |task| {
-        end_of(task, cue, Draw { errors, world: Some(world) })
+    without_limits(table, layout, request.rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
+        final_layout(task, cue, Draw { errors, world: Some(world) })
     })
 }
 
@@ -111,8 +111,8 @@ mod tests {
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
             let until = Instant::now() + Duration::from_secs(600);
             let mut ends = Vec::new();
-            let mut tell = |_: &Inning, end: &Layout| ends.push(*end);
-            let inning = inning(&coach, &layout, &request, 4, until, &mut rng, &mut tell).unwrap();
+            let mut on_point = |_: &Inning, end: &Layout| ends.push(*end);
+            let inning = inning(&coach, &layout, &request, 4, until, &mut rng, &mut on_point).unwrap();
             assert_eq!((inning.points, inning.missed), (4, false));
             ends
         });

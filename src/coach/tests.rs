@@ -1,4 +1,4 @@
-//! What the coach promises, checked from outside.
+//! Tests of the coach through its public interface.
 
 use std::{
     sync::{
@@ -31,7 +31,7 @@ fn coach() -> Coach {
     Coach::new(Table::default())
 }
 
-/// A request that simulations end, not time.
+/// A request that is limited by simulations, not by time.
 fn request(rule: Rule, simulations: u64) -> Request {
     Request { rule, skill: Skill::EXPERT, simulations, budget: Duration::from_secs(60), ..Request::default() }
 }
@@ -71,8 +71,8 @@ fn a_stroke_is_judged_as_the_coachs_own_were() {
     }
 }
 
-/// The number of a shot that takes the lead at the end comes from other attempts than those that have chosen it: a stroke beside it was
-/// judged by the latter.
+/// A shot that takes the lead at the end is rated by other attempts than those that chose it; an attempt range that
+/// starts at 0 would give the rate that chose it.
 #[test]
 fn a_shot_that_takes_the_lead_at_the_end_says_by_which_attempts_it_was_judged() {
     let coach = coach();
@@ -86,7 +86,7 @@ fn a_shot_that_takes_the_lead_at_the_end_says_by_which_attempts_it_was_judged() 
     assert_eq!(judge(shooter, Rule::ThreeCushion, coach.table(), &layout, &advice.cue, attempts, seed), said);
 }
 
-/// The estimate is made on errors that took no part in the choice: it must agree with a plain Monte-Carlo estimate of a
+/// The estimate uses errors that took no part in the choice, so it must agree with a plain Monte Carlo estimate of a
 /// hundred thousand attempts. Four standard errors are exceeded once in 16,000 such comparisons.
 #[test]
 fn the_make_probability_is_that_of_a_hundred_thousand_plain_simulations() {
@@ -94,7 +94,7 @@ fn the_make_probability_is_that_of_a_hundred_thousand_plain_simulations() {
     let (mut within, mut layouts) = (0, 0);
     for rule in [Rule::StraightRail, Rule::ThreeCushion] {
         for layout in held_out_layouts(coach.table(), 4, 5) {
-            // Few simulations choose among noisy figures: an estimate from the same errors would be too high.
+            // Few simulations choose among noisy estimates: an estimate from the same errors would be too high.
             let advice = coach.recommend(&layout, &Request { seed: layouts, ..request(rule, 3_000) }).unwrap();
             let said = advice.make_probability.unwrap();
             let plain = make_probability(Skill::EXPERT, rule, coach.table(), &layout, &advice.cue, 100_000, 99);
@@ -168,7 +168,7 @@ fn asking_again_makes_no_advice_worse() {
             (cue, make_probability(skill, rule, coach.table(), &layout, &cue, 4000, 1).rate)
         };
         let (good, chance) = asked(60_000, 1, &[]);
-        // Searches that are too short to find it by themselves.
+        // These searches are too short to find the shot by themselves.
         for seed in [2, 3] {
             let (_, after) = asked(12_000, seed, &[good]);
             assert!(after > chance - 0.03, "{after} after {chance}");
@@ -178,7 +178,7 @@ fn asking_again_makes_no_advice_worse() {
         }
     }
     assert!(again > before - 0.04 && again > anew + 0.08, "{before} {again} {anew}");
-    // For one who makes no errors a shot that makes the point is the answer again.
+    // For a perfect player the former shot that makes the point is the answer again.
     let layout = Layout::opening(coach.table());
     let [first, second] = ["0.2,0.3,6,-72,2.5", "0,0,0,10,3"].map(|cue| CueInputs::parse(cue).unwrap());
     let bare = Coach::without_policy(coach.table().clone());
@@ -198,7 +198,7 @@ fn without_time_there_is_still_an_attempt_and_it_is_not_called_a_solution() {
     }
 }
 
-/// The policy's own shots are played whatever the time.
+/// The policy's own shots are tried even without time.
 #[test]
 fn a_shot_that_is_found_at_the_last_moment_is_judged_and_nothing_is_told_that_nobody_knows() {
     let coach = coach();
@@ -209,7 +209,7 @@ fn a_shot_that_is_found_at_the_last_moment_is_judged_and_nothing_is_told_that_no
     };
     let first: Vec<_> = (0..5).map(advice).collect();
     assert!(first.iter().all(|advice| advice.solved && advice.next_probability.is_none()));
-    // A machine that does other things too may hold the threads up for these few milliseconds, but not every time.
+    // Other load on the machine may delay the threads for these few milliseconds, but not every time.
     let is_judged = |advice: &Recommendation| advice.make_probability.is_some();
     assert!(first.iter().any(is_judged) || (5..200).any(|seed| is_judged(&advice(seed))), "{first:?}");
 }
@@ -235,19 +235,19 @@ fn time_is_kept_where_contacts_are_stiff() {
     for layout in held_out_layouts(coach.table(), 5, 2) {
         let budget = Duration::from_millis(60);
         let request = Request { skill: Skill::EXPERT, rule: Rule::StraightRail, budget, ..Request::default() };
-        // A machine that does other things too may hold a thread up, but not every time.
+        // Other load on the machine may delay a thread, but not every time.
         let elapsed = (0..20).map(|_| coach.recommend(&layout, &request).unwrap().elapsed);
         assert!(elapsed.take(20).any(|elapsed| elapsed < budget + Duration::from_millis(150)));
     }
 }
 
-/// Nearly every stroke at these balls ends in a contact that takes long, and of a thousand hardly one makes the point.
+/// Nearly every stroke at these balls ends in a slow contact, and hardly one in a thousand makes the point.
 #[test]
 fn a_rare_shot_is_found_among_stiff_contacts() {
     let coach = Coach::new(Table::preset("thesis").unwrap());
     let layout = Layout::parse("-0.9,0.1 0.3,0.3 0.6,-0.5", coach.table()).unwrap();
     for seed in 1..=5 {
-        // Two seconds are enough where nothing else runs.
+        // Two seconds are enough on an idle machine.
         let finds = |seconds| {
             let request =
                 Request { rule: Rule::ThreeCushion, budget: Duration::from_secs(seconds), seed, ..Request::default() };
@@ -285,13 +285,13 @@ fn advice_for_the_opening_of_a_umb_game_meets_the_red_ball_first_in_three_cushio
     }
 }
 
-/// Layouts of which every third has its balls at rails.
+/// Random layouts; in every third one the balls are at the rails.
 fn many_layouts(table: &Table, count: usize) -> Vec<Layout> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(16);
     let reach = table.reach();
     let mut at_rails = |layout: Layout| loop {
         let moved = Layout::new(layout.balls.map(|ball| {
-            // Half of them touch.
+            // About half of them touch the rail.
             let gap = 0.03 * rng.random_range(-1.0..1.0_f64).max(0.0);
             match rng.random_range(0..5) {
                 0 => DVec2::new(reach.x - gap, ball.y),
@@ -309,8 +309,9 @@ fn many_layouts(table: &Table, count: usize) -> Vec<Layout> {
     layouts.map(|(number, layout)| if number % 3 == 0 { at_rails(layout) } else { layout }).collect()
 }
 
-/// How many of the strokes that the coach names, with its networks and without, for experts and perfect players, under all
-/// rules and in a hurry too, go through a rail or a ball; and of how many.
+/// Number of strokes reported by the coach that need more room than there is, and the number of all its strokes. Covers
+/// the coach with and without networks, experts, perfect players and club players, all rules, and searches without
+/// time.
 fn strokes_without_room(layouts: usize) -> (usize, usize) {
     let table = Table { room: Some(Room::default()), ..Table::default() };
     let (with, without) = (Coach::new(table.clone()), Coach::without_policy(table.clone()));
@@ -373,7 +374,7 @@ fn a_frozen_cue_ball_gets_advice_all_the_same_and_a_table_without_limits_gets_wh
     let advice = coach.recommend(&layout, &request).unwrap();
     assert!(advice.solved && has_room(&table, &layout, &advice.cue), "{advice:?}");
     let level = free.recommend(&layout, &request).unwrap();
-    // The best may be high enough by itself, as one at the top of the ball is.
+    // The best stroke may be high enough by itself, such as one at the top of the ball.
     let mut named = std::iter::once(level.cue).chain(level.alternatives.iter().map(|other| other.cue));
     assert!(named.any(|cue| !has_room(&table, &layout, &cue)), "something kept these cues up: {level:?}");
 }
@@ -408,11 +409,11 @@ fn jumps_are_candidates_where_they_are_allowed_and_on_a_table_that_flies() {
     };
     let is_candidate = |jumps| Candidate::new(&task(&table, jumps), model, Source::Search, 0.0).is_some();
     assert!(is_candidate(true) && !is_candidate(false));
-    // A steep cue that neither jumps nor bends the way is none, nor is any where balls stay on the cloth.
+    // A steep cue that neither jumps nor bends the path is no candidate; nor is any on a table whose balls stay on the cloth.
     assert!(
         !task(&table, true).allows(&steep) && !task(&frozen, true).allows(&steep) && !task(&frozen, true).seeks_jumps()
     );
-    // The search's own jumps make the point here, and fly over red.
+    // The search's own jumps make the point here and fly over red.
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
     let allowed = task(&table, true);
     let found = (0..40_000).filter_map(|_| elevated::raised(&table, &layout, &mut rng));
@@ -451,7 +452,7 @@ fn a_shot_begins_as_the_player_wants_it_to() {
             assert!(advice.solved && begun.iter().all(is_wanted), "{first:?}, {skill}: {begun:?}");
         }
     }
-    // The opening has to meet red first: yellow is wanted in vain.
+    // The opening must hit red first, so a request for yellow first has no solution.
     let request = Request { first: FirstMet::OtherCueBall, ..request(Rule::ThreeCushion, 2000) };
     assert!(!coach.recommend(&Layout::opening(coach.table()), &request).unwrap().solved);
 }

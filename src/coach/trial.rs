@@ -1,4 +1,4 @@
-//! One stroke played by a referee who looks at the clock: a shot with a stiff contact can take seconds.
+//! Simulation of one stroke with a time limit: a shot with a stiff contact can take seconds.
 
 use std::{
     ops::ControlFlow,
@@ -21,26 +21,26 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// The task that shots are tried at.
+/// The problem for which shots are tried, and the limits of the simulation.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
     /// The table.
     pub table: &'a Table,
-    /// Where the balls lie.
+    /// The ball positions.
     pub layout: &'a Layout,
     /// What counts as a point.
     pub rule: Rule,
-    /// Whose strokes they are.
+    /// The player's execution errors.
     pub skill: Skill,
     /// Whether jumps and massés may be played.
     pub jumps: bool,
-    /// What the shot is to meet first.
+    /// What the shot must hit first.
     pub first: FirstMet,
-    /// What may really be there.
+    /// The tables and layouts that may be the real ones.
     pub worlds: &'a Worlds,
-    /// Counts the shots, and knows whether anybody waits.
+    /// Counts the simulations and detects cancellation.
     pub clock: &'a Clock<'a>,
-    /// When a shot is broken off.
+    /// Time at which a simulation is aborted.
     pub until: Instant,
     /// Steps of resting contacts after which a shot is given up as a miss. Balls that press each other for so long have
     /// lost their speed.
@@ -50,12 +50,12 @@ pub struct Task<'a> {
 /// Steps of resting contacts after which a shot that is one of many is given up as a miss.
 pub const CONTACT_STEPS: u32 = 100;
 
-/// A patience that follows every contact to its end.
-pub const ENDLESS: u32 = u32::MAX;
+/// Value of `patience` that follows every contact to its end.
+pub const UNLIMITED_STEPS: u32 = u32::MAX;
 
-/// Hands over the task of trying strokes of `shooter` that neither time nor the number of simulations ends; `cancel`, set from
-/// another thread, does.
-pub fn unhurried<T>(
+/// Runs `play` with a task for strokes of `shooter` without limits on time and simulations. It ends early only if
+/// another thread sets `cancel`.
+pub fn without_limits<T>(
     table: &Table,
     layout: &Layout,
     rule: Rule,
@@ -71,8 +71,8 @@ pub fn unhurried<T>(
 }
 
 impl Task<'_> {
-    /// The stroke as a player can play it here: see [`playable`]. `None` too where the rules forbid it, for it pushes a ball that touches
-    /// the cue ball.
+    /// Returns the stroke as a player can play it here: see [`playable`]. Also `None` if the rules forbid it because it
+    /// pushes a ball that touches the cue ball.
     pub fn playable(&self, cue: &CueInputs) -> Option<CueInputs> {
         if pushes_touching_ball(self.table, self.layout, cue) {
             return None;
@@ -80,14 +80,13 @@ impl Task<'_> {
         playable(self.table, self.layout, cue)
     }
 
-    /// Whether strokes are looked for with the cue raised for a jump or a massé: on a table that keeps its balls on the cloth
-    /// neither is what it would be.
+    /// Whether the search includes jumps and massés. On a table whose balls never leave the cloth, neither is realistic.
     pub const fn seeks_jumps(&self) -> bool {
         self.jumps && self.table.flight.is_some()
     }
 
-    /// Whether the stroke may be advised here: where jumps and massés are forbidden, it must be none; and a cue that is raised
-    /// as high as for one must make one.
+    /// Whether the stroke may be recommended. If jumps and massés are forbidden, it must be neither; a cue raised
+    /// beyond 30° must produce one of them.
     pub fn allows(&self, cue: &CueInputs) -> bool {
         if cue.theta > MAX_ELEVATION {
             self.seeks_jumps() && makes_jump_or_masse(self.table, self.layout, cue)
@@ -96,17 +95,17 @@ impl Task<'_> {
         }
     }
 
-    /// Whether a stroke with this tally is one of those looked for: it makes the point, begins as it should and may be advised.
+    /// Whether a stroke with this tally is a solution: it makes the point, begins as requested and may be recommended.
     pub fn suits(&self, cue: &CueInputs, tally: &Tally) -> bool {
         self.point().is_made(tally) && self.first.allows(tally) && self.allows(cue)
     }
 
-    /// What makes a shot from here a point.
+    /// Returns the conditions of a point in this layout.
     pub fn point(&self) -> Point {
         Point::of(self.rule, self.table, self.layout)
     }
 
-    /// The tally of one stroke up to the decision; `None` where time ran out before.
+    /// Plays one stroke until the result is decided and returns its tally; `None` if time ran out before.
     pub fn play(&self, cue: &CueInputs) -> Option<Tally> {
         self.play_on(self.table, self.layout, cue)
     }
@@ -114,19 +113,19 @@ impl Task<'_> {
     fn play_on(&self, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Tally> {
         let impulse = strike(table, cue);
         let referee = Referee::new(Some(2), self.patience).beginning(self.tally(layout, &impulse));
-        let mut hurried = Hurried { referee, late: false, task: self };
-        watch_with::<All, _>(table, layout, &impulse, &mut hurried);
-        (!hurried.late).then_some(hurried.referee.tally)
+        let mut observer = TimeLimited { referee, timed_out: false, task: self };
+        watch_with::<All, _>(table, layout, &impulse, &mut observer);
+        (!observer.timed_out).then_some(observer.referee.tally)
     }
 
-    /// What a stroke begins with where the balls really lie as in `layout`: those that touch by the task's own layout do so for whoever
-    /// looks at them.
+    /// Returns the initial tally of a stroke if the balls really lie as in `layout`. Balls that touch in the task's own
+    /// layout count as touching.
     #[inline]
     pub fn tally(&self, layout: &Layout, impulse: &Impulse) -> Tally {
         Tally { pushed: Touching::of(self.table, self.layout).pushed(layout, impulse), ..Tally::default() }
     }
 
-    /// The stroke that comes of an attempt at `cue`, with the table and the layout on which it is played.
+    /// Returns the stroke that an attempt at `cue` results in, with the table and the layout on which it is played.
     #[inline]
     pub fn stroke<'w>(&'w self, cue: &CueInputs, draw: Draw<'w>) -> (CueInputs, &'w Table, &'w Layout) {
         match draw.world {
@@ -138,8 +137,7 @@ impl Task<'_> {
         }
     }
 
-    /// Whether an attempt at `cue` makes the point; a tip beyond the table's miscue limit makes none. `None` where time ran
-    /// out.
+    /// Whether an attempt at `cue` makes the point; a tip beyond the table's miscue limit does not. `None` if time ran out.
     pub fn makes(&self, cue: &CueInputs, draw: Draw) -> Option<bool> {
         let (stroke, table, layout) = self.stroke(cue, draw);
         if stroke.is_miscue(table) {
@@ -148,7 +146,7 @@ impl Task<'_> {
         self.play_on(table, layout, &stroke).map(|tally| self.point().is_made(&tally))
     }
 
-    /// Attempts at `cue`, one after the other until time runs out.
+    /// Plays attempts at `cue` one after the other until time runs out.
     pub fn attempts<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>) -> Attempts {
         let mut attempts = Attempts::default();
         for draw in draws {
@@ -164,23 +162,23 @@ impl Task<'_> {
     }
 }
 
-/// What came of attempts at a stroke.
+/// Results of attempts at a stroke.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Attempts {
-    /// How many there were.
+    /// Number of attempts.
     pub tried: usize,
-    /// How many made the point.
+    /// Attempts that made the point.
     pub made: usize,
 }
 
-/// A referee who gives a shot up when time is up.
-struct Hurried<'a> {
+/// A referee that aborts a shot when time is up.
+struct TimeLimited<'a> {
     referee: Referee,
-    late: bool,
+    timed_out: bool,
     task: &'a Task<'a>,
 }
 
-impl Observer for Hurried<'_> {
+impl Observer for TimeLimited<'_> {
     fn wants_ends(&self) -> bool {
         self.referee.wants_ends()
     }
@@ -196,7 +194,7 @@ impl Observer for Hurried<'_> {
 
     fn contact_step(&mut self) -> ControlFlow<()> {
         if self.task.clock.is_past(self.task.until) {
-            self.late = true;
+            self.timed_out = true;
             return ControlFlow::Break(());
         }
         self.referee.contact_step()

@@ -1,4 +1,4 @@
-//! What came of a stroke in a player's words: the point, or what was missing.
+//! The result of a stroke in a player's words: the point, or what was missing.
 
 use glam::DVec2;
 
@@ -9,65 +9,65 @@ use crate::{
     table::{BALLS, CueBall, Layout, Table},
 };
 
-/// Time between two looks at the balls for how near they come, s: a fast ball runs 2 cm in it.
-const LOOK: f64 = 0.005;
+/// Sampling interval for the distance between balls, s: a fast ball moves 2 cm in it.
+const SAMPLING_INTERVAL: f64 = 0.005;
 
-/// A cue ball that comes to rest within this of where it was nearest to a ball stopped short of it, m: distances are told to a
-/// centimetre.
+/// A cue ball that comes to rest within this distance of its closest point to a ball stopped short of it, m: distances
+/// are reported to a centimetre.
 const STOPPED: f64 = 0.02;
 
-/// A gap below this is a hair, m: a smaller one would be told as nought.
+/// A gap below this is reported as "a hair", m: a smaller one would be rounded to zero.
 const HAIR: f64 = 0.001;
 
-/// Speed of a ball that moves, m/s.
+/// Minimum speed of a moving ball, m/s.
 const MOVING: f64 = 0.05;
 
-/// Cosine of the least angle to the line between two balls under which one goes past the other, and time to either side of the moment
-/// at which that holds, s.
-const PAST: f64 = 0.5;
-const AROUND: f64 = 0.002;
+/// Cosine of the smallest angle between the relative motion and the line between two balls at which one passes the
+/// other. The condition must hold [`PASSING_WINDOW`] s before and after the moment of closest approach.
+const PASSING_COSINE: f64 = 0.5;
+const PASSING_WINDOW: f64 = 0.002;
 
-/// How the cue ball missed.
+/// How the cue ball missed an object ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Passed {
-    /// On the ball's left, as the cue ball came on.
+    /// On the ball's left, seen along the cue ball's path.
     Left,
-    /// On its right.
+    /// On the ball's right.
     Right,
-    /// Above it, in the air.
+    /// Above the ball, in the air.
     Over,
-    /// It stopped before the ball.
+    /// Stopped before the ball.
     Short,
-    /// It did not come past the ball: it met something and turned away, or the ball ran off.
+    /// Did not pass the ball: the cue ball hit something and turned away, or the ball moved off.
     Off,
 }
 
-/// The nearest that the cue ball came to the ball that it missed.
+/// The closest approach of the cue ball to the ball that it missed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Miss {
     /// The ball, 1 or 2.
     pub ball: usize,
-    /// The gap between the two balls then, m.
+    /// The gap between the two balls at that moment, m.
     pub gap: f64,
-    /// How it was missed.
+    /// How the ball was missed.
     pub passed: Passed,
 }
 
-/// What came of a stroke.
+/// The result of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
-    /// What was asked.
+    /// The conditions of the point.
     pub point: Point,
-    /// What the cue ball did.
+    /// The contacts of the cue ball.
     pub tally: Tally,
-    /// How a ball was missed, where the cue ball came by with cushions enough.
+    /// How a ball was missed, if the cue ball came near it after enough cushions.
     pub miss: Option<Miss>,
-    /// How balls left the table, which is a foul.
+    /// How balls left the table, which is a foul; `None` for balls that stayed on it.
     pub off: [Option<OffTable>; BALLS],
 }
 
 impl Verdict {
-    /// Of a recorded shot.
+    /// Evaluates a recorded shot.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, recording: &Recording) -> Self {
         let mut tally = Tally::from_stroke(table, layout, recording.impulse());
         recording.events().iter().for_each(|event| tally.note(event));
@@ -85,7 +85,7 @@ impl Verdict {
         self.point.is_made(&self.tally)
     }
 
-    /// In words, for who plays with `cue_ball`: "Point: red, three cushions, yellow", or what was missing.
+    /// Describes the result for a player with `cue_ball`: "Point: red, three cushions, yellow", or what was missing.
     pub fn words(&self, cue_ball: CueBall, unit: LengthUnit) -> String {
         if let Some(foul) = self.foul(cue_ball) {
             return format!("Foul: {foul}");
@@ -96,13 +96,13 @@ impl Verdict {
         }
     }
 
-    /// The balls that left the table, and how.
+    /// Returns the balls that left the table, and how.
     pub fn off_table(&self) -> impl Iterator<Item = (usize, OffTable)> {
         self.off.into_iter().enumerate().filter_map(|(ball, off)| Some((ball, off?)))
     }
 
-    /// What the foul was, for who plays with `cue_ball`: the touching ball that was pushed; which balls left the table, over which rail,
-    /// and where they come on it again. `None` where there was none.
+    /// Describes the foul for a player with `cue_ball`: the touching ball that was pushed, or the balls that left the
+    /// table, over which rail, and the spots on which they are placed. `None` if there was no foul.
     pub fn foul(&self, cue_ball: CueBall) -> Option<String> {
         let pushed = self.tally.pushed.map(|ball| {
             let name = cue_ball.names()[ball];
@@ -110,7 +110,7 @@ impl Verdict {
         });
         let one = |(ball, off): (usize, OffTable)| {
             let (name, rail, spot) = (cue_ball.names()[ball], off.over.name(), spot_words(off.spot));
-            format!("{name} left the table over the {rail} rail and comes on the {spot}")
+            format!("{name} left the table over the {rail} rail and goes to the {spot}")
         };
         let mut all: Vec<String> = pushed.into_iter().chain(self.off_table().map(one)).collect();
         if all.is_empty() && self.tally.left_table {
@@ -119,7 +119,7 @@ impl Verdict {
         (!all.is_empty()).then(|| all.join("; "))
     }
 
-    /// Balls and cushions up to the second ball.
+    /// Lists the balls and cushions up to the second ball.
     fn way(&self, cue_ball: CueBall) -> String {
         let (first, second) = self.order();
         let Tally { cushions_before_first: before, cushions_before_second: all, .. } = self.tally;
@@ -134,12 +134,12 @@ impl Verdict {
         parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
-    /// The object balls as they were met.
+    /// Returns the object balls in the order of contact.
     const fn order(&self) -> (usize, usize) {
         if self.tally.red_first { (2, 1) } else { (1, 2) }
     }
 
-    /// What it lacks where it makes no point.
+    /// Describes what is missing for a point; `None` if the stroke makes the point.
     fn missing(&self, cue_ball: CueBall, unit: LengthUnit) -> Option<String> {
         let (tally, names, wanted) = (&self.tally, cue_ball.names(), self.point.rule.cushions());
         let passed = |miss: Miss| {
@@ -156,24 +156,24 @@ impl Verdict {
         let (first, second) = self.order();
         Some(match (tally.met_any(), tally.met_both()) {
             (false, _) => match self.miss {
-                Some(miss) => format!("no ball was met, {}", passed(miss)),
-                None => "no ball was met".to_owned(),
+                Some(miss) => format!("no ball was hit, {}", passed(miss)),
+                None => "no ball was hit".to_owned(),
             },
             (true, false) => self.miss.map_or_else(|| self.second_missed(names), passed),
             _ if tally.cushions_before_second < wanted => {
                 let made = cushion_words(tally.cushions_before_second);
                 format!("{made} before {}, {} needed", names[second], number_word(wanted))
             }
-            _ if !self.is_made() => format!("{} was met first, a game opens with {}", names[first], names[second]),
+            _ if !self.is_made() => format!("{} was hit first, a game opens with {}", names[first], names[second]),
             _ => return None,
         })
     }
 
-    /// Which ball was not met, and whether there were cushions enough.
+    /// Names the ball that was not hit, and any lack of cushions.
     fn second_missed(&self, names: [&str; BALLS]) -> String {
         let (tally, wanted) = (&self.tally, self.point.rule.cushions());
         let [met, missed] = if tally.met[0] { [1, 2] } else { [2, 1] }.map(|ball| names[ball]);
-        let said = format!("{met} was met, {missed} was not");
+        let said = format!("{met} was hit, {missed} was not");
         if tally.cushions < wanted {
             format!("{said}; {}, {} needed", cushion_words(tally.cushions), number_word(wanted))
         } else {
@@ -182,7 +182,7 @@ impl Verdict {
     }
 }
 
-/// One of the three spots on the table's long axis: red's at the opening, the near one, and the middle.
+/// Names one of the three spots on the table's long axis: red's opening spot, the near one, or the middle one.
 fn spot_words(spot: DVec2) -> &'static str {
     match spot.x {
         x if x > 0.0 => "far spot",
@@ -191,14 +191,14 @@ fn spot_words(spot: DVec2) -> &'static str {
     }
 }
 
-/// A number of cushions in words.
+/// Returns the number of cushions in words.
 fn cushion_words(count: u32) -> String {
     let unit = if count == 1 { "cushion" } else { "cushions" };
     format!("{} {unit}", number_word(count))
 }
 
-/// The nearest that the cue ball comes to one of these balls once it has met so many cushions; `None` where it only leaves that ball
-/// behind, which was not missed.
+/// Finds the closest approach of the cue ball to one of these balls after its first `cushions` cushions. `None` if it only
+/// moves away from that ball, which then was not missed.
 fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) -> Option<Miss> {
     let rails = recording.events().iter().filter(|event| matches!(event.kind, EventKind::BallRail(0, _)));
     let start = match cushions.checked_sub(1) {
@@ -207,21 +207,27 @@ fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) ->
     };
     let all = balls.iter().filter_map(|ball| Some((*ball, nearest(table, recording, start, *ball)?)));
     let (ball, (time, gap)) = all.min_by(|(_, (_, one)), (_, (_, other))| one.total_cmp(other))?;
-    (time - start >= LOOK).then(|| Miss { ball, gap: gap.max(0.0), passed: passed(table, recording, ball, time) })
+    (time - start >= SAMPLING_INTERVAL).then(|| Miss {
+        ball,
+        gap: gap.max(0.0),
+        passed: passed(table, recording, ball, time),
+    })
 }
 
-/// The moment from `start` on, s, at which the cue ball is nearest to `ball`, and the gap between them then, m.
+/// Finds the moment from `start` on, s, at which the cue ball is nearest to `ball`, and the gap between them at that
+/// moment, m.
 fn nearest(table: &Table, recording: &Recording, start: f64, ball: usize) -> Option<(f64, f64)> {
     let gap = |time: f64| {
         let places = recording.positions(time);
         let higher = recording.height(0, time) - recording.height(ball, time);
         places[0].distance(places[ball]).hypot(higher) - 2.0 * table.radius
     };
-    let looks = ((recording.duration() - start) / LOOK).ceil() as usize;
-    let times = (0..=looks).map(|look| (start + LOOK * look as f64).min(recording.duration()));
+    let samples = ((recording.duration() - start) / SAMPLING_INTERVAL).ceil() as usize;
+    let times = (0..=samples).map(|sample| (start + SAMPLING_INTERVAL * sample as f64).min(recording.duration()));
     let (_, near) = times.map(|time| (gap(time), time)).min_by(|one, other| one.0.total_cmp(&other.0))?;
-    // Between two looks the gap has one least value.
-    let (mut from, mut to) = ((near - LOOK).max(start), (near + LOOK).min(recording.duration()));
+    // Between two samples the gap has a single minimum.
+    let (mut from, mut to) =
+        ((near - SAMPLING_INTERVAL).max(start), (near + SAMPLING_INTERVAL).min(recording.duration()));
     for _ in 0..30 {
         let third = (to - from) / 3.0;
         if gap(from + third) < gap(to - third) { to -= third } else { from += third }
@@ -230,16 +236,17 @@ fn nearest(table: &Table, recording: &Recording, start: f64, ball: usize) -> Opt
     Some((time, gap(time)))
 }
 
-/// How the cue ball missed the ball to which it is nearest at `time`, s.
+/// Determines how the cue ball missed the ball that it is nearest to at `time`, s.
 fn passed(table: &Table, recording: &Recording, ball: usize, time: f64) -> Passed {
     let [cue_ball, other] = [0, ball].map(|ball| recording.state(ball, time));
     let towards: DVec2 = other.position - cue_ball.position;
     let rest = recording.state(0, recording.duration()).position;
-    // Where one of the two is thrown off its way at that moment, they are nearest without going past each other.
-    let goes_past = [time - AROUND, time + AROUND].into_iter().all(|time| {
+    // If a collision deflects one of the two at that moment, it is the closest approach, but they do not pass each other.
+    let goes_past = [time - PASSING_WINDOW, time + PASSING_WINDOW].into_iter().all(|time| {
         let [cue_ball, other] = [0, ball].map(|ball| recording.state(ball, time.clamp(0.0, recording.duration())));
         let (towards, motion) = (other.position - cue_ball.position, cue_ball.velocity - other.velocity);
-        cue_ball.velocity.length() > MOVING && motion.dot(towards).abs() < PAST * motion.length() * towards.length()
+        cue_ball.velocity.length() > MOVING
+            && motion.dot(towards).abs() < PASSING_COSINE * motion.length() * towards.length()
     });
     match cue_ball.velocity.perp_dot(towards) {
         _ if towards.length() < 2.0 * table.radius => Passed::Over,
@@ -281,19 +288,19 @@ mod tests {
             let tally = Tally { met, cushions: 2, cushions_before_second, ..Tally::default() };
             told(rule.into(), tally, CueBall::White)
         };
-        assert_eq!(said([false, false], 0, Rule::StraightRail), "No point: no ball was met");
-        assert_eq!(said([false, true], 0, Rule::OneCushion), "No point: red was met, yellow was not");
+        assert_eq!(said([false, false], 0, Rule::StraightRail), "No point: no ball was hit");
+        assert_eq!(said([false, true], 0, Rule::OneCushion), "No point: red was hit, yellow was not");
         let few = said([true, false], 0, Rule::ThreeCushion);
-        assert_eq!(few, "No point: yellow was met, red was not; two cushions, three needed");
+        assert_eq!(few, "No point: yellow was hit, red was not; two cushions, three needed");
         let short = said([true, true], 2, Rule::ThreeCushion);
         assert_eq!(short, "No point: two cushions before red, three needed");
         let opening = Point { rule: Rule::ThreeCushion, red_first: true };
         let off_red = Tally { met: [true; 2], red_first: true, cushions_before_second: 3, ..Tally::default() };
         assert_eq!(told(opening, off_red, CueBall::White), "Point: red, three cushions, yellow");
         let wrong = told(opening, Tally { red_first: false, ..off_red }, CueBall::White);
-        assert_eq!(wrong, "No point: yellow was met first, a game opens with red");
+        assert_eq!(wrong, "No point: yellow was hit first, a game opens with red");
         let one = Tally { met: [true, false], ..Tally::default() };
-        assert_eq!(told(Rule::StraightRail.into(), one, CueBall::Yellow), "No point: white was met, red was not");
+        assert_eq!(told(Rule::StraightRail.into(), one, CueBall::Yellow), "No point: white was hit, red was not");
     }
 
     fn verdict(layout: &str, cue: &str, rule: Rule) -> Verdict {
@@ -305,14 +312,14 @@ mod tests {
 
     #[test]
     fn how_near_and_on_which_side_a_ball_was_passed_is_as_the_player_sees_it() {
-        // Straight along the middle to the right: yellow 10 cm to the left of the way, red far behind.
+        // Straight along the middle to the right: yellow 10 cm to the left of the path, red far behind.
         let Verdict { miss, .. } = verdict("-1,0 0,0.1 -1.3,-0.6", "0,0,0,0,2", Rule::StraightRail);
         let Miss { ball, gap, passed } = miss.unwrap();
         assert_eq!((ball, passed), (1, Passed::Right), "the cue ball goes by on the right of yellow");
         assert!((gap - (0.1 - 2.0 * Table::default().radius)).abs() < 1e-4, "{gap}");
         let mirrored = verdict("-1,0 0,-0.1 -1.3,0.6", "0,0,0,0,2", Rule::StraightRail);
         let said = mirrored.words(CueBall::White, LengthUnit::Metres);
-        assert_eq!(said, "No point: no ball was met, passed yellow by 3.9 cm on the left");
+        assert_eq!(said, "No point: no ball was hit, passed yellow by 3.9 cm on the left");
     }
 
     fn flown(layout: &str, cue: &str, cue_ball: CueBall) -> String {
@@ -322,16 +329,16 @@ mod tests {
     #[test]
     fn a_ball_off_the_table_is_a_foul_that_says_over_which_rail_and_where_the_ball_comes() {
         let said = |cue_ball| flown("0.9,0 0.1,0.3 0.1,-0.3", "0,0,30,0,9", cue_ball);
-        assert_eq!(said(CueBall::White), "Foul: white left the table over the right rail and comes on the middle spot");
+        assert_eq!(said(CueBall::White), "Foul: white left the table over the right rail and goes to the middle spot");
         assert!(said(CueBall::Yellow).starts_with("Foul: yellow left the table over the right rail"));
-        // The middle is taken: the ball comes on the spot of the ball that is in the way.
+        // The middle spot is occupied: the ball is placed on the spot of the ball that is in the way.
         let taken = flown("0.9,0 0,0 0.1,-0.3", "0,0,30,0,9", CueBall::White);
-        assert_eq!(taken, "Foul: white left the table over the right rail and comes on the near spot");
+        assert_eq!(taken, "Foul: white left the table over the right rail and goes to the near spot");
     }
 
     #[test]
     fn a_touching_ball_that_is_pushed_is_a_foul_whatever_else_the_shot_does() {
-        // Yellow touches the cue ball on one side, red lies on the other, where draw brings the cue ball.
+        // Yellow touches the cue ball on one side; red lies on the other, where draw takes the cue ball.
         let touching = format!("0,0 {},0 -0.3,0.02", 2.0 * Table::default().radius);
         let said = |cue: &str, cue_ball| {
             let verdict = verdict(&touching, cue, Rule::StraightRail);
@@ -340,7 +347,7 @@ mod tests {
         let foul = |ball| format!("Foul: the stroke pushes {ball}, which touches the cue ball");
         assert_eq!(said("0,-0.4,5,0,3", CueBall::White), (false, foul("yellow")));
         assert_eq!(said("0,0,5,60,3", CueBall::Yellow), (false, foul("white")));
-        // Away from it, and back to it.
+        // Away from yellow, and back to it.
         let (is_made, away) = said("0,0,5,180,3", CueBall::White);
         assert!(is_made && away.starts_with("Point: "), "{away}");
     }
@@ -348,7 +355,7 @@ mod tests {
     #[test]
     fn a_ball_that_was_flown_over_was_not_passed_at_its_side() {
         let said = flown("-0.5,0 -0.2,0 -1.2,-0.5", "0,0,45,0,5", CueBall::White);
-        assert_eq!(said, "No point: no ball was met, flew over yellow");
+        assert_eq!(said, "No point: no ball was hit, flew over yellow");
     }
 
     #[test]
@@ -362,31 +369,31 @@ mod tests {
         let said = |layout: &str, cue: &str| {
             verdict(layout, cue, Rule::StraightRail).words(CueBall::White, LengthUnit::Metres)
         };
-        // Yellow is met full and takes all speed along; red lies behind it.
+        // Yellow is hit full and takes all the speed; red lies behind it.
         let full = said("-0.1,0 0,0 0.2,0.12", "0,-0.1,0,0,0.3");
         assert_eq!(full, "No point: stopped 17 cm short of red");
-        // Draw brings the cue ball back from where it is nearest to red.
+        // Draw pulls the cue ball back from its closest point to red.
         let drawn = said("-0.15,0 0,0.02 0.2,0.12", "0,-0.4,0,0,1");
         assert_eq!(drawn, "No point: came within 22 cm of red");
-        // The end of a short way is beside yellow, or beyond it.
+        // The cue ball stops level with yellow, or beyond it.
         let short = |place: &str| said(&format!("-1,0 {place},0.15 -1.3,-0.6"), "0,0,0,0,0.17");
-        assert_eq!(short("-0.595"), "No point: no ball was met, stopped 8.8 cm short of yellow");
-        assert_eq!(short("-0.8"), "No point: no ball was met, passed yellow by 8.9 cm on the right");
-        // A ball that is left behind was never missed, and the other is farther off.
-        assert_eq!(said("-1,0 -1.1,0 1.3,0.6", "0,0,0,0,0.15"), "No point: no ball was met");
-        assert_eq!(said("-1,0 -1.1,0 -1.1,0.1", "0,0,0,0,0.15"), "No point: no ball was met");
+        assert_eq!(short("-0.595"), "No point: no ball was hit, stopped 8.8 cm short of yellow");
+        assert_eq!(short("-0.8"), "No point: no ball was hit, passed yellow by 8.9 cm on the right");
+        // A ball that is left behind was not missed, even if the other one is farther away.
+        assert_eq!(said("-1,0 -1.1,0 1.3,0.6", "0,0,0,0,0.15"), "No point: no ball was hit");
+        assert_eq!(said("-1,0 -1.1,0 -1.1,0.1", "0,0,0,0,0.15"), "No point: no ball was hit");
     }
 
     #[test]
     fn a_ball_that_is_left_behind_at_the_last_cushion_is_not_passed() {
-        // Thin off red to the right cushion, beside which yellow lies farther up.
+        // Thin off red to the right cushion; yellow lies next to the cushion, farther up.
         let Verdict { miss, .. } = verdict("0.6,0 1.389,0.15 0.9,0.052", "0,0,0,0,0.5", Rule::OneCushion);
         assert_eq!(miss, None);
     }
 
     #[test]
     fn what_passes_before_the_cushions_that_are_needed_is_no_near_miss() {
-        // Yellow full, and red 10 cm beside the way.
+        // Yellow is hit full, and red lies 10 cm beside the path.
         let shot = |rule| verdict("-1,0 0,0 0.4,0.1", "0,0.3,0,0,1", rule);
         assert!(shot(Rule::StraightRail).miss.is_some_and(|miss| miss.ball == 2));
         assert_eq!(shot(Rule::ThreeCushion).miss, None);

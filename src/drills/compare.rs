@@ -1,4 +1,4 @@
-//! What a player meant beside what the coach would have played.
+//! Compares the player's intended stroke with the coach's.
 
 use crate::{
     coach::{Coach, Request, Shooter, layout_number, layout_seed, make_probability},
@@ -11,31 +11,31 @@ use crate::{
 /// Simulated attempts at a stroke: the standard error of its make probability is at most 1.6 %.
 const ATTEMPTS: usize = 1000;
 
-/// Seed of their errors with that of the layout: the same for every stroke from the same balls, so that two strokes are compared by what
-/// they are and not by luck. From other balls it is another one: what is lucky on one layout is not so on all of them for ever.
+/// Seed of the errors, combined with that of the layout. It is the same for all strokes from the same layout, so that
+/// luck does not affect their comparison, and differs between layouts, so that luck on one does not repeat on others.
 const SEED: u64 = 0x636f_6d70_6172_6521;
 
-/// How often a player makes the point with `cue`.
+/// Estimates how often a player makes the point with `cue`.
 pub fn chance(shooter: impl Into<Shooter>, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> SuccessRate {
     make_probability(shooter, rule, table, layout, cue, ATTEMPTS, layout_seed(SEED, layout_number(layout)))
 }
 
-/// A coach's stroke and how often the player makes it.
+/// The coach's stroke and how often the player makes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Advice {
     /// The stroke.
     pub cue: CueInputs,
-    /// Whether it makes the point if it is played as meant.
+    /// Whether it makes the point when it is played as intended.
     pub solved: bool,
-    /// In the attempts that [`chance`] takes.
+    /// Make probability from the attempts of [`chance`].
     pub chance: SuccessRate,
 }
 
-/// What the coach would play, with what the request holds to be in doubt. `None` where it finds no point, unless it is to play itself:
-/// then it is its best attempt.
+/// Returns the coach's stroke under the request's doubt. `None` if it finds no point, unless the coach is to play the shot
+/// itself: then it is its best attempt.
 ///
 /// # Errors
-/// Where the layout is impossible.
+/// Fails if the layout is impossible.
 pub fn advise(
     coach: &Coach,
     layout: &Layout,
@@ -48,7 +48,7 @@ pub fn advise(
     Ok(is_told.then(|| Advice { cue: answer.cue, solved: answer.solved, chance: chance(answer.cue) }))
 }
 
-/// What `meant` has more than `advised` in every input; the direction is turned by the smaller angle, from -π to π.
+/// Returns the difference `meant` - `advised` in every input. The difference in direction is the smaller angle, from -π to π.
 pub fn difference(meant: &CueInputs, advised: &CueInputs) -> CueInputs {
     CueInputs {
         a: meant.a - advised.a,
@@ -89,7 +89,7 @@ mod tests {
         let away = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: PI, speed: 0.3 };
         assert_eq!(chance(request.shooter(), request.rule, &table, &layout, &away).rate, 0.0);
         assert!(advice.chance.rate > 0.3, "{advice:?}");
-        // What is told is what is made where table and places are in doubt, not on the table that the coach believes in.
+        // The reported rate includes the doubt about table and positions; it is not that of the nominal table.
         assert_eq!(advice.chance, chance(request.shooter(), request.rule, &table, &layout, &advice.cue));
         assert_ne!(advice.chance, chance(skill, request.rule, &table, &layout, &advice.cue));
     }

@@ -1,10 +1,12 @@
 //! A player's skill from results at a real table.
 //!
-//! The player is taken to err like those of the named levels, only so many times as much in all five inputs, and to play
-//! the shot that the exercise teaches or a hint has shown, on a table to which it has been adjusted: it is the hand that is
-//! estimated. How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated; the
-//! scale under which all makes and misses together are most likely is the estimate, and those that are not much less likely
-//! are its interval (likelihood ratio, Wilks 1938).
+//! The model: the player's errors are those of the named levels times a common scale s in all five inputs. The player
+//! plays the shot that the exercise teaches or that a hint has shown, on a table to which the shot has been adjusted;
+//! the estimate therefore concerns execution only.
+//!
+//! How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated. The estimate is the scale with the
+//! maximum likelihood of all results, and the interval contains the scales whose likelihood is not much lower
+//! (likelihood ratio, Wilks 1938).
 
 use super::{Session, Venue};
 use crate::{
@@ -14,63 +16,65 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Fewest attempts that an estimate is made from.
+/// Minimum number of attempts for an estimate.
 pub const FEWEST: usize = 20;
 
-/// Fewest different shots among them. The interval knows luck alone: how often one shot is made depends on the input that it
-/// asks most of and on the table at hand as much as on the player, and only other shots can show that.
+/// Minimum number of different shots among them. The interval covers chance alone: how often one shot is made depends
+/// as much on the input that it is most sensitive to and on the real table as on the player. Only other shots can show
+/// that.
 pub const FEWEST_SHOTS: usize = 3;
 
-/// The smallest and the largest scale that are looked at, as powers of two.
+/// Range of scales, as powers of two.
 const POWERS: (f64, f64) = (-2.0, 4.0);
 
-/// Scales for each power of two at which strokes are simulated. Between them the logarithm of p / (1 - p) is all but straight.
+/// Simulated scales per power of two. Between them the logarithm of p / (1 - p) is almost linear.
 const STEPS: usize = 4;
 
-/// Scales at which strokes are simulated.
+/// Number of simulated scales.
 const SCALES: usize = (POWERS.1 - POWERS.0) as usize * STEPS + 1;
 
-/// Steps from one of them to the next in which the most likely scale and its interval are looked for: 0.5 % each. Of a
-/// thousand attempts the interval is 40 of them wide.
-const FINER: usize = 32;
+/// Interpolation steps between two simulated scales, for the estimate and its interval: 0.5 % each. With a thousand
+/// attempts the interval is 40 of them wide.
+const SUBSTEPS: usize = 32;
 
-/// Simulated strokes for each scale and shot. They are the same errors for all: the curve `p_e(s)` is smooth, and
-/// off by at most 1.6 % as a rule.
+/// Simulated strokes per scale and shot, with the same errors for all scales. The curve `p_e(s)` is therefore smooth,
+/// and its error is typically at most 1.6 %.
 const STROKES: usize = 1000;
 
-/// The logarithm of the likelihood may be so much below its maximum within the 95 % interval: half of the 95 % point of the
+/// Maximum drop of the log-likelihood below its maximum within the 95 % interval: half of the 95 % quantile of the
 /// chi-squared distribution with one degree of freedom.
-const DEPTH: f64 = 1.920_729;
+const MAX_LOG_LIKELIHOOD_DROP: f64 = 1.920_729;
 
-/// What the results say of a player.
+/// The estimate of a player's skill.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// A level's errors so many times; `None` where the interval is open at one end, so that there is a bound alone.
+    /// The skill at this scale; `None` if the interval is open at one end, so that there is only a bound.
     pub skill: Option<Skill>,
-    /// How many times the errors of [`Skill::level`] at 1.
+    /// Multiple of the errors of [`Skill::level`] at 1.
     pub scale: f64,
-    /// Lower end of its 95 % interval; at 1/4 it may lie lower.
+    /// Lower end of the 95 % interval; at 1/4 it may be lower.
     pub low: f64,
-    /// Upper end; at 16 it may lie higher.
+    /// Upper end; at 16 it may be higher.
     pub high: f64,
-    /// Attempts that it rests on.
+    /// Attempts used.
     pub attempts: usize,
-    /// Points among them.
+    /// Points among the attempts.
     pub made: usize,
-    /// Shots that were attempted.
+    /// Number of different shots.
     pub shots: usize,
-    /// Attempts at a real table that say nothing, for nobody knows which shot was meant, on what table, or how the balls lay.
+    /// Attempts at a real table that cannot be used, because the intended shot, the table or the layout is unknown.
     pub left_out: usize,
 }
 
 impl Estimate {
-    /// What such a player averages at three-cushion: the ends of the 95 % interval with the estimate between them.
+    /// Returns the three-cushion averages of such a player: the lower end of the 95 % interval, the estimate, and the
+    /// upper end.
     pub fn averages(&self) -> [f64; 3] {
         [self.high, self.scale, self.low].map(Skill::average)
     }
 
-    /// The average with its 95 % interval. Where that reaches an end of the scales that are looked at, only its other end is
-    /// known.
+    /// Formats the average with its 95 % interval. If the interval reaches an end of the scale range, only the other end is
+    /// displayed.
     pub fn words(&self) -> String {
         let [least, average, most] = self.averages();
         match self.bound() {
@@ -79,10 +83,10 @@ impl Estimate {
         }
     }
 
-    /// "at least" or "at most" with that end of the average's interval, where it alone is known.
+    /// Returns "at least" or "at most" with the known end of the average's interval, if the other end is unknown.
     pub fn bound(&self) -> Option<(&'static str, f64)> {
         let [least, _, most] = self.averages();
-        match openings(self.low, self.high) {
+        match open_ends(self.low, self.high) {
             [true, _] => Some(("at least", least)),
             [_, true] => Some(("at most", most)),
             _ => None,
@@ -90,8 +94,8 @@ impl Estimate {
     }
 }
 
-/// Whether an interval reaches the smallest and the largest of the scales that are looked at.
-fn openings(low: f64, high: f64) -> [bool; 2] {
+/// Whether an interval reaches the lower and the upper end of the scale range.
+fn open_ends(low: f64, high: f64) -> [bool; 2] {
     [low <= scale(0.0), high >= scale(POWERS.1 - POWERS.0)]
 }
 
@@ -101,23 +105,23 @@ pub enum NoEstimate {
     /// Too few attempts, or shots.
     #[error("the skill is not known yet: {}. {COUNTED}", so_far(*attempts, *shots))]
     TooFew {
-        /// Attempts there are.
+        /// Attempts so far.
         attempts: usize,
-        /// Shots that they are at.
+        /// Different shots so far.
         shots: usize,
     },
-    /// Players of any skill would have had such results.
-    #[error("{attempts} attempts tell nothing yet: their shots are too easy or too hard to tell players apart by")]
+    /// The results are equally likely for players of any skill.
+    #[error("{attempts} attempts show nothing yet: their shots are too easy or too hard to distinguish players")]
     Uninformative {
-        /// Attempts there are.
+        /// Attempts so far.
         attempts: usize,
     },
 }
 
-/// Which attempts tell something of the hand alone.
+/// The attempts that can be used.
 const COUNTED: &str = "Only strokes noted at a real table count: model shots with no ball shifted, and shots that a hint showed; no games";
 
-/// What there is of what an estimate needs.
+/// Describes the progress towards the required attempts and shots.
 fn so_far(attempts: usize, shots: usize) -> String {
     match (attempts < FEWEST, shots < FEWEST_SHOTS) {
         (true, true) => format!("{attempts} of {FEWEST} attempts, at {shots} of {FEWEST_SHOTS} different shots"),
@@ -136,10 +140,10 @@ struct Shot {
     made: usize,
 }
 
-/// Estimates a player's skill from the attempts at a real table. It takes some 0.05 s a shot.
+/// Estimates a player's skill from attempts at a real table. It takes about 0.05 s per shot.
 ///
 /// # Errors
-/// Where the attempts are too few or tell nothing.
+/// Fails if there are too few attempts, or they carry no information.
 pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
     let (shots, left_out) = shots(sessions);
     let attempts = shots.iter().map(|shot| shot.tried).sum();
@@ -150,8 +154,8 @@ pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
     let counts: Vec<_> = shots.iter().map(|shot| (shot.made, shot.tried)).collect();
     let [low, scale, high] = fit(&curves, &counts).ok_or(NoEstimate::Uninformative { attempts })?;
     Ok(Estimate {
-        // Nobody knows more digits of it.
-        skill: (openings(low, high) == [false; 2]).then(|| Skill::level((100.0 * scale).round() / 100.0)),
+        // More digits would have no meaning.
+        skill: (open_ends(low, high) == [false; 2]).then(|| Skill::level((100.0 * scale).round() / 100.0)),
         scale,
         low,
         high,
@@ -162,11 +166,11 @@ pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
     })
 }
 
-/// The shots that were attempted at a real table, and the number of attempts at which it is not known which.
+/// Returns the shots that were attempted at a real table, and the number of attempts whose shot is unknown.
 fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
     let (mut shots, mut left_out) = (Vec::<Shot>::new(), 0);
     for session in sessions.iter().filter(|session| session.venue == Venue::Table) {
-        // In a game at a real table nobody knows where the balls have gone.
+        // In a game at a real table the ball positions are unknown.
         let exercises = session.exercises.iter().filter(|_| !session.is_game());
         let exercises: Vec<_> =
             exercises.filter_map(|one| Some((one, session.table_of(one).ok()?, session.model_shot_of(one)))).collect();
@@ -176,7 +180,7 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
                 left_out += 1;
                 continue;
             };
-            // The exercise's own shot is for its own layout; the coach's says something only where the player saw it.
+            // The exercise's own shot is valid for its own layout only; the coach's shot counts only if the player saw it.
             let own = model_shot.filter(|_| attempt.layout.is_none());
             let shown = attempt.advised.filter(|_| attempt.helped);
             let layout = attempt.layout.unwrap_or(exercise.layout);
@@ -201,7 +205,7 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
 }
 
 impl Shot {
-    /// `p_e(s)` at every scale: never 0 or 1, which a finite number of strokes cannot tell.
+    /// Estimates `p_e(s)` at every scale: never 0 or 1, which a finite number of strokes cannot establish.
     fn curve(&self) -> [f64; SCALES] {
         std::array::from_fn(|index| {
             let skill = Skill::level(scale(index as f64 / STEPS as f64));
@@ -211,33 +215,33 @@ impl Shot {
     }
 }
 
-/// The scale that lies so many powers of two above the smallest.
+/// Returns the scale this number of powers of two above the smallest.
 fn scale(powers: f64) -> f64 {
     (POWERS.0 + powers).exp2()
 }
 
-/// The scale under which the counts (made, tried) are most likely, between the ends of its interval; `None` where all scales
-/// lie within it.
+/// Finds the maximum-likelihood scale for the counts (made, tried), between the ends of its interval. `None` if the interval
+/// contains all scales.
 fn fit(curves: &[[f64; SCALES]], counts: &[(usize, usize)]) -> Option<[f64; 3]> {
     let likelihood = |step: usize| -> f64 {
-        let (index, share) = (step / FINER, (step % FINER) as f64 / FINER as f64);
+        let (index, share) = (step / SUBSTEPS, (step % SUBSTEPS) as f64 / SUBSTEPS as f64);
         let term = |(curve, (made, tried)): (&[f64; SCALES], &(usize, usize))| {
             let logit = |index: usize| (curve[index] / (1.0 - curve[index])).ln();
             let logit = logit(index) + share * (logit((index + 1).min(SCALES - 1)) - logit(index));
-            // The logarithms of p and of 1 - p.
+            // Terms with the logarithms of p and of 1 - p.
             -(*made as f64) * (-logit).exp().ln_1p() - (tried - made) as f64 * logit.exp().ln_1p()
         };
         curves.iter().zip(counts).map(term).sum()
     };
-    let last = (SCALES - 1) * FINER;
+    let last = (SCALES - 1) * SUBSTEPS;
     let likelihood: Vec<f64> = (0..=last).map(likelihood).collect();
-    // Of equals the smallest: who has missed nothing may err as little as one likes.
+    // The smallest scale among equals: the errors of a player who has missed nothing may be arbitrarily small.
     let best = (0..=last).rev().max_by(|x, y| likelihood[*x].total_cmp(&likelihood[*y]))?;
-    let is_inside = |step: &usize| likelihood[*step] >= likelihood[best] - DEPTH;
+    let is_inside = |step: &usize| likelihood[*step] >= likelihood[best] - MAX_LOG_LIKELIHOOD_DROP;
     let (low, high) = ((0..best).find(is_inside).unwrap_or(best), (best..=last).rfind(is_inside).unwrap_or(best));
-    // The ends lie between the last step within and the first one outside.
+    // The ends lie halfway between the last step inside and the first one outside.
     let ends = [(low as f64 - 0.5).max(0.0), best as f64, (high as f64 + 0.5).min(last as f64)];
-    ((low, high) != (0, last)).then(|| ends.map(|step| scale(step / (STEPS * FINER) as f64)))
+    ((low, high) != (0, last)).then(|| ends.map(|step| scale(step / (STEPS * SUBSTEPS) as f64)))
 }
 
 #[cfg(test)]
@@ -269,7 +273,7 @@ mod tests {
         held_out_layouts(&table, 8, 4).into_iter().zip(rules).enumerate().map(pair).collect()
     }
 
-    /// What a player of `scale` logs: 50 attempts at each exercise.
+    /// The log of a player of `scale`: 50 attempts at each exercise.
     fn logged(exercises: &[Exercise], scale: f64, seed: u64) -> Vec<Session> {
         let skill = Skill::level(scale);
         let session = |(number, exercise): (u64, &Exercise)| {
@@ -287,7 +291,7 @@ mod tests {
     #[test]
     fn players_of_a_known_skill_are_found_again_within_the_interval() {
         let exercises = exercises();
-        // An interval of 95 % may miss; two of six hardly do.
+        // A 95 % interval may miss the true scale; two of six hardly ever do.
         let six = [1, 3, 4, 5, 6, 7].map(|seed| estimate(&logged(&exercises, 2.0, seed)).unwrap());
         assert!(six.iter().filter(|found| found.low <= 2.0 && 2.0 <= found.high).count() >= 5, "{six:?}");
         assert!(six.iter().all(|found| found.high / found.low < 2.0), "{six:?}");
@@ -305,7 +309,7 @@ mod tests {
         faultless.iter_mut().flat_map(|session| &mut session.attempts).for_each(|attempt| attempt.made = true);
         let bound = estimate(&faultless).unwrap();
         assert_eq!(bound.skill, None, "who never misses is no better than the exercises can tell: {bound:?}");
-        // All from the same curves: those are what takes time. The scales lie between the simulated ones.
+        // All use the same curves, because computing these takes most of the time. The scales lie between the simulated ones.
         let curves: Vec<_> = shots(&logged(&exercises, 1.0, 0)).0.iter().map(Shot::curve).collect();
         for scale in [1.1, 3.0, 5.0] {
             let within = |seed: &u64| {
@@ -318,7 +322,7 @@ mod tests {
                 (low..=high).contains(&scale)
             };
             let covered = (0..100).filter(within).count();
-            // Of 100 intervals of 95 %, fewer than 88 hold the truth once in 700 times.
+            // Of 100 intervals of 95 %, fewer than 88 contain the true scale once in 700 times.
             assert!(covered >= 88, "{covered} of 100 at scale {scale}");
         }
     }
@@ -342,7 +346,7 @@ mod tests {
     #[test]
     fn too_little_is_said_to_be_too_little() {
         let away = CueInputs { a: 0.0, b: 0.0, theta: 0.5, phi: 2.0, speed: 0.1 };
-        // Different shots, each attempted so often, that nobody makes.
+        // Sessions with this number of different shots, each attempted equally often and never made.
         let sessions = |shots: u32, attempts: usize| -> Vec<Session> {
             let session = |number: u32| {
                 let name = format!("number-{number}");

@@ -1,45 +1,46 @@
-//! An exam: twenty exercises, one attempt each, and what the score is worth.
+//! An exam: twenty exercises with one attempt each, and the meaning of its score.
 
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Category, Exercise, Par, Session};
 
-/// Exercises of an exam.
+/// Number of exercises in an exam.
 pub const LENGTH: usize = 20;
 
-/// Levels, and the grades of the exercises in each.
+/// The grades of the exercises in each level.
 const GRADES: [std::ops::RangeInclusive<u8>; 3] = [1..=3, 2..=4, 3..=5];
 
 /// The highest level.
 pub const HIGHEST_LEVEL: u8 = GRADES.len() as u8;
 
-/// Why there is no exam.
+/// Why an exam cannot be drawn.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum ExamError {
-    /// A level that is none.
+    /// The level does not exist.
     #[error("there is no exam of level {0}; accepted is 1 to {HIGHEST_LEVEL}")]
     Level(u8),
-    /// Too few exercises.
+    /// There are too few exercises.
     #[error("an exam of level {level} needs {LENGTH} exercises of grade {} to {}; there are {found}", grades.start(), grades.end())]
     TooFew {
         /// The level.
         level: u8,
-        /// What belongs to it.
+        /// The grades of the level.
         grades: std::ops::RangeInclusive<u8>,
-        /// Exercises there are.
+        /// Number of suitable exercises.
         found: usize,
     },
 }
 
-/// The grades of the exercises in an exam of `level`; `None` where there is no such level.
+/// Returns the grades of the exercises in an exam of `level`; `None` if there is no such level.
 pub fn grades(level: u8) -> Option<std::ops::RangeInclusive<u8>> {
     GRADES.get(usize::from(level).wrapping_sub(1)).cloned()
 }
 
-/// Draws the exercises of an exam of `level` 1 to [`HIGHEST_LEVEL`] from `library`, easy ones first. They are spread over the categories and
-/// grades as evenly as the library allows; the player's own positions, which have no measured par, have no
-/// part, nor have jumps and massés, which most clubs forbid. The same seed draws the same.
+/// Draws the exercises of an exam of `level` 1 to [`HIGHEST_LEVEL`] from `library`, easy ones first. They are spread
+/// over the categories and grades as evenly as the library allows.
+/// The player's own positions are excluded because they have no measured par, and jumps and massés because most clubs
+/// forbid them. The same seed draws the same exam.
 ///
 /// # Errors
 /// [`ExamError`].
@@ -57,34 +58,34 @@ pub fn draw(library: &[Exercise], level: u8, seed: u64) -> Result<Vec<Exercise>,
     left.shuffle(&mut Xoshiro256PlusPlus::seed_from_u64(seed));
     let mut drawn: Vec<&Exercise> = Vec::with_capacity(LENGTH);
     while drawn.len() < LENGTH {
-        // The category that has the fewest so far, and in it the grade; the first in the shuffled order of several.
+        // Take the category with the fewest exercises so far, then the grade; ties are resolved by the shuffled order.
         let taken = |same: &dyn Fn(&&&Exercise) -> bool| drawn.iter().filter(same).count();
-        let crowd = |exercise: &&Exercise| {
+        let counts = |exercise: &&Exercise| {
             (taken(&|other| other.category == exercise.category), taken(&|other| other.grade == exercise.grade))
         };
-        let next = (0..left.len()).min_by_key(|index| crowd(&left[*index])).unwrap_or(0);
+        let next = (0..left.len()).min_by_key(|index| counts(&left[*index])).unwrap_or(0);
         drawn.push(left.remove(next));
     }
     drawn.sort_by_key(|exercise| exercise.grade);
     Ok(drawn.into_iter().cloned().collect())
 }
 
-/// What the score of an exam is worth.
+/// The score of an exam and its meaning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExamScore {
-    /// Exercises tried so far.
+    /// Exercises attempted so far.
     pub tried: usize,
     /// Points.
     pub made: usize,
-    /// Points that each of the named players makes on average in the same attempts, with the exercises' own shots.
+    /// Expected points of each of the named players in the same attempts, with the exercises' own shots.
     pub expected: Par,
-    /// Standard deviations of their points: an exam is short, and luck counts.
+    /// Standard deviations of their points: an exam is short, so luck matters.
     pub spread: Par,
-    /// Whose average is nearest: "beginner", "club" or "world-class".
+    /// The player with the nearest expected score: "beginner", "club" or "world-class".
     pub nearest: &'static str,
 }
 
-/// The score of the attempts that there are; `None` before the first.
+/// Returns the score of the attempts so far; `None` before the first.
 pub fn score(session: &Session) -> Option<ExamScore> {
     let attempts = &session.attempts;
     let pars: Vec<Par> = attempts.iter().filter_map(|attempt| session.exercise_of(attempt)?.par).collect();
@@ -156,7 +157,7 @@ mod tests {
     #[test]
     fn an_exam_names_the_player_whose_average_is_closest_to_the_score() {
         let exam = draw(&library(), 2, 1).unwrap();
-        // Averages over 20 exercises are 4, 10 and 18.
+        // The expected points in 20 exercises are 4, 10 and 18.
         for (made, nearest) in
             [(0, "beginner"), (6, "beginner"), (8, "club"), (13, "club"), (15, "world-class"), (20, "world-class")]
         {

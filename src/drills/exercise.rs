@@ -1,4 +1,4 @@
-//! A position to practise: where the balls lie, what counts, and what is to be learnt from it.
+//! A position to practise: the layout, the rule, and the lesson.
 
 use std::fmt;
 
@@ -12,15 +12,15 @@ use crate::{
     table::{Layout, LayoutError, PRESETS, Table},
 };
 
-/// What an exercise is about.
+/// The topic of an exercise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Category {
     /// Plain caroms from one ball to the other.
     FirstCaroms,
-    /// The cue ball comes back from the first ball.
+    /// The cue ball returns from the first ball.
     Draw,
-    /// It runs on after it.
+    /// The cue ball runs on after the first ball.
     Follow,
     /// Side spin (english) makes the point.
     Side,
@@ -34,12 +34,12 @@ pub enum Category {
     Systems,
     /// The cue is raised, and the cue ball leaves the cloth or runs in a curve. Most clubs forbid it.
     JumpAndMasse,
-    /// Somebody's own position.
+    /// A user's own position.
     Own,
 }
 
 impl Category {
-    /// All of them, in the order of the library.
+    /// All categories, in the order of the library.
     pub const ALL: [Self; 10] = [
         Self::FirstCaroms,
         Self::Draw,
@@ -53,7 +53,7 @@ impl Category {
         Self::Own,
     ];
 
-    /// Name on the command line and in JSON.
+    /// Returns the name on the command line and in JSON.
     pub const fn name(self) -> &'static str {
         match self {
             Self::FirstCaroms => "first-caroms",
@@ -69,7 +69,7 @@ impl Category {
         }
     }
 
-    /// Heading on the screen.
+    /// Returns the heading on the screen.
     pub const fn title(self) -> &'static str {
         match self {
             Self::FirstCaroms => "First caroms",
@@ -99,7 +99,7 @@ pub struct Par {
     pub beginner: f64,
     /// A club player.
     pub club: f64,
-    /// A world-class player; files of older versions have an expert's share in its place.
+    /// A world-class player; files of older versions have an expert's share instead.
     #[serde(rename = "world-class", alias = "expert")]
     pub world_class: f64,
 }
@@ -107,44 +107,44 @@ pub struct Par {
 /// A position to practise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Exercise {
-    /// What it is called on the command line and in files, by [`NAME_RULE`]; unique in the library.
+    /// Identifier on the command line and in files, by [`NAME_RULE`]; unique in the library.
     pub name: String,
-    /// Its heading, some words.
+    /// Heading, a few words.
     pub title: String,
-    /// What it is about.
+    /// The topic.
     pub category: Category,
-    /// How hard it is: 1 the easiest, 5 the hardest; 0 where it has not been measured.
+    /// Difficulty: 1 is the easiest, 5 the hardest; 0 if it has not been measured.
     #[serde(default)]
     pub grade: u8,
-    /// What counts as a point.
+    /// The rule of the point.
     #[serde(default)]
     pub rule: Rule,
-    /// The bundled table that it is for, by name.
+    /// Name of the bundled table that it is designed for.
     #[serde(default = "match_table")]
     pub table: String,
-    /// Where the balls lie, m.
+    /// The ball positions, m.
     pub layout: Layout,
-    /// What is to be learnt, a sentence or two to the player.
+    /// The lesson, a sentence or two for the player.
     #[serde(default)]
     pub point: String,
-    /// Words to find it by.
+    /// Search tags.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tags: Vec<String>,
-    /// A shot that makes the point in the way that is to be learnt.
+    /// The model shot: a shot that makes the point as the lesson teaches.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shot: Option<CueInputs>,
-    /// How often players make that shot.
+    /// How often players make the model shot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub par: Option<Par>,
 }
 
-/// Longest title or tag that is taken from a player, bytes; files may have longer ones.
+/// Maximum length of a title or tag that a player enters, bytes; files may have longer ones.
 pub const LONGEST_TITLE: usize = 400;
 
-/// Longest point, likewise: some sentences.
+/// Maximum length of a point that a player enters, bytes: some sentences.
 pub const LONGEST_POINT: usize = 4000;
 
-/// A tag without the `#` with which it is shown and may be typed.
+/// Returns a tag without the `#` with which it is displayed and may be typed.
 pub fn bare_tag(tag: &str) -> &str {
     tag.trim_start_matches('#')
 }
@@ -156,33 +156,33 @@ pub(super) fn match_table() -> String {
 /// Why an exercise cannot be played.
 #[derive(Debug, thiserror::Error)]
 pub enum ExerciseError {
-    /// It can neither be called so on the command line nor in a file.
-    #[error("{0:?} is no name for an exercise; accepted are {NAME_RULE}")]
+    /// The name is not valid on the command line or in a file.
+    #[error("{0:?} is not a valid exercise name; accepted are {NAME_RULE}")]
     Name(String),
-    /// Its words would move the cursor or turn the text round.
+    /// A text contains characters that would move the cursor or reverse the text direction.
     #[error("the {field} {text:?} has a character that cannot be shown; accepted is one line of text")]
     Text {
-        /// Which words.
+        /// The field that contains the text.
         field: &'static str,
-        /// What they are.
+        /// The text.
         text: String,
     },
-    /// Its table is none that is bundled.
-    #[error("an exercise lies on a bundled table, and {0:?} is none; accepted are {names}", names = PRESETS.join(", "))]
+    /// The table is not a bundled one.
+    #[error("{0:?} is not a bundled table; accepted are {names}", names = PRESETS.join(", "))]
     Table(String),
-    /// Its grade is above 5.
-    #[error("grade {0} is not accepted; grades go from 0, for none, to 5")]
+    /// The grade is above 5.
+    #[error("grade {0} is not accepted; grades are 0 (none) to 5")]
     Grade(u8),
-    /// A share of strokes that are made is not from 0 to 1.
-    #[error("{0} is no share of strokes that are made; accepted is a number from 0 to 1")]
+    /// A make rate is not from 0 to 1.
+    #[error("{0} is not a valid make rate; accepted is a number from 0 to 1")]
     Share(f64),
-    /// Its layout is impossible.
+    /// The layout is impossible.
     #[error(transparent)]
     Layout(#[from] LayoutError),
-    /// Its shot is impossible.
+    /// The shot is impossible.
     #[error(transparent)]
     Shot(#[from] CueError),
-    /// The motion that it gives the cue ball is impossible.
+    /// The motion that the shot gives to the cue ball is impossible.
     #[error(transparent)]
     Motion(#[from] ImpulseError),
 }
@@ -198,7 +198,7 @@ impl From<ShotError> for ExerciseError {
 }
 
 impl Exercise {
-    /// A position of the player's own that is called `name`, with nothing said about it yet, on the bundled `table`.
+    /// Creates an own exercise of the player on the bundled `table`, with `name` as its title and without a lesson.
     pub fn own(name: &str, rule: Rule, table: &str, layout: Layout) -> Self {
         Self {
             name: name.to_owned(),
@@ -215,35 +215,35 @@ impl Exercise {
         }
     }
 
-    /// Its table.
+    /// Returns the table of the exercise.
     ///
     /// # Errors
-    /// A name that is not bundled, or a layout that is impossible on that table.
+    /// Fails if the table is not bundled, or the layout is impossible on it.
     pub fn table(&self) -> Result<Table, ExerciseError> {
         let table = Table::preset(&self.table).map_err(|_| ExerciseError::Table(self.table.clone()))?;
         self.layout.validate(&table)?;
         Ok(table)
     }
 
-    /// The table on which it is played: the player's `own`, where that has the size of its table.
+    /// Returns the table on which it is played: the player's `own` if it has the same size, otherwise the exercise's.
     ///
     /// # Errors
-    /// As [`Exercise::table`].
+    /// As for [`Exercise::table`].
     pub fn table_with(&self, own: Option<&Table>) -> Result<Table, ExerciseError> {
         let table = self.table()?;
         Ok(own.filter(|own| own.has_size_of(&table)).cloned().unwrap_or(table))
     }
 
-    /// Its model shot; `None` where it has none, or the cue has no room for it.
+    /// Returns the model shot; `None` if there is none, or the cue has no room for it.
     pub fn model_shot(&self) -> Option<CueInputs> {
         let table = self.table().ok()?;
         self.shot.filter(|shot| has_room(&table, &self.layout, shot))
     }
 
-    /// Checks all that others rely on: the name, the words, the table, the layout and the shot.
+    /// Validates the name, the texts, the grade, the par, the table, the layout and the shot.
     ///
     /// # Errors
-    /// The first problem found.
+    /// Fails with the first problem found.
     pub fn validate(&self) -> Result<(), ExerciseError> {
         if !is_name(&self.name) {
             return Err(ExerciseError::Name(self.name.clone()));
@@ -268,16 +268,17 @@ impl Exercise {
     }
 }
 
-/// The highest grade.
+/// Maximum grade.
 const HARDEST: u8 = 5;
 
-/// Checks a share of strokes that are made.
+/// Checks a make rate.
 pub(super) fn check_share(share: f64) -> Result<(), ExerciseError> {
     if (0.0..=1.0).contains(&share) { Ok(()) } else { Err(ExerciseError::Share(share)) }
 }
 
-/// Whether a terminal takes this for a command and no letter: control characters, ends of lines, and marks that turn the
-/// direction of writing. Fewer than [`is_hidden`](crate::printing::is_hidden) names: what earlier versions took is read.
+/// Whether a terminal interprets this as a command instead of a letter: control characters, line ends, and marks that
+/// change the text direction. A subset of [`is_hidden`](crate::printing::is_hidden), so that texts that earlier
+/// versions accepted can still be read.
 fn is_command(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

@@ -1,4 +1,4 @@
-//! Exercises as a JSON file: what the bundled library is read from, and what is exported and imported.
+//! The JSON file format of exercises, for the bundled library, export and import.
 
 use std::io::{self, Write};
 
@@ -11,17 +11,18 @@ use super::{
 };
 use crate::{printing::VERSION, storage::json_flaw};
 
-/// Exercises in a file.
+/// The content of a file of exercises.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LibraryFile {
-    /// What sort of file it is: [`LibraryFile::FORMAT`].
+    /// The format's name: [`LibraryFile::FORMAT`].
     pub format: String,
     /// Version of the format.
     pub version: u32,
-    /// The version of carom that wrote it; files from before "match" was fitted to filmed balls have none, nor do bundled ones.
+    /// The version of carom that wrote the file. Missing in files from before the "match" table was fitted to filmed
+    /// balls, and in bundled files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub carom: Option<String>,
-    /// The exercises. A file that holds other things may have none.
+    /// The exercises; may be missing in a file with other content.
     #[serde(default)]
     pub exercises: Vec<Exercise>,
 }
@@ -29,35 +30,34 @@ pub struct LibraryFile {
 /// Why a file of exercises cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum LibraryFileError {
-    /// It is no JSON, or not of this form.
-    #[error("this is no file of exercises: {}; {ACCEPTED}", json_flaw(_0))]
+    /// The file is not JSON, or has the wrong structure.
+    #[error("this is not a file of exercises: {}; {ACCEPTED}", json_flaw(_0))]
     Syntax(#[from] serde_json::Error),
-    /// It is JSON, and does not say what it holds.
-    #[error("this is no file of exercises: it does not begin with a \"format\" and a \"version\"; {ACCEPTED}")]
+    /// The file is JSON without the fields that identify its format.
+    #[error("this is not a file of exercises: it does not begin with a \"format\" and a \"version\"; {ACCEPTED}")]
     NoHeader,
-    /// It is something else, or of a version that is not understood.
+    /// The format is another one, or its version is not supported.
     #[error(transparent)]
     Mark(MarkError),
 }
 
-/// What would be accepted.
+/// The accepted input.
 const ACCEPTED: &str = "accepted is a JSON file as carom drill export writes it";
 
 impl LibraryFile {
-    /// What stands in `format`.
+    /// The value of `format`.
     pub const FORMAT: &str = "carom-library";
 
-    /// A file of this version.
+    /// Creates a file of this version.
     pub fn new(exercises: Vec<Exercise>) -> Self {
         let carom = Some(VERSION.to_owned());
         Self { format: Self::FORMAT.to_owned(), version: NEWEST, carom, exercises }
     }
 
-    /// Reads a file's text. Fields that are not known are skipped; the exercises are not checked: see
-    /// [`Exercise::validate`].
+    /// Parses a file's text. Unknown fields are skipped; the exercises are not validated: see [`Exercise::validate`].
     ///
     /// # Errors
-    /// Where it is something else, or of a version that is not understood, whatever else it holds.
+    /// Fails if the text is in another format or in an unsupported version, whatever else it contains.
     pub fn parse(text: &str) -> Result<Self, LibraryFileError> {
         marked::check(Self::FORMAT, text.as_bytes()).map_err(|error| match error {
             MarkError::Syntax(error) if error.is_data() => LibraryFileError::NoHeader,
@@ -67,10 +67,10 @@ impl LibraryFile {
         Ok(serde_json::from_str(text)?)
     }
 
-    /// The file's text: a line for each of an exercise's fields.
+    /// Returns the file's text, with a line for each field of an exercise.
     ///
     /// # Errors
-    /// Where a value has no JSON form; none of this type's has.
+    /// Fails if a value has no JSON form; none of this type's values does.
     pub fn to_text(&self) -> Result<String, serde_json::Error> {
         let mut bytes = Vec::new();
         self.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, Lines::default()))?;
@@ -79,10 +79,10 @@ impl LibraryFile {
     }
 }
 
-/// Objects and arrays as deep as this have a line for each of their values: the file, its exercises and their fields.
+/// Maximum depth at which each value of an object or array has its own line: the file, its exercises and their fields.
 const DEEPEST_LINES: usize = 3;
 
-/// JSON in lines that people read; what is deeper than an exercise's field stands in one line.
+/// Formats JSON in readable lines; values deeper than an exercise's fields are on one line.
 #[derive(Default)]
 struct Lines {
     depth: usize,
@@ -145,9 +145,9 @@ impl Formatter for Lines {
         writer.write_all(b": ")
     }
 
-    /// Twelve decimals: degrees that were read are written as they were, though radians lie between.
+    /// Writes twelve decimals, so that degrees are written as they were read, despite the conversion to radians.
     fn write_f64<W: ?Sized + Write>(&mut self, writer: &mut W, value: f64) -> io::Result<()> {
-        // The sum takes the sign from a nought.
+        // Adding zero removes the sign of a negative zero.
         let rounded = (value * 1e12).round() / 1e12 + 0.0;
         write!(writer, "{}", if rounded.is_finite() { rounded } else { value })
     }
@@ -193,7 +193,7 @@ mod tests {
         assert!(newer.contains("version 7") && newer.contains("1 to 1"), "{newer}");
         assert!(said(r#"{"format": "pool", "version": 1}"#).contains("\"pool\""));
         assert!(said("half a fi").contains(
-            "this is no file of exercises: line 1, column 1 is no JSON; accepted is a JSON file as carom drill"
+            "this is not a file of exercises: line 1, column 1 is no JSON; accepted is a JSON file as carom drill"
         ));
         for text in ["[1,2]", "3", r#"{"version": 1}"#, r#"{"format": 3, "version": 1}"#] {
             assert!(said(text).contains("does not begin with a \"format\""), "{}", said(text));

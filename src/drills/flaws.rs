@@ -1,4 +1,4 @@
-//! Whether the shot of an exercise is what the exercise teaches.
+//! Checks whether the shot of an exercise shows what the exercise teaches.
 
 use std::f64::consts::FRAC_PI_3;
 
@@ -16,17 +16,17 @@ use crate::{
     table::Table,
 };
 
-/// Balls are gathered where no two are further apart, m: a little less than two diamonds of a `match` table.
+/// The balls count as gathered if no two are further apart than this, m: a little less than two diamonds of a `match` table.
 pub const GATHERED: f64 = 0.6;
 
-/// What the shot of an exercise fails to show of what is taught, as sentences; none where all is well. An own exercise and
-/// one without a shot promise nothing.
+/// Lists the promises that the shot of an exercise does not keep, as sentences. Own exercises and exercises without a
+/// shot promise nothing.
 ///
-/// Every bundled shot meets yellow first, or red in the opening, once, and makes the point by its rule; the rest depends on the
-/// category, and in three-cushion on the pattern that the first tag names.
+/// Every bundled shot hits yellow first, or red in the opening, hits it once, and makes the point by its rule. The
+/// other promises depend on the category, and in three-cushion on the pattern that the first tag names.
 ///
 /// # Errors
-/// Where the exercise cannot be played.
+/// Fails if the exercise cannot be played.
 pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     exercise.validate()?;
     let table = exercise.table()?;
@@ -40,10 +40,10 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         ("the cue has room for it", has_room(&table, layout, &cue)),
         ("it makes the point by its rule", point.is_made(&technique.tally)),
         (
-            "it meets yellow first, or red in the opening",
+            "it hits yellow first, or red in the opening",
             technique.first.is_some_and(|hit| hit.ball == point.first_ball()),
         ),
-        ("it meets the first ball only once before the second", technique.again.is_none()),
+        ("it hits the first ball only once before the second", technique.again.is_none()),
         ("it covers at least a twentieth of the first ball", technique.fullness() >= 0.05),
         ("yellow stays away from red but in a time shot", technique.drives_second == is_tagged("time")),
     ];
@@ -88,7 +88,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
             vec![
                 ("the rule is three-cushion", exercise.rule.cushions() == 3),
                 ("the first tag names the system that describes it", exercise.tags.first() == name.as_ref()),
-                ("it goes through the number that the point tells", applied.is_some_and(|one| is_told(exercise, &one))),
+                ("it is aimed at the number in the point", applied.is_some_and(|one| matches_point(exercise, &one))),
             ]
         }
         Category::JumpAndMasse => raised(exercise, &table, &technique, &cue)?,
@@ -98,15 +98,15 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     Ok(checks.into_iter().filter_map(|(sentence, holds)| (!holds).then_some(sentence)).collect())
 }
 
-/// The least distance of a ball that is jumped from far, m, the largest of one that stands near, and the elevations from which on
-/// a massé is a half and a full one, rad.
+/// Distance above which a jump is a far one and below which it is a near one, m, and the elevations from which on a
+/// massé is a half and a full one, rad.
 const FAR: f64 = 0.6;
 const NEAR: f64 = 0.2;
 const HALF_MASSE: f64 = 30.0_f64.to_radians();
 const FULL_MASSE: f64 = 63.0_f64.to_radians();
 
-/// What a shot with a raised cue shows, by its first tag: it flies over red, or its way bends, and the cue has hopped where it
-/// began at a rail.
+/// Checks the promises of a shot with a raised cue, by its first tag: it flies over red, or its path bends, or it hops
+/// because the cue ball starts at a rail.
 fn raised(
     exercise: &Exercise,
     table: &Table,
@@ -118,7 +118,7 @@ fn raised(
     let (way, ahead) = (red - cue_ball, DVec2::from_angle(cue.phi));
     let recording = Recording::new(table, &exercise.layout, cue)?;
     let first = recording.events().iter().find(|event| event.kind.is_contact());
-    // What hops at the rail is told, and is over before the ball is met.
+    // A hop at the rail must be high enough to be reported, and must end before the first contact.
     let hops = recording.jumps().into_iter().find(|jump| jump.ball == 0);
     let has_landed = hops.zip(first).is_some_and(|(hop, first)| hop.is_told() && hop.end <= first.time);
     let is_least = with_room(table, &exercise.layout, &CueInputs { theta: 0.0, ..*cue })
@@ -148,7 +148,7 @@ fn raised(
     ])
 }
 
-/// The diamond system that describes the shot, with its numbers.
+/// Returns the diamond system that describes the shot, with its numbers.
 fn applied(exercise: &Exercise, table: &Table, cue: &CueInputs) -> Result<Option<Applied>, ExerciseError> {
     Ok(match guide(table, &Recording::new(table, &exercise.layout, cue)?) {
         Some(Guide::System(applied)) => Some(applied),
@@ -156,16 +156,16 @@ fn applied(exercise: &Exercise, table: &Table, cue: &CueInputs) -> Result<Option
     })
 }
 
-/// Whether the shot itself goes through what the sum in the point comes to, to a twentieth of a diamond.
-fn is_told(exercise: &Exercise, applied: &Applied) -> bool {
+/// Whether the shot itself is aimed at the result of the sum in the point, to a twentieth of a diamond.
+fn matches_point(exercise: &Exercise, applied: &Applied) -> bool {
     let sum =
         exercise.point.split_once("= ").map(|(_, sum)| sum.split([',', ':', ';', ' ']).next().unwrap_or_default());
-    let told: Option<f64> = sum.and_then(|sum| sum.trim_end_matches('.').parse().ok());
+    let stated: Option<f64> = sum.and_then(|sum| sum.trim_end_matches('.').parse().ok());
     let twentieth = if applied.system == System::Plus { 0.05 } else { 0.5 };
-    told.zip(applied.shot_first).is_some_and(|(told, shot)| (told - shot).abs() <= twentieth)
+    stated.zip(applied.shot_first).is_some_and(|(stated, shot)| (stated - shot).abs() <= twentieth)
 }
 
-/// What the tags promise of the stroke and of its course, each with whether it holds.
+/// Returns the promises of the tags about the stroke and its course, each with whether the shot keeps it.
 fn tagged(exercise: &Exercise, technique: &Technique, cue: &CueInputs) -> impl Iterator<Item = (&'static str, bool)> {
     let cushions = technique.before.len() + technique.between.len();
     let direct = matches!(exercise.category, Category::OneCushion | Category::Side);

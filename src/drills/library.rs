@@ -1,4 +1,4 @@
-//! The exercises there are: the bundled ones and the user's own.
+//! The library of exercises: the bundled ones and the user's own.
 
 use std::sync::LazyLock;
 
@@ -6,7 +6,7 @@ use strsim::jaro_winkler;
 
 use super::{Category, Exercise, LibraryFile, exercise::bare_tag};
 
-/// The bundled files, one a category.
+/// The bundled files, one per category.
 const BUNDLED: [&str; 9] = [
     include_str!("../../saves/first-caroms.json"),
     include_str!("../../saves/draw.json"),
@@ -19,29 +19,29 @@ const BUNDLED: [&str; 9] = [
     include_str!("../../saves/jump-and-masse.json"),
 ];
 
-/// Why an exercise is not in the library, or cannot be.
+/// Why an exercise is not in the library, or cannot be added.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum LibraryError {
-    /// There is none of this name.
+    /// No exercise has this name.
     #[error("there is no exercise \"{0}\"; carom drill list shows all names")]
     Unknown(String),
-    /// There are several that may be meant.
+    /// Several exercises match.
     #[error("\"{text}\" may be {}; give more of the name or the title", listed(names))]
     Ambiguous {
-        /// What was given.
+        /// The search text.
         text: String,
-        /// The names of those that it may mean, with their titles.
+        /// The names of the matches, with their titles.
         names: Vec<String>,
     },
-    /// There is another of this name.
+    /// Another exercise has this name.
     #[error("there is an exercise \"{0}\" already; give this one another name")]
     Taken(String),
 }
 
-/// How alike, from 0 to 1, two words are of which one may be meant by the other.
+/// Minimum similarity, from 0 to 1, of a text to a name or title for a suggestion.
 const ALIKE: f64 = 0.8;
 
-/// Most exercises that are listed in a sentence.
+/// Maximum number of exercises listed in a sentence.
 const MOST_LISTED: usize = 8;
 
 /// Names in a sentence: a, b and c.
@@ -53,7 +53,7 @@ fn listed(names: &[String]) -> String {
     if shown.is_empty() { last } else { format!("{} and {last}", shown.join(", ")) }
 }
 
-/// Exercises with names of their own, the bundled ones first, by category.
+/// Exercises with unique names, the bundled ones first, by category.
 #[derive(Clone, Debug, Default)]
 pub struct Library {
     exercises: Vec<Exercise>,
@@ -61,7 +61,7 @@ pub struct Library {
 }
 
 impl Library {
-    /// The bundled exercises, whose files are read once.
+    /// Returns the bundled exercises, whose files are read once.
     pub fn bundled() -> &'static Self {
         static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
             let read =
@@ -72,17 +72,17 @@ impl Library {
         &LIBRARY
     }
 
-    /// The bundled exercises and these, and what is wrong with those that could not be taken in.
+    /// Returns the bundled exercises together with these, and the errors of those that could not be added.
     pub fn with_own(own: Vec<Exercise>) -> (Self, Vec<LibraryError>) {
         let mut library = Self::bundled().clone();
         let refused = own.into_iter().filter_map(|exercise| library.add(exercise).err()).collect();
         (library, refused)
     }
 
-    /// Takes in one more exercise.
+    /// Adds an exercise.
     ///
     /// # Errors
-    /// [`LibraryError::Taken`] where there is one of its name.
+    /// [`LibraryError::Taken`] if another exercise has its name.
     pub fn add(&mut self, exercise: Exercise) -> Result<(), LibraryError> {
         if self.get(&exercise.name).is_ok() {
             return Err(LibraryError::Taken(exercise.name));
@@ -91,7 +91,7 @@ impl Library {
         Ok(())
     }
 
-    /// The exercise of this name.
+    /// Finds the exercise with this name.
     ///
     /// # Errors
     /// [`LibraryError::Unknown`].
@@ -100,8 +100,8 @@ impl Library {
         named.ok_or_else(|| LibraryError::Unknown(name.to_owned()))
     }
 
-    /// The exercise that a player means by `text`: its name, or its name or title in capitals or not, or the beginning of
-    /// either where no other begins so.
+    /// Finds the exercise that `text` refers to: its name; or its name or title, ignoring case; or an unambiguous
+    /// prefix of either.
     ///
     /// # Errors
     /// [`LibraryError::Unknown`] or [`LibraryError::Ambiguous`].
@@ -109,7 +109,7 @@ impl Library {
         self.titled(text).or_else(|_| self.only(text, |words, wanted| !wanted.is_empty() && words.starts_with(wanted)))
     }
 
-    /// The exercise of this name, or of this name or title in capitals or not.
+    /// Finds the exercise with this name, or with this name or title, ignoring case.
     ///
     /// # Errors
     /// [`LibraryError::Unknown`] or [`LibraryError::Ambiguous`].
@@ -117,7 +117,8 @@ impl Library {
         self.get(text).or_else(|_| self.only(text, |words, wanted| words == wanted))
     }
 
-    /// The only one whose name or title `is_so` for `text`, both in small letters and with a blank for a hyphen.
+    /// Finds the only exercise for which `is_so` holds for its name or title and `text`, both in lower case and with spaces
+    /// for hyphens.
     fn only(&self, text: &str, is_so: impl Fn(&str, &str) -> bool) -> Result<&Exercise, LibraryError> {
         let plain = |words: &str| words.to_lowercase().replace('-', " ");
         let wanted = plain(text);
@@ -130,7 +131,7 @@ impl Library {
         }
     }
 
-    /// The name of the exercise whose name or title is most like `text`, if one is much like it.
+    /// Finds the name of the exercise whose name or title is most similar to `text`, if one is similar enough.
     pub fn like(&self, text: &str) -> Option<&str> {
         let wanted = text.to_lowercase();
         let alike = |exercise: &Exercise| {
@@ -142,17 +143,17 @@ impl Library {
         (alike > ALIKE).then_some(nearest.name.as_str())
     }
 
-    /// All of them.
+    /// Returns all exercises.
     pub fn exercises(&self) -> &[Exercise] {
         &self.exercises
     }
 
-    /// Whether the exercise of this name comes with the program.
+    /// Whether the exercise with this name comes with the program.
     pub fn is_bundled(&self, name: &str) -> bool {
         self.exercises[..self.bundled].iter().any(|exercise| exercise.name == name)
     }
 
-    /// Those that the filter lets through, in the order of the library.
+    /// Returns the exercises that the filter accepts, in the order of the library.
     pub fn find(&self, filter: &Filter) -> impl Iterator<Item = &Exercise> {
         self.exercises.iter().filter(|exercise| filter.accepts(exercise))
     }
@@ -163,27 +164,27 @@ fn ambiguous(text: &str, several: &[&Exercise]) -> LibraryError {
     LibraryError::Ambiguous { text: text.to_owned(), names: names.collect() }
 }
 
-/// Which exercises are looked for; what is `None` does not matter.
+/// Search criteria for exercises; a criterion that is `None` accepts all.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Filter {
-    /// What they are about.
+    /// The category.
     pub category: Option<Category>,
-    /// How hard they are.
+    /// The grade.
     pub grade: Option<u8>,
-    /// A tag that they have.
+    /// A tag.
     pub tag: Option<String>,
-    /// A text that occurs in their name, title, point or tags, in capitals or not.
+    /// A text in the name, title, point or tags, ignoring case.
     pub text: Option<String>,
 }
 
 impl Filter {
-    /// Whether an exercise is looked for.
+    /// Whether an exercise meets all criteria.
     pub fn accepts(&self, exercise: &Exercise) -> bool {
         let has = |words: &str, text: &str| words.to_lowercase().contains(&text.to_lowercase());
         self.category.is_none_or(|category| exercise.category == category)
             && self.grade.is_none_or(|grade| exercise.grade == grade)
             && self.tag.as_ref().is_none_or(|tag| {
-                // Versions that kept the sign as well have left it in files.
+                // Some older versions stored tags in files with the sign.
                 exercise.tags.iter().any(|own| bare_tag(own) == bare_tag(tag))
             })
             && self.text.as_ref().is_none_or(|text| {
@@ -270,7 +271,7 @@ mod tests {
             ..crate::drills::session::tests::exercise(name)
         };
         let mut library = Library::default();
-        // An older version has kept the sign.
+        // An older version stored the sign.
         for exercise in [tagged("new", "corner"), tagged("old", "#corner"), tagged("other", "rail")] {
             library.add(exercise).unwrap();
         }

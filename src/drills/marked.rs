@@ -1,36 +1,36 @@
-//! Files that say what they are and of which version: one of a newer version is distinguished from one that is damaged.
+//! Files with a format and a version in their header, so that files of newer versions are distinguished from damaged ones.
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::{printing::VERSION, storage::json_flaw};
 
-/// Newest version that is understood of all files that are marked here, and the one that is written.
+/// Newest version of all these formats that can be read, and the one that is written.
 pub const NEWEST: u32 = 1;
 
 /// Why a file's text cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum MarkError {
-    /// It is no JSON, or not of this form.
+    /// The text is not JSON, or has the wrong structure.
     #[error("it is damaged: {}", json_flaw(_0))]
     Syntax(#[from] serde_json::Error),
-    /// It is something else.
+    /// The format is another one.
     #[error("its format is \"{found}\"; accepted is \"{accepted}\"")]
     Format {
-        /// What the file says.
+        /// The format in the file.
         found: String,
-        /// What was looked for.
+        /// The expected format.
         accepted: &'static str,
     },
-    /// Another program wrote it, most likely a newer one.
-    #[error("it is of version {0}; versions 1 to {NEWEST} are understood, a newer carom may have written it")]
+    /// The version is not supported, most likely because a newer program wrote the file.
+    #[error("it has version {0}; versions 1 to {NEWEST} can be read, a newer carom may have written it")]
     Version(u32),
 }
 
 #[derive(Serialize)]
-struct Marked<'a, T> {
+struct WithHeader<'a, T> {
     format: &'static str,
     version: u32,
-    /// The version of carom that writes it.
+    /// The version of carom that writes the file.
     carom: &'static str,
     #[serde(flatten)]
     content: &'a T,
@@ -42,17 +42,17 @@ struct Header {
     version: u32,
 }
 
-/// The text of a file.
+/// Serializes `content` with the header.
 ///
 /// # Errors
-/// Where a value has no JSON form.
+/// Fails if a value has no JSON form.
 pub fn write<T: Serialize>(format: &'static str, content: &T) -> Result<Vec<u8>, serde_json::Error> {
-    let mut bytes = serde_json::to_vec(&Marked { format, version: NEWEST, carom: VERSION, content })?;
+    let mut bytes = serde_json::to_vec(&WithHeader { format, version: NEWEST, carom: VERSION, content })?;
     bytes.push(b'\n');
     Ok(bytes)
 }
 
-/// Whether a file's text is of this format and of a version that is understood, whatever else it holds.
+/// Checks that a text has this format and a supported version, whatever else it contains.
 ///
 /// # Errors
 /// [`MarkError`].
@@ -67,7 +67,7 @@ pub fn check(format: &'static str, text: &[u8]) -> Result<(), MarkError> {
     Ok(())
 }
 
-/// What a file's text holds besides its marks.
+/// Parses the content of a text without its header.
 ///
 /// # Errors
 /// [`MarkError`].

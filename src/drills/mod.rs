@@ -1,4 +1,4 @@
-//! Practice: positions with what they teach, sessions that keep score, and what the score says of a player.
+//! Practice: exercises, sessions that keep score, and the estimate of a player's skill from the results.
 
 mod code;
 mod compare;

@@ -1,23 +1,24 @@
-//! How hard an exercise is: what players of the named skills make of its shot.
+//! Measures the difficulty of an exercise: how often players of the named skills make its shot.
 
 use super::{Exercise, ExerciseError, Par};
 use crate::coach::{Doubt, Shooter, Skill, make_probability};
 
-/// Attempts from which each share is measured; its standard error is at most 0.5 %.
+/// Attempts for each share; its standard error is at most 0.5 %.
 pub const ATTEMPTS: usize = 10_000;
 
 /// Seed of the attempts' errors.
 pub const SEED: u64 = 2026;
 
-/// Least share that a club player makes in grades 1 to 4; below the last it is grade 5.
+/// Minimum share that a club player makes in grades 1 to 4; below the last one the grade is 5.
 pub const GRADES: [f64; 4] = [0.95, 0.83, 0.68, 0.43];
 
 impl Par {
-    /// Plays the exercise's shot [`ATTEMPTS`] times with the errors of each player, on tables and from places that are in doubt; `None` where it has no shot that the cue has
-    /// room for. The shares are rounded to a thousandth.
+    /// Plays the exercise's shot [`ATTEMPTS`] times with the errors of each player and with uncertain tables and ball
+    /// positions. `None` if the exercise has no shot, or the cue has no room for it. The shares are rounded to a
+    /// thousandth.
     ///
     /// # Errors
-    /// Where the exercise cannot be played.
+    /// Fails if the exercise cannot be played.
     pub fn measure(exercise: &Exercise) -> Result<Option<Self>, ExerciseError> {
         exercise.validate()?;
         let table = exercise.table()?;
@@ -34,7 +35,7 @@ impl Par {
         }))
     }
 
-    /// How hard that is, 1 to 5, by what the club player makes.
+    /// Returns the grade, 1 to 5, by the club player's share.
     pub fn grade(&self) -> u8 {
         1 + GRADES.iter().filter(|least| self.club < **least).count() as u8
     }

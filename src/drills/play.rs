@@ -1,4 +1,4 @@
-//! Attempts: a stroke is played with the player's errors, or one at a real table is taken note of.
+//! Attempts: plays a stroke with the player's errors, or records a result from a real table.
 
 use super::{Attempt, ExerciseError, Session, session::now, shifted};
 use crate::{
@@ -10,14 +10,14 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// Sets the errors of strokes apart from all else that is drawn from a session's seed: a coach who knew them would choose by
-/// them.
+/// Separates the stroke errors from the other random numbers of a session's seed, so that the coach's search cannot
+/// exploit them.
 const ERRORS: u64 = 0x7374_726f_6b65_733f;
 
-/// Why no attempt can be made.
+/// Why an attempt cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum PlayError {
-    /// The goal is reached.
+    /// The goal of the session is reached.
     #[error("the session is over")]
     Over,
     /// The exercise cannot be played.
@@ -26,28 +26,28 @@ pub enum PlayError {
     /// The stroke cannot be played.
     #[error(transparent)]
     Cue(#[from] CueError),
-    /// There is no room for the cue.
+    /// The cue has no room for the stroke.
     #[error(transparent)]
     Room(#[from] NoRoom),
 }
 
-/// What came of a stroke.
+/// The result of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Played {
     /// The stroke with the player's errors.
     pub stroke: CueInputs,
-    /// Whether the tip slipped off the ball: then no ball moves, and there is no point.
+    /// Whether the tip slipped off the ball; then no ball moves, and there is no point.
     pub miscue: bool,
-    /// What came of it.
+    /// The verdict on the shot.
     pub verdict: Verdict,
     /// Whether it made the point.
     pub made: bool,
-    /// Where the balls came to rest, m; those that left the table are on their spots.
+    /// The ball positions at rest, m; balls that left the table are on their spots.
     pub end: Layout,
 }
 
 impl Played {
-    /// Plays a stroke as it is.
+    /// Plays a stroke without further errors.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
         let impulse = strike(table, &stroke);
         let mut referee = Referee::to_the_end().beginning(Tally::from_stroke(table, layout, &impulse));
@@ -59,8 +59,8 @@ impl Played {
         Self { stroke, miscue, verdict, made: verdict.is_made(), end }
     }
 
-    /// The same where it is told how a ball was missed, for which the shot is recorded.
-    fn told(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
+    /// Like [`of`](Self::of), and determines how a ball was missed, for which the shot is recorded.
+    fn recorded(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
         match Recording::new(table, layout, &stroke) {
             Ok(recording) if !stroke.is_miscue(table) => {
                 let verdict = Verdict::of(rule, table, layout, &recording);
@@ -71,33 +71,33 @@ impl Played {
     }
 }
 
-/// A stroke that a player may mean on `table`: its inputs are in their ranges and the tip within the miscue limit.
+/// Checks a stroke that a player intends on `table`: its inputs must be in range and the tip within the miscue limit.
 ///
 /// # Errors
-/// The first problem found.
+/// Fails with the first problem found.
 pub fn check(table: &Table, cue: &CueInputs) -> Result<(), CueError> {
     cue.validate()?;
     cue.validate_tip(table.miscue_limit)
 }
 
-/// The stroke as it is meant once the cue lies over the rails and balls behind it.
+/// Returns the intended stroke with the cue raised over the rails and balls behind it.
 fn raised(table: &Table, layout: &Layout, meant: &CueInputs) -> Result<CueInputs, PlayError> {
     check(table, meant)?;
     Ok(with_room(table, layout, meant)?)
 }
 
 impl Session {
-    /// Where the balls lie for the next attempt and on which table; `None` when it is over.
+    /// Returns the table and the layout of the next attempt; `None` if the session is over.
     ///
     /// # Errors
-    /// Where the exercise is impossible.
+    /// Fails if the exercise is impossible.
     pub fn position(&self) -> Result<Option<(Table, Layout)>, ExerciseError> {
         let Some(exercise) = self.exercise() else { return Ok(None) };
         let table = self.table_of(exercise)?;
         let layout = match self.attempts.last() {
             Some(last) if self.is_game() => {
                 let layout = last.layout.unwrap_or(exercise.layout);
-                // The simulator repeats itself to the last bit.
+                // The simulation is deterministic to the last bit.
                 let end = last.played.map_or(layout, |stroke| Played::of(exercise.rule, &table, &layout, stroke).end);
                 if self.is_match() && !last.made { end.for_the_opponent() } else { end }
             }
@@ -107,11 +107,12 @@ impl Session {
         Ok(Some((table, layout)))
     }
 
-    /// Plays the next attempt: what the player means, with the player's errors. The same session plays the same. A cue that is
-    /// meant lower than a rail or a ball behind it lets it be is raised, as it would be at a real table.
+    /// Plays the next attempt: the intended stroke with the player's errors, which the session's seed determines. A cue
+    /// that is too low for a rail or a ball behind it is raised, as it would be at a real table.
     ///
     /// # Errors
-    /// Where the session is over, the stroke is impossible or the cue has no room for it; nothing is then noted.
+    /// Fails if the session is over, the stroke is impossible, or the cue has no room for it. In these cases nothing is
+    /// recorded.
     pub fn play(&mut self, meant: CueInputs, helped: bool) -> Result<Played, PlayError> {
         let (table, layout) = self.position()?.ok_or(PlayError::Over)?;
         let meant = raised(&table, &layout, &meant)?;
@@ -119,7 +120,7 @@ impl Session {
         let number = self.attempts.len();
         let errors = errors::independent(number + 1, self.seed ^ ERRORS)[number];
         let stroke = self.skill.stroke(table.radius, &meant, &errors);
-        let played = Played::told(exercise.rule, &table, &layout, stroke);
+        let played = Played::recorded(exercise.rule, &table, &layout, stroke);
         let attempt = Attempt {
             layout: (layout != exercise.layout).then_some(layout),
             meant: Some(meant),
@@ -132,10 +133,10 @@ impl Session {
         Ok(played)
     }
 
-    /// Takes note of an attempt at a real table.
+    /// Records an attempt at a real table.
     ///
     /// # Errors
-    /// Where the session is over or the exercise is impossible.
+    /// Fails if the session is over, or the exercise is impossible.
     pub fn log(&mut self, made: bool) -> Result<(), PlayError> {
         let (_, layout) = self.position()?.ok_or(PlayError::Over)?;
         let exercise = self.exercise().ok_or(PlayError::Over)?;
@@ -144,14 +145,14 @@ impl Session {
         Ok(())
     }
 
-    /// Takes the last attempt back.
+    /// Removes the last attempt and returns it.
     pub fn undo(&mut self) -> Option<Attempt> {
         self.attempts.pop()
     }
 }
 
 impl Attempt {
-    /// One that was made just now, of which nothing else is known.
+    /// Creates an attempt made now, with its result only.
     pub fn new(exercise: &str, made: bool) -> Self {
         Self {
             exercise: exercise.to_owned(),
@@ -181,14 +182,14 @@ mod tests {
 
     #[test]
     fn a_miss_says_by_how_much_and_on_which_side_a_ball_was_passed() {
-        // Yellow lies 10 cm to the left of the way, red far behind.
+        // Yellow lies 10 cm to the left of the path, red far behind.
         let layout = Layout::parse("-1,0 0,0.1 -1.3,-0.6", &Table::default()).unwrap();
         let exercise = Exercise::own("passed", Rule::StraightRail, "match", layout);
         let mut session = Session::new(Goal::Free, Venue::Program, vec![exercise], Skill::PERFECT, 1);
         let played = session.play(CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 }, false).unwrap();
-        let told = |unit| played.words(CueBall::White, unit);
-        assert_eq!(told(LengthUnit::Metres), "No point: no ball was met, passed yellow by 3.9 cm on the right");
-        assert!(told(LengthUnit::Feet).ends_with("passed yellow by 1.5 in on the right"));
+        let words = |unit| played.words(CueBall::White, unit);
+        assert_eq!(words(LengthUnit::Metres), "No point: no ball was hit, passed yellow by 3.9 cm on the right");
+        assert!(words(LengthUnit::Feet).ends_with("passed yellow by 1.5 in on the right"));
     }
 
     #[test]
@@ -211,7 +212,7 @@ mod tests {
         let played = session("match");
         let kept: Session = serde_json::from_str(&serde_json::to_string(&played).unwrap()).unwrap();
         assert_eq!((kept.table, kept.exercises.len()), (played.table, 1));
-        // A model shot that makes the point on the table that it was made for, and stops short on a slower one.
+        // A model shot that makes the point on the table that it was designed for, and stops short on a slower one.
         let half_ball = Library::bundled().get("half-ball").unwrap().clone();
         let slow = Table { rolling_friction: 0.19, ..Table::default() };
         let model_shot = |table: Option<&Table>| {
@@ -243,14 +244,14 @@ mod tests {
         let said = played.words(CueBall::White, LengthUnit::Metres);
         assert!(!played.made && said.starts_with("Foul: the stroke pushes yellow"), "{said}");
         assert!(played.verdict.tally.met_both() && !session.attempts[0].made);
-        // The same where the shot is not recorded, and by how often it is made.
+        // The same for a shot that is not recorded, and for the make probability.
         let one = Played::of(Rule::StraightRail, &table, &layout, stroke(0.0));
         assert!(!one.made && one.verdict.tally.pushed == Some(1));
         for doubt in [Doubt::NONE, Doubt::FULL] {
             let shooter = Shooter { skill: Skill::CLUB, doubt };
             let chance = |cue: &CueInputs| chance(shooter, Rule::StraightRail, &table, &layout, cue).rate;
             assert_eq!(chance(&stroke(0.0)), 0.0, "{doubt}");
-            // By the left rail to red and on to yellow.
+            // Off the left rail to red and on to yellow.
             let away = chance(&CueInputs::parse("-0.0948,0.3252,1,-128.0745,1.738").unwrap());
             assert!(away > 0.1, "{doubt}: {away}");
         }

@@ -1,4 +1,4 @@
-//! The score of a list of attempts: how many, how often, how many in a row.
+//! The score of a list of attempts: number, make rate and runs.
 
 use super::session::{Attempt, Session, Venue};
 use crate::statistics::SuccessRate;
@@ -6,29 +6,29 @@ use crate::statistics::SuccessRate;
 /// The score of a list of attempts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Record {
-    /// Attempts.
+    /// Number of attempts.
     pub tried: usize,
     /// Points.
     pub made: usize,
-    /// Attempts with a hint; they count among the others.
+    /// Attempts with a hint; they are included in the others.
     pub helped: usize,
-    /// Share of points with its 95 % interval.
+    /// Share of points, with its 95 % confidence interval.
     pub rate: SuccessRate,
-    /// Innings: each miss ends one, and the last of a session counts where it was still open, as in a match.
+    /// Innings: each miss ends one, and an open run at the end of a session counts as one, as in a match.
     pub innings: usize,
-    /// Points an inning; `None` without an inning.
+    /// Points per inning; `None` without an inning.
     pub average: Option<f64>,
-    /// Most points in a row. No run goes from one session into the next.
+    /// Longest run of points. No run continues into the next session.
     pub high_run: u32,
-    /// Whether attempts were counted whose order nobody knows: they have no part in innings, average and runs.
+    /// Whether some attempts have no known order; these are left out of innings, average and runs.
     pub has_unordered: bool,
-    /// When the last attempt was, Unix time in seconds.
+    /// Time of the last attempt, Unix time in seconds.
     pub last: Option<u64>,
 }
 
 impl Record {
-    /// Of the player's attempts in `sessions` that `counts` accepts; the coach's strokes are none. Those whose order nobody knows have no part in innings, average
-    /// and runs.
+    /// Returns the record of the player's attempts in `sessions` that `counts` accepts, without the coach's strokes. Attempts
+    /// without a known order are left out of innings, average and runs.
     pub fn of<'a>(
         sessions: impl IntoIterator<Item = &'a Session>,
         counts: impl Fn(&Session, &Attempt) -> bool,
@@ -39,12 +39,12 @@ impl Record {
         })
     }
 
-    /// Of all that was played in a session, by whomever.
+    /// Returns the record of all attempts in a session, by either side.
     pub fn of_session(session: &Session) -> Self {
         Self::of_all([session], |_, _| true)
     }
 
-    /// Of the attempts in a session whose numbers, from 0 on, `counts` accepts.
+    /// Returns the record of the attempts in a session whose numbers, from 0 on, `counts` accepts.
     pub(super) fn of_part(session: &Session, counts: impl Fn(usize) -> bool) -> Self {
         Self::of_all([session], |_, number| counts(number))
     }
@@ -56,7 +56,7 @@ impl Record {
             let mut run = 0;
             for (number, attempt) in session.attempts.iter().enumerate() {
                 if !counts(session, number) {
-                    // Another player's attempt, or another exercise's, ends a run.
+                    // An attempt by the other player, or at another exercise, ends a run.
                     innings += usize::from(run > 0);
                     run = 0;
                     continue;
@@ -93,7 +93,8 @@ impl Record {
         }
     }
 
-    /// The same `record` at a real table and here, where anything was tried: results of the one say little of the other.
+    /// Returns the same `record` separately for real tables and for the program, where there are attempts: results at one say
+    /// little about the other.
     pub fn apart<'a>(
         sessions: &'a [Session],
         record: impl Fn(&mut dyn Iterator<Item = &'a Session>) -> Self,
@@ -102,7 +103,7 @@ impl Record {
         Venue::ALL.into_iter().map(|venue| (venue, at(venue))).filter(|(_, record)| record.tried > 0).collect()
     }
 
-    /// Of all repetitions of the exercise called `name`; games are none.
+    /// Returns the record of all repetitions of the exercise with this name; games do not count.
     pub fn of_exercise<'a>(sessions: impl IntoIterator<Item = &'a Session>, name: &str) -> Self {
         Self::of(sessions, |session, attempt| !session.is_game() && attempt.exercise == name)
     }
@@ -136,7 +137,7 @@ mod tests {
         assert!(record.has_unordered);
     }
 
-    /// Misses were overlooked: all points were those that were noted one by one, and the average that of all attempts, it seemed.
+    /// Regression test: unordered misses were overlooked, so the average seemed to cover all attempts.
     #[test]
     fn misses_without_order_are_told_from_those_noted_one_by_one() {
         let mut sessions = [session(Goal::Free, "----------"), session(Goal::Free, "x-")];

@@ -1,4 +1,4 @@
-//! A session of practice: what was to be done, every attempt at it, and what comes next.
+//! A practice session: its goal, its attempts, and the next exercise.
 
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -17,35 +17,35 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Goal {
-    /// When the player has had enough.
+    /// When the player stops.
     Free,
-    /// When the exercise was made so many times in a row.
+    /// When the exercise was made this many times in a row.
     Run(u32),
     /// After one attempt at each exercise.
     Exam,
-    /// After so many innings, 0 for no end; each stroke is played from where the one before left the balls.
+    /// After this number of innings, 0 for no limit. Each stroke starts from where the last one left the balls.
     Game {
         /// Innings, each of which ends with a miss.
         innings: u32,
     },
-    /// A game of two, white and yellow, who take turns: a miss ends an inning, and the other goes on from where the balls lie
-    /// with the other ball. After so many innings of each, 0 for no end.
+    /// A game between two sides, white and yellow. A miss ends an inning, and the other side continues from the
+    /// resulting layout with its own cue ball. The game ends after this number of innings of each side, 0 for no limit.
     Match {
         /// Innings of each side.
         innings: u32,
-        /// Whether the coach plays the side that does not begin, with the same errors.
+        /// Whether the coach plays the second side, with the same errors.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         against_coach: bool,
     },
 }
 
 impl Goal {
-    /// Whether it is a game: then its attempts are no repetitions of an exercise.
+    /// Whether it is a game: its attempts then do not count as repetitions of an exercise.
     pub const fn is_game(self) -> bool {
         matches!(self, Self::Game { .. } | Self::Match { .. })
     }
 
-    /// What a session of it is called.
+    /// Returns the name of such a session.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Free => "practice",
@@ -56,7 +56,7 @@ impl Goal {
         }
     }
 
-    /// What it is, in a few words.
+    /// Describes it in a few words.
     pub fn words(self) -> String {
         match self {
             Self::Free => "free repetition".to_owned(),
@@ -81,17 +81,17 @@ impl Goal {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Venue {
-    /// Here, by simulation with the player's errors.
+    /// In the program, by simulation with the player's errors.
     Program,
-    /// At a real table: the player tells what was made.
+    /// At a real table: the player enters the results.
     Table,
 }
 
 impl Venue {
-    /// Both, a real table first.
+    /// Both venues, the real table first.
     pub const ALL: [Self; 2] = [Self::Table, Self::Program];
 
-    /// In a word, as records tell it.
+    /// Returns the name in records.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Program => "here",
@@ -100,43 +100,44 @@ impl Venue {
     }
 }
 
-/// One attempt. What is not known of it, as most is of one at a real table, is left out.
+/// One attempt. Unknown properties, such as most of those at a real table, are omitted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
     /// Name of the exercise.
     pub exercise: String,
-    /// When, Unix time in seconds.
+    /// Unix time in seconds.
     pub at: u64,
     /// Whether it made the point.
     pub made: bool,
-    /// Whether the player had looked at a shot that makes it, or had the coach play. An attempt with a hint counts too, and is marked.
+    /// Whether the player had looked at a shot that makes the point, or had let the coach play. Such an attempt counts
+    /// too, and is marked.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub helped: bool,
-    /// Whether the coach played it: then it is none of the player's record.
+    /// Whether the coach played it; then it does not count for the player's record.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub by_coach: bool,
-    /// Where the balls lay, m, if not where the exercise has them.
+    /// The ball positions, m, if they differ from the exercise's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layout: Option<Layout>,
-    /// What the player wanted to play.
+    /// The stroke that the player intended.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub meant: Option<CueInputs>,
-    /// What came of it with the player's errors.
+    /// The stroke that resulted, with the player's errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub played: Option<CueInputs>,
-    /// How often the player makes what was meant, a share from 0 to 1.
+    /// How often the player makes the intended stroke, a share from 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chance: Option<f64>,
-    /// The advised shot: the model shot where the balls lay for it, else the coach's.
+    /// The recommended shot: the model shot if the layout is the exercise's, else the coach's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub advised: Option<CueInputs>,
-    /// How often the player makes that, a share from 0 to 1.
+    /// How often the player makes the recommended shot, a share from 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub advised_chance: Option<f64>,
 }
 
 impl Attempt {
-    /// Whether `prefix` is how `all` begin, however good the strokes were found to be since.
+    /// Whether `all` begins with `prefix`, ignoring later evaluations of the strokes.
     pub fn is_prefix(prefix: &[Self], all: &[Self]) -> bool {
         let is_same =
             |(one, other): (&Self, &Self)| (&one.exercise, one.at, one.made) == (&other.exercise, other.at, other.made);
@@ -144,52 +145,53 @@ impl Attempt {
     }
 }
 
-/// A session of practice. It holds its exercises as they were: whatever becomes of them, it can be read.
+/// A practice session. It stores copies of its exercises, so that it can be read whatever happens to the originals.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Session {
-    /// Its name among all sessions, and that of its file.
+    /// Unique identifier, also the name of its file.
     pub id: String,
-    /// When it began, Unix time in seconds.
+    /// Start, Unix time in seconds.
     pub started: u64,
-    /// When it is over.
+    /// The condition for its end.
     pub goal: Goal,
     /// Where the strokes are played.
     pub venue: Venue,
-    /// Whose strokes they are.
+    /// The player's skill.
     pub skill: Skill,
-    /// Whether the balls are shifted a little at every repetition but the first.
+    /// Whether the balls are shifted slightly at every repetition except the first.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub shifted: bool,
-    /// Whether the order of makes and misses is not known: then they do not count for runs and innings.
+    /// Whether the order of the results is unknown; then they do not count for runs and innings.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unordered: bool,
-    /// The ball that is the cue ball at first.
+    /// The first cue ball.
     #[serde(default, skip_serializing_if = "CueBall::is_white")]
     pub cue_ball: CueBall,
     /// Seed of the errors and of the shifts.
     pub seed: u64,
-    /// The player's own table, on which exercises of tables of its size are played; `None` where each is played on the one that it was
-    /// made for.
+    /// The player's own table, on which exercises for tables of its size are played; `None` if each is played on the
+    /// table that it was designed for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub table: Option<Box<Table>>,
-    /// One exercise, or those of an exam. That of a game says its rule, its table and where the balls lie at first.
+    /// One exercise, or those of an exam. For a game it defines the rule, the table and the first layout.
     pub exercises: Vec<Exercise>,
-    /// In the order in which they were made.
+    /// In chronological order.
     pub attempts: Vec<Attempt>,
 }
 
 impl Session {
-    /// Who is told how often a shot is made: the player, on tables and from places that are in doubt, as pars are measured.
+    /// Returns the player for make probabilities, with uncertain tables and ball positions, as for pars.
     pub const fn shooter(&self) -> Shooter {
         Shooter { skill: self.skill, doubt: Doubt::FULL }
     }
 
-    /// A session that begins now. There must be an exercise.
+    /// Creates a session that begins now. There must be at least one exercise.
     pub fn new(goal: Goal, venue: Venue, exercises: Vec<Exercise>, skill: Skill, seed: u64) -> Self {
         let since = since_epoch();
         let started = since.as_secs();
         let day = timestamp_of(UNIX_EPOCH + Duration::from_secs(started));
-        // Sessions of one second are in order too, and two programs that begin in the same millisecond do not meet.
+        // Keeps sessions of the same second in order, and avoids collisions between programs that start in the same
+        // millisecond.
         let id = format!("{day}-{:03}{:08x}", since.subsec_millis(), rand::random::<u32>());
         Self {
             id,
@@ -207,15 +209,16 @@ impl Session {
         }
     }
 
-    /// The table on which an exercise is played.
+    /// Returns the table on which an exercise is played.
     ///
     /// # Errors
-    /// Where the exercise is impossible.
+    /// Fails if the exercise is impossible.
     pub fn table_of(&self, exercise: &Exercise) -> Result<Table, ExerciseError> {
         exercise.table_with(self.table.as_deref())
     }
 
-    /// The exercise's model shot; `None` where it has none, the cue has no room for it, or it makes no point on the player's own table.
+    /// Returns the exercise's model shot. `None` if it has none, the cue has no room for it, or it makes no point on the
+    /// player's own table.
     pub fn model_shot_of(&self, exercise: &Exercise) -> Option<CueInputs> {
         let table = self.table_of(exercise).ok()?;
         let shot = exercise.shot.filter(|shot| has_room(&table, &exercise.layout, shot))?;
@@ -223,7 +226,7 @@ impl Session {
         (is_made_for_it || scores(exercise.rule, &table, &exercise.layout, &shot)).then_some(shot)
     }
 
-    /// Whether nothing is left to do.
+    /// Whether the goal is reached.
     pub fn is_over(&self) -> bool {
         match self.goal {
             Goal::Free => false,
@@ -234,18 +237,18 @@ impl Session {
         }
     }
 
-    /// What is to be played next; `None` when it is over.
+    /// Returns the exercise of the next attempt; `None` if the session is over.
     pub fn exercise(&self) -> Option<&Exercise> {
         let number = if self.is_exam() { self.attempts.len() } else { 0 };
         self.exercises.get(number).filter(|_| !self.is_over())
     }
 
-    /// Whether it is an exam.
+    /// Whether the session is an exam.
     pub fn is_exam(&self) -> bool {
         self.goal == Goal::Exam
     }
 
-    /// Whether it is a game: then its attempts are no repetitions of an exercise.
+    /// Whether it is a game: its attempts then do not count as repetitions of an exercise.
     pub const fn is_game(&self) -> bool {
         self.goal.is_game()
     }
@@ -255,17 +258,17 @@ impl Session {
         matches!(self.goal, Goal::Match { .. })
     }
 
-    /// Whether the coach plays one of them.
+    /// Whether the coach plays one side.
     pub const fn is_against_coach(&self) -> bool {
         matches!(self.goal, Goal::Match { against_coach: true, .. })
     }
 
-    /// The cue ball of attempt `number`, or where that is still to be made, of the next: in a match it changes with each miss.
+    /// Returns the cue ball of attempt `number`, which may be the next one. In a match it changes with each miss.
     pub fn cue_ball_of(&self, number: usize) -> CueBall {
         self.cue_balls().nth(number).unwrap_or(self.cue_ball)
     }
 
-    /// The cue balls of all attempts, and at last of the next.
+    /// Returns the cue balls of all attempts and of the next one.
     fn cue_balls(&self) -> impl Iterator<Item = CueBall> {
         let change = |now: &mut CueBall, attempt: &Attempt| {
             if self.is_match() && !attempt.made {
@@ -276,17 +279,17 @@ impl Session {
         std::iter::once(self.cue_ball).chain(self.attempts.iter().scan(self.cue_ball, change))
     }
 
-    /// The cue ball of the next attempt.
+    /// Returns the cue ball of the next attempt.
     pub fn cue_ball_now(&self) -> CueBall {
         self.cue_ball_of(self.attempts.len())
     }
 
-    /// Whether the next stroke is the coach's: that of the other side in a match against it.
+    /// Whether the next stroke is the coach's: the other side's in a match against the coach.
     pub fn is_coachs_turn(&self) -> bool {
         self.is_against_coach() && self.cue_ball_now() != self.cue_ball
     }
 
-    /// The inning that is played, like `inning 2 of 10`; nothing where it has no innings.
+    /// Returns the current inning, like `inning 2 of 10`; `None` if the session has no innings.
     pub fn inning_words(&self) -> Option<String> {
         let (innings, sides) = match self.goal {
             Goal::Game { innings } => (innings, 1),
@@ -297,7 +300,7 @@ impl Session {
         Some(if innings == 0 { format!("inning {now}") } else { format!("inning {} of {innings}", now.min(innings)) })
     }
 
-    /// Who plays one side of a match.
+    /// Returns the name of one side of a match.
     fn side_name(&self, cue_ball: CueBall) -> &'static str {
         match self.goal {
             Goal::Match { against_coach: true, .. } if cue_ball == self.cue_ball => "you",
@@ -306,13 +309,13 @@ impl Session {
         }
     }
 
-    /// The same with the ball, like `you (white)`.
+    /// Returns the name with the ball, like `you (white)`.
     pub fn side_words(&self, cue_ball: CueBall) -> String {
         let name = self.side_name(cue_ball);
         if name == cue_ball.name() { name.to_owned() } else { format!("{name} ({cue_ball})") }
     }
 
-    /// The points of both sides of a match, like `you 3 : 1 coach`; nothing of what is no match.
+    /// Returns the points of both sides of a match, like `you 3 : 1 coach`; `None` if it is not a match.
     pub fn score_words(&self) -> Option<String> {
         if !self.is_match() {
             return None;
@@ -322,23 +325,23 @@ impl Session {
         Some(format!("{} {} : {} {}", one.0, one.1, other.1, other.0))
     }
 
-    /// The score of one side of a match.
+    /// Returns the score of one side of a match.
     pub fn side(&self, cue_ball: CueBall) -> Record {
         let balls: Vec<CueBall> = self.cue_balls().collect();
         Record::of_part(self, |number| balls[number] == cue_ball)
     }
 
-    /// The exercise of an attempt, as it was in this session.
+    /// Returns the exercise of an attempt, as stored in this session.
     pub fn exercise_of(&self, attempt: &Attempt) -> Option<&Exercise> {
         self.exercises.iter().find(|exercise| exercise.name == attempt.exercise)
     }
 
-    /// Its score, strokes of the coach included.
+    /// Returns the score, including the coach's strokes.
     pub fn record(&self) -> Record {
         Record::of_session(self)
     }
 
-    /// Points in a row up to now.
+    /// Returns the current number of points in a row.
     pub fn run(&self) -> u32 {
         self.attempts.iter().rev().take_while(|attempt| attempt.made).count() as u32
     }
@@ -348,7 +351,7 @@ impl Session {
     }
 }
 
-/// Now, Unix time in seconds; 0 where the clock stands before 1970.
+/// Returns the current Unix time in seconds; 0 if the clock is before 1970.
 pub(super) fn now() -> u64 {
     since_epoch().as_secs()
 }
@@ -379,7 +382,7 @@ pub mod tests {
         }
     }
 
-    /// A session at a table, one attempt a letter: `x` made, any other missed.
+    /// A session at a real table with one attempt per letter: `x` is made, any other letter missed.
     pub fn session(goal: Goal, results: &str) -> Session {
         let mut session = Session::new(goal, Venue::Table, vec![exercise("first")], Skill::CLUB, 1);
         for result in results.chars() {
@@ -429,14 +432,14 @@ pub mod tests {
         let [white, yellow] = [CueBall::White, CueBall::Yellow].map(|ball| played.side(ball));
         assert_eq!((white.made, white.innings, white.high_run), (3, 2, 2));
         assert_eq!((yellow.made, yellow.innings, yellow.high_run), (2, 2, 2));
-        // Who begins with yellow has the other colours throughout.
+        // With yellow as the first cue ball, the colours are swapped throughout.
         played.cue_ball = CueBall::Yellow;
         assert_eq!((played.cue_ball_of(0), played.side(CueBall::Yellow)), (CueBall::Yellow, white));
         assert!(
             session(Goal::Match { innings: 1, against_coach: false }, "x--").is_over()
                 && !session(Goal::Match { innings: 1, against_coach: false }, "x-").is_over()
         );
-        // Alone one keeps one's ball.
+        // A single player keeps the cue ball.
         let alone = session(Goal::Game { innings: 3 }, "--x");
         assert_eq!(alone.cue_ball_now(), CueBall::White);
     }

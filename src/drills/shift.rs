@@ -1,4 +1,4 @@
-//! The same position, a little different: repetitions with the balls shifted by half a ball.
+//! Variations of a position: repetitions with the balls shifted by half a ball.
 
 use std::f64::consts::TAU;
 
@@ -8,22 +8,21 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::table::{BALLS, Layout, PAIRS, Table};
 
-/// Balls that are no further apart than this touch, m: what a player places as touching.
+/// Maximum gap between balls that count as touching, m: what a player places as touching.
 const TOUCHING_GAP: f64 = 1e-4;
 
-/// Directions that are tried until the balls have room. Three balls that touch in a corner find room in one of about 30.
+/// Maximum number of random directions tried. Three touching balls in a corner find room in about one of 30.
 const TRIES: usize = 10_000;
 
-/// The layout as it is played in a repetition: the first, number 0, is exact; in each later one every ball lies half a ball,
-/// one radius, from its place, in a random direction. Balls that touch go on touching: they are moved alike. Where that leaves
-/// no room, the layout stays as it is.
+/// Returns the layout of a repetition. Number 0 is exact; in each later one every ball is shifted by half a ball, one radius,
+/// in a random direction. Touching balls are moved together. If no shift leaves enough room, the layout is unchanged.
 ///
 /// The same seed and repetition give the same layout.
 pub fn shifted(layout: &Layout, table: &Table, seed: u64, repetition: u32) -> Layout {
     if repetition == 0 {
         return *layout;
     }
-    // Golden ratio: seeds that follow one another do not share repetitions.
+    // Multiplying by the golden ratio keeps consecutive seeds from sharing repetitions.
     let stream = seed ^ u64::from(repetition).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(stream);
     let leaders = leaders(layout, table.radius);
@@ -35,7 +34,7 @@ pub fn shifted(layout: &Layout, table: &Table, seed: u64, repetition: u32) -> La
     (0..TRIES).map(|_| attempt()).find(|moved| moved.validate(table).is_ok()).unwrap_or(*layout)
 }
 
-/// The ball with which each ball is moved: of those that touch, the first.
+/// Returns the ball with which each ball is moved: the first one of a touching group.
 fn leaders(layout: &Layout, radius: f64) -> [usize; BALLS] {
     let mut leaders: [usize; BALLS] = std::array::from_fn(|ball| ball);
     for (first, second) in PAIRS {

@@ -1,12 +1,12 @@
-//! What a session must hold to be counted: all that other code relies on is checked, whoever wrote its file.
+//! Validates sessions from files, whoever wrote them: all that other code relies on is checked.
 
 use super::{Attempt, Exercise, ExerciseError, Session, exercise::check_share};
 use crate::{coach::Skill, physics::CueInputs};
 
-/// The first second of the year 10000, Unix time: no session is as late, and dates have four digits for the year.
+/// The first second of the year 10000, Unix time: no session is this late, and dates have four-digit years.
 const YEAR_10000: u64 = 253_402_300_800;
 
-/// Why a session is not taken in.
+/// Why a session is rejected.
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
     /// One of its exercises cannot be played.
@@ -14,30 +14,30 @@ pub enum SessionError {
     Exercise {
         /// The exercise.
         name: String,
-        /// Why.
+        /// The cause.
         error: ExerciseError,
     },
-    /// It has an attempt at something else.
-    #[error("it has an attempt at {0:?}, which is none of its exercises")]
+    /// An attempt is at an exercise that the session does not contain.
+    #[error("it has an attempt at {0:?}, which is not one of its exercises")]
     Stray(String),
-    /// A time that has no date.
-    #[error("the time {0} is no date; accepted are seconds from 1970 to the year 9999")]
+    /// A time that is not a valid date.
+    #[error("the time {0} is not a valid date; accepted are seconds from 1970 to the year 9999")]
     Time(u64),
-    /// An attempt that cannot have been made.
+    /// An attempt with invalid values.
     #[error("attempt {number}: {error}")]
     Attempt {
-        /// Which, from 1 on.
+        /// Number of the attempt, from 1 on.
         number: usize,
-        /// Why.
+        /// The cause.
         error: ExerciseError,
     },
 }
 
 impl Session {
-    /// Checks its exercises, its times, and the layouts and strokes of its attempts.
+    /// Validates the exercises, the times, and the layouts and strokes of the attempts.
     ///
     /// # Errors
-    /// The first problem found.
+    /// Fails with the first problem found.
     pub fn validate(&self) -> Result<(), SessionError> {
         for exercise in &self.exercises {
             let refuse = |error| SessionError::Exercise { name: exercise.name.clone(), error };
@@ -65,7 +65,7 @@ impl Attempt {
             cue.validate()?;
         }
         if let Some(CueInputs { theta, phi, speed, .. }) = self.played {
-            // Errors carry the tip off the ball, and the rest a little beyond what can be meant.
+            // Errors may move the tip off the ball, and the other inputs slightly beyond the range of intended strokes.
             let speed = speed * (CueInputs::MAX_SPEED / Skill::FASTEST);
             CueInputs { a: 0.0, b: 0.0, theta, phi: 0.5 * phi, speed }.validate()?;
         }
@@ -93,7 +93,7 @@ mod tests {
         };
         changed(&|session| session.attempts[1].meant = Some(good)).unwrap();
         changed(&|session| session.attempts[1].played = Some(CueInputs { b: 1.2, speed: 100.5, ..good })).unwrap();
-        // The wildest player who hits three standard errors too hard.
+        // The player with the largest errors, who hits too hard by three standard errors.
         let wild = Skill { speed: Skill::REFERENCE_SPEED, growth: Growth::USUAL, ..Skill::CLUB };
         let played = wild.stroke(0.03, &good, &[0.0, 0.0, 0.0, 0.0, 3.0]);
         changed(&|session| session.attempts[1].played = Some(played)).unwrap();
@@ -108,7 +108,7 @@ mod tests {
             &|session| session.attempts[1].layout = Some(Layout::new([DVec2::ZERO; 3])),
         ];
         for (change, says) in refused.into_iter().zip([
-            "no share",
+            "make rate",
             "time 18446",
             "time 253",
             "attempt 2",

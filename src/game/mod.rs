@@ -1,4 +1,4 @@
-//! What counts: the rules of carom, balls that touch, and the thesis' rewards.
+//! The rules of carom, touching balls, and the thesis' rewards.
 
 mod point;
 mod reward;

@@ -1,14 +1,14 @@
-//! What makes a shot a point: the rule, and in the opening of a match which ball comes first.
+//! The conditions of a point: the rule, and the required first ball at the opening of a match.
 
 use super::{Rule, Tally};
 use crate::table::{Layout, Opening, Table};
 
-/// What makes a shot a point.
+/// The conditions of a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Point {
     /// The rule.
     pub rule: Rule,
-    /// Whether of the object balls the red one has to be met first.
+    /// Whether the red ball must be hit before the other object ball.
     pub red_first: bool,
 }
 
@@ -19,20 +19,20 @@ impl From<Rule> for Point {
 }
 
 impl Point {
-    /// What makes a shot from this layout a point: where the balls stand as a game opens by UMB rules, a three-cushion shot
-    /// has to meet the red ball first.
+    /// Returns the conditions for a shot from this layout. In the opening position by UMB rules, a three-cushion shot
+    /// must hit the red ball first.
     #[inline]
     pub fn of(rule: Rule, table: &Table, layout: &Layout) -> Self {
         let asks = table.opening == Opening::Umb && rule == Rule::ThreeCushion;
         Self { rule, red_first: asks && layout.is_opening(table) }
     }
 
-    /// The object ball that has to be met first; where either may be, the first of the two.
+    /// Returns the object ball that must be hit first, or ball 1 if either may be.
     pub const fn first_ball(self) -> usize {
         if self.red_first { 2 } else { 1 }
     }
 
-    /// Whether a shot that did what `tally` says is a point; it can still become one until both object balls are met.
+    /// Whether a shot with this tally is a point; it can still become one until both object balls are hit.
     pub fn is_made(self, tally: &Tally) -> bool {
         tally.is_point(self.rule) && (tally.red_first || !self.red_first)
     }
@@ -79,7 +79,7 @@ mod tests {
         assert!(Point::from(Rule::ThreeCushion).is_made(&tally(1, 2)));
     }
 
-    /// Of all strokes at either ball, some make three cushions from the opening off the opponent's ball: those do not count.
+    /// From the opening, some strokes make three cushions off the opponent's ball; these do not count.
     #[test]
     fn scoring_an_opening_shot_looks_at_the_ball_that_comes_first() {
         let umb = Table { opening: Opening::Umb, ..Table::default() };

@@ -1,4 +1,4 @@
-//! The thesis' rewards r1 to r4 (its 4.1.5), r1 with the difficulty of the shot, and points under the cushion rules.
+//! The thesis' rewards r1 to r4 (its 4.1.5), r1 with shot difficulty, and points under the cushion rules.
 
 use std::{fmt, str::FromStr};
 
@@ -11,10 +11,10 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// What an agent is rewarded for.
+/// The reward function of an agent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reward {
-    /// 1 if the cue ball meets an object ball (equation 48).
+    /// 1 if the cue ball hits an object ball (equation 48).
     #[serde(rename = "r1")]
     R1,
     /// r1, halved by every cushion that the cue ball hits before the first object ball. The thesis only says that more
@@ -24,22 +24,22 @@ pub enum Reward {
     /// r1 plus the distance reward of the balls at rest (equation 51).
     #[serde(rename = "r2")]
     R2,
-    /// 1 if the cue ball meets both object balls (equation 52) and none leaves the table: a straight-rail point.
+    /// 1 if the cue ball hits both object balls (equation 52) and no ball leaves the table: a straight-rail point.
     #[default]
     #[serde(rename = "r3")]
     R3,
     /// r3 plus the distance reward (equation 53).
     #[serde(rename = "r4")]
     R4,
-    /// 1 for a point under the rule of one cushion.
+    /// 1 for a point under the one-cushion rule.
     #[serde(rename = "one-cushion")]
     OneCushion,
-    /// 1 for a point under the rule of three cushions.
+    /// 1 for a point under the three-cushion rule.
     #[serde(rename = "three-cushion")]
     ThreeCushion,
 }
 
-/// A reward's name that is not known.
+/// Error: an unknown name of a reward.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("there is no reward \"{0}\"; use r1, r1-difficulty, r2, r3, r4, one-cushion or three-cushion")]
 pub struct UnknownReward(String);
@@ -49,7 +49,7 @@ impl Reward {
     pub const ALL: [Self; 7] =
         [Self::R1, Self::R1Difficulty, Self::R2, Self::R3, Self::R4, Self::OneCushion, Self::ThreeCushion];
 
-    /// Name on the command line and in files.
+    /// Returns the name on the command line and in files.
     pub const fn name(self) -> &'static str {
         match self {
             Self::R1 => "r1",
@@ -62,7 +62,7 @@ impl Reward {
         }
     }
 
-    /// The largest reward that a shot can earn.
+    /// Returns the largest reward that a shot can earn.
     pub const fn highest(self) -> f64 {
         match self {
             Self::R2 | Self::R4 => 2.0,
@@ -70,7 +70,7 @@ impl Reward {
         }
     }
 
-    /// The rule under which it says just whether a shot makes a point, 1 or 0; `None` where it says something else.
+    /// Returns the rule for which the reward is exactly 1 for a point and 0 otherwise; `None` if it is not of this kind.
     pub const fn rule(self) -> Option<Rule> {
         match self {
             Self::R3 => Some(Rule::StraightRail),
@@ -80,7 +80,7 @@ impl Reward {
         }
     }
 
-    /// The reward of a point under `rule`.
+    /// Returns the reward of a point under `rule`.
     pub const fn for_rule(rule: Rule) -> Self {
         match rule {
             Rule::StraightRail => Self::R3,
@@ -89,14 +89,14 @@ impl Reward {
         }
     }
 
-    /// The reward of a shot, simulated just until it is decided. The layout and the stroke are taken as they are.
+    /// Returns the reward of a shot, simulated until it is decided. The layout and the stroke are not validated.
     pub fn of(self, table: &Table, layout: &Layout, cue: &CueInputs) -> f64 {
         self.within(table, layout, cue, u32::MAX)
     }
 
-    /// As [`Reward::of`], but a shot whose resting contacts need more than `steps` steps of integration is given up and
-    /// earns what it has earned so far. For practice: hardly any of these earns anything more, for balls that press each other lose
-    /// their speed.
+    /// Like [`Reward::of`], but gives up a shot whose resting contacts need more than `steps` integration steps; it
+    /// keeps what it has earned so far. For training: such shots hardly ever earn more, because balls that press each
+    /// other lose their speed.
     pub fn within(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
         let impulse = strike(table, cue);
         let enough = match self {
@@ -110,26 +110,26 @@ impl Reward {
             self.value(table, &referee.tally, &end.layout(table))
         } else {
             watch_with::<All, _>(table, layout, &impulse, &mut referee);
-            self.of_meetings(&referee.tally)
+            self.contact_reward(&referee.tally)
         }
     }
 
-    /// As [`Reward::within`], but a stroke for which the cue has no room is not played, and earns nothing.
+    /// Like [`Reward::within`], but a stroke for which the cue has no room is not played and earns nothing.
     pub fn with_room(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
         if has_room(table, layout, cue) { self.within(table, layout, cue, steps) } else { 0.0 }
     }
 
-    /// The reward of a shot that did what `tally` says and left the balls at `end`.
+    /// Returns the reward of a shot with this `tally` and this final layout.
     pub fn value(self, table: &Table, tally: &Tally, end: &Layout) -> f64 {
-        let apart = match self {
+        let distance = match self {
             Self::R2 | Self::R4 => distance_reward(table, end),
             _ => 0.0,
         };
-        self.of_meetings(tally) + apart
+        self.contact_reward(tally) + distance
     }
 
-    /// The part of the reward that the cue ball's meetings earn.
-    fn of_meetings(self, tally: &Tally) -> f64 {
+    /// Returns the part of the reward that depends on the contacts of the cue ball.
+    fn contact_reward(self, tally: &Tally) -> f64 {
         let one = |made: bool| f64::from(u8::from(made));
         match self {
             Self::R1 | Self::R2 => one(tally.met_any()),
@@ -155,11 +155,11 @@ impl FromStr for Reward {
     }
 }
 
-/// The distance reward `r_d` (equation 50): 1 for balls close together, 0 for balls as far apart as the table allows.
+/// Returns the distance reward `r_d` (equation 50): 1 for balls close together, 0 for balls as far apart as the table allows.
 fn distance_reward(table: &Table, layout: &Layout) -> f64 {
     let [a, b, c] = layout.balls;
     let total = a.distance(b) + a.distance(c) + b.distance(c);
-    // The perimeter of a triangle in a rectangle is largest with corners for vertices: both sides and the diagonal.
+    // The perimeter of a triangle in a rectangle is largest with its vertices in three corners: both sides and the diagonal.
     let reach = 2.0 * table.reach();
     1.0 - total / (reach.x + reach.y + reach.length())
 }
@@ -173,8 +173,8 @@ mod tests {
     fn the_distance_reward_spans_nought_to_one() {
         let table = Table::default();
         let reach = table.reach();
-        let apart = Layout::new([-reach, reach, DVec2::new(reach.x, -reach.y)]);
-        assert!(distance_reward(&table, &apart).abs() < 1e-15);
+        let corners = Layout::new([-reach, reach, DVec2::new(reach.x, -reach.y)]);
+        assert!(distance_reward(&table, &corners).abs() < 1e-15);
         assert!(distance_reward(&table, &Layout::new([DVec2::ZERO; 3])) == 1.0);
     }
 
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn a_stroke_for_which_the_cue_has_no_room_earns_nothing() {
         let table = Table::default();
-        // The second object ball lies where the cue would be.
+        // The second object ball lies in the way of the cue.
         let layout = |behind| Layout::parse(&format!("-0.4,0 0,0 {behind},0"), &table).unwrap();
         let cue = CueInputs::parse("0,0,10,0,2").unwrap();
         for reward in Reward::ALL {

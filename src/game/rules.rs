@@ -1,4 +1,4 @@
-//! The rules: when a shot is a point.
+//! The rules: when a shot scores a point.
 
 use std::{fmt, ops::ControlFlow, str::FromStr};
 
@@ -11,22 +11,22 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// What the cue ball must do for a point.
+/// The condition of a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Rule {
-    /// Straight rail: it meets both object balls (r3 of the thesis).
+    /// Straight rail: the cue ball hits both object balls (r3 of the thesis).
     #[default]
     #[serde(rename = "straight")]
     StraightRail,
-    /// At least one cushion before the second object ball is met for the first time.
+    /// At least one cushion before the first contact with the second object ball.
     #[serde(rename = "one-cushion")]
     OneCushion,
-    /// At least three cushions before the second object ball is met for the first time.
+    /// At least three cushions before the first contact with the second object ball.
     #[serde(rename = "three-cushion")]
     ThreeCushion,
 }
 
-/// A rule's name that is not known.
+/// Error: an unknown name of a rule.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("there is no rule \"{0}\"; use straight, one-cushion or three-cushion")]
 pub struct UnknownRule(String);
@@ -35,7 +35,7 @@ impl Rule {
     /// All rules.
     pub const ALL: [Self; 3] = [Self::StraightRail, Self::OneCushion, Self::ThreeCushion];
 
-    /// Name on the command line and in JSON.
+    /// Returns the name on the command line and in JSON.
     pub const fn name(self) -> &'static str {
         match self {
             Self::StraightRail => "straight",
@@ -44,7 +44,7 @@ impl Rule {
         }
     }
 
-    /// Cushion contacts needed before the second object ball.
+    /// Returns the number of cushion contacts needed before the second object ball.
     pub const fn cushions(self) -> u32 {
         match self {
             Self::StraightRail => 0,
@@ -73,38 +73,38 @@ impl FromStr for Rule {
     }
 }
 
-/// What the cue ball has done so far in a shot.
+/// The contacts of the cue ball in a shot so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// Whether it has met each object ball (balls 1 and 2).
+    /// Whether it has hit each object ball (balls 1 and 2).
     pub met: [bool; 2],
-    /// Whether ball 2, the red one, was the first that it met.
+    /// Whether ball 2, the red one, was hit first.
     pub red_first: bool,
-    /// Cushions that it has hit.
+    /// Number of cushion contacts.
     pub cushions: u32,
-    /// Cushions that it had hit when it met its first object ball.
+    /// Number of cushion contacts before the first object ball.
     pub cushions_before_first: u32,
-    /// Cushions that it had hit when it met its second object ball.
+    /// Number of cushion contacts before the second object ball.
     pub cushions_before_second: u32,
-    /// Whether it has met its first object ball again before the second.
+    /// Whether it has hit its first object ball again before the second.
     pub met_again: bool,
-    /// Whether a ball has left the table, which is a foul by every rule: no point.
+    /// Whether a ball has left the table: a foul by every rule, so no point.
     pub left_table: bool,
-    /// The ball that touched the cue ball and was pushed by the stroke, which is a foul too. No event tells it: whoever begins a tally
-    /// says so.
+    /// The ball that touched the cue ball and was pushed by the stroke, which is a foul too. No event reports it, so it
+    /// must be set when the tally is created.
     pub pushed: Option<usize>,
-    /// How many balls are in the air.
+    /// Number of balls in the air.
     pub aloft: u8,
 }
 
 impl Tally {
-    /// Of a shot that begins so.
+    /// Creates the initial tally of a stroke.
     #[inline]
     pub fn from_stroke(table: &Table, layout: &Layout, impulse: &Impulse) -> Self {
         Self { pushed: Touching::of(table, layout).pushed(layout, impulse), ..Self::default() }
     }
 
-    /// Takes note of one event.
+    /// Counts one event.
     pub fn note(&mut self, event: &Event) {
         match event.kind {
             EventKind::BallRail(0, _) => self.cushions += 1,
@@ -130,74 +130,74 @@ impl Tally {
         }
     }
 
-    /// Whether nothing that counts can happen any more: the cue ball has met so many balls and none is in the air, or there was a
-    /// foul.
+    /// Whether nothing can change the result: the cue ball has hit `enough` object balls and no ball is in the air, or
+    /// there was a foul.
     pub fn is_decided(&self, enough: u8) -> bool {
         let met = u8::from(self.met[0]) + u8::from(self.met[1]);
         self.is_foul() || (met >= enough && self.aloft == 0)
     }
 
-    /// Whether the cue ball has met an object ball.
+    /// Whether the cue ball has hit an object ball.
     pub fn met_any(&self) -> bool {
         self.met[0] || self.met[1]
     }
 
-    /// Whether it has met both.
+    /// Whether it has hit both object balls.
     pub fn met_both(&self) -> bool {
         self.met[0] & self.met[1]
     }
 
-    /// The object ball that it has met first, if any: 1 or 2.
+    /// Returns the object ball that was hit first, if any: 1 or 2.
     pub fn first_ball(&self) -> Option<usize> {
         self.met_any().then_some(if self.red_first { 2 } else { 1 })
     }
 
-    /// Which object balls it has not met yet.
+    /// Returns the object balls that have not been hit yet.
     pub fn unmet(&self) -> [bool; 2] {
         self.met.map(|met| !met)
     }
 
-    /// Whether there was a foul, after which nothing makes the point.
+    /// Whether there was a foul, which rules out a point.
     pub const fn is_foul(&self) -> bool {
         self.left_table || self.pushed.is_some()
     }
 
-    /// Whether this is a point by the rule, whichever ball came first; it can still become one until both object balls are met.
-    /// [`super::Point`] knows what else an opening asks for.
+    /// Whether this is a point by the rule, whichever ball was first; it can still become one until both object balls
+    /// are hit. [`super::Point`] has the additional condition of an opening shot.
     pub fn is_point(&self, rule: Rule) -> bool {
         self.met_both() && self.cushions_before_second >= rule.cushions() && !self.is_foul()
     }
 }
 
-/// Watches a shot until what counts is decided.
+/// Observes a shot until its result is decided.
 #[derive(Clone, Copy, Debug)]
 pub struct Referee {
-    /// What the cue ball has done.
+    /// The contacts of the cue ball so far.
     pub tally: Tally,
     enough: Option<u8>,
     patience: StepBudget,
 }
 
 impl Default for Referee {
-    /// Watches until the point is made or can no longer be made.
+    /// Observes until the point is made or can no longer be made.
     fn default() -> Self {
         Self::new(Some(2), u32::MAX)
     }
 }
 
 impl Referee {
-    /// Watches a shot to its end.
+    /// Observes a shot to its end.
     pub fn to_the_end() -> Self {
         Self::new(None, u32::MAX)
     }
 
-    /// Watches until the cue ball has met `enough` object balls; `None`: to the end of the shot. A shot whose resting contacts
-    /// take more than so many `steps` of integration counts as decided by then.
+    /// Observes until the cue ball has hit `enough` object balls, or to the end of the shot if `None`. A shot whose
+    /// resting contacts take more than `steps` integration steps counts as decided by then.
     pub fn new(enough: Option<u8>, steps: u32) -> Self {
         Self { tally: Tally::default(), enough, patience: StepBudget(steps) }
     }
 
-    /// The same for a shot that begins with `tally`.
+    /// Starts with this tally.
     #[must_use]
     pub const fn beginning(self, tally: Tally) -> Self {
         Self { tally, ..self }
@@ -227,7 +227,7 @@ impl Observer for Referee {
     }
 }
 
-/// Whether a shot makes a point. The layout and the stroke are taken as they are.
+/// Whether a shot makes a point. The layout and the stroke are not validated.
 pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let impulse = strike(table, cue);
     let mut referee = Referee::default().beginning(Tally::from_stroke(table, layout, &impulse));

@@ -1,20 +1,20 @@
-//! A ball that touches the cue ball from the start must not be played at.
+//! Detects the foul of playing at a ball that touches the cue ball.
 
 use crate::{
     physics::{CueInputs, Impulse, strike},
     table::{Layout, Table},
 };
 
-/// Balls that are nearer than this touch, m: no referee sees a gap of a hundredth of a millimetre.
+/// Maximum gap between balls that count as touching, m: no referee sees a gap of a hundredth of a millimetre.
 const NO_GAP: f64 = 1e-5;
 
-/// Which object balls touch the cue ball. By the UMB's rules of carom they must not be moved by the stroke: the cue ball is played away
-/// from them, or the balls are put on their spots.
+/// The object balls that touch the cue ball. By the UMB's rules of carom the stroke must not move them: the cue ball is
+/// played away from them, or the balls are placed on their spots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Touching([bool; 2]);
 
 impl Touching {
-    /// Where the balls lie so.
+    /// Detects the touching balls of a layout.
     #[inline]
     pub fn of(table: &Table, layout: &Layout) -> Self {
         let [cue_ball, balls @ ..] = layout.balls;
@@ -22,7 +22,8 @@ impl Touching {
         Self(balls.map(|ball| cue_ball.distance_squared(ball) <= reach * reach))
     }
 
-    /// The ball, 1 or 2, that the cue ball pushes as it starts with `impulse`, where the balls really lie as in `layout`.
+    /// Returns the ball, 1 or 2, that the cue ball pushes as it starts with `impulse`, given the real ball positions in
+    /// `layout`.
     #[inline]
     pub fn pushed(self, layout: &Layout, impulse: &Impulse) -> Option<usize> {
         let is_ahead = |ball: usize| (layout.balls[ball] - layout.balls[0]).dot(impulse.velocity) > 0.0;

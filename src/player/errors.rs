@@ -1,4 +1,4 @@
-//! Standard normal errors of the five cue inputs: spread evenly for comparing shots, independent for judging one.
+//! Standard normal errors of the five cue inputs: quasi-random for comparing shots, independent for judging one.
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -8,51 +8,52 @@ use crate::statistics::{normal_pair, quantile};
 /// Errors in a, b, theta, phi and V, in units of the player's standard errors.
 pub type Errors = [f64; 5];
 
-/// The bases of Halton's sequence, one an input.
+/// The bases of Halton's sequence, one per input.
 const BASES: [u32; 5] = [2, 3, 5, 7, 11];
 
-/// Errors that cover the normal distribution more evenly than chance: Halton's sequence (1960) with a random shift (Cranley and
-/// Patterson 1976), so that a mean over them is unbiased. Every beginning of the sequence is spread evenly too, but not every fourth
-/// of it or the like. For comparing shots on the same errors.
+/// Quasi-random normal errors: Halton's sequence (1960) with a random shift (Cranley and Patterson 1976), so that a
+/// mean over them is unbiased. They cover the distribution more evenly than independent numbers. Every prefix of the
+/// sequence is evenly spread too, but a subsequence such as every fourth is not. For comparing shots on the same
+/// errors.
 #[derive(Clone, Copy, Debug)]
 pub struct Halton {
     shift: [f64; 5],
 }
 
 impl Halton {
-    /// The sequence with the shift that `seed` draws.
+    /// Creates the sequence with the shift that `seed` draws.
     pub fn new(seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         Self { shift: std::array::from_fn(|_| rng.random()) }
     }
 
-    /// The `n`th of its errors.
+    /// Returns the `n`th errors of the sequence.
     pub fn errors(&self, n: usize) -> Errors {
         let place = |index: usize| (self.shift[index] + radical_inverse(n as u32 + 1, BASES[index])).fract();
         std::array::from_fn(|index| quantile(place(index)))
     }
 }
 
-/// Streams of standard normal numbers, each spread evenly over the distribution, for what is in doubt besides the hand:
+/// Quasi-random streams of standard normal numbers, each evenly spread, for the uncertainty of table and positions:
 /// Richtmyer's sequence (1951), the multiples of a prime's square root, with a random shift.
 #[derive(Debug)]
 pub struct Streams {
     rng: Xoshiro256PlusPlus,
-    /// Of each stream the square root and the shift.
+    /// The square root and the shift of each stream.
     streams: Vec<(f64, f64)>,
 }
 
 impl Streams {
-    /// Streams that are drawn by `seed`.
+    /// Creates streams whose shifts `seed` draws.
     pub fn new(seed: u64) -> Self {
         Self { rng: Xoshiro256PlusPlus::seed_from_u64(seed), streams: Vec::new() }
     }
 
-    /// The `n`th number of a stream.
+    /// Returns the `n`th number of a stream.
     pub fn number(&mut self, stream: usize, n: usize) -> f64 {
         while self.streams.len() <= stream {
             let last = self.streams.last().map_or(1, |(root, _)| (root * root).round() as u32);
-            // There is one between every number and its double (Bertrand).
+            // A prime exists between every number and its double (Bertrand).
             let prime = (last + 1..=2 * last).find(|&n| (2..n).all(|divisor| n % divisor != 0)).unwrap_or(2);
             self.streams.push((f64::from(prime).sqrt(), self.rng.random()));
         }
@@ -61,7 +62,7 @@ impl Streams {
     }
 }
 
-/// The digits of `n` in a base, mirrored at the point.
+/// Returns the radical inverse: the digits of `n` in a base, mirrored at the point.
 fn radical_inverse(mut n: u32, base: u32) -> f64 {
     let (mut value, mut place) = (0.0, 1.0);
     while n > 0 {
@@ -72,19 +73,19 @@ fn radical_inverse(mut n: u32, base: u32) -> f64 {
     value
 }
 
-/// `count` independent errors. For judging a shot: the interval of a share of successes
-/// supposes independent attempts.
+/// Draws `count` independent errors, for judging a shot: the confidence interval of a success rate assumes independent
+/// attempts.
 pub fn independent(count: usize, seed: u64) -> Vec<Errors> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     (0..count).map(|_| one(&mut rng)).collect()
 }
 
-/// One stroke's errors.
+/// Draws the errors of one stroke.
 pub fn one(rng: &mut Xoshiro256PlusPlus) -> Errors {
     std::array::from_fn(|_| normal(rng))
 }
 
-/// A standard normal number.
+/// Draws a standard normal number.
 pub fn normal(rng: &mut Xoshiro256PlusPlus) -> f64 {
     normal_pair(rng)[0]
 }
@@ -108,7 +109,7 @@ mod tests {
 
     #[test]
     fn both_kinds_have_mean_nought_and_deviation_one_and_do_not_correlate() {
-        // Of independent errors the means deviate by 0.5 % as a rule.
+        // The means of independent errors typically deviate by 0.5 %.
         let halton = Halton::new(3);
         let spread = (0..4096).map(|n| halton.errors(n)).collect();
         for (errors, tolerance, correlation) in [(spread, 0.005, 0.025), (independent(40_000, 3), 0.03, 0.03)] {

@@ -1,4 +1,4 @@
-//! The five cue inputs by name, with the units in which people speak of them.
+//! The five cue inputs by name, with the units for display.
 
 use serde::Serialize;
 
@@ -7,10 +7,10 @@ use crate::{physics::CueInputs, table::Table};
 /// One of the five cue inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Input {
-    /// The tip's place to the side, mm.
+    /// The tip position to the side, mm.
     #[serde(rename = "a")]
     Side,
-    /// The tip's height, mm.
+    /// The tip position in height, mm.
     #[serde(rename = "b")]
     Height,
     /// The cue's elevation, degrees.
@@ -25,10 +25,10 @@ pub enum Input {
 }
 
 impl Input {
-    /// All five.
+    /// All five inputs.
     pub const ALL: [Self; 5] = [Self::Side, Self::Height, Self::Elevation, Self::Direction, Self::Speed];
 
-    /// The thesis' letter.
+    /// Returns the letter in the thesis.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Side => "a",
@@ -39,7 +39,7 @@ impl Input {
         }
     }
 
-    /// The unit in which people speak of it.
+    /// Returns the unit for display.
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Side | Self::Height => "mm",
@@ -48,7 +48,7 @@ impl Input {
         }
     }
 
-    /// The stroke with this input changed by so many of its units.
+    /// Returns the stroke with this input changed by `by` of its units.
     #[must_use]
     pub fn shifted(self, table: &Table, cue: &CueInputs, by: f64) -> CueInputs {
         let mut cue = *cue;

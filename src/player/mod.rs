@@ -1,4 +1,4 @@
-//! Who plays: the errors of a hand in the five cue inputs, and balls that lie not quite where they are said to lie.
+//! Models of a player: execution errors in the five cue inputs, and inaccurate reports of ball positions.
 
 pub mod errors;
 mod input;

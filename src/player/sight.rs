@@ -1,12 +1,12 @@
-//! What a player makes of a layout that is not quite where it is said to be: he sees the balls, and aims at them.
+//! How a player plays a layout that was reported inaccurately: the player sees the real balls and aims at them.
 
 use crate::{
     physics::{CueInputs, squirt},
     table::{Layout, Table},
 };
 
-/// A layout that may be meant by `layout` where every coordinate is off by a standard deviation of `placing` m. A ball that
-/// would overlap another or a cushion is moved less far.
+/// Draws a possible real layout behind the reported `layout`, whose coordinates each have a standard error of `placing` m. A
+/// ball that would overlap another one or a cushion is moved less far.
 pub fn misplaced(table: &Table, layout: &Layout, placing: f64, mut normal: impl FnMut() -> f64) -> Layout {
     let mut moved = *layout;
     if placing == 0.0 {
@@ -25,15 +25,15 @@ pub fn misplaced(table: &Table, layout: &Layout, placing: f64, mut normal: impl 
     moved
 }
 
-/// The stroke that a player makes of `cue` who sees the balls where they really lie: turned so that its first ball is met
-/// as full as it is meant, or the same point of a cushion is aimed at where the stroke meets no ball.
+/// Returns the stroke of a player who is given `cue` for the `meant` layout but sees the `real` one. It is turned so that it
+/// hits its first ball with the same fullness, or aims at the same point of a cushion if it hits no ball.
 pub fn aimed(table: &Table, meant: &Layout, real: &Layout, cue: &CueInputs) -> CueInputs {
     let [start, real_start] = [meant.balls[0], real.balls[0]];
     let along = glam::DVec2::from_angle(cue.phi + squirt(table, cue.a));
     let ahead = |ball: &usize| {
-        let apart = meant.balls[*ball] - start;
-        let distance = apart.dot(along);
-        (distance > 0.0 && along.perp_dot(apart).abs() < 2.0 * table.radius).then_some(distance)
+        let to_ball = meant.balls[*ball] - start;
+        let distance = to_ball.dot(along);
+        (distance > 0.0 && along.perp_dot(to_ball).abs() < 2.0 * table.radius).then_some(distance)
     };
     let first = [1, 2].into_iter().filter_map(|ball| Some((ball, ahead(&ball)?))).min_by(|a, b| a.1.total_cmp(&b.1));
     let (target, real_target) = if let Some((ball, _)) = first {
@@ -47,7 +47,7 @@ pub fn aimed(table: &Table, meant: &Layout, real: &Layout, cue: &CueInputs) -> C
         (point, point)
     };
     let [was, is] = [target - start, real_target - real_start];
-    // A ball that lies at the very point that is aimed at has no direction to it.
+    // If the ball lies exactly at the aiming point, there is no direction to it.
     if was.length_squared() < 1e-12 || is.length_squared() < 1e-12 {
         return *cue;
     }
@@ -71,7 +71,7 @@ mod tests {
         let half = cue(towards(&meant, 1) + 0.03);
         let turned = aimed(&table, &meant, &real, &half);
         assert!((turned.phi - half.phi - (towards(&real, 1) - towards(&meant, 1))).abs() < 1e-12);
-        // Straight up: from another place the same point needs another direction.
+        // Straight up: from another position the same point needs another direction.
         let up = cue(std::f64::consts::FRAC_PI_2);
         let turned = aimed(&table, &meant, &real, &up);
         let point = DVec2::new(-0.8, table.half_width());

@@ -37,7 +37,7 @@ fn a_simulated_shot_is_judged_by_the_rule_that_is_asked_for() {
     let three = said(&simulate(ONE_CUSHION, &["--rule", "three-cushion"]));
     assert!(three.contains("No point: one cushion before red, three needed (three-cushion)"), "{three}");
     let missed = said(&simulate("0,0,0,90,0.5", &["--rule", "one-cushion"]));
-    assert!(missed.contains("No point: no ball was met (one-cushion)"), "{missed}");
+    assert!(missed.contains("No point: no ball was hit (one-cushion)"), "{missed}");
     assert!(refusal(&simulate(ONE_CUSHION, &["--rule", "snooker"])).contains("three-cushion"));
 }
 

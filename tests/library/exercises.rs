@@ -154,7 +154,7 @@ fn a_shot_that_does_not_show_it_is_found_out() {
     assert!(changed(Category::Draw, |cue| cue.b = 0.0).contains(&"the tip is more than 0.2 R below the centre"));
     assert!(changed(Category::Side, |cue| cue.a = 0.0).contains(&"it makes the point by its rule"));
     assert!(
-        changed(Category::FirstCaroms, |cue| cue.phi += 3.0).contains(&"it meets yellow first, or red in the opening")
+        changed(Category::FirstCaroms, |cue| cue.phi += 3.0).contains(&"it hits yellow first, or red in the opening")
     );
     let mut named_otherwise = library.get("umbrella").unwrap().clone();
     named_otherwise.tags = vec!["natural".to_owned()];

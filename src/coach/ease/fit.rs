@@ -1,4 +1,4 @@
-//! Where the weights come from: least squares over layouts of which it is known how often they are missed.
+//! Fits the weights: least squares over layouts whose miss rates are known.
 
 use super::{Ease, NUMBERS, numbers};
 use crate::{
@@ -6,27 +6,26 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Added to the diagonal of the normal equations, against the mean square of the numbers: it changes the weights in the
-/// sixth digit and keeps them finite where layouts differ in fewer ways than there are weights.
+/// Ridge term on the diagonal of the normal equations, relative to the mean square of the features. It changes the
+/// weights in the sixth digit and keeps them finite if the layouts do not determine all weights.
 const RIDGE: f64 = 1e-6;
 
-/// Powers among which that of the stronger player is looked for.
+/// Search interval for the stronger player's power.
 const POWERS: (f64, f64) = (1.0, 10.0);
 
-/// A layout, and how often it is missed with a good shot.
+/// A layout and its miss rates with a good shot.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     /// The layout.
     pub layout: Layout,
-    /// Share that [`Ease::WEAK`] misses.
+    /// Share of attempts that [`Ease::WEAK`] misses.
     pub missed: f64,
-    /// Share that [`Ease::STRONG`] misses.
+    /// Share of attempts that [`Ease::STRONG`] misses.
     pub missed_by_strong: f64,
 }
 
 impl Ease {
-    /// The weights that come nearest to the shares of misses, by least squares, and the power that gives the stronger player as many
-    /// misses as there were.
+    /// Fits the weights to the miss rates by least squares, and the power so that the stronger player's total misses agree.
     pub fn fit(table: &Table, samples: &[Sample]) -> Self {
         let mut equations = vec![vec![0.0; NUMBERS]; NUMBERS];
         let mut right = vec![0.0; NUMBERS];

@@ -1,4 +1,4 @@
-//! How easy a layout is for the shot that comes next, at a glance: no shot is simulated.
+//! A quick estimate of how easy a layout is for the next shot, without any simulation.
 
 mod fit;
 
@@ -10,40 +10,40 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Numbers about a layout: a constant, distances and an angle.
+/// Number of features of a layout: a constant, distances and an angle.
 const NUMBERS: usize = 8;
 
-/// Where the weighted sum comes near nought or falls below it, the share goes to nought within about so much instead: no
-/// layout is quite safe, and of two very easy ones one is still the easier.
+/// Softplus width: a weighted sum near or below zero gives a small positive share instead of zero. No layout is
+/// perfectly safe, and the easier of two very easy ones still ranks higher.
 const SOFTNESS: f64 = 0.02;
 
-/// Length of the `match` table, m: the weights are for distances on a table of this length.
+/// Length of the `match` table, m: the weights apply to distances on a table of this length.
 const MATCH_LENGTH: f64 = 2.84;
 
-/// Players who err less than so many times the errors of [`Skill::level`] at 1 are taken to err as much.
+/// Smallest error scale: a player with smaller errors than this multiple of [`Skill::level`] 1 is treated as having these.
 const SMALLEST_SCALE: f64 = 0.1;
 
-/// How easy layouts are under a rule: a weighted sum of some numbers about them.
+/// The difficulty model of a rule: a weighted sum of layout features.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ease {
-    /// What the numbers are weighed with for the share that [`Ease::WEAK`] misses: a constant;
-    /// the cue ball's distance a from the nearer object ball and that ball's distance c from the other, 1/m; a², c² and a c,
-    /// 1/m²; the cosine of the turn between those two ways, and its square.
+    /// Weights for the share that [`Ease::WEAK`] misses: a constant;
+    /// the cue ball's distance a from the nearer object ball and that ball's distance c from the other, 1/m; a², c² and
+    /// a c, 1/m²; the cosine of the turn between these two paths, and its square.
     pub weights: [f64; NUMBERS],
-    /// The share that [`Ease::STRONG`] misses is this power of it.
+    /// The share that [`Ease::STRONG`] misses is the weak player's share raised to this power.
     pub power: f64,
 }
 
 impl Ease {
-    /// The weaker of the two players that the weights are fitted for, between national and club.
+    /// The weaker of the two players that the weights are fitted to, between national and club level.
     pub const WEAK: Skill = Skill::level(3.8);
 
     /// The stronger one, about world class.
     pub const STRONG: Skill = Skill::level(1.25);
 
-    /// What is in use, from `cargo run --release --example ease -- 600`. Of 300 layouts a rule that took no part in the fit,
-    /// the easiest fifth were missed by the weaker player 14, 33 and 58 % of the time (estimated: 13, 27 and 59), the hardest 58, 58
-    /// and 76 % (estimated: 62, 57 and 74).
+    /// Returns the current weights, from `cargo run --release --example ease -- 600`. Checked on 300 layouts per rule
+    /// that took no part in the fit: the weaker player missed the easiest fifth 14, 33 and 58 % of the time (estimated:
+    /// 13, 27 and 59), the hardest fifth 58, 58 and 76 % (estimated: 62, 57 and 74).
     pub const fn under(rule: Rule) -> Self {
         let (weights, power) = match rule {
             Rule::StraightRail => ([-0.0987, 0.2365, 0.499, -0.0411, -0.1112, -0.013, -0.0735, -0.0161], 2.37),
@@ -53,31 +53,33 @@ impl Ease {
         Self { weights, power }
     }
 
-    /// Probability of the point from `layout`, for a player of this skill who plays a good shot: a rough estimate for ranking.
+    /// Estimates the probability of the point from `layout`, for a player of this skill who plays a good shot: a rough
+    /// estimate for ranking.
     pub fn probability(&self, table: &Table, layout: &Layout, skill: Skill) -> f64 {
         1.0 - self.missed(table, layout).powf(self.power_at(skill.scale()))
     }
 
-    /// The power for a player of so large errors: 1 for [`Ease::WEAK`], `power` for [`Ease::STRONG`], and straight between and
-    /// beyond them if both are drawn on logarithmic axes.
+    /// Returns the power for a player of this error scale: 1 for [`Ease::WEAK`], `power` for [`Ease::STRONG`], with linear
+    /// interpolation and extrapolation on logarithmic axes.
     fn power_at(&self, scale: f64) -> f64 {
         let [weak, strong] = [Self::WEAK, Self::STRONG].map(|skill| skill.scale().ln());
         self.power.powf((weak - scale.max(SMALLEST_SCALE).ln()) / (weak - strong))
     }
 
-    /// Whether the weights were fitted on this table: elsewhere they rank layouts, but nobody knows how often they are made.
+    /// Whether the weights were fitted on this table. On other tables they still rank layouts, but the probabilities
+    /// are unknown.
     pub fn is_known_on(table: &Table) -> bool {
         *table == Table::default()
     }
 
-    /// Share of the misses of [`Ease::WEAK`] from `layout`.
+    /// Estimates the share of attempts that [`Ease::WEAK`] misses from `layout`.
     pub fn missed(&self, table: &Table, layout: &Layout) -> f64 {
         let share: f64 = self.weights.iter().zip(numbers(table, layout)).map(|(weight, number)| weight * number).sum();
         (SOFTNESS * (share / SOFTNESS).exp().ln_1p()).min(1.0)
     }
 }
 
-/// What the estimate rests on. Distances are those on a table as long as `match`.
+/// Computes the features of the estimate, with distances scaled to the length of the `match` table.
 fn numbers(table: &Table, layout: &Layout) -> [f64; NUMBERS] {
     let [cue, mut near, mut far] = layout.balls.map(|ball| ball * (MATCH_LENGTH / table.length));
     if cue.distance_squared(near) > cue.distance_squared(far) {
@@ -85,7 +87,7 @@ fn numbers(table: &Table, layout: &Layout) -> [f64; NUMBERS] {
     }
     let (to_near, onward) = (near - cue, far - near);
     let (a, c) = (to_near.length(), onward.length());
-    // How straight the way goes on from the nearer object ball to the other.
+    // Cosine of the turn from the path to the nearer object ball to the path on to the other one.
     let straight = to_near.normalize_or_zero().dot(onward.normalize_or_zero());
     [1.0, a, c, a * a, c * c, a * c, straight, straight * straight]
 }

@@ -1,5 +1,5 @@
-//! A stroke as players say it: "red 1/2 right, 1.5 left, 2 up, 3.5 lengths". What a text says, and the stroke that it means where the balls
-//! lie.
+//! Strokes in players' words: "red 1/2 right, 1.5 left, 2 up, 3.5 lengths". Parses such a text and computes the stroke
+//! that it means in a layout.
 
 mod read;
 #[cfg(test)]
@@ -16,64 +16,66 @@ use crate::{
     table::{CueBall, Layout, Table},
 };
 
-/// The least share of a ball that a graze covers: with less the cue ball may pass.
+/// Minimum fullness of a graze: with less the cue ball may miss.
 const GRAZE: f64 = 0.02;
 
-/// How near the fullness comes to what is said, ball diameters.
+/// Tolerance of the fullness, ball diameters.
 const ACCURACY: f64 = 1e-4;
 
-/// Steps of the secant method that finds the aim, of which a few are enough where a ball is met at all; and directions to each side that are
-/// tried behind a cushion.
+/// Maximum steps of the secant method that finds the aim; a few are enough if the ball is hit at all. Also the number
+/// of directions to each side that are tried off a cushion.
 const STEPS: i32 = 40;
 
-/// As far as rounding to half tips moves the tip at most, radii: a quarter of a tip to the side and in height.
+/// Maximum shift of the tip by rounding to half tips, radii: a quarter of a tip to the side and in height.
 const ROUNDED: f64 = 0.25 * TIP * std::f64::consts::SQRT_2;
 
-/// How far beside the straight way a ball is looked for that is missed on it, at most so many times [`STEPS`], ball diameters.
+/// Step of the search for a direction that hits the ball if the straight one misses, ball diameters. The [`STEPS`]
+/// trials alternate between the sides.
 const SWERVE: f64 = 0.1;
 
-/// How far from what is said the fullness may be where just that is not possible, ball diameters: as far as players tell it.
+/// Maximum deviation of the fullness if the requested one is not possible, ball diameters: the precision in which
+/// players state it.
 const NEARLY: f64 = 0.0625;
 
-/// How exactly the place of a cushion that comes before any ball is said, diamonds.
+/// Precision of a stated position on a cushion before the first ball, diamonds.
 const SAID_TO: f64 = 0.06;
 
-/// Why a text is no stroke, or none that can be played.
+/// Why a text is not a stroke, or not a playable one.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub enum SpokenError {
-    /// A part means nothing.
+    /// A part of the text is not understood.
     #[error(
         "\"{0}\" is not understood; accepted are \"red 1/2 right\" or \"to 3.2 bottom\", \"1.5 left\", \"2 up\", \"3.5 lengths\" or \
          \"soft\", \"raised 20\" or \"level\", with commas between them"
     )]
     Part(String),
-    /// Something is said twice.
-    #[error("{0} is said twice, last as \"{1}\"; say it once")]
+    /// A property is stated twice.
+    #[error("{0} is given twice, last as \"{1}\"; give it once")]
     Twice(&'static str, String),
-    /// The text says nothing at all.
-    #[error("no stroke is said; accepted is a text like \"red 1/2 right, 1.5 left, 2 up, 3.5 lengths\"")]
+    /// The text states nothing.
+    #[error("the text has no stroke; accepted is a text like \"red 1/2 right, 1.5 left, 2 up, 3.5 lengths\"")]
     Nothing,
-    /// The ball is the one that is played with.
+    /// The named ball is the player's cue ball.
     #[error("{0} is the cue ball; aim at one of the others")]
     CueBall(CueBall),
-    /// Nothing says where to aim.
+    /// The text does not state where to aim.
     #[error(
         "where to aim is missing; say a ball and how full, like \"red 1/2 right\", or the line of the cue, like \"to 3.2 bottom\""
     )]
     NoAim,
-    /// How full a ball is to be hit is said, but not on which side.
-    #[error("on which side of the ball is missing; say \"right\" or \"left\" behind how full it is hit")]
+    /// The text states the fullness of the hit, but not the side.
+    #[error("the side of the ball is missing; add \"right\" or \"left\" after the fullness")]
     NoSide,
-    /// Nothing says how hard.
+    /// The text does not state a speed.
     #[error(
-        "how hard is missing; say it in table lengths, like \"3.5 lengths\", in m/s, or as very soft, soft, medium, hard or very hard"
+        "the speed is missing; give it in table lengths, like \"3.5 lengths\", in m/s, or as very soft, soft, medium, hard or very hard"
     )]
     NoSpeed,
-    /// A speed at which no cue strikes.
+    /// The speed is outside the range of cue speeds.
     #[error("no stroke on this table makes a ball run {0} lengths; accepted are those of 0.05 to 12 m/s")]
     Lengths(f64),
-    /// The ball cannot be met so from where the cue ball lies.
-    #[error("{0} cannot be met so: something is in the way, or it is too far to the side")]
+    /// The ball cannot be hit like this from the cue ball's position.
+    #[error("{0} cannot be hit like this: something is in the way, or it is too far to the side")]
     NotMet(&'static str),
     /// An input of the stroke is outside its range.
     #[error(transparent)]
@@ -83,42 +85,42 @@ pub enum SpokenError {
     Shot(#[from] ShotError),
 }
 
-/// How hard a stroke is said to be.
+/// The stated speed of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Speed {
-    /// Table lengths that a ball runs which is struck so in the middle.
+    /// Distance that a ball runs when it is struck in its centre, table lengths.
     Lengths(f64),
     /// Speed of the cue, m/s.
     Cue(f64),
 }
 
-/// A point on a cushion through which a line is to go.
+/// A point at a cushion that defines a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Mark {
     point: RailPoint,
-    /// Whether it is a diamond on the wood, and not the point of the nose in front of it.
+    /// Whether the point is a diamond on the wood instead of the point of the nose in front of it.
     on_wood: bool,
 }
 
-/// What a text says of a stroke. What it leaves out is `None`.
+/// The content of a text. Omitted properties are `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpokenStroke {
-    /// The ball that is met first, by its place among white, yellow and red.
+    /// The first object ball, as an index into white, yellow and red.
     colour: Option<usize>,
-    /// How much of it is covered, 0 to 1.
+    /// Fullness of the hit, 0 to 1.
     fullness: Option<f64>,
-    /// Whether it is met on its left.
+    /// Whether the ball is hit on its left.
     left: Option<bool>,
-    /// Where the cue ball meets a cushion that comes before any ball.
+    /// Where the cue ball hits a cushion before the first ball.
     rail: Option<RailPoint>,
-    /// Where the cue points.
+    /// The point at which the cue is aimed.
     to: Option<Mark>,
-    /// Where it comes from.
+    /// The point behind the cue ball on the line of aim.
     from: Option<Mark>,
-    /// Place of the tip, to the left and up, ball radii.
+    /// Tip position, to the left and up, ball radii.
     side: Option<f64>,
     height: Option<f64>,
-    /// The word for the speed, table lengths: a number that stands beside it says more.
+    /// Speed in words, as table lengths; a number in the text takes precedence.
     pace: Option<f64>,
     speed: Option<Speed>,
     /// Elevation of the cue, rad.
@@ -126,20 +128,21 @@ pub struct SpokenStroke {
 }
 
 impl SpokenStroke {
-    /// What `text` says. The coach's own words in tips and diamonds are read, too; the way of the cue ball behind the first ball, which
-    /// follows from the stroke, is passed over.
+    /// Parses `text`. Also reads the coach's own words in tips and diamonds; skips its course of the cue ball after the
+    /// first ball, which follows from the stroke.
     ///
     /// # Errors
-    /// What is not understood.
+    /// Fails if a part is not understood.
     pub fn read(text: &str) -> Result<Self, SpokenError> {
         read::read(text)
     }
 
-    /// The stroke, for who plays with `cue_ball`. What is not said is as in `before`; without one the cue is level and strikes the
-    /// middle. Where rails or balls behind the cue ball are in the way, the cue is raised as far as it must be.
+    /// Computes the stroke, for a player with `cue_ball`. Omitted properties are taken from `before`; without it the cue is
+    /// level and strikes the centre. If rails or balls behind the cue ball are in the way, the cue is raised as far as
+    /// needed.
     ///
     /// # Errors
-    /// What is missing, or cannot be played where the balls lie.
+    /// Fails if a property is missing, or the stroke cannot be played in this layout.
     pub fn stroke(
         &self,
         table: &Table,
@@ -176,7 +179,7 @@ impl SpokenStroke {
             let way = point.place(table) + table.radius * point.rail.normal() - from;
             let phi = way.to_angle() - squirt(table, cue.a);
             let hit = ball.zip(self.offset().ok());
-            // From the cue ball's side a diamond seems the shorter, the flatter the way.
+            // Seen from the cue ball, a diamond appears shortened on a flat path.
             let half =
                 SAID_TO * table.diamond() * way.normalize_or_zero().dot(point.rail.normal()).abs() / way.length();
             return Ok(hit.and_then(|hit| nearest(table, layout, hit, phi, half, at)).unwrap_or_else(|| at(phi)));
@@ -190,7 +193,8 @@ impl SpokenStroke {
         found.ok_or(SpokenError::NotMet(cue_ball.names()[ball]))
     }
 
-    /// By how many ball diameters the cue ball's line passes the middle of the ball on its left.
+    /// Returns the signed distance between the cue ball's line and the ball's centre, in ball diameters, positive to
+    /// the left.
     fn offset(&self) -> Result<f64, SpokenError> {
         let fullness = self.fullness.ok_or(SpokenError::NoAim)?.clamp(GRAZE, 1.0);
         match self.left {
@@ -203,21 +207,21 @@ impl SpokenStroke {
 }
 
 impl Mark {
-    /// Where it is on the table, m.
+    /// Returns the position of the mark on the table, m.
     fn place(self, table: &Table) -> glam::DVec2 {
         let behind = if self.on_wood { BEHIND * table.diamond() } else { 0.0 };
         self.point.place(table) - behind * self.point.rail.normal()
     }
 }
 
-/// By how many ball diameters the cue ball's line passes the middle of `ball` on its left in a stroke; `None` where it meets another ball
-/// first, or none.
+/// Returns the signed distance between the cue ball's line and the centre of `ball` at impact, in ball diameters,
+/// positive to the left. `None` if the cue ball hits another ball first, or none.
 fn passed(table: &Table, layout: &Layout, ball: usize, cue: &CueInputs) -> Result<Option<f64>, ShotError> {
     let hit = aim(table, layout, cue)?.hit.filter(|hit| hit.ball == ball);
     Ok(hit.map(|hit| if hit.left { 1.0 - hit.fullness } else { hit.fullness - 1.0 }))
 }
 
-/// Of the strokes in directions up to `half` from `phi`, rad, the one that passes a ball most nearly as is wanted.
+/// Finds the stroke, among directions up to `half` from `phi`, rad, whose offset from the ball is nearest to the wanted one.
 fn nearest(
     table: &Table,
     layout: &Layout,
@@ -232,8 +236,8 @@ fn nearest(
     known.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, cue)| cue)
 }
 
-/// The stroke that meets a ball so that the cue ball's line passes its middle by so many ball diameters on its left, or nearly so; `None` where
-/// none was found. Squirt, and the swerve of a raised cue, are in what is tried.
+/// Finds the stroke whose offset from the ball at impact, in ball diameters, positive to the left, is the wanted one, or
+/// nearly so. `None` if none was found. The simulation includes squirt and the swerve of a raised cue.
 fn aim_at(
     table: &Table,
     layout: &Layout,
@@ -244,7 +248,7 @@ fn aim_at(
     let way = layout.balls[ball] - layout.balls[0];
     let lever = way.length() / (2.0 * table.radius);
     let straight = way.to_angle() + (wanted / lever).clamp(-1.0, 1.0).asin() - squirt(table, side);
-    // How far a cue ball swerves is not known beforehand: where the straight way misses, one beside it meets the ball.
+    // The swerve is not known beforehand: if the straight direction misses, a neighbouring one hits the ball.
     let beside = |step: i32| straight + SWERVE * f64::from(if step % 2 == 0 { step } else { -step }) / lever;
     let Some(mut met) =
         (0..STEPS).map(beside).find(|phi| matches!(passed(table, layout, ball, &at(*phi)), Ok(Some(_))))
@@ -262,14 +266,14 @@ fn aim_at(
             None => phi = 0.5 * (phi + met),
         }
     }
-    // Just there the other ball may be in the way: as near as it leaves room.
+    // The other ball may block exactly this hit: take the nearest possible one.
     let near = nearest(table, layout, (ball, wanted), met, NEARLY / lever, at);
     Ok(near.filter(
         |cue| matches!(passed(table, layout, ball, cue), Ok(Some(passed)) if (passed - wanted).abs() <= NEARLY),
     ))
 }
 
-/// The speed of the cue at which a ball runs so many table lengths, m/s.
+/// Returns the cue speed at which a ball runs this number of table lengths, m/s.
 fn speed_of(table: &Table, lengths: f64) -> Option<f64> {
     let (mut low, mut high) = (0.05, 12.0);
     if !(table_lengths(table, low)?..=table_lengths(table, high)?).contains(&lengths) {
@@ -282,11 +286,11 @@ fn speed_of(table: &Table, lengths: f64) -> Option<f64> {
     Some(0.5 * (low + high))
 }
 
-/// The place of the tip, radii. One that is told in half tips, as the coach does, may be rounded a little beyond where the tip holds: then it
-/// is there.
+/// Returns the tip position, radii. A position in half tips, as the coach reports it, may be rounded to slightly beyond the
+/// miscue limit; it is moved back to the limit.
 fn on_ball([a, b]: [f64; 2], limit: f64) -> [f64; 2] {
     let (said, most) = (libm::hypot(a, b), limit.sqrt());
     let is_beyond = a * a + b * b > limit;
-    // A little within, so that no rounding of the square is beyond it.
+    // Slightly inside, so that rounding of the square does not exceed the limit.
     if is_beyond && said <= most + ROUNDED { [a, b].map(|part| part * (1.0 - 1e-12) * most / said) } else { [a, b] }
 }

@@ -1,4 +1,4 @@
-//! The parts of a text that says a stroke.
+//! Parser for the parts of a stroke text.
 
 use super::{Mark, Speed, SpokenError, SpokenStroke};
 use crate::{
@@ -11,14 +11,14 @@ use crate::{
     table::BALL_NAMES,
 };
 
-/// Fullness by other words than those in sixteenths.
+/// Words for the fullness other than those in sixteenths.
 const FULLNESS: [(&str, f64); 2] = [("thin", 0.25), ("thick", 0.75)];
 
-/// What a text says.
+/// Parses a stroke text.
 pub fn read(text: &str) -> Result<SpokenStroke, SpokenError> {
     let mut said = SpokenStroke::default();
     for line in text.lines() {
-        // The coach's lines that follow from the stroke: the course, the pattern and the reason.
+        // Skips the coach's lines that follow from the stroke: the course, the pattern and the reason.
         let line = line.trim().to_lowercase();
         if line.contains(" \u{2013} ") || ["pattern:", "why:"].iter().any(|begin| line.starts_with(begin)) {
             continue;
@@ -31,7 +31,7 @@ pub fn read(text: &str) -> Result<SpokenStroke, SpokenError> {
     if said == SpokenStroke::default() { Err(SpokenError::Nothing) } else { Ok(said) }
 }
 
-/// The parts of a line, divided by commas, semicolons, brackets and full stops; those within numbers do not divide.
+/// Splits a line at commas, semicolons, brackets and full stops, except at those inside numbers.
 fn parts(line: &str) -> Vec<String> {
     let letters: Vec<char> = line.replace('\u{bd}', ".5").chars().collect();
     let is_digit = |index: Option<usize>| index.and_then(|index| letters.get(index)).is_some_and(char::is_ascii_digit);
@@ -45,14 +45,14 @@ fn parts(line: &str) -> Vec<String> {
     divided.collect::<String>().lines().map(words).filter(|part| !part.is_empty()).collect()
 }
 
-/// Reads one part into `said`.
+/// Parses one part into `said`.
 fn read_part(
     part: &str,
     said: &mut SpokenStroke,
     twice: impl Fn(&'static str) -> SpokenError + Copy,
 ) -> Result<(), SpokenError> {
     let not_understood = || SpokenError::Part(part.to_owned());
-    // "Bottom long rail first at 3, then red": which cushions come between, the stroke says.
+    // "Bottom long rail first at 3, then red": the cushions between the balls follow from the stroke.
     let part = match part.strip_prefix("then ") {
         Some(rail) if rail_named(rail).is_some() => return Ok(()),
         Some(part) => part,
@@ -91,7 +91,7 @@ fn read_part(
     set(&mut said.height, height, twice("height"))
 }
 
-/// Sets what has not been said yet.
+/// Sets a property that has not been set yet.
 fn set<T>(place: &mut Option<T>, value: Option<T>, twice: SpokenError) -> Result<(), SpokenError> {
     match (place.is_some(), value) {
         (true, Some(_)) => Err(twice),
@@ -103,8 +103,8 @@ fn set<T>(place: &mut Option<T>, value: Option<T>, twice: SpokenError) -> Result
     }
 }
 
-/// Where a line of the cue comes from, if that is said, and where it leads: "cue from 2.8 on the left short rail to 1.65 on the right
-/// one", "to 1.65 right", "left 2.8 → right 1.65", "through 2 top".
+/// Parses the start, if stated, and the end of a line of aim: "cue from 2.8 on the left short rail to 1.65 on the right one",
+/// "to 1.65 right", "left 2.8 → right 1.65", "through 2 top".
 fn line_of_cue(part: &str) -> Option<(Option<&str>, &str)> {
     let arrow = part.split_once('\u{2192}').or_else(|| part.split_once("->"));
     let part = part.strip_prefix("cue ").or_else(|| part.strip_prefix("aim ")).unwrap_or(part);
@@ -114,7 +114,8 @@ fn line_of_cue(part: &str) -> Option<(Option<&str>, &str)> {
     }
 }
 
-/// A point on a cushion: "1.65 on the right short rail", "right 1.65", "2 top on the wood". A line goes through a diamond, and to a nose.
+/// Parses a point at a cushion: "1.65 on the right short rail", "right 1.65", "2 top on the wood". "through" refers to
+/// a diamond, "to" to the nose.
 fn mark(text: &str) -> Option<Mark> {
     let through = text.trim().strip_prefix("through ");
     let (text, wood) = match through.unwrap_or(text.trim()).split_once("wood") {
@@ -127,20 +128,20 @@ fn mark(text: &str) -> Option<Mark> {
     Some(Mark { point, on_wood: wood || through.is_some() })
 }
 
-/// A point on a cushion; `None` beyond its ends.
+/// Creates a point on a cushion; `None` beyond its ends.
 fn rail_point(rail: Rail, diamond: f64) -> Option<RailPoint> {
     let along = if matches!(rail, Rail::Left | Rail::Right) { SIZE.y } else { SIZE.x };
     (0.0..=along).contains(&diamond).then_some(RailPoint { rail, diamond })
 }
 
-/// The one rail that is named in a text.
+/// Finds the rail named in a text; `None` unless it names exactly one.
 fn rail_named(text: &str) -> Option<Rail> {
     let named = |rail: &Rail| text.split_whitespace().any(|word| word == rail.name());
     let mut rails = Rail::ALL.into_iter().filter(named);
     rails.next().filter(|_| rails.next().is_none())
 }
 
-/// "3.5 lengths", "4 table lengths", "medium 2.9", "2.3 m/s".
+/// Parses a speed: "3.5 lengths", "4 table lengths", "medium 2.9", "2.3 m/s".
 fn speed(part: &str) -> Option<Speed> {
     let (number, unit) = part.split_once(' ')?;
     let paced = PACES.iter().find_map(|word| part.strip_prefix(word)?.trim().parse().ok());
@@ -156,7 +157,7 @@ fn speed(part: &str) -> Option<Speed> {
     }
 }
 
-/// The elevation of the cue, degrees: "level cue", "cue raised 20°", "20 degrees".
+/// Parses the elevation of the cue, degrees: "level cue", "cue raised 20°", "20 degrees".
 fn elevation(part: &str) -> Option<f64> {
     if part.contains("level") {
         return Some(0.0);
@@ -168,7 +169,7 @@ fn elevation(part: &str) -> Option<f64> {
     number.or(raised)?.trim().parse().ok()
 }
 
-/// The colour that is named in a part, by its place among white, yellow and red, and what else the part says.
+/// Finds the colour named in a part, as an index into white, yellow and red, and the rest of the part.
 fn colour(part: &str) -> (Option<usize>, String) {
     let named = |word: &str| BALL_NAMES.iter().position(|name| *name == word);
     let is_other = |word: &&str| named(word).is_none() && !["the", "ball"].contains(word);
@@ -176,7 +177,7 @@ fn colour(part: &str) -> (Option<usize>, String) {
     (part.split_whitespace().find_map(named), rest)
 }
 
-/// How full a ball is hit, and whether on its left: "half full on the right", "1/2 right", "full".
+/// Parses the fullness of a hit, and whether it is on the left: "half full on the right", "1/2 right", "full".
 fn fullness(text: &str) -> Option<(f64, Option<bool>)> {
     let (text, left) = match (text.strip_suffix("left"), text.strip_suffix("right")) {
         (Some(text), _) => (text, Some(true)),
@@ -196,7 +197,7 @@ fn fullness(text: &str) -> Option<(f64, Option<bool>)> {
     (0.0..=1.0).contains(&fullness).then_some((fullness, left))
 }
 
-/// The words for how full a ball is hit without those that may be left out.
+/// Removes optional words from a description of the fullness.
 fn bare(text: &str) -> String {
     let mut words: Vec<&str> =
         text.split_whitespace().filter(|word| !["a", "an", "on", "the"].contains(word)).collect();
@@ -206,11 +207,11 @@ fn bare(text: &str) -> String {
     words.join(" ")
 }
 
-/// Words beside a number of tips that say nothing more.
+/// Words next to a number of tips that add no information.
 const PASSED_OVER: [&str; 9] = ["of", "running", "reverse", "english", "side", "centre", "center", "tip", "tips"];
 
-/// The place of the tip, to the left and up, radii: "1.5 left", "two tips of running right at 2 o'clock", "a little above centre",
-/// "no side", "2 tips at 1:30".
+/// Parses the tip position, to the left and up, radii: "1.5 left", "two tips of running right at 2 o'clock", "a little
+/// above centre", "no side", "2 tips at 1:30".
 fn tip(part: &str) -> Option<(Option<f64>, Option<f64>)> {
     match part {
         "centre ball" | "center ball" | "centre" | "center" => return Some((Some(0.0), Some(0.0))),
@@ -245,7 +246,7 @@ fn tip(part: &str) -> Option<(Option<f64>, Option<f64>)> {
     Some((along(left), along(up)))
 }
 
-/// A number of tips: "1.5", "two", "one and a half", "half a", "a little".
+/// Parses a number of tips: "1.5", "two", "one and a half", "half a", "a little".
 fn number_named(text: &str) -> Option<f64> {
     let whole = |word: &str| {
         let named = NUMBERS.iter().position(|number| *number == word).map(|number| number as f64);
@@ -261,7 +262,7 @@ fn number_named(text: &str) -> Option<f64> {
     }
 }
 
-/// An hour of the clock's face as an angle from its top, clockwise, rad: "2 o'clock", "half past 1 o'clock", "1:30".
+/// Parses a clock position as an angle from 12 o'clock, clockwise, rad: "2 o'clock", "half past 1 o'clock", "1:30".
 fn hour_named(text: &str) -> Option<f64> {
     let text = text.trim_end_matches(" o'clock");
     let (hour, minutes) = match (text.strip_prefix("half past "), text.split_once(':')) {

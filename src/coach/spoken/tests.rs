@@ -1,11 +1,11 @@
-//! Strokes that are said, and read.
+//! Tests of parsing strokes in words.
 
 use super::*;
 use proptest::prelude::*;
 
 use crate::{simulation::Rail, table::Table};
 
-/// The cue ball between the others' ways: yellow lies ahead of it to the left, red to the right.
+/// The cue ball's path lies between the others: yellow ahead of it to the left, red to the right.
 fn layout(table: &Table) -> Layout {
     Layout::parse("2d,2d 6d,3d 6d,1d", table).unwrap()
 }
@@ -96,16 +96,16 @@ fn what_cannot_be_read_or_played_is_named() {
         ("to 3.2", "\"to 3.2\" is not understood"),
         ("red 9/8 left, soft", "\"red 9/8 left\" is not understood"),
         ("1 left up, soft", "\"1 left up\" is not understood"),
-        ("red 1/2 left, yellow 1/2 left, soft", "the ball is said twice, last as \"yellow 1/2 left\""),
-        ("red 1/2 left, 1 left, 2 right, soft", "side is said twice, last as \"2 right\""),
+        ("red 1/2 left, yellow 1/2 left, soft", "the ball is given twice, last as \"yellow 1/2 left\""),
+        ("red 1/2 left, 1 left, 2 right, soft", "side is given twice, last as \"2 right\""),
         ("white 1/2 left, soft", "white is the cue ball"),
         ("1 left, soft", "where to aim is missing"),
         ("red, soft", "where to aim is missing"),
-        ("red 1/2, soft", "on which side of the ball is missing"),
-        ("red 1/2 left", "how hard is missing"),
+        ("red 1/2, soft", "the side of the ball is missing"),
+        ("red 1/2 left", "the speed is missing"),
         ("red 1/2 left, 900 lengths", "900 lengths"),
         ("red 1/2 left, 9 left, soft", "the tip at a = 0.9"),
-        (" ; ,", "no stroke is said"),
+        (" ; ,", "the text has no stroke"),
         ("to 4.1 right, soft", "\"to 4.1 right\" is not understood"),
         ("to nan right, soft", "\"to nan right\" is not understood"),
         ("red full, raised 95, soft", "theta = 95"),
@@ -120,7 +120,7 @@ fn what_cannot_be_read_or_played_is_named() {
     assert_eq!(error, SpokenError::NotMet("red"));
 }
 
-/// Words of strokes, and what is none.
+/// Words of stroke texts, and some that are invalid.
 const WORDS: [&str; 40] = [
     "red",
     "yellow",

@@ -1,4 +1,4 @@
-//! Which system describes a shot, and what it says on the player's table.
+//! Selects the system that describes a shot, and computes its correction for the player's table.
 
 use glam::DVec2;
 use serde::Serialize;
@@ -14,64 +14,65 @@ use crate::{
     table::{Rail, Table},
 };
 
-/// Least side at the first cushion that is running side, `R w / v`; where a system supposes none it is less.
+/// Minimum side at the first cushion that counts as running, `R w / v`; a system without side requires less.
 const RUNNING: f64 = 0.15;
-/// How far from the system's aim on the first cushion a shot's may be that it still describes, diamonds. Tables differ by
-/// half a diamond from each other.
+/// Maximum distance on the first cushion between the system's aim and the aim of a shot that it still describes,
+/// diamonds. Tables differ by half a diamond from each other.
 const NEAR: f64 = 1.0;
-/// How far along the line of the example its ball lies.
+/// Position of the ball along the line of the example, as a share.
 const EXAMPLE: f64 = 0.25;
-/// Lines that are tried on the first cushion.
+/// Number of intervals in which the first cushion is scanned.
 const TRIED: usize = 48;
-/// Most by which the arrival changes from one of them to the next, diamonds; and the third number.
+/// Maximum change of the error between two neighbouring lines of the scan: of the arrival, diamonds, and of the third number.
 const JUMPS: [f64; 2] = [0.7, 10.0];
-/// Halvings of the distance between two of them: to a thousandth of a diamond and further.
+/// Bisection steps between two lines: to a thousandth of a diamond or better.
 const HALVINGS: u32 = 12;
 
-/// What a player counts for a shot.
+/// What a player calculates for a shot.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Guide {
-    /// A system's numbers.
+    /// The numbers of a system.
     System(Applied),
-    /// A line beside it, where no system has it.
+    /// A parallel shift of a neighbouring line, if no system applies.
     Shift(Shift),
 }
 
-/// A system for one shot.
+/// A system applied to one shot.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Applied {
     /// The system.
     #[serde(rename = "name")]
     pub system: System,
-    /// The cushions that the ball meets, in order.
+    /// The cushions that the ball hits, in order.
     pub rails: [Rail; 3],
-    /// The numbers of the line that the system gives from where the ball comes from to where it is to arrive: where the shot
-    /// arrives on the third cushion.
+    /// The numbers of the system's line from the start of the shot to where the shot arrives on the third cushion.
     #[serde(flatten)]
     pub numbers: Numbers,
-    /// What the first number must be on this table for that arrival with the system's stroke; `None` where none brings it there.
+    /// The first number that leads to this arrival on this table with the system's stroke; `None` if no number does.
     pub table_first: Option<f64>,
-    /// Where the ball arrives on this table if it is aimed as the system says; `None` where it has no number there.
+    /// The third number at which the ball arrives on this table if it is aimed by the system; `None` if it is outside
+    /// the scale.
     pub table_third: Option<f64>,
     /// The first number at which the shot itself is aimed, with its own side and speed.
     pub shot_first: Option<f64>,
-    /// How the table is turned over against the way in which the system is taught.
+    /// How the table is mirrored relative to the system's standard orientation.
     #[serde(skip)]
     pub mirror: Mirror,
-    /// The system's line, as it is taught.
+    /// The system's line, in its standard orientation.
     #[serde(skip)]
     pub line: Line,
-    /// Where the shot arrives, in diamonds along the third cushion.
+    /// The arrival of the shot, in diamonds along the third cushion.
     #[serde(skip)]
     pub arrival: f64,
 }
 
-/// How far the length of a table may be from twice its width, in widths: on others the diamonds of the rails are not alike.
+/// Maximum difference between a table's length and twice its width, in widths: on other tables the diamonds of long and
+/// short rails have different spacings.
 const ASPECT: f64 = 0.05;
 
-/// What a player counts for a recorded shot; `None` where it has no three cushions in a row, no system is near, or the table is not
-/// twice as long as wide.
+/// Returns what a player calculates for a recorded shot. `None` if it has no three cushions in a row, no system is
+/// near, or the table is not twice as long as wide.
 pub fn guide(table: &Table, recording: &Recording) -> Option<Guide> {
     if (table.length / table.width - 2.0).abs() > ASPECT {
         return None;
@@ -82,7 +83,8 @@ pub fn guide(table: &Table, recording: &Recording) -> Option<Guide> {
 }
 
 impl Guide {
-    /// The way of a ball that is played so, on this table, to the third cushion: the centres of the ball at the cushions, m.
+    /// Returns the path on this table of a ball that is played by the guide, to the third cushion: the centres of the ball at
+    /// the cushions, m.
     pub fn path(&self, table: &Table) -> Vec<DVec2> {
         match self {
             Self::System(applied) => applied.path(table),
@@ -92,7 +94,7 @@ impl Guide {
 }
 
 impl Applied {
-    /// `system` for the three cushions of a shot; `None` where it does not describe them.
+    /// Applies `system` to the three cushions of a shot; `None` if it does not describe them.
     fn of(system: System, table: &Table, leg: &Leg) -> Option<Self> {
         let rails = leg.rails();
         let mirror = Mirror::ALL.into_iter().find(|mirror| rails.map(|rail| mirror.rail(rail)) == system.rails())?;
@@ -108,8 +110,8 @@ impl Applied {
         ((counted - played).abs() <= NEAR).then_some(Self { shot_first, ..applied })
     }
 
-    /// What `system` says of a ball whose middle is at `from` and that is to arrive at `arrival` on the third cushion, both in
-    /// diamonds and as the system is taught; `None` where it has no line for it.
+    /// Applies `system` to a ball centred at `from` that should arrive at `arrival` on the third cushion, both in
+    /// diamonds in the standard orientation. `None` if the system has no line for it.
     fn counted(system: System, table: &Table, mirror: Mirror, from: DVec2, arrival: f64) -> Option<Self> {
         let wanted = system.third_number(arrival)?;
         let aimed = |along: f64| Line::between(from, system.first_at(along));
@@ -132,15 +134,15 @@ impl Applied {
         })
     }
 
-    /// The line that a system is taught with, on this table.
+    /// Returns the system's textbook example, on this table.
     pub fn example(system: System, table: &Table) -> Option<Self> {
         let line = system.example();
         let from = line.from + EXAMPLE * line.way;
         Self::counted(system, table, Mirror::default(), from, system.third_along(system.numbers(&line)?.third)?)
     }
 
-    /// The way of a ball that runs as the system supposes on the system's line, as this table plays it, from the diamond behind
-    /// it to the third cushion: the centres of the ball at the cushions, m.
+    /// Returns the path of the system's natural stroke on the system's line, as this table plays it, from the diamond
+    /// behind it to the third cushion: the centres of the ball at the cushions, m.
     pub fn path(&self, table: &Table) -> Vec<DVec2> {
         let Self { system, mirror, line, .. } = self;
         let turned = |place: DVec2| metres(table, mirror.place(place));
@@ -152,8 +154,9 @@ impl Applied {
     }
 }
 
-/// The place on a system's first cushion at which `error` is nought, of several the one nearest to `near`. Between two lines
-/// that are tried it changes by less than `jump`: where the course takes another cushion it leaps, and that is no solution.
+/// Finds the position on a system's first cushion at which `error` is zero; the one nearest to `near` if there are
+/// several. A change by `jump` or more between two neighbouring lines means that the ball takes another cushion, and is
+/// not a solution.
 fn solve(system: System, near: f64, jump: f64, error: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let [low, high] = system.first_ends();
     let at = |step: usize| low + (high - low) * step as f64 / TRIED as f64;
@@ -180,7 +183,7 @@ fn solve(system: System, near: f64, jump: f64, error: impl Fn(f64) -> Option<f64
     Some(0.5 * (low + high))
 }
 
-/// An error that is nought but for rounding.
+/// An error below this is zero up to rounding.
 const EXACT: f64 = 1e-9;
 
 #[cfg(test)]
@@ -206,7 +209,7 @@ mod tests {
                 [start, first, third].iter().zip(numbers).all(|(one, other)| (one - other).abs() < 0.1),
                 "{applied:?}"
             );
-            // Aimed at the table's own number the natural stroke does arrive there.
+            // With the table's own number, the natural stroke must arrive there.
             let on_table = Line::between(applied.line.from, system.first_at(first_along(system, &applied)));
             let arrival = system.played(&table, applied.mirror, &on_table, &system.natural()).unwrap();
             assert!((arrival - applied.arrival).abs() < 0.02, "{system}: {arrival} for {}", applied.arrival);
@@ -214,7 +217,7 @@ mod tests {
         }
     }
 
-    /// Where the line leads that has the table's first number.
+    /// The position on the first cushion of the table's first number.
     fn first_along(system: System, applied: &Applied) -> f64 {
         let aimed = |along: f64| Line::between(applied.line.from, system.first_at(along));
         let first = applied.table_first.unwrap();
@@ -241,7 +244,7 @@ mod tests {
         assert!(told[0].starts_with("Corner-5: ") && told.iter().all(|words| *words == told[0]), "{told:?}");
     }
 
-    /// Each number is rounded as it is said, and the sum is one of what is said.
+    /// Each number is rounded as it is displayed, and the sum is computed from the displayed numbers.
     #[test]
     fn the_number_to_aim_at_is_what_the_sum_comes_to() {
         let example = Applied::example(System::Corner5, &Table::preset("textbook").unwrap()).unwrap();
@@ -278,7 +281,7 @@ mod tests {
 
     #[test]
     fn a_line_that_no_system_has_is_counted_from_the_line_beside_it() {
-        // Three times across: long, the other long, the first long.
+        // Three times across the table: long cushion, opposite long cushion, first long cushion.
         let Some(Guide::Shift(shift)) = guided("2.3d,1d 7d,3.5d 0.5d,0.5d", "0,0.2,0,75,4") else { panic!() };
         assert_eq!(shift.rails, [crate::simulation::Rail::Top; 2]);
         assert!((shift.third - shift.table_third).abs() < 0.1 && shift.by.abs() <= 0.5, "{shift:?}");

@@ -1,4 +1,4 @@
-//! The three cushions in a row that a shot's cue ball takes: what systems speak of.
+//! The three consecutive cushions of a shot's cue ball, to which diamond systems apply.
 
 use glam::DVec2;
 
@@ -10,21 +10,22 @@ use crate::{
     table::Table,
 };
 
-/// Three cushions in a row with no ball between.
+/// Three consecutive cushions without a ball between them.
 #[derive(Clone, Debug)]
 pub struct Leg {
-    /// Where the cue ball came from: the stroke, or the first object ball. The centre of the ball, in diamonds.
+    /// Start of the leg: the cue ball's centre at the stroke or at the first object ball, in diamonds.
     pub from: DVec2,
-    /// The cushions, and the cue ball's centre there, in diamonds.
+    /// The cushions and the cue ball's centre at each, in diamonds.
     pub hits: [(Rail, DVec2); 3],
-    /// Side spin at the first cushion, `R w / v`: positive where it is running.
+    /// Side spin at the first cushion, `R w / v`: positive for running english.
     pub english: f64,
-    /// The cue ball's motion just before the first cushion, and its centre, m.
+    /// The cue ball's centre just before the first cushion, m, and its motion there.
     pub motion: (DVec2, Impulse),
 }
 
 impl Leg {
-    /// The first three cushions in a row before the second object ball: from the stroke, or from the first object ball.
+    /// Finds the first three consecutive cushions before the second object ball, from the stroke or from the first
+    /// object ball.
     pub fn of(table: &Table, recording: &Recording) -> Option<Self> {
         let mut from = recording.state(0, 0.0).position;
         let (mut hits, mut met) = (Vec::new(), 0);
@@ -52,12 +53,12 @@ impl Leg {
         None
     }
 
-    /// The line from where the cue ball came from to the first cushion, as the centre of the ball goes.
+    /// Returns the line of the ball's centre from the start to the first cushion.
     pub fn line(&self) -> Line {
         Line::between(self.from, self.hits[0].1)
     }
 
-    /// The cushions.
+    /// Returns the cushions.
     pub fn rails(&self) -> [Rail; 3] {
         self.hits.map(|(rail, _)| rail)
     }

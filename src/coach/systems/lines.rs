@@ -1,38 +1,38 @@
-//! The table in diamonds, as players count: lines of aim, and where they meet the diamonds.
+//! The table in diamonds: lines of aim, and where they meet the diamonds.
 //!
-//! Places are counted from the lower left corner of the noses, 8 along the length and 4 along the width.
+//! Positions are measured from the lower left corner of the noses, 8 along the length and 4 along the width.
 
 use glam::DVec2;
 
 use crate::{simulation::Rail, table::Table};
 
-/// How far behind the noses the diamonds stand, in diamonds: 80 mm on a match table.
+/// Distance of the diamonds behind the noses, in diamonds: 80 mm on a match table.
 pub const BEHIND: f64 = 0.225;
 
 /// Diamonds along the length and along the width.
 pub const SIZE: DVec2 = DVec2::new(8.0, 4.0);
 
-/// A place in metres, from the middle of `table`, in diamonds.
+/// Converts a position from metres, relative to the centre of `table`, to diamonds.
 pub fn diamonds(table: &Table, place: DVec2) -> DVec2 {
     (place / DVec2::new(table.length, table.width) + 0.5) * SIZE
 }
 
-/// A place in diamonds in metres, from the middle of `table`.
+/// Converts a position from diamonds to metres, relative to the centre of `table`.
 pub fn metres(table: &Table, place: DVec2) -> DVec2 {
     (place / SIZE - 0.5) * DVec2::new(table.length, table.width)
 }
 
-/// A table turned over, so that a shot runs as its system is taught.
+/// A mirror image of the table that brings a shot into its system's standard orientation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Mirror {
-    /// Left is right.
+    /// Whether left and right are swapped.
     pub x: bool,
-    /// Above is below.
+    /// Whether top and bottom are swapped.
     pub y: bool,
 }
 
 impl Mirror {
-    /// All four.
+    /// All four combinations.
     pub const ALL: [Self; 4] = [
         Self { x: false, y: false },
         Self { x: true, y: false },
@@ -40,12 +40,12 @@ impl Mirror {
         Self { x: true, y: true },
     ];
 
-    /// A place in diamonds, turned over; twice is not at all.
+    /// Mirrors a position in diamonds. This is its own inverse.
     pub fn place(self, place: DVec2) -> DVec2 {
         DVec2::select(glam::BVec2::new(self.x, self.y), SIZE - place, place)
     }
 
-    /// A cushion, turned over.
+    /// Mirrors a cushion.
     pub const fn rail(self, rail: Rail) -> Rail {
         match rail {
             Rail::Left if self.x => Rail::Right,
@@ -57,34 +57,34 @@ impl Mirror {
     }
 }
 
-/// A line on which the centre of a ball runs, in diamonds.
+/// A line along which the centre of a ball moves, in diamonds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// A place on it.
+    /// A point on it.
     pub from: DVec2,
-    /// Where it leads, of any length but nought.
+    /// Its direction, of any length except zero.
     pub way: DVec2,
 }
 
 impl Line {
-    /// From one place to another.
+    /// Creates the line from one position to another.
     pub fn between(from: DVec2, to: DVec2) -> Self {
         Self { from, way: to - from }
     }
 
-    /// Where it meets the vertical line at `x`, as `y` there.
+    /// Returns the `y` of the intersection with the vertical line at `x`; `None` if the lines are parallel.
     pub fn at_x(&self, x: f64) -> Option<f64> {
         let y = self.from.y + (x - self.from.x) / self.way.x * self.way.y;
         y.is_finite().then_some(y)
     }
 
-    /// Where it meets the horizontal line at `y`, as `x` there.
+    /// Returns the `x` of the intersection with the horizontal line at `y`; `None` if the lines are parallel.
     pub fn at_y(&self, y: f64) -> Option<f64> {
         let x = self.from.x + (y - self.from.y) / self.way.y * self.way.x;
         x.is_finite().then_some(x)
     }
 
-    /// Where it meets the diamonds of a cushion, along that.
+    /// Returns the intersection with the line of a cushion's diamonds, as the position along the cushion.
     pub fn at_rail(&self, rail: Rail) -> Option<f64> {
         match rail {
             Rail::Top => self.at_y(4.0 + BEHIND),
@@ -94,8 +94,8 @@ impl Line {
         }
     }
 
-    /// Where a line that leads up and to the left comes from, along the diamonds of the lower cushion to the right and on up
-    /// those of the right one: their corner is at 8.225.
+    /// Returns the start of a line that leads up and to the left, measured along the diamonds of the lower cushion to
+    /// the right and on up those of the right cushion; their corner is at 8.225.
     pub fn behind(&self) -> Option<f64> {
         if self.way.x >= 0.0 || self.way.y <= 0.0 {
             return None;
@@ -108,7 +108,7 @@ impl Line {
     }
 }
 
-/// The place so far along a cushion at which its diamonds stand.
+/// Returns the position at the diamonds of a cushion, `along` diamonds along it.
 pub const fn edge(rail: Rail, along: f64) -> DVec2 {
     match rail {
         Rail::Top => DVec2::new(along, 4.0 + BEHIND),
@@ -118,7 +118,7 @@ pub const fn edge(rail: Rail, along: f64) -> DVec2 {
     }
 }
 
-/// The place at the diamonds of which [`Line::behind`] says how far along it is.
+/// Returns the position at the diamonds for a value of [`Line::behind`].
 pub fn behind_at(along: f64) -> DVec2 {
     let corner = 8.0 + BEHIND;
     if along <= corner { DVec2::new(along, -BEHIND) } else { DVec2::new(corner, along - corner - BEHIND) }

@@ -1,9 +1,10 @@
-//! Diamond systems: what players count on for three cushions, and by how much the simulation corrects it.
+//! Diamond systems: the arithmetic that players use for three cushions, and its correction by the simulation.
 //!
-//! A [`System`] has numbers at the diamonds: where the line of aim comes from, where it leads, and where the ball arrives on
-//! the third cushion. [`guide`] says which of them describes a shot. Where none does, [`Shift`] counts from a line beside it.
+//! A [`System`] assigns numbers to the diamonds: to the start of the line of aim, to its end, and to the arrival on the
+//! third cushion. [`guide`] selects the system that describes a shot. If none does, [`Shift`] counts from a
+//! neighbouring line.
 //!
-//! Numbers are those of `tests/data/filmed/systems.json`, with its source.
+//! The numbers are those of `tests/data/filmed/systems.json`, which names their source.
 
 mod guide;
 mod leg;

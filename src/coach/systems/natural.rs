@@ -1,4 +1,4 @@
-//! A natural stroke: the side, the roll and the speed that a system supposes, and where a ball that is played so goes.
+//! A natural stroke: the side, roll and speed that a system assumes, and the resulting path of the ball.
 
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -10,24 +10,24 @@ use crate::{
     table::Table,
 };
 
-/// How a cue ball moves that is played in a system's way.
+/// The motion of a cue ball that is played as a system assumes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Natural {
-    /// Running side on the first cushion: the equator's speed over the ball's.
+    /// Running side on the first cushion: the equator's speed divided by the ball's.
     pub side: f64,
-    /// Spin ahead over that of a rolling ball.
+    /// Forward spin divided by that of a rolling ball.
     pub roll: f64,
     /// Speed of the ball, m/s.
     pub speed: f64,
 }
 
 impl Natural {
-    /// The cushions that a ball alone on `table` meets if it runs so on `line` towards the cushion `first`, and where its centre
-    /// is then, in diamonds: the first five at most.
+    /// Simulates a ball alone on `table` that runs on `line` towards the cushion `first`. Returns up to five cushions
+    /// that it hits and its centre at each, in diamonds.
     pub fn run(&self, table: &Table, line: &Line, first: Rail) -> Vec<(Rail, DVec2)> {
         let [from, to] = [line.from, line.from + line.way].map(|place| metres(table, place));
         let ahead = (to - from).normalize_or_zero();
-        // Running side takes the ball further the way that it goes on along the cushion.
+        // Running side carries the ball further in its direction along the cushion.
         let running = if ahead.perp_dot(reflected(ahead, first)) < 0.0 { 1.0 } else { -1.0 };
         let velocity = self.speed * ahead;
         let spin: DVec3 =
@@ -36,16 +36,16 @@ impl Natural {
     }
 }
 
-/// The first five cushions that a ball alone meets, with its centre in diamonds.
+/// Returns the first five cushions that a ball alone on the table hits, with its centre in diamonds.
 pub fn hits(table: &Table, from: DVec2, impulse: &Impulse) -> Vec<(Rail, DVec2)> {
     let followed = Follower::new(&[], MOST).of(table, &alone(from), impulse);
     followed.hits.into_iter().map(|(_, rail, place)| (rail, diamonds(table, place))).collect()
 }
 
-/// The way that a cushion sends a ball back without spin.
+/// Returns the direction after an ideal reflection from a cushion, without spin.
 pub fn reflected(way: DVec2, rail: Rail) -> DVec2 {
     way - 2.0 * way.dot(rail.normal()) * rail.normal()
 }
 
-/// Cushions that are followed: systems look at three, and a corner may take one more.
+/// Maximum number of cushions: systems use three, and a corner may add one.
 const MOST: usize = 5;

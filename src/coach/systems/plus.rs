@@ -1,12 +1,13 @@
-//! The Plus system's grid: it has no scale on the first cushion that holds for every start.
+//! The grid of the Plus system, which has no scale on the first cushion that is valid for every start.
 
 use super::scale::between;
 
-/// Places on the first, short cushion from the far corner down, in diamonds.
+/// Positions on the first (short) cushion from the far corner down, in diamonds.
 const FIRST: [f64; 5] = [4.0, 3.5, 3.0, 2.5, 2.0];
 
-/// Starts, and where the ball arrives on the third cushion from each of these places, in diamonds. The nines, beyond the
-/// corner, are no case of the source: they go on as the row does, for a table that needs to be aimed at a little more.
+/// Start numbers, and for each the arrival on the third cushion from each position in [`FIRST`], in diamonds. The
+/// nines, beyond the corner, are not in the source: they continue the rows, for a table on which the aim must be a
+/// little higher.
 const ARRIVALS: [(f64, &[f64]); 7] = [
     (2.0, &[3.7, 4.0, 5.0, 6.0, 7.0]),
     (3.0, &[4.5, 5.0, 6.0, 7.0, 8.0]),
@@ -17,10 +18,10 @@ const ARRIVALS: [(f64, &[f64]); 7] = [
     (8.0, &[8.0, 9.0]),
 ];
 
-/// Where a ball arrives that starts at the number `start` and is aimed at the place `first`, both in diamonds.
+/// Returns the arrival of a ball with the start number `start` that is aimed at the position `first`, both in diamonds.
 pub fn third(start: f64, first: f64) -> Option<f64> {
     let column = |arrivals: &'static [f64]| {
-        // From below up, as places are counted.
+        // In reverse order, so that the positions ascend.
         between(FIRST.iter().zip(arrivals).rev().map(|(place, third)| (*place, *third)), first)
     };
     let rows = ARRIVALS.windows(2).find(|rows| (rows[0].0..=rows[1].0).contains(&start))?;
@@ -34,7 +35,7 @@ pub fn third(start: f64, first: f64) -> Option<f64> {
     }
 }
 
-/// The places on the first cushion, low and high.
+/// The lowest and the highest position on the first cushion.
 pub const ENDS: [f64; 2] = [FIRST[4], FIRST[0]];
 
 #[cfg(test)]

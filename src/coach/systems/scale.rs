@@ -1,30 +1,29 @@
 //! Numbers along a cushion.
 
-/// Numbers and their places along a cushion, in diamonds; both ascend. Between them a part of the way is the same part of the
-/// difference.
+/// Numbers and their positions along a cushion, in diamonds, both ascending, with linear interpolation.
 #[derive(Clone, Copy, Debug)]
 pub struct Scale(pub &'static [(f64, f64)]);
 
 impl Scale {
-    /// The number at a place; `None` beyond the ends.
+    /// Returns the number at a position; `None` beyond the ends.
     pub fn number(&self, place: f64) -> Option<f64> {
         between(self.0.iter().map(|(number, place)| (*place, *number)), place)
     }
 
-    /// The place of a number; `None` beyond the ends.
+    /// Returns the position of a number; `None` beyond the ends.
     pub fn place(&self, number: f64) -> Option<f64> {
         between(self.0.iter().copied(), number)
     }
 
-    /// The places of both ends.
+    /// Returns the positions of both ends.
     pub fn ends(&self) -> [f64; 2] {
         [self.0[0].1, self.0[self.0.len() - 1].1]
     }
 }
 
-/// What belongs to `x` between points whose first coordinates ascend.
+/// Interpolates linearly at `x` between points whose first coordinates ascend; `None` beyond the ends.
 pub fn between(points: impl Iterator<Item = (f64, f64)> + Clone, x: f64) -> Option<f64> {
-    // What is off by rounding alone is an end.
+    // Tolerance for rounding at the ends.
     const ROUNDING: f64 = 1e-9;
     points.clone().zip(points.skip(1)).find_map(|((from, low), (to, high))| {
         let is_there = from - ROUNDING <= x && x <= to + ROUNDING;

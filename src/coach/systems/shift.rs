@@ -1,7 +1,7 @@
-//! The parallel shift: where no system has numbers for a line, a player counts from a line beside it that leads to a diamond.
+//! The parallel shift: if no system has numbers for a line, a player counts from a neighbouring line that leads to a diamond.
 //!
-//! Where the third cushion lies along the first, a ball that is aimed so much further along the first arrives as much further
-//! along the third; further the other way where the cushion between them lies across.
+//! If the third cushion is parallel to the first, a ball that is aimed further along the first arrives as much further
+//! along the third. The shift changes its sign if the second cushion lies across.
 
 use glam::DVec2;
 use serde::Serialize;
@@ -13,37 +13,37 @@ use super::{
 };
 use crate::{simulation::Rail, table::Table};
 
-/// How far from where the ball arrives the shift may be that it still tells, diamonds.
+/// Maximum difference between the shift's prediction and the actual arrival, diamonds.
 const NEAR: f64 = 0.5;
 
-/// A smaller shift is none to a player, diamonds: the line itself leads to the diamond.
+/// Smaller shifts do not matter to a player, diamonds: the line itself leads to the diamond.
 const LEAST: f64 = 0.05;
 
-/// A line that leads to a diamond, and the shot's line beside it.
+/// A line that leads to a diamond, and the shot's parallel line next to it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Shift {
     /// Always `parallel-shift`.
     name: &'static str,
     /// The first cushion and the third.
     pub rails: [Rail; 2],
-    /// The diamond of the first cushion to which the parallel line leads.
+    /// The diamond of the first cushion to which the neighbouring line leads.
     pub diamond: f64,
-    /// Where the ball arrives from there, in diamonds along the third cushion's nose.
+    /// The arrival of a ball on the neighbouring line, in diamonds along the third cushion's nose.
     pub arrival: f64,
-    /// How far the shot's line is beside it on the first cushion, diamonds.
+    /// Signed distance of the shot's line from it on the first cushion, diamonds.
     pub by: f64,
-    /// Where the ball arrives by the shift, in diamonds along the third cushion.
+    /// The arrival that the shift predicts for the shot, in diamonds along the third cushion.
     pub third: f64,
-    /// Where it arrives on this table.
+    /// The actual arrival of the shot on this table.
     pub table_third: f64,
-    /// The way of a ball on the parallel line that moves as the shot's ball: where it begins, and its centre at the three cushions,
-    /// in diamonds.
+    /// The path of a ball on the neighbouring line with the motion of the shot's ball: its start and its centre at the
+    /// three cushions, in diamonds.
     #[serde(skip)]
     pub path: [DVec2; 4],
 }
 
 impl Shift {
-    /// The rule by which the shot is counted, as a sentence.
+    /// Returns the rule of the shift, as a sentence.
     pub fn rule(&self) -> &'static str {
         if self.by * (self.third - self.arrival) < 0.0 {
             "Aimed further along the first cushion, the ball comes as much less far along the third."
@@ -52,19 +52,21 @@ impl Shift {
         }
     }
 
-    /// Where the shot itself is aimed on the first cushion, in its diamonds.
+    /// Returns where the shot itself is aimed on the first cushion, in its diamonds.
     pub fn aimed(&self) -> f64 {
         self.diamond + self.by
     }
 
-    /// The diamonds of the first cushion and of the third between which the parallel line runs, as places on the table's edge.
+    /// Returns the diamonds of the first and the third cushion between which the neighbouring line runs, as positions on the
+    /// table's edge.
     pub fn ends(&self) -> [DVec2; 2] {
         let [first, third] = self.rails;
         [edge(first, self.diamond), edge(third, self.arrival)]
     }
 
-    /// The shift from the nearest line that leads to a diamond and takes the same cushions; `None` where there is none, it
-    /// is too far off, the shot's own line leads to the diamond, or the third cushion does not lie along the first.
+    /// Finds the shift from the nearest line that leads to a diamond and takes the same cushions. `None` if there is no such
+    /// line, its prediction is too far off, the shot's own line leads to a diamond, or the third cushion is not
+    /// parallel to the first.
     pub(super) fn of(table: &Table, leg: &Leg) -> Option<Self> {
         let [first, second, third] = leg.rails();
         if is_long(first) != is_long(third) {
@@ -79,13 +81,13 @@ impl Shift {
         beside.sort_by(|one, other| (one - aimed).abs().total_cmp(&(other - aimed).abs()));
         let turned = if is_long(first) == is_long(second) { 1.0 } else { -1.0 };
         let table_third = along(leg.hits[2].1, third);
-        // Behind the corner there is no diamond to aim at.
+        // There is no diamond to aim at beyond the corner.
         beside.into_iter().filter(|diamond| (0.0..=last).contains(diamond)).find_map(|diamond| {
             let by = aimed - diamond;
             let path = path_beside(table, leg, -by)?;
             let arrival = along(path[3], third);
             let third = arrival + turned * by;
-            // No ball arrives beyond a corner, either.
+            // Nor can a ball arrive beyond a corner.
             let is_there = (0.0..=last).contains(&third) && (third - table_third).abs() <= NEAR;
             is_there.then_some(Self {
                 name: "parallel-shift",
@@ -101,14 +103,14 @@ impl Shift {
     }
 }
 
-/// The way of the shot's ball, from its beginning to the third cushion, if it came to the first one `by` diamonds further along;
-/// `None` where it takes other cushions.
+/// Simulates the path of the shot's ball, from its start to the third cushion, if it reached the first one `by`
+/// diamonds further along. `None` if it takes other cushions.
 fn path_beside(table: &Table, leg: &Leg, by: f64) -> Option<[DVec2; 4]> {
     let (place, motion) = &leg.motion;
     let first = leg.hits[0].0;
     let further = if is_long(first) { DVec2::X } else { DVec2::Y } * by;
     let place = diamonds(table, *place) + further;
-    // Just before the cushion, so that it is met.
+    // Slightly before the cushion, so that the cushion is hit.
     let back = 0.01 * motion.velocity.normalize_or_zero();
     let place = metres(table, place) - back;
     let reach = table.reach();
@@ -120,10 +122,10 @@ fn path_beside(table: &Table, leg: &Leg, by: f64) -> Option<[DVec2; 4]> {
     same.then(|| [entry(leg.from + further, hits[0].1), hits[0].1, hits[1].1, hits[2].1])
 }
 
-/// Where the line from one place to another, which is on the table, comes onto the table.
+/// Returns the point at which the line between two positions enters the table; the second one is on the table.
 fn entry(from: DVec2, to: DVec2) -> DVec2 {
     let share = (from.clamp(DVec2::ZERO, SIZE) - to) / (from - to);
-    // Along an axis one share is not a number, which `min` passes over.
+    // Along an axis one share is NaN, which `min` ignores.
     to + (from - to) * 1_f64.min(share.x).min(share.y)
 }
 
@@ -131,7 +133,7 @@ const fn is_long(rail: Rail) -> bool {
     matches!(rail, Rail::Top | Rail::Bottom)
 }
 
-/// How far along a cushion a place is, in diamonds.
+/// Returns the position along a cushion, in diamonds.
 const fn along(place: DVec2, rail: Rail) -> f64 {
     if is_long(rail) { place.x } else { place.y }
 }
@@ -144,7 +146,7 @@ mod tests {
     use super::*;
     use crate::{
         coach::{
-            candidates::anything,
+            candidates::any_stroke,
             systems::{Guide, guide},
         },
         simulation::Recording,
@@ -156,7 +158,7 @@ mod tests {
         let (table, mut rng) = (Table::default(), Xoshiro256PlusPlus::seed_from_u64(3));
         let shots = (0..4000).filter_map(|_| {
             let layout = Layout::random(&table, &mut rng);
-            let cue = anything(&table, &layout, &mut rng);
+            let cue = any_stroke(&table, &layout, &mut rng);
             match guide(&table, &Recording::new(&table, &layout, &cue).ok()?)? {
                 Guide::Shift(shift) => Some(shift),
                 Guide::System(_) => None,

@@ -1,6 +1,7 @@
-//! The systems: their numbers at the diamonds, their cushions, and the stroke that they suppose.
+//! The systems: their numbers at the diamonds, their cushions, and the stroke that they assume.
 //!
-//! All are told as they are taught: the line of aim leads up and to the left. [`super::Mirror`] has the other three ways.
+//! Each system is defined in its standard orientation, in which the line of aim leads up and to the left.
+//! [`super::Mirror`] provides the other three orientations.
 
 use std::fmt;
 
@@ -26,29 +27,29 @@ pub enum System {
     Seven,
 }
 
-/// The numbers of a line by a system.
+/// The numbers of a line in a system.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Numbers {
-    /// Where the line comes from.
+    /// The start of the line.
     pub start: f64,
-    /// Where it leads on the first cushion.
+    /// The end of the line on the first cushion.
     pub first: f64,
-    /// Where the ball arrives on the third cushion.
+    /// The arrival on the third cushion.
     pub third: f64,
 }
 
-/// Numbers and the places where they stand, in diamonds, as the system is taught.
+/// Numbers and their positions, in diamonds, in the standard orientation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Labels {
-    /// Where the line of aim comes from: behind the noses, at the diamonds.
+    /// Starts of the line of aim, at the diamonds behind the noses.
     pub start: Vec<(f64, DVec2)>,
-    /// Where it leads.
+    /// Ends of the line of aim on the first cushion.
     pub first: Vec<(f64, DVec2)>,
-    /// Where the ball arrives.
+    /// Arrivals on the third cushion.
     pub third: Vec<(f64, DVec2)>,
 }
 
-/// Starts of Corner-5, along the lower and the right diamonds.
+/// Start numbers of Corner-5, along the diamonds of the lower and the right cushion.
 const CORNER_5_START: Scale = Scale(&[
     (0.0, 0.0),
     (13.0, 1.0),
@@ -64,9 +65,9 @@ const CORNER_5_START: Scale = Scale(&[
     (80.0, 10.95),
     (90.0, 11.45),
 ]);
-/// Its first cushion: ten a diamond, and from 50 on twenty.
+/// First cushion of Corner-5: ten per diamond, and twenty from 50 on.
 const CORNER_5_FIRST: Scale = Scale(&[(0.0, 0.0), (50.0, 5.0), (90.0, 7.0)]);
-/// Its third cushion, at the nose.
+/// Third cushion of Corner-5, at the nose.
 const CORNER_5_THIRD: Scale = Scale(&[
     (0.0, 0.2),
     (10.0, 1.0),
@@ -79,21 +80,21 @@ const CORNER_5_THIRD: Scale = Scale(&[
     (80.0, 6.0),
     (90.0, 6.5),
 ]);
-/// Starts of Plus: the diamond, and 8 in the corner.
+/// Start numbers of Plus: the diamond, and 8 in the corner.
 const PLUS_START: Scale = Scale(&[(2.0, 2.0), (7.0, 7.0), (8.0, 8.225)]);
-/// Starts of Seven: from the third diamond on, half a number each.
+/// Start numbers of Seven: half a number per diamond, from the third diamond on.
 const SEVEN_START: Scale = Scale(&[(2.5, 3.0), (4.5, 7.0), (5.0, 8.225), (6.0, 9.45)]);
-/// Its first cushion: ten a diamond.
+/// First cushion of Seven: ten per diamond.
 const SEVEN_FIRST: Scale = Scale(&[(0.0, 0.0), (40.0, 4.0)]);
-/// Its third cushion, from above down, counted from the top: see [`System::third_number`].
+/// Third cushion of Seven, measured from the top down: see [`System::third_number`].
 const SEVEN_THIRD: Scale =
     Scale(&[(4.0, 0.0), (5.0, 0.67), (6.0, 1.33), (7.0, 2.0), (8.0, 2.67), (9.0, 3.33), (10.0, 4.0)]);
 
 impl System {
-    /// All of them.
+    /// All systems.
     pub const ALL: [Self; 3] = [Self::Corner5, Self::Plus, Self::Seven];
 
-    /// The name by which players call it.
+    /// Returns the name that players use.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Corner5 => "Corner-5",
@@ -102,7 +103,7 @@ impl System {
         }
     }
 
-    /// The name in files and in JSON.
+    /// Returns the name in files and in JSON.
     pub const fn id(self) -> &'static str {
         match self {
             Self::Corner5 => "corner5",
@@ -111,7 +112,7 @@ impl System {
         }
     }
 
-    /// Its arithmetic in words.
+    /// Returns the system's arithmetic in words.
     pub const fn rule(self) -> &'static str {
         match self {
             Self::Corner5 => "first = start - third",
@@ -120,7 +121,7 @@ impl System {
         }
     }
 
-    /// The cushions, in order.
+    /// Returns the cushions, in order.
     pub const fn rails(self) -> [Rail; 3] {
         match self {
             Self::Corner5 => [Rail::Top, Rail::Left, Rail::Bottom],
@@ -129,7 +130,7 @@ impl System {
         }
     }
 
-    /// What its rails are, in order, in words.
+    /// Returns the kinds of the cushions, in order, in words.
     pub const fn track(self) -> &'static str {
         match self {
             Self::Corner5 => "long, short, long",
@@ -138,13 +139,13 @@ impl System {
         }
     }
 
-    /// Whether it supposes running side; else none.
+    /// Whether the system assumes running side; otherwise it assumes none.
     pub const fn is_running(self) -> bool {
         !matches!(self, Self::Seven)
     }
 
-    /// The stroke that it supposes: one for all its lines, that with which its arrivals are nearest to those on the `match`
-    /// table, found by `study::filmed`.
+    /// Returns the stroke that the system assumes, one for all its lines. Fitted by `study::filmed` so that its arrivals are
+    /// nearest to those on the `match` table.
     pub const fn natural(self) -> Natural {
         match self {
             Self::Corner5 => Natural { side: 0.99, roll: 1.27, speed: 3.0 },
@@ -153,7 +154,8 @@ impl System {
         }
     }
 
-    /// The numbers of a line that leads up and to the left; `None` where its ends, or the arrival, have none.
+    /// Returns the numbers of a line that leads up and to the left; `None` if its start, its end or its arrival is
+    /// outside the scale.
     pub fn numbers(self, line: &Line) -> Option<Numbers> {
         let start = self.start_scale().number(line.behind()?)?;
         let place = self.first_along(line)?;
@@ -185,17 +187,17 @@ impl System {
         }
     }
 
-    /// Where a line leads along the diamonds of the first cushion.
+    /// Returns where a line meets the diamonds of the first cushion, as the position along them.
     pub fn first_along(self, line: &Line) -> Option<f64> {
         line.at_rail(self.rails()[0])
     }
 
-    /// The place of a point of the first cushion's diamonds.
+    /// Returns the position of a point at the first cushion's diamonds.
     pub const fn first_at(self, along: f64) -> DVec2 {
         edge(self.rails()[0], along)
     }
 
-    /// Where lines may lead along the diamonds of the first cushion: from and to.
+    /// Returns the range of positions on the first cushion that lines may lead to: low and high.
     pub fn first_ends(self) -> [f64; 2] {
         match self {
             Self::Corner5 => CORNER_5_FIRST.ends(),
@@ -204,9 +206,9 @@ impl System {
         }
     }
 
-    /// Where a ball arrives on the third cushion, in diamonds along it, whose centre comes from `before` to `place`: at the
-    /// nose, or at the diamonds through which it would run on, as the system counts. `None` where it
-    /// does not go there.
+    /// Returns the arrival on the third cushion, in diamonds along it, of a ball whose centre moves from `before` to `place`.
+    /// Measured at the nose, or at the diamonds towards which the ball would continue, depending on the system. `None`
+    /// if the ball does not go there.
     pub fn arrival(self, table: &Table, before: DVec2, place: DVec2) -> Option<f64> {
         let leg = Line::between(before, place);
         let radius = 4.0 * table.radius / table.width;
@@ -217,7 +219,7 @@ impl System {
         }
     }
 
-    /// The number of an arrival, which is in diamonds along the third cushion; `None` beyond the scale.
+    /// Returns the number of an arrival, given in diamonds along the third cushion; `None` beyond the scale.
     pub fn third_number(self, along: f64) -> Option<f64> {
         match self {
             Self::Corner5 => CORNER_5_THIRD.number(along),
@@ -226,7 +228,7 @@ impl System {
         }
     }
 
-    /// The arrival of a number, in diamonds along the third cushion.
+    /// Returns the arrival of a number, in diamonds along the third cushion.
     pub fn third_along(self, number: f64) -> Option<f64> {
         match self {
             Self::Corner5 => CORNER_5_THIRD.place(number),
@@ -235,7 +237,7 @@ impl System {
         }
     }
 
-    /// The place of an arrival.
+    /// Returns the position of an arrival.
     pub const fn third_at(self, along: f64) -> DVec2 {
         match self {
             Self::Corner5 => DVec2::new(along, 0.0),
@@ -243,19 +245,19 @@ impl System {
         }
     }
 
-    /// Where a ball that is played in its way arrives if it runs on `line`, in diamonds along the third cushion, on a table
-    /// that is turned over by `mirror`; `None` where it does not come there.
+    /// Simulates this `stroke` on `line` on the table mirrored by `mirror` and returns the arrival, in diamonds along
+    /// the third cushion. `None` if the ball does not arrive there.
     pub fn played(self, table: &Table, mirror: Mirror, line: &Line, stroke: &Natural) -> Option<f64> {
         let [first, _, third] = self.rails();
         let turned = Line::between(mirror.place(line.from), mirror.place(line.from + line.way));
         let hits = stroke.run(table, &turned, mirror.rail(first));
         let hit = |index: usize| hits.get(index).map(|(rail, place)| (mirror.rail(*rail), mirror.place(*place)));
-        // Past a corner the third cushion may be met before the second.
+        // Near a corner the third cushion may be hit before the second.
         let index = if hit(1)?.0 == third { 1 } else { 2 };
         self.arrival(table, hit(index - 1)?.1, hit(index)?.1)
     }
 
-    /// The line with which it is taught.
+    /// Returns the system's textbook example.
     pub fn example(self) -> Line {
         match self {
             Self::Corner5 => Line::between(behind_at(8.0 + BEHIND), self.first_at(2.0)),
@@ -264,7 +266,7 @@ impl System {
         }
     }
 
-    /// The numbers that stand at the rails.
+    /// Returns the numbers to display at the rails.
     pub fn labels(self) -> Labels {
         let scale = self.start_scale();
         let numbers: &[f64] = match self {
@@ -342,7 +344,7 @@ mod tests {
                     if let Some(numbers) = system.numbers(&Line::between(*from, *to)) {
                         counted += 1;
                         assert!((numbers.start - start).abs() < 1e-9, "{system}");
-                        // From 6 on Plus has other numbers on the first cushion.
+                        // From start 6 on, Plus has other numbers on the first cushion.
                         assert!(
                             system == System::Plus && *start > 5.0 || (numbers.first - first).abs() < 1e-9,
                             "{system}"

@@ -1,4 +1,4 @@
-//! A system as a player counts it.
+//! Display of a system's arithmetic in players' notation.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use super::{
     system::{Numbers, System},
 };
 
-/// A system's number as players say it: tens a diamond are whole, others have a tenth.
+/// Formats a system's number: integers if the scale has tens per diamond, otherwise one decimal.
 pub fn number(system: System, number: f64) -> String {
     match system {
         System::Corner5 => format!("{number:.0}"),
@@ -16,13 +16,13 @@ pub fn number(system: System, number: f64) -> String {
     }
 }
 
-/// With a decimal, where it is not nought.
+/// Formats a number with one decimal, which is omitted if it is zero.
 fn tenth(number: f64) -> String {
     let text = format!("{number:.1}");
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
-/// As many decimals as are said.
+/// Rounds to the displayed precision.
 fn rounded(system: System, number: f64) -> f64 {
     match system {
         System::Corner5 => number.round(),
@@ -31,7 +31,7 @@ fn rounded(system: System, number: f64) -> f64 {
 }
 
 impl Applied {
-    /// The arithmetic as a player does it, with the numbers as they are said: `50 - 30 = 20`.
+    /// Returns the player's arithmetic with the displayed numbers: `50 - 30 = 20`.
     pub fn arithmetic(&self) -> String {
         let Numbers { start, third, .. } = self.numbers;
         let (sign, [one, other]) = match self.system {
@@ -43,7 +43,7 @@ impl Applied {
         format!("{one} {sign} {other} = {}", self.aim())
     }
 
-    /// What comes of it: the number on the first cushion.
+    /// Returns the result of the arithmetic: the number on the first cushion.
     pub fn aim(&self) -> String {
         let Numbers { start, third, .. } = self.numbers;
         let [start, third] = [start, third].map(|number| rounded(self.system, number));
@@ -55,7 +55,7 @@ impl Applied {
         number(self.system, first)
     }
 
-    /// What the table says to it; empty where it says nothing.
+    /// Describes the correction for this table; empty if it is unknown.
     pub fn correction(&self) -> String {
         let said = |value: f64| number(self.system, value);
         match (self.table_first, self.table_third) {
@@ -69,7 +69,8 @@ impl Applied {
         }
     }
 
-    /// Where the shot itself is aimed, with its own side and speed; `None` where that is said already.
+    /// Returns the number at which the shot itself is aimed, with its own side and speed; `None` if it is the number
+    /// displayed before.
     fn shot_number(&self) -> Option<String> {
         let said = |value: f64| number(self.system, value);
         let last = self.table_first.map_or_else(|| self.aim(), said);
@@ -86,8 +87,8 @@ impl fmt::Display for Applied {
 }
 
 impl Shift {
-    /// Where the line to the diamond leads, and the shot beside it: `aimed at diamond 3 of the top rail, the ball comes to 5.1 of the
-    /// bottom rail; aimed at 3.4, as here, to 4.7`.
+    /// Describes where the line to the diamond leads, and the shot next to it: `aimed at diamond 3 of the top rail, the ball
+    /// comes to 5.1 of the bottom rail; aimed at 3.4, as here, to 4.7`.
     pub fn counted(&self) -> String {
         let Self { rails: [first, last], diamond, arrival, .. } = self;
         let (first, last) = (first.name(), last.name());
@@ -95,12 +96,12 @@ impl Shift {
             "aimed at diamond {diamond:.0} of the {first} rail, the ball comes to {arrival:.1} of the {last} rail; aimed at {:.1}, as \
              here, to {:.1}",
             self.aimed(),
-            self.told_third()
+            self.displayed_third()
         )
     }
 
-    /// The same with what the table says to it, in fewer words: `diamond 3 of the top rail leads to 5.1 of the bottom rail; 3.4, as
-    /// here, to 4.7; on this table to 4.6`.
+    /// Like [`counted`](Self::counted) in fewer words, with the correction for this table: `diamond 3 of the top rail
+    /// leads to 5.1 of the bottom rail; 3.4, as here, to 4.7; on this table to 4.6`.
     pub fn brief(&self) -> String {
         let Self { rails: [first, last], diamond, arrival, .. } = self;
         let (first, last) = (first.name(), last.name());
@@ -108,18 +109,18 @@ impl Shift {
         format!(
             "diamond {diamond:.0} of the {first} rail leads to {arrival:.1} of the {last} rail; {:.1}, as here, to {:.1}{more}",
             self.aimed(),
-            self.told_third()
+            self.displayed_third()
         )
     }
 
-    /// What the table says to it: `on this table to 4.6`; `None` where it is the same.
+    /// Describes the correction for this table: `on this table to 4.6`; `None` if it makes no difference.
     pub fn correction(&self) -> Option<String> {
-        let is_other = tenth(self.told_third()) != tenth(self.table_third);
+        let is_other = tenth(self.displayed_third()) != tenth(self.table_third);
         is_other.then(|| format!("on this table to {:.1}", self.table_third))
     }
 
-    /// Where the ball arrives by the shift, so far from the other arrival as it is told.
-    fn told_third(&self) -> f64 {
+    /// Returns the predicted arrival, consistent with the displayed arrival and shift.
+    fn displayed_third(&self) -> f64 {
         let rounded = |number: f64| (10.0 * number).round() / 10.0;
         rounded(self.arrival) + rounded(self.third - self.arrival)
     }
@@ -133,8 +134,9 @@ impl fmt::Display for Shift {
 }
 
 impl Guide {
-    /// All that is counted for a shot, in a line: the numbers, what the table says to them, and the number at which the shot itself is
-    /// aimed: `Corner-5: 50 - 30 = 20, aim at 20 on the wood; on this table 19, this shot at 17`. A shift says that in any case.
+    /// Describes the whole calculation for a shot in one line: the numbers, the correction for this table, and the number at
+    /// which the shot itself is aimed, which a shift always contains: `Corner-5: 50 - 30 = 20, aim at 20 on the wood;
+    /// on this table 19, this shot at 17`.
     pub fn shot_words(&self) -> String {
         let at = match self {
             Self::System(applied) => applied.shot_number(),

@@ -1,17 +1,17 @@
-//! Which balls the cue ball flies over before it meets anything.
+//! Detects the balls that the cue ball flies over before its first contact.
 
 use crate::{
     simulation::{EventKind, Recording},
     table::{BALLS, Table},
 };
 
-/// Time between two looks at a flight, s: a ball of 8 m/s flies 8 mm in it.
-const LOOK: f64 = 0.001;
+/// Sampling interval of a flight, s: a ball at 8 m/s flies 8 mm in it.
+const SAMPLING_INTERVAL: f64 = 0.001;
 
-/// How far a ball's edge has to be passed over for it to count as flown over, m.
+/// Minimum overlap of the balls, seen from above, for one to count as flown over, m.
 const INSIDE: f64 = 0.001;
 
-/// The first object ball that the cue ball passes over in the air before its first contact, if only its edge.
+/// Finds the first object ball, or the edge of one, that the cue ball passes in the air before its first contact.
 pub fn flown_over(table: &Table, recording: &Recording) -> Option<usize> {
     let is_contact = |kind| matches!(kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _));
     let first = recording.events().iter().find(|event| is_contact(event.kind));
@@ -20,11 +20,11 @@ pub fn flown_over(table: &Table, recording: &Recording) -> Option<usize> {
     let of_cue_ball = recording.jumps().into_iter().filter(|jump| jump.ball == 0 && jump.is_told());
     of_cue_ball.filter(|jump| jump.start < until).find_map(|jump| {
         let end = jump.end.min(until);
-        let looks = ((end - jump.start) / LOOK).ceil() as usize;
-        (0..=looks).map(|look| (jump.start + LOOK * look as f64).min(end)).find_map(|time| {
+        let samples = ((end - jump.start) / SAMPLING_INTERVAL).ceil() as usize;
+        (0..=samples).map(|sample| (jump.start + SAMPLING_INTERVAL * sample as f64).min(end)).find_map(|time| {
             let places = recording.positions(time);
             let is_below = |ball: &usize| places[0].distance(places[*ball]) < reach;
-            // A ball that it comes down on is not flown over.
+            // A ball on which it lands is not flown over.
             let is_met = |ball: usize| {
                 until <= jump.end && first.is_some_and(|event| event.kind == EventKind::BallBall(0, ball))
             };

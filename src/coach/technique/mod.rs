@@ -1,4 +1,4 @@
-//! What a shot does on the table, and the name that players have for it.
+//! Analysis of a shot: what the cue ball does, and the players' name for it.
 
 mod jump;
 mod patterns;
@@ -22,17 +22,17 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Space beside a cushion within which a ball lies close to it, ball radii: two balls.
+/// A ball within this distance of a cushion is close to it, ball radii: the width of two balls.
 const CLOSE: f64 = 4.0;
 
-/// A cushion that the cue ball meets.
+/// A cushion hit by the cue ball.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cushion {
-    /// Which one.
+    /// The cushion.
     pub rail: Rail,
-    /// Where on its nose, in diamonds: 0 to 8 from the left on a long one, 0 to 4 from below on a short one.
+    /// Position on its nose, in diamonds: 0 to 8 from the left on a long one, 0 to 4 from below on a short one.
     pub diamond: f64,
-    /// How fast the cue ball comes on along it, m/s; positive to the right, or upwards.
+    /// Incoming speed of the cue ball along the cushion, m/s; positive to the right, or upwards.
     #[serde(skip)]
     pub along: f64,
 }
@@ -40,50 +40,52 @@ pub struct Cushion {
 /// What the cue ball does in a shot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Technique {
-    /// What the rules look at.
+    /// The contacts that the rules use.
     pub tally: Tally,
-    /// How the object ball is met that comes first.
+    /// The hit on the first object ball.
     pub first: Option<Hit>,
-    /// How the other one is met.
+    /// The hit on the other object ball.
     pub second: Option<Hit>,
-    /// Cushions before the first, in order.
+    /// Cushions before the first object ball, in order.
     pub before: Vec<Cushion>,
     /// Cushions between the first and the second object ball, in order.
     pub between: Vec<Cushion>,
-    /// Cushions that the first ball meets in the whole shot, in order.
+    /// Cushions that the first object ball hits in the whole shot, in order.
     pub sent: Vec<Rail>,
-    /// Angle between the cue ball's way to the first ball and its way from there, once it rolls or meets something, rad.
+    /// Angle between the cue ball's paths to and from the first ball, rad. The second is measured once it rolls or hits
+    /// something.
     pub turn: f64,
-    /// The object ball over which it flies before it meets anything.
+    /// The object ball that the cue ball flies over before its first contact.
     pub over: Option<usize>,
-    /// Angle by which the cue ball's way bends until it meets anything, rad.
+    /// Angle by which the cue ball's path bends until its first contact, rad.
     pub bend: f64,
-    /// Spin about the axis across its way as the cue ball meets the first ball, in units of a rolling ball's: 1 rolls, 0 slides,
-    /// less turns backwards.
+    /// Topspin or backspin of the cue ball as it hits the first ball, in units of a rolling ball's spin: 1 rolls, 0
+    /// slides, negative is backspin.
     pub roll: f64,
-    /// Side spin at the first cushion in units of a rolling ball's spin, R w / v: positive where it is running (the rebound is
-    /// longer for it), negative where it is reverse, 0 without a cushion before the second ball.
+    /// Side spin at the first cushion, in units of a rolling ball's spin, R w / v: positive for running english (it
+    /// lengthens the rebound), negative for reverse, 0 without a cushion before the second ball.
     pub english: f64,
-    /// Whether the first ball touches the second before the cue ball is there.
+    /// Whether the first object ball hits the second before the cue ball does.
     pub drives_second: bool,
-    /// Whether the first ball lies close to the last cushion before it.
+    /// Whether the first object ball lies close to the last cushion before it.
     pub is_close: bool,
-    /// After how many of the cushions between the balls the cue ball first meets the first ball again, if it does so before the second.
+    /// Number of cushions between the balls before the cue ball hits the first ball again; `None` if it does not do so
+    /// before the second ball.
     pub again: Option<usize>,
-    /// Largest distance of two balls at the end, m.
+    /// Largest distance between two balls at the end, m.
     pub spread: f64,
 }
 
 impl Technique {
-    /// What the cue ball does in this shot.
+    /// Simulates and analyses a shot.
     ///
     /// # Errors
-    /// What is wrong with the layout or the stroke.
+    /// Fails if the layout or the stroke is invalid.
     pub fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
         Ok(Self::of_recorded(table, &Recording::new(table, layout, cue)?))
     }
 
-    /// What the cue ball does in a recorded shot.
+    /// Analyses a recorded shot.
     pub fn of_recorded(table: &Table, recording: &Recording) -> Self {
         let first = first_hit(table, recording);
         let of_first = |ball: usize| first.is_some_and(|hit| hit.ball == ball);
@@ -109,17 +111,18 @@ impl Technique {
         technique
     }
 
-    /// How much of the first ball is covered as the cue ball comes on: 1 is head-on, 0 a graze, or no ball.
+    /// Returns the share of the first ball that is covered, seen along the cue ball's path: 1 is head-on, 0 a graze or
+    /// no ball.
     pub fn fullness(&self) -> f64 {
         self.first.map_or(0.0, |hit| hit.fullness)
     }
 
-    /// Whether the cue ball flies over a ball, or its way bends as a massé's does, before it meets anything.
+    /// Whether the cue ball flies over a ball, or its path bends as a massé's does, before its first contact.
     pub fn is_jump_or_masse(&self) -> bool {
         self.over.is_some() || self.bend > BENT
     }
 
-    /// All cushions before the second object ball, in order.
+    /// Returns all cushions before the second object ball, in order.
     pub fn cushions(&self) -> impl Iterator<Item = &Cushion> {
         self.before.iter().chain(&self.between)
     }
@@ -141,7 +144,7 @@ impl Technique {
             };
             if !has_touched && touches {
                 has_touched = true;
-                // What turns a ball that touches another or a cushion from the start is no bend of its way.
+                // A turn at a ball or cushion that touches from the start is not a bend of the path.
                 if event.time > JUST_BEFORE {
                     self.bend = recording.impulse().velocity.angle_to(before.velocity).abs();
                 }
@@ -180,13 +183,13 @@ impl Technique {
     }
 }
 
-/// Space between a ball at `place` and a cushion, m.
+/// Returns the gap between a ball at `place` and a cushion, m.
 fn space_at(table: &Table, rail: Rail, place: DVec2) -> f64 {
     let normal = rail.normal().abs();
     (table.reach() - place.abs()).dot(normal)
 }
 
-/// Largest distance of two balls, m.
+/// Returns the largest distance between two balls, m.
 fn spread(layout: &Layout) -> f64 {
     let [a, b, c] = layout.balls;
     a.distance(b).max(a.distance(c)).max(b.distance(c))
@@ -216,7 +219,7 @@ mod tests {
         assert_eq!(edge.over, Some(1));
         let beside = technique("-0.5,0 -0.2,0.07 0.5,0.02", "0,0,45,0,6");
         assert!(beside.over.is_none() && name(&beside) != Some("jump"), "{beside:?}");
-        // The first ball is met from the air, and nothing is flown over.
+        // The cue ball lands on the first ball; nothing is flown over.
         let onto = technique("-0.5,0 -0.2,0 0.5,0.02", "0,0,20,0,6");
         assert!(onto.first.is_some_and(|hit| hit.ball == 1) && onto.over.is_none(), "{onto:?}");
         let (layout, cue) = ("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6");
@@ -226,7 +229,7 @@ mod tests {
 
     #[test]
     fn the_course_and_the_side_are_told_apart_by_hand_made_shots() {
-        // Up and to the right into the upper long cushion: a ball that rolls along it turns counter-clockwise, as a < 0 does.
+        // Up and to the right into the upper long cushion: a ball that rolls along it turns counter-clockwise, as with a < 0.
         let bank = |a: &str| technique("-1,-0.5 1.3,-0.5 1.3,0.5", &format!("{a},0,0,45,3"));
         let (running, reverse) = (bank("-0.3"), bank("0.3"));
         assert!(running.english > 0.3 && reverse.english < -0.3, "{} {}", running.english, reverse.english);
@@ -237,7 +240,7 @@ mod tests {
 
     #[test]
     fn a_ball_that_is_met_twice_is_told_with_the_cushions_before_that() {
-        // The red ball comes off the short rail and meets the cue ball that follows it.
+        // The red ball rebounds from the short rail and hits the cue ball that follows it.
         let twice = technique("0.9,0 1.2,0 -1,0.5", "0,0.5,2,0.2,3");
         assert_eq!((twice.again, twice.first.map(|hit| hit.ball)), (Some(0), Some(1)));
         assert_eq!(technique("-0.3,0 0,0 -1,0.3", "0,-0.4,2,0.3,3").again, None);

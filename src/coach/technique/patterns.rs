@@ -1,4 +1,4 @@
-//! The names of shots, by what the cue ball does. Every shot that meets both object balls has one.
+//! The players' names of shots, by what the cue ball does. Every shot that hits both object balls has one.
 
 use std::f64::consts::FRAC_PI_3;
 
@@ -8,32 +8,32 @@ use crate::{
     simulation::Rail,
 };
 
-/// A sort of shot that players have a name for.
+/// A kind of shot that players have a name for.
 #[derive(Clone, Copy, Debug)]
 pub struct Pattern {
-    /// The tag of exercises that show it. Some patterns share one.
+    /// The tag of the exercises that train it. Some patterns share one.
     pub tag: &'static str,
-    /// Its name in a sentence.
+    /// The name in a sentence.
     pub name: &'static str,
-    /// Its course in words.
+    /// The course of the cue ball in words.
     pub course: &'static str,
     is_it: fn(&Technique) -> bool,
 }
 
-/// Least english that a pattern is named for, R w / v.
+/// Minimum english for a pattern that is named after it, R w / v.
 const MARKED: f64 = 0.2;
 
-/// Least bend of the way to the first contact that makes a massé, rad: 15°. Side with a cue as level as the rails allow bends
-/// it by a degree or two.
+/// Minimum bend of the path before the first contact that makes a massé, rad: 15°. Side spin with a cue as level as the
+/// rails allow bends it by a degree or two.
 pub(super) const BENT: f64 = 0.26;
 
-/// Spin below which the cue ball is drawn, in units of a rolling ball's.
+/// Spin below which the cue ball draws, in units of a rolling ball's.
 const DRAWN: f64 = -0.15;
 
-/// Spin from which on it follows, and what lies between slides: a stun shot.
+/// Spin from which on it follows. Between [`DRAWN`] and this it slides: a stun shot.
 const ROLLING: f64 = 0.35;
 
-/// The patterns that have a name, in the order in which a shot is asked whether it is one; it is called by the first.
+/// The named patterns, in the order of the checks: the first match gives the name.
 pub const PATTERNS: [Pattern; 31] = [
     Pattern {
         tag: "jump",
@@ -222,12 +222,13 @@ pub const PATTERNS: [Pattern; 31] = [
 ];
 
 impl Pattern {
-    /// What players call a shot; `None` where it does not meet both balls.
+    /// Finds the pattern of a shot; `None` if it does not hit both balls.
     pub fn of(technique: &Technique) -> Option<&'static Self> {
         PATTERNS.iter().find(|pattern| technique.tally.met_both() && (pattern.is_it)(technique))
     }
 
-    /// Its course in words for this shot. Patterns that are told by their first three cushions may have more; then their number is added.
+    /// Describes the course for this shot. Adds the number of cushions if the pattern only defines the first three and
+    /// there are more.
     pub fn course_of(&self, technique: &Technique) -> String {
         let says_all =
             !technique.before.is_empty() || ["jump", "masse", "time", "around-the-table"].contains(&self.tag);
@@ -241,8 +242,8 @@ impl Pattern {
     }
 }
 
-/// The cushions between the balls: `l` and `s` for the long and the short one that is met first, `L` and `S` for those
-/// opposite.
+/// Returns the cushions between the balls as letters: `l` and `s` for the first long and the first short cushion, `L` and `S`
+/// for those opposite.
 fn course(technique: &Technique) -> String {
     let (mut long, mut short) = (None, None);
     let letter = |rail: Rail| match rail {
@@ -255,12 +256,12 @@ fn course(technique: &Technique) -> String {
     if technique.before.is_empty() { all } else { String::new() }
 }
 
-/// The first three of them.
+/// Returns the first three letters of [`course`].
 fn start(technique: &Technique) -> String {
     course(technique).chars().take(3).collect()
 }
 
-/// Whether the third cushion lies behind the cue ball as it comes to the first.
+/// Whether the third cushion lies behind the cue ball as it approaches the first.
 fn turns_back(technique: &Technique) -> bool {
     let [first, _, third, ..] = &technique.between[..] else { return false };
     let ahead = match third.rail {

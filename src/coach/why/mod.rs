@@ -1,4 +1,5 @@
-//! Why a shot leads: its margin, the kiss that lies in wait, what it leaves, and how the next best differs.
+//! Why a shot is recommended: its tolerance, the likeliest kiss, the position that it leaves, and the difference from
+//! the second-best shot.
 
 mod words;
 
@@ -10,7 +11,7 @@ use serde::Serialize;
 use super::{
     Alternative, Input, Pattern, Recommendation, Sensitivity, Shooter, Skill, Technique,
     draws::Draws,
-    trial::{CONTACT_STEPS, Task, unhurried},
+    trial::{CONTACT_STEPS, Task, without_limits},
     words::table_lengths,
 };
 use crate::{
@@ -21,83 +22,84 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Attempts among which kisses are counted.
+/// Attempts in which kisses are counted.
 const ATTEMPTS: usize = 200;
 
-/// Share of the attempts from which on a kiss is named.
+/// Minimum share of the attempts for a kiss to be reported.
 const NAMED: f64 = 0.02;
 
-/// A width is told only if it is at least this share of the window in which the player's direction would have to stay to make the
-/// shot as often as it is made.
+/// The aim width is reported only if it is at least this share of the window in which the player's direction must stay
+/// to make the shot as often as it is made.
 const EXPLAINED: f64 = 0.8;
 
-/// Two balls that meet again within this time have met once, s: a ball that follows another through runs on to it.
+/// Contacts of the same two balls within this time count as one, s: a ball that follows another through runs into it again.
 const SAME: f64 = 0.1;
 
-/// Two balls that meet where they should not.
+/// An unintended contact of two balls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Kiss {
-    /// Share of the player's attempts that it spoils.
+    /// Share of the player's attempts that the kiss spoils.
     pub share: f64,
     /// The balls.
     pub balls: [usize; 2],
-    /// Where they meet, m, in the first such attempt.
+    /// Where they meet in the first such attempt, m.
     pub place: DVec2,
 }
 
-/// How the second-best shot differs.
+/// How the second-best shot differs from the best.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
-    /// What it is called.
+    /// The name of its pattern.
     pub pattern: Option<&'static str>,
-    /// Its first ball, where that is another.
+    /// Its first object ball, if that differs.
     pub first_ball: Option<usize>,
-    /// How much more of the same first ball it hits; less is thinner.
+    /// How much fuller it hits the same first ball; negative is thinner.
     pub fuller: f64,
-    /// How many table lengths harder it is; less is softer.
+    /// How many table lengths harder it is; negative is softer.
     pub harder: f64,
-    /// How often it is made.
+    /// Its make probability.
     pub make_probability: Option<f64>,
-    /// By how much its direction may be off in all, degrees; `None` where there is no end to that, or it does not tell how often the shot
-    /// is made.
+    /// Total width by which its direction may be off, degrees. `None` if there is no limit, or the width does not
+    /// explain the make probability.
     pub aim_deg: Option<f64>,
-    /// Probability of the point after it, where that counts too.
+    /// Probability of the point after it, in a plan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub next_probability: Option<f64>,
 }
 
-/// Why a shot leads.
+/// Why a shot is recommended.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Why {
-    /// How often it is made.
+    /// The make probability of the shot.
     pub make_probability: Option<f64>,
-    /// By how much its direction may be off in all, degrees; `None` where there is no end to that, it makes no point, or that does not tell
-    /// how often the shot is made.
+    /// Total width by which its direction may be off, degrees. `None` if there is no limit, the shot makes no point, or
+    /// the width does not explain the make probability.
     pub aim_deg: Option<f64>,
-    /// The kiss that spoils most attempts.
+    /// The kiss that spoils the most attempts.
     pub kiss: Option<Kiss>,
     /// Probability of the next point.
     pub next_probability: Option<f64>,
-    /// The next best shot.
+    /// The second-best shot.
     pub second: Option<Difference>,
-    /// The numbers of the shots that seem to be made more often than the first, from 2, which luck may explain: their intervals overlap.
+    /// Numbers, from 2, of the shots with a higher estimated make probability than the first one that may be due to
+    /// chance: their intervals overlap.
     #[serde(skip)]
     unsure: Vec<usize>,
     /// Whether the shots are ranked by this point and the next.
     #[serde(skip)]
     is_planned: bool,
-    /// Whether the first shot that makes the point was taken, and no other looked for.
+    /// Whether the search stopped at the first shot that makes the point.
     #[serde(skip)]
     is_the_first: bool,
-    /// A diamond, m, and the middle of the table from its lower left corner.
+    /// Size of a diamond, m, and the centre of the table relative to its lower left corner.
     #[serde(skip)]
     scale: (f64, DVec2),
 }
 
-/// Why the recommended shot leads. It takes some hundred simulations; the same seed draws the same attempts.
+/// Explains the recommended shot. It takes some hundred simulations; the same seed draws the same attempts.
 ///
 /// # Errors
-/// What is wrong with the layout or the stroke.
+/// Fails if the layout or the stroke is invalid.
 pub fn why(
     shooter: impl Into<Shooter>,
     rule: Rule,
@@ -141,23 +143,25 @@ pub fn why(
     })
 }
 
-/// By how much the direction may be off to both sides together, degrees; `None` where a player of this skill makes the shot much more often
-/// than his direction stays within that: other directions make it, too.
+/// Returns the total width by which the direction may be off, degrees. `None` if a player of this skill makes the shot
+/// much more often than the direction stays within that width: other directions make it too.
 fn aim_width(sensitivity: &Sensitivity, cue: &CueInputs, skill: Skill, made: Option<SuccessRate>) -> Option<f64> {
     let margin = sensitivity.margin(Input::Direction, cue)?;
     let width = margin.less? + margin.more?;
-    // Of all windows so wide, errors stay most often within the one around nought.
+    // Of all windows of this width, errors stay most often within the one centred at zero.
     let least = |rate: f64| 2.0 * skill.at(cue).phi.to_degrees() * quantile(0.5 * (1.0 + rate));
     let explains = made.is_none_or(|made| made.rate >= 1.0 || width > EXPLAINED * least(made.rate));
     explains.then_some(width)
 }
 
-/// The kiss that spoils most of the player's attempts; `None` where none spoils two of a hundred.
+/// Finds the kiss that spoils the most of the player's attempts; `None` if none spoils at least 2 %.
 fn kiss(shooter: Shooter, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs, seed: u64) -> Option<Kiss> {
     if shooter.skill.is_perfect() {
         return None;
     }
-    unhurried(table, layout, rule, shooter, CONTACT_STEPS, &AtomicBool::new(false), |task| worst_kiss(task, cue, seed))
+    without_limits(table, layout, rule, shooter, CONTACT_STEPS, &AtomicBool::new(false), |task| {
+        worst_kiss(task, cue, seed)
+    })
 }
 
 fn worst_kiss(task: &Task, cue: &CueInputs, seed: u64) -> Option<Kiss> {
@@ -165,7 +169,7 @@ fn worst_kiss(task: &Task, cue: &CueInputs, seed: u64) -> Option<Kiss> {
     if !task.point().is_made(&meant.tally) {
         return None;
     }
-    // What happens long after the meant shot is over spoils nothing.
+    // Contacts long after the end of the intended shot do no harm.
     let latest = 1.2 * meant.met.last().map_or(0.0, |contact| contact.0);
     let mut found: Vec<([usize; 2], CueInputs, &Table, &Layout, f64)> = Vec::new();
     let draws = Draws::independent(ATTEMPTS, task.worlds, seed);
@@ -190,7 +194,7 @@ fn worst_kiss(task: &Task, cue: &CueInputs, seed: u64) -> Option<Kiss> {
     Some(Kiss { share, balls: *balls, place: 0.5 * (places[balls[0]] + places[balls[1]]) })
 }
 
-/// Notes which balls meet, until the cue ball has met both or it is too late.
+/// Records the contacts of balls until the cue ball has hit both object balls, or until `latest`.
 struct Contacts {
     tally: Tally,
     met: Vec<(f64, [usize; 2])>,
@@ -210,7 +214,7 @@ impl Contacts {
         self.met.iter().filter(|contact| contact.1 == pair).count()
     }
 
-    /// The first contact that the meant shot has not: of balls that meet more often than there.
+    /// Finds the first contact that does not occur in the intended shot: two balls meet more often than there.
     fn unexpected(&self, meant: &Self) -> Option<(f64, [usize; 2])> {
         let mut seen = Vec::new();
         self.met.iter().copied().find(|(_, pair)| {
@@ -249,7 +253,7 @@ impl Observer for Contacts {
 mod tests {
     use super::*;
 
-    /// The break with natural english: red comes back from the far cushions through the way of the cue ball.
+    /// The break with natural english: red returns from the far cushions across the path of the cue ball.
     #[test]
     fn a_kiss_that_the_errors_bring_is_named_with_its_balls_and_its_place() {
         let table = Table::default();
@@ -271,7 +275,7 @@ mod tests {
         let sensitivity = Sensitivity::new(Rule::ThreeCushion, &table, &layout, crate::coach::Doubt::NONE);
         let told = |made: usize| aim_width(&sensitivity, &cue, Skill::CLUB, Some(SuccessRate::new(made, 100)));
         let width = told(1).unwrap();
-        // The hand stays within a window of this width so often, at most.
+        // Errors stay within a window of this width at most this often.
         let sigma = Skill::CLUB.at(&cue).phi.to_degrees();
         let within = (1..100).find(|made| 2.0 * sigma * quantile(0.5 + 0.005 * *made as f64) > width).unwrap();
         assert_eq!(told(within / 2), Some(width));

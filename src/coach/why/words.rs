@@ -1,4 +1,4 @@
-//! Why a shot leads, in sentences.
+//! The reasons for a shot, in sentences.
 
 use super::{Difference, Kiss, Why};
 use crate::{
@@ -9,16 +9,16 @@ use crate::{
     table::CueBall,
 };
 
-/// Shots whose make probabilities differ by no more are called made about as often: one standard error of the difference where half of
-/// a thousand and of four hundred attempts make the point.
-const TOLD_APART: f64 = 0.03;
+/// Make probabilities that differ by no more than this are reported as "about as often". It is one standard error of
+/// the difference if half of a thousand and of four hundred attempts make the point.
+const NOTABLE_DIFFERENCE: f64 = 0.03;
 
-/// Differences of fullness and of table lengths that are told.
+/// Minimum differences that are reported, of fullness and of table lengths.
 const FULLER: f64 = 0.06;
 const HARDER: f64 = 0.3;
 
 impl Why {
-    /// In sentences, for who plays with `cue_ball`.
+    /// Describes the reasons in sentences, for a player with `cue_ball`.
     pub fn words(&self, cue_ball: CueBall, units: Units) -> String {
         let names = cue_ball.names();
         let mut parts = Vec::new();
@@ -27,8 +27,8 @@ impl Why {
         let plan = self.plan_words("the second shot");
         parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
             let [own, its] = [rate, other].map(percent);
-            if (rate - other).abs() > TOLD_APART {
-                let luck = if self.is_unsure() { ", which is not surely more" } else { "" };
+            if (rate - other).abs() > NOTABLE_DIFFERENCE {
+                let luck = if self.is_unsure() { ", maybe by chance" } else { "" };
                 format!("it is made {own} of the time, the second shot {its}{luck}")
             } else {
                 format!("it is made {own} of the time, about as often as the second shot ({its})")
@@ -39,9 +39,9 @@ impl Why {
         parts.extend(plan.clone().filter(|_| self.is_by_plan()));
         parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
             Some(other) => {
-                format!("its aim may be {} off in all, that of the second shot {}", degrees(width), degrees(other))
+                format!("its aim tolerance is {} wide, that of the second shot {}", degrees(width), degrees(other))
             }
-            None => format!("its aim may be {} off in all", degrees(width)),
+            None => format!("its aim tolerance is {} wide", degrees(width)),
         }));
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], place }| {
             let (diamond, middle) = self.scale;
@@ -69,8 +69,8 @@ impl Why {
         parts.iter().map(|part| format!("{}.", capital(part))).collect::<Vec<_>>().join(" ")
     }
 
-    /// Whether the second-best shot is made more often, and this one leads because the next point counts too: as far as that is known, both
-    /// together are more likely after it.
+    /// Whether the second-best shot has the higher make probability, and this one leads because the next point counts
+    /// too. As far as the next points are known, this shot has the higher probability of both.
     fn is_by_plan(&self) -> bool {
         let second = self.second.as_ref();
         let made = self.make_probability.zip(second.and_then(|second| second.make_probability));
@@ -81,12 +81,12 @@ impl Why {
             })
     }
 
-    /// Whether the second-best shot seems to be made more often, which luck may explain, and no plan decides.
+    /// Whether the second-best shot seems to be made more often, possibly by chance, and no plan decides.
     fn is_unsure(&self) -> bool {
         self.unsure.contains(&2) && !self.is_by_plan()
     }
 
-    /// How the next point is left, beside how the second-best shot, which is called `other`, leaves it.
+    /// Describes the probability of the next point, compared with that after the second-best shot, which is called `other`.
     fn plan_words(&self, other: &str) -> Option<String> {
         let there = self.second.as_ref().and_then(|second| second.next_probability);
         let there = there.map_or_else(String::new, |there| format!(" (after {other}: {})", percent(there)));
@@ -98,8 +98,9 @@ impl Why {
         }
     }
 
-    /// The same in few words beside the chance that it is made, for who plays with `cue_ball`: how the second-best shot differs first,
-    /// and that the plan decides where it does. What comes first says all; every further sentence is a fact shorter.
+    /// Returns short forms, for a display that already contains the make probability, and for a player with `cue_ball`. The
+    /// difference from the second-best shot comes first, and the plan if it decides. The first text is complete; each
+    /// further one has one fact fewer.
     pub fn brief(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let names = cue_ball.names();
         let alone = if self.is_the_first { "no other was looked for" } else { "no other was found" };
@@ -107,38 +108,39 @@ impl Why {
             || alone.to_owned(),
             |second| {
                 let made = second.make_probability.map_or_else(String::new, |rate| format!(": {}", percent(rate)));
-                let luck = if self.is_unsure() { ", not surely more" } else { "" };
+                let luck = if self.is_unsure() { ", maybe by chance" } else { "" };
                 format!("shot 2 ({}){made}{luck}", second.parts(names))
             },
         );
         let mut facts = self.facts(cue_ball);
         let first = if self.is_by_plan() { format!("{second}; {}", facts.remove(0)) } else { second };
-        ever_shorter(std::iter::once(first).chain(facts).collect())
+        shortened_texts(std::iter::once(first).chain(facts).collect())
     }
 
-    /// The part of it that a list of the shots with their chances does not say, ever shorter; nothing where there is nothing.
+    /// Returns short forms without what a list of the shots with their probabilities contains, each with one fact
+    /// fewer; empty if there are none.
     pub fn beside_the_list(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let luck = match &self.unsure[..] {
             [] => None,
-            // The plan ranks them by more than that.
+            // The plan does not rank them by the make probability alone.
             _ if self.is_by_plan() => None,
-            [number] => Some(format!("shot {number} is not surely made more often")),
+            [number] => Some(format!("shot {number}'s higher rate may be chance")),
             [numbers @ .., last] => {
                 let numbers: Vec<_> = numbers.iter().map(usize::to_string).collect();
-                Some(format!("shots {} and {last} are not surely made more often", numbers.join(", ")))
+                Some(format!("shots {} and {last}: higher rates may be chance", numbers.join(", ")))
             }
         };
-        ever_shorter(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| capital(&sentence))
+        shortened_texts(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| capital(&sentence))
     }
 
-    /// What the list of the shots does not say. That the plan decides comes first, where it does.
+    /// Returns facts that the list of the shots does not contain. If the plan decides, that comes first.
     fn facts(&self, cue_ball: CueBall) -> Vec<String> {
         let names = cue_ball.names();
         let mut parts = Vec::new();
         parts.extend(self.aim_deg.map(|width| {
             let other = self.second.as_ref().and_then(|second| second.aim_deg);
             let there = other.map_or_else(String::new, |width| format!(", shot 2's {}", degrees(width)));
-            format!("the aim may be {} off in all{there}", degrees(width))
+            format!("the aim tolerance is {} wide{there}", degrees(width))
         }));
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
             format!("{} and {} kiss in {}", names[one], names[other], percent(share))
@@ -151,8 +153,8 @@ impl Why {
     }
 }
 
-/// Sentences of these parts, the first with all, every further one without the last of the one before.
-fn ever_shorter(parts: Vec<String>) -> impl Iterator<Item = String> {
+/// Joins the parts into a text; the first one has all parts, each further one drops the last part.
+fn shortened_texts(parts: Vec<String>) -> impl Iterator<Item = String> {
     (1..=parts.len()).rev().map(move |many| format!("{}.", parts[..many].join("; ")))
 }
 
@@ -200,11 +202,11 @@ mod tests {
         assert!(why.second.is_some() && !advice.alternatives.is_empty());
         let sentences: Vec<String> = why.brief(CueBall::White).collect();
         let [brief, .., least] = &sentences[..] else { panic!("{sentences:?}") };
-        assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
-        assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("off in all"), "{least}");
+        assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} wide") && brief.len() < 170, "{brief}");
+        assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("tolerance"), "{least}");
         let said = why.words(CueBall::White, Units::default());
         assert!(said.ends_with('.') && said.contains("The second shot is ") && !said.contains(';'), "{said}");
-        // Where the next point counts too, a shot may lead that is made less often.
+        // If the next point counts too, a shot with a lower make probability may lead.
         let second = why.second.clone().map(|second| Difference {
             make_probability: Some(0.9),
             next_probability: Some(0.31),
@@ -227,19 +229,19 @@ mod tests {
         assert!(planned.beside_the_list(CueBall::White).all(|sentence| sentence.starts_with("The plan decides")));
         let unknown = Why { next_probability: None, ..planned }.words(CueBall::White, Units::default());
         assert!(unknown.contains("The plan decides: the next point counts too."), "{unknown}");
-        // By luck alone the second may seem to be made more often; then that is no reason against the first.
+        // If the second shot seems to be made more often only by chance, that is no reason against the first.
         let second = |unsure: &[usize]| {
             let second = why.second.clone().map(|second| Difference { make_probability: Some(0.54), ..second });
             Why { make_probability: Some(0.48), second, is_planned: false, unsure: unsure.to_vec(), ..why.clone() }
         };
         let said = second(&[2]).words(CueBall::White, Units::default());
-        assert!(said.contains("made 48 % of the time, the second shot 54 %, which is not surely more. "), "{said}");
+        assert!(said.contains("made 48 % of the time, the second shot 54 %, maybe by chance. "), "{said}");
         for sentence in second(&[2]).brief(CueBall::White) {
-            assert!(sentence.contains("%, not surely more"), "{sentence}");
+            assert!(sentence.contains("%, maybe by chance"), "{sentence}");
         }
         let first = second(&[2]).beside_the_list(CueBall::White).next().unwrap();
-        assert!(first.starts_with("Shot 2 is not surely made more often"), "{first}");
-        for (unsure, words) in [(&[3][..], "Shot 3 is not surely"), (&[2, 3], "Shots 2 and 3 are not surely")] {
+        assert!(first.starts_with("Shot 2's higher rate may be chance"), "{first}");
+        for (unsure, words) in [(&[3][..], "Shot 3's higher rate"), (&[2, 3], "Shots 2 and 3: higher rates")] {
             let first = second(unsure).beside_the_list(CueBall::White).next().unwrap();
             assert!(first.starts_with(words), "{first}");
         }

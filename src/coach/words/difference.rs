@@ -1,10 +1,11 @@
-//! How one stroke differs from another, as a player would say it.
+//! The difference between two strokes, as a player would describe it.
 
 use super::{Hit, ShotWords, TIP, TipUnit, Units, lengths_words, numbers, short};
 use crate::table::CueBall;
 
-/// Parts of a ball below which a difference of fullness is not told, is a hair, and is a little; from there on eighths are told.
-const UNTOLD: f64 = 0.008;
+/// Differences of fullness, as shares of a ball: below the first they are not reported, below the second they are "a
+/// hair", and below the third "a little". Larger ones are reported in eighths.
+const NEGLIGIBLE: f64 = 0.008;
 const HAIR: f64 = 1.0 / 32.0;
 const LITTLE: f64 = 3.0 / 32.0;
 const EIGHTHS: [&str; 9] = [
@@ -19,15 +20,16 @@ const EIGHTHS: [&str; 9] = [
     "a whole ball",
 ];
 
-/// Least differences that are told of the tip's place, tips, of the table lengths, of the cue's elevation and of the aim, degrees.
+/// Minimum differences that are reported: of the tip position in tips, of the table lengths, and of the elevation and
+/// the aim in degrees.
 const TIPS: f64 = 0.02;
 const LENGTHS: f64 = 0.05;
 const ELEVATION: f64 = 0.5;
 const AIM: f64 = 0.005;
 
 impl ShotWords {
-    /// How this shot differs from `other`, a part each; none where nobody could tell. Where it `misses` and the other does not, how
-    /// thick it is is told as what is wrong with it.
+    /// Describes how this shot differs from `other`, one part per difference; empty if nobody could notice a
+    /// difference. If it `misses` and the other does not, its thickness is described as a fault.
     pub fn differences(&self, other: &Self, misses: bool, cue_ball: CueBall, units: Units) -> Vec<String> {
         let mut parts = self.contact_difference(other, misses, cue_ball);
         if parts.is_empty() {
@@ -35,8 +37,9 @@ impl ShotWords {
         }
         let tip = |by: f64| tip_amount(by, self.radius, units.tip);
         parts.extend(
-            tip(self.tips_right - other.tips_right)
-                .map(|amount| format!("{amount} {}", way(other.tips_right, self.tips_right, ["right", "left"]))),
+            tip(self.tips_right - other.tips_right).map(|amount| {
+                format!("{amount} {}", side_change(other.tips_right, self.tips_right, ["right", "left"]))
+            }),
         );
         parts.extend(
             tip(self.tips_above - other.tips_above).map(|amount| {
@@ -55,15 +58,15 @@ impl ShotWords {
         parts
     }
 
-    /// What it meets otherwise, or how much more of the same ball.
+    /// Describes the difference in the first contact, or in the fullness of the same contact.
     fn contact_difference(&self, other: &Self, misses: bool, cue_ball: CueBall) -> Vec<String> {
         let names = cue_ball.names();
         let (Some(hit), Some(others)) = (self.first, other.first) else {
-            let met = self.first.map(|hit| format!("meets {}", names[hit.ball]));
+            let met = self.first.map(|hit| format!("hits {}", names[hit.ball]));
             return if self.first.is_none() && other.first.is_none() {
                 Vec::new()
             } else {
-                vec![met.unwrap_or_else(|| "meets no ball".to_owned())]
+                vec![met.unwrap_or_else(|| "hits no ball".to_owned())]
             };
         };
         if self.before.is_empty() != other.before.is_empty() {
@@ -71,9 +74,9 @@ impl ShotWords {
             return vec![if self.before.is_empty() { straight() } else { "a cushion first".to_owned() }];
         }
         if hit.ball != others.ball {
-            return vec![format!("meets {} first", names[hit.ball])];
+            return vec![format!("hits {} first", names[hit.ball])];
         }
-        // What is hit full has no side.
+        // A full hit has no side.
         let has_side = |hit: Hit| !numbers::fullness_words(hit.fullness).1;
         if hit.left != others.left && has_side(hit) && has_side(others) {
             return vec![format!("{} on its {} side", names[hit.ball], if hit.left { "left" } else { "right" })];
@@ -81,7 +84,7 @@ impl ShotWords {
         let fuller = hit.fullness - others.fullness;
         let words = if fuller > 0.0 { ["thicker", "too thick"] } else { ["thinner", "too thin"] };
         let part = match fuller.abs() {
-            by if by < UNTOLD => return Vec::new(),
+            by if by < NEGLIGIBLE => return Vec::new(),
             by if by < LITTLE => {
                 let little = if by < HAIR { "a hair" } else { "a little" };
                 format!("{little} {}", words[usize::from(misses)])
@@ -94,7 +97,7 @@ impl ShotWords {
         vec![part]
     }
 
-    /// How much further to one side the cue points.
+    /// Describes how much further to one side the cue is aimed.
     fn aim_difference(&self, other: &Self) -> Option<String> {
         let degrees = other.direction.angle_to(self.direction).to_degrees();
         (degrees.abs() >= AIM).then(|| {
@@ -104,7 +107,7 @@ impl ShotWords {
     }
 }
 
-/// How far the tip is from another place, one way.
+/// Describes the size of a change of the tip position along one axis.
 fn tip_amount(tips: f64, radius: f64, unit: TipUnit) -> Option<String> {
     if tips.abs() < TIPS {
         return None;
@@ -122,10 +125,11 @@ fn tip_amount(tips: f64, radius: f64, unit: TipUnit) -> Option<String> {
     })
 }
 
-/// Side that goes from one place to another, positive to the first of the two `names`: more of one, or less of the other.
-fn way(from: f64, to: f64, [more, less]: [&str; 2]) -> String {
+/// Describes the direction of a change of side from one value to another; positive values are side of the first of the
+/// two names. It is more of one side, or less of the other.
+fn side_change(from: f64, to: f64, [more, less]: [&str; 2]) -> String {
     let (towards, away) = if to > from { (more, less) } else { (less, more) };
-    // What was the other side's, and still is not this one's, is less of that.
+    // A reduction that does not cross to the other side is less of the old side.
     let is_less = from.abs() > TIPS && (to * from > 0.0 || to.abs() < TIPS) && to.abs() < from.abs();
     if is_less { format!("less {away}") } else { format!("more {towards}") }
 }
@@ -138,7 +142,7 @@ mod tests {
         table::{Layout, Table},
     };
 
-    /// Red lies half a ball beside the way along x.
+    /// Red lies half a ball beside the path along x.
     const HALF: &str = "-0.7,0 0.9,0.5 0,-0.03075";
 
     fn of(cue: &str) -> ShotWords {
@@ -187,7 +191,7 @@ mod tests {
         let full = of("-0.2,0.1,0,-2.4,3");
         assert!(full.first.is_some_and(|hit| hit.fullness > 0.97), "{:?}", full.first);
         assert!(told("-0.2,0.1,0,-2.4,3", true).starts_with("too thick by "), "{}", told("-0.2,0.1,0,-2.4,3", true));
-        assert_eq!(told("-0.2,0.1,0,17.4,3", true), "meets yellow first");
-        assert_eq!(told("-0.2,0.1,0,10,0.3", true).split(", ").next(), Some("meets no ball"));
+        assert_eq!(told("-0.2,0.1,0,17.4,3", true), "hits yellow first");
+        assert_eq!(told("-0.2,0.1,0,10,0.3", true).split(", ").next(), Some("hits no ball"));
     }
 }

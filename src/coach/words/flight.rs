@@ -1,12 +1,12 @@
-//! Flights in words: how high a ball jumps and how far.
+//! Jumps in words: their height and distance.
 
 use super::{LengthUnit, short};
 use crate::{simulation::Jump, table::Table};
 
-/// A height in the unit for small lengths: "12 mm", "0.5 in".
+/// Formats a height in the unit for small lengths: "12 mm", "0.5 in".
 pub fn height_words(metres: f64, unit: LengthUnit) -> String {
     match unit {
-        // No hop is nought.
+        // A hop is never displayed as zero.
         LengthUnit::Metres if metres < 0.000_95 => format!("{} mm", short(1e3 * metres.max(1e-5), 2)),
         LengthUnit::Metres if metres < 0.009_95 => format!("{} mm", short(1e3 * metres, 1)),
         LengthUnit::Metres if metres < 0.0995 => format!("{:.0} mm", 1e3 * metres),
@@ -14,12 +14,12 @@ pub fn height_words(metres: f64, unit: LengthUnit) -> String {
     }
 }
 
-/// How high and how far: "12 mm high, 31 cm far".
+/// Describes the height and the distance of a jump: "12 mm high, 31 cm far".
 pub fn jump_words(jump: &Jump, unit: LengthUnit) -> String {
     format!("{} high, {} far", height_words(jump.height, unit), unit.words(jump.distance))
 }
 
-/// Why there is no jump to be seen in a shot.
+/// Explains why a shot shows no jump.
 pub const fn no_jump_words(table: &Table) -> &'static str {
     if table.flight.is_none() {
         "no ball leaves this table's cloth: its file has no section [flight]"

@@ -1,4 +1,4 @@
-//! A shot in the numbers and words of a player: how full, how much side, how hard, and which cushions.
+//! A shot in players' numbers and words: fullness, side, speed and cushions.
 
 mod difference;
 mod flight;
@@ -28,97 +28,98 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// A tip of side in ball radii, 3 mm of a carom ball. Systems and books give side in tips and hardly ever say how long one is;
-/// four to five of a tenth of the radius are as far as a tip holds (half a radius), which is how far players count.
+/// A tip of side in ball radii: 3 mm on a carom ball. Systems and books state side in tips and hardly ever define a
+/// tip's size. With a tenth of the radius, four to five tips reach the miscue limit (half a radius), which is as far as
+/// players count.
 pub const TIP: f64 = 0.1;
 
-/// Least english that is told, R w / v.
-const TOLD: f64 = 0.1;
+/// Minimum english that is reported, R w / v.
+const MIN_ENGLISH: f64 = 0.1;
 
-/// Elevation below which a cue is called level, degrees: no player tells it from one that is.
+/// Elevation below which a cue is called level, degrees: no player sees the difference.
 const LEVEL: f64 = 2.0;
 
-/// How near the least elevation a cue counts as level as it can be, rad: half a degree.
+/// Maximum difference from the least possible elevation for a cue to count as "as level as it can be", rad: half a degree.
 const LEAST: f64 = 0.5_f64.to_radians();
 
-/// Elevation from which such a cue is no longer called level, degrees: the rail behind the ball alone asks for two or three.
+/// Elevation from which such a cue is no longer called level, degrees: the rail behind the ball alone requires two or three.
 const RAISED: f64 = 5.0;
 
-/// What side does at the first cushion.
+/// The effect of side at the first cushion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum English {
-    /// The rebound is longer for it.
+    /// It lengthens the rebound.
     Running,
-    /// It is shorter.
+    /// It shortens the rebound.
     Reverse,
 }
 
-/// A shot in the numbers of a player.
+/// A shot in players' numbers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShotWords {
-    /// How the object ball is met that comes first; `None` where none is.
+    /// The hit on the first object ball; `None` if none is hit.
     pub first: Option<Hit>,
-    /// How the other one is met.
+    /// The hit on the other object ball.
     pub second: Option<Hit>,
-    /// The object ball over which the cue ball flies before it meets anything.
+    /// The object ball that the cue ball flies over before its first contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub over: Option<usize>,
-    /// Tips of side, to the right for one who looks along the cue; less is left.
+    /// Tips of side, positive to the right as seen along the cue.
     pub tips_right: f64,
-    /// Tips above the centre; less is below.
+    /// Tips above the centre; negative is below.
     pub tips_above: f64,
-    /// The hour of the clock at which the tip meets the ball, to half an hour; `None` in the middle.
+    /// Clock position of the tip on the ball, to half an hour; `None` at the centre.
     pub clock: Option<f64>,
-    /// What the side does at the first cushion, if it does much.
+    /// The effect of the side at the first cushion, if it is large enough.
     pub english: Option<English>,
-    /// Table lengths that a ball runs on this table which is struck so in the middle.
+    /// Table lengths that a ball runs on this table when it is struck in its centre at this speed.
     pub table_lengths: f64,
     /// The cue's elevation, degrees.
     pub elevation_deg: f64,
-    /// Whether it is the least that rails and balls behind the cue ball allow.
+    /// Whether the elevation is the least that rails and balls behind the cue ball allow.
     pub is_level: bool,
-    /// Cushions before the first ball, in order.
+    /// Cushions before the first object ball, in order.
     pub before: Vec<Cushion>,
-    /// Cushions from there to the second ball, in order.
+    /// Cushions between the first and the second object ball, in order.
     pub between: Vec<Cushion>,
-    /// After how many of those the first ball is met again, if it is.
+    /// Number of those cushions before the first ball is hit again, if it is.
     #[serde(skip)]
     again: Option<usize>,
-    /// Where the cue points.
+    /// The point at which the cue is aimed.
     pub ahead: RailPoint,
-    /// Where it comes from.
+    /// The point behind the cue ball on the line of aim.
     pub behind: RailPoint,
-    /// The way that the cue points, of length 1.
+    /// Direction of the cue, of length 1.
     #[serde(skip)]
     direction: DVec2,
     /// Ball radius, m.
     #[serde(skip)]
     radius: f64,
-    /// A diamond, m.
+    /// Length of a diamond, m.
     #[serde(skip)]
     diamond: f64,
 }
 
 impl ShotWords {
-    /// What a player calls this shot.
+    /// Simulates a shot and describes it.
     ///
     /// # Errors
-    /// What is wrong with the layout or the stroke.
+    /// Fails if the layout or the stroke is invalid.
     pub fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
         let recording = Recording::new(table, layout, cue)?;
         Ok(Self::of_technique(table, layout, cue, &Technique::of_recorded(table, &recording)))
     }
 
-    /// The same of a shot that has been looked at.
+    /// Describes a shot that is already analysed.
     pub fn of_technique(table: &Table, layout: &Layout, cue: &CueInputs, technique: &Technique) -> Self {
         let [ahead, behind] = line_of_aim(table, layout, cue.phi);
         let (tips_right, tips_above) = (-cue.a / TIP + 0.0, cue.b / TIP);
         let least = least_elevation(table, layout, cue).map_or(0.0, |least| least.theta);
         let first = technique.first;
         let english = match technique.english {
-            english if english > TOLD => Some(English::Running),
-            english if english < -TOLD => Some(English::Reverse),
+            english if english > MIN_ENGLISH => Some(English::Running),
+            english if english < -MIN_ENGLISH => Some(English::Reverse),
             _ => None,
         };
         Self {
@@ -129,7 +130,7 @@ impl ShotWords {
             tips_above,
             clock: clock(tips_right, tips_above),
             english,
-            // Every stroke that can be played runs some way.
+            // Every stroke that can be played runs some distance.
             table_lengths: table_lengths(table, cue.speed).unwrap_or_default(),
             elevation_deg: cue.theta.to_degrees(),
             is_level: cue.theta - least <= LEAST,
@@ -144,7 +145,7 @@ impl ShotWords {
         }
     }
 
-    /// Whether players call the cue level.
+    /// Whether players would call the cue level.
     pub fn has_level_cue(&self) -> bool {
         self.elevation_deg < LEVEL || self.is_level && self.elevation_deg < RAISED
     }

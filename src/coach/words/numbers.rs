@@ -1,8 +1,8 @@
-//! Fullness, tips and the clock in words.
+//! Fullness, tips and clock positions in words.
 
 use crate::coach::aim::{FULL, THICK, THIN};
 
-/// Sixteenths of a ball as players say them, from a graze to full.
+/// Fullness in players' words, by sixteenths of a ball.
 pub const SIXTEENTHS: [&str; 17] = [
     "a graze",
     "very thin",
@@ -26,13 +26,13 @@ pub const SIXTEENTHS: [&str; 17] = [
 /// Whole numbers up to ten.
 pub const NUMBERS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
 
-/// How much of a ball is hit, to a sixteenth, in words; and whether it is the very middle, which has no side.
+/// Returns the fullness in words, to a sixteenth, and whether it is full, which has no side.
 pub fn fullness_words(fullness: f64) -> (&'static str, bool) {
     let sixteenths = (16.0 * fullness.clamp(0.0, 1.0)).round() as usize;
     (SIXTEENTHS[sixteenths], sixteenths == 16)
 }
 
-/// How much of a ball is hit, in a word.
+/// Returns the fullness in one word.
 pub fn fullness_word(fullness: f64) -> &'static str {
     match fullness {
         _ if fullness < THIN => "thin",
@@ -42,12 +42,12 @@ pub fn fullness_word(fullness: f64) -> &'static str {
     }
 }
 
-/// A whole number in words up to ten.
+/// Returns a whole number in words up to ten.
 pub fn number_word(number: u32) -> String {
     NUMBERS.get(number as usize).map_or_else(|| number.to_string(), |word| (*word).to_owned())
 }
 
-/// So many half tips, in words: "half a tip", "two and a half tips".
+/// Formats a number of half tips, in words: "half a tip", "two and a half tips".
 pub fn tips_words(halves: u32) -> String {
     let whole = number_word(halves / 2);
     match (halves, halves % 2) {
@@ -58,8 +58,8 @@ pub fn tips_words(halves: u32) -> String {
     }
 }
 
-/// The hour of a clock's face at which the tip meets the ball, to half an hour, for one who looks along the cue: `right` and
-/// `up` are its place. `None` in the middle.
+/// Returns the clock position of the tip on the ball, to half an hour, as seen along the cue; `right` and `up` are its
+/// coordinates. `None` at the centre.
 pub fn clock(right: f64, up: f64) -> Option<f64> {
     (right != 0.0 || up != 0.0).then(|| {
         let hours = right.atan2(up).to_degrees() / 30.0;
@@ -68,7 +68,7 @@ pub fn clock(right: f64, up: f64) -> Option<f64> {
     })
 }
 
-/// An hour in words: "2 o'clock", "half past 2".
+/// Formats a clock position in words: "2 o'clock", "half past 2".
 pub fn clock_words(hours: f64) -> String {
     let whole = hours.trunc();
     if hours > whole { format!("half past {whole}") } else { format!("{whole} o'clock") }

@@ -1,7 +1,7 @@
-//! How hard a stroke is, as players gauge it: by how many table lengths a ball runs that is struck so.
+//! The speed of a stroke in table lengths, as players gauge it.
 //!
-//! The scale is the lag's. A lag, up the table and back, is two lengths and soft; players call a length more medium and one
-//! less very soft.
+//! The reference is the lag: up the table and back is two lengths and called soft. One length more is called medium,
+//! one less very soft.
 
 use glam::DVec2;
 
@@ -12,8 +12,9 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// How many lengths of this table a ball runs, from cushion to cushion, that a level cue strikes in the middle at `speed`, m/s.
-/// A table that leans is taken as level. `None` where the table is too small for three balls, or the speed is none.
+/// Computes the number of table lengths, from cushion to cushion, that a ball runs if a level cue strikes its centre at
+/// `speed`, m/s. A tilted table is treated as level. `None` if the table is too small for three balls, or the speed is
+/// invalid.
 pub fn table_lengths(table: &Table, speed: f64) -> Option<f64> {
     let level = Table { tilt: DVec2::ZERO, room: None, ..table.clone() };
     let (corner, start) = (level.reach(), DVec2::new(-0.25 * level.length, 0.0));
@@ -32,15 +33,15 @@ pub fn table_lengths(table: &Table, speed: f64) -> Option<f64> {
     Some(way / (2.0 * corner.x))
 }
 
-/// What players call a stroke of one table length, of two, and so on; what is longer is as the last.
+/// Names of strokes of one table length, of two, and so on; longer ones have the last name.
 pub const PACES: [&str; 5] = ["very soft", "soft", "medium", "hard", "very hard"];
 
-/// What players call a stroke of so many table lengths.
+/// Returns the name of a stroke of this number of table lengths.
 pub fn pace_word(lengths: f64) -> &'static str {
     PACES[(lengths.round() as usize).clamp(1, PACES.len()) - 1]
 }
 
-/// So many table lengths in words, to a tenth.
+/// Formats a number of table lengths in words, to a tenth.
 pub fn lengths_words(lengths: f64) -> String {
     let number = short(lengths, 1);
     let plural = if number == "1" { "" } else { "s" };

@@ -1,4 +1,4 @@
-//! The sentences: how to strike, which way the cue ball goes, and where to aim.
+//! Sentences that describe a shot: the stroke, the path of the cue ball, and the aim.
 
 use super::{English, ShotWords, TIP, TipUnit, Units, fullness_word, numbers, pace_word, short};
 use crate::{
@@ -8,9 +8,9 @@ use crate::{
 };
 
 impl ShotWords {
-    /// How to strike, in one sentence, for who plays with `cue_ball`.
+    /// Describes the stroke in one sentence, for a player with `cue_ball`.
     pub fn sentence(&self, cue_ball: CueBall, units: Units) -> String {
-        // Side that is nearly straight above or below the centre has no hour of its own.
+        // Side that is nearly straight above or below the centre has no clock position of its own.
         let clock = self.clock.filter(|clock| clock % 6.0 != 0.0);
         let clock = clock.map_or_else(String::new, |clock| format!(" at {}", numbers::clock_words(clock)));
         let lengths = short(self.table_lengths, 1);
@@ -18,7 +18,8 @@ impl ShotWords {
         self.sentence_with(cue_ball, units, &clock, &format!(" ({lengths} table {unit})"))
     }
 
-    /// The same without the clock and the table lengths, which repeat the place of the tip and the pace.
+    /// Like [`sentence`](Self::sentence), without the clock position and the table lengths, which repeat the tip
+    /// position and the pace.
     pub fn short_sentence(&self, cue_ball: CueBall, units: Units) -> String {
         self.sentence_with(cue_ball, units, "", "")
     }
@@ -28,7 +29,7 @@ impl ShotWords {
         capital(&format!("{first}; {tip}; {}{lengths}, {}.", pace_word(self.table_lengths), self.cue_words()))
     }
 
-    /// Which way the cue ball goes: balls, and cushions with where each is met; and how the second ball is met.
+    /// Describes the path of the cue ball: balls, cushions with positions, and the hit on the second ball.
     pub fn course(&self, cue_ball: CueBall, units: Units) -> String {
         let met = |hit: Hit| match (fullness_word(hit.fullness), hit.left) {
             ("full", _) => "full".to_owned(),
@@ -39,7 +40,7 @@ impl ShotWords {
         format!("{}{second}.", self.stops(cue_ball, units))
     }
 
-    /// The same without how the second ball is met.
+    /// Like [`course`](Self::course), without the hit on the second ball.
     pub fn short_course(&self, cue_ball: CueBall, units: Units) -> String {
         self.stops(cue_ball, units) + "."
     }
@@ -58,19 +59,19 @@ impl ShotWords {
         stops.extend(cushions(since));
         stops.extend(self.second.map(|hit| names[hit.ball].to_owned()));
         if stops.is_empty() {
-            return "Meets neither ball nor cushion".to_owned();
+            return "Hits neither ball nor cushion".to_owned();
         }
         capital(&stops.join(" \u{2013} "))
     }
 
-    /// The line along which the cue points, from cushion to cushion, on the noses.
+    /// Describes the line of aim from cushion to cushion, measured at the noses.
     pub fn aim(&self, units: Units) -> String {
         let point =
             |point: RailPoint| format!("{} on the {}", self.place(point.diamond, units, 2), rail_words(point.rail));
         format!("Cue from {} to {}.", point(self.behind), point(self.ahead))
     }
 
-    /// Which ball, and how full; the cushions that come before it, and where the first of them is met.
+    /// Describes the first object ball and its fullness, after any cushions before it and the position on the first of them.
     fn first_words(&self, cue_ball: CueBall, units: Units) -> String {
         let ball = self.first.map(|hit| {
             let (full, is_middle) = numbers::fullness_words(hit.fullness);
@@ -81,7 +82,7 @@ impl ShotWords {
             };
             format!("{}, {full}{side}", cue_ball.names()[hit.ball])
         });
-        // A shot that meets no ball at all is told the first of its cushions.
+        // For a shot that hits no ball, only its first cushion is reported.
         let met = if ball.is_none() && self.before.is_empty() { self.between.get(..1) } else { Some(&self.before[..]) };
         let cushion = met.unwrap_or_default().split_first().map(|(first, others)| {
             let first = format!("{} first at {}", rail_words(first.rail), self.place(first.diamond, units, 1));
@@ -99,7 +100,7 @@ impl ShotWords {
         }
     }
 
-    /// Where the tip meets the ball, with the `clock` where there is side.
+    /// Describes the tip position, with `clock` if there is side.
     fn tip_words(&self, units: Units, clock: &str) -> String {
         let half_tips = |tips: f64| (2.0 * tips.abs()).round() as u32;
         let [side, height] = match units.tip {
@@ -131,7 +132,7 @@ impl ShotWords {
         }
     }
 
-    /// How the cue is held.
+    /// Describes the elevation of the cue.
     fn cue_words(&self) -> String {
         match self.elevation_deg.round() {
             _ if self.has_level_cue() => "level cue".to_owned(),
@@ -140,13 +141,13 @@ impl ShotWords {
         }
     }
 
-    /// A place along a cushion.
+    /// Formats a position along a cushion.
     fn place(&self, diamonds: f64, units: Units, decimals: usize) -> String {
         units.place.words(diamonds, self.diamond, decimals)
     }
 }
 
-/// A cushion by where it lies on the screen.
+/// Returns the name of a cushion, by its position on the screen.
 const fn rail_words(rail: Rail) -> &'static str {
     match rail {
         Rail::Top => "top long rail",
@@ -156,7 +157,7 @@ const fn rail_words(rail: Rail) -> &'static str {
     }
 }
 
-/// The text with a capital letter.
+/// Capitalises the first letter.
 pub fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

@@ -1,4 +1,4 @@
-//! The sentence of known shots.
+//! Tests of the sentences for known shots.
 
 use super::*;
 use crate::{
@@ -43,7 +43,7 @@ fn the_course_ends_with_how_the_second_ball_is_met_as_the_cue_ball_comes_on() {
     let nothing = words("-0.7,0 0.9,0.5 0,-0.03075", "0,0,0,10,0.3");
     let (white, units) = (CueBall::White, Units::default());
     for told in [nothing.course(white, units), nothing.short_course(white, units)] {
-        assert_eq!(told, "Meets neither ball nor cushion.");
+        assert_eq!(told, "Hits neither ball nor cushion.");
     }
 }
 

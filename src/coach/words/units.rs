@@ -1,18 +1,18 @@
-//! The units in which a player is told lengths.
+//! The units in which lengths are displayed.
 
 use super::TIP;
 
-/// How far the tip is from the centre of the ball.
+/// Unit of the tip's distance from the centre of the ball.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TipUnit {
-    /// Tips of [`super::TIP`] radii.
+    /// Tips of [`super::TIP`] ball radii.
     #[default]
     Tips,
     /// Millimetres.
     Mm,
 }
 
-/// Places along the cushions.
+/// Unit of positions along the cushions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PlaceUnit {
     /// Diamonds, an eighth of the table's length each.
@@ -22,7 +22,7 @@ pub enum PlaceUnit {
     Mm,
 }
 
-/// Distances on the table.
+/// Units of distances on the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LengthUnit {
     /// Metres and centimetres.
@@ -35,19 +35,19 @@ pub enum LengthUnit {
 /// An inch, m.
 const INCH: f64 = 0.0254;
 
-/// The units in which a player is told lengths.
+/// The units in which lengths are displayed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Units {
-    /// Of the tip's place.
+    /// Unit of the tip position.
     pub tip: TipUnit,
-    /// Of places along the cushions.
+    /// Unit of positions along the cushions.
     pub place: PlaceUnit,
-    /// Of distances.
+    /// Units of distances.
     pub length: LengthUnit,
 }
 
 impl PlaceUnit {
-    /// A place so many diamonds along a cushion on which a diamond is `diamond` m long; diamonds without their name.
+    /// Formats a position along a cushion, given in diamonds of `diamond` m each. Diamonds have no unit name.
     pub fn words(self, diamonds: f64, diamond: f64, decimals: usize) -> String {
         match self {
             Self::Diamonds => short(diamonds, decimals),
@@ -55,10 +55,10 @@ impl PlaceUnit {
         }
     }
 
-    /// The same with all of these decimals of a diamond, or to a millimetre, and the unit's name.
+    /// Like [`words`](Self::words), with all of these decimals of a diamond, or to a millimetre, and the unit's name.
     pub fn exact(self, diamonds: f64, diamond: f64, decimals: u8) -> String {
         match self {
-            // Rounding leaves no minus before a nought.
+            // Adding zero removes the minus sign of a rounded zero.
             Self::Diamonds => {
                 let parts = 10_f64.powi(i32::from(decimals));
                 format!("{:.*} diamonds", usize::from(decimals), (parts * diamonds).round() / parts + 0.0)
@@ -69,11 +69,11 @@ impl PlaceUnit {
 }
 
 impl TipUnit {
-    /// Both, by name.
+    /// Both units, by name.
     pub const NAMED: [(&'static str, Self); 2] = [("tips", Self::Tips), ("mm", Self::Mm)];
 
-    /// How far the tip is from the middle of a ball of this `radius`, m, where that is so many `radii`: to a tenth of a tip or of
-    /// a millimetre, without the side. `None` where it rounds to nothing.
+    /// Formats a tip distance from the centre, given in `radii` of a ball of this `radius`, m: to a tenth of a tip or
+    /// of a millimetre, without the side. `None` if it rounds to zero.
     pub fn words(self, radii: f64, radius: f64) -> Option<String> {
         let (size, name) = match self {
             Self::Tips => (radii.abs() / TIP, "tip"),
@@ -86,15 +86,15 @@ impl TipUnit {
 }
 
 impl PlaceUnit {
-    /// Both, by name.
+    /// Both units, by name.
     pub const NAMED: [(&'static str, Self); 2] = [("diamonds", Self::Diamonds), ("mm", Self::Mm)];
 }
 
 impl LengthUnit {
-    /// Both, by name.
+    /// Both units, by name.
     pub const NAMED: [(&'static str, Self); 2] = [("metres", Self::Metres), ("feet", Self::Feet)];
 
-    /// The smaller of the two units: how many of it are a metre, and its symbol.
+    /// Returns the smaller of the two units: the number per metre, and the symbol.
     pub const fn small(self) -> (f64, &'static str) {
         match self {
             Self::Metres => (100.0, "cm"),
@@ -102,7 +102,7 @@ impl LengthUnit {
         }
     }
 
-    /// What balls are placed in: how many of it are a metre, its symbol, and the decimals that it is told with.
+    /// Returns the unit of ball positions: the number per metre, the symbol, and the number of decimals.
     pub const fn fine(self) -> (f64, &'static str, usize) {
         match self {
             Self::Metres => (1000.0, "mm", 1),
@@ -110,7 +110,7 @@ impl LengthUnit {
         }
     }
 
-    /// What speeds are told in: how many of it are a metre a second, and its symbol.
+    /// Returns the unit of speed: the factor from m/s, and the symbol.
     pub const fn speed(self) -> (f64, &'static str) {
         match self {
             Self::Metres => (1.0, "m/s"),
@@ -118,7 +118,7 @@ impl LengthUnit {
         }
     }
 
-    /// A distance of so many metres, in the smaller of the two units where that is below a hundred centimetres or 24 inches.
+    /// Formats a distance in metres; in the smaller unit if it is below a metre or 24 inches.
     pub fn words(self, metres: f64) -> String {
         match self {
             Self::Metres if metres < 0.095 => format!("{} cm", short(100.0 * metres, 1)),
@@ -130,7 +130,7 @@ impl LengthUnit {
     }
 }
 
-/// A number with so many decimals, without noughts at its end.
+/// Formats a number with this number of decimals, without trailing zeros.
 pub fn short(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

@@ -1,12 +1,12 @@
-//! Bytes as letters and digits that survive chats and handwriting: Crockford's base 32.
+//! Crockford's base 32: bytes as letters and digits that survive chats and handwriting.
 //!
-//! No letter is taken for another, capitals do not matter, and nothing in it means anything to a chat program.
+//! Its letters are easy to tell apart, case does not matter, and no character has a special meaning in chat programs.
 
 use super::CodeError;
 
 const LETTERS: &[u8; 32] = b"0123456789abcdefghjkmnpqrstvwxyz";
 
-/// Five bits a letter, the highest first; the last letter is filled with noughts.
+/// Encodes five bits per letter, highest first; the last letter is padded with zero bits.
 pub fn encode(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len() * 8 / 5 + 1);
     let (mut waiting, mut bits) = (0_u32, 0);
@@ -28,10 +28,10 @@ fn letter(value: u32) -> char {
     char::from(LETTERS[(value & 31) as usize])
 }
 
-/// Reads what [`encode`] wrote; `o` is read as 0, `i` and `l` as 1.
+/// Decodes the output of [`encode`]; reads `o` as 0, and `i` and `l` as 1.
 ///
 /// # Errors
-/// A letter that is none of them, or a number of letters or a last letter that no bytes give.
+/// Fails if a letter is not in the alphabet, or if [`encode`] cannot produce this length or last letter.
 pub fn decode(text: &str) -> Result<Vec<u8>, CodeError> {
     let mut bytes = Vec::with_capacity(text.len() * 5 / 8);
     let (mut waiting, mut bits) = (0_u32, 0);

@@ -1,10 +1,10 @@
-//! Numbers and texts one after the other in bytes.
+//! Binary serialization of numbers and texts.
 
-/// The bytes end too early, or a text is not UTF-8.
+/// Error: the bytes end too early, or a text is not UTF-8.
 #[derive(Debug)]
-pub struct Cut;
+pub struct Truncated;
 
-/// Puts them together.
+/// Writes values into bytes.
 #[derive(Debug, Default)]
 pub struct Writer {
     bytes: Vec<u8>,
@@ -19,12 +19,12 @@ impl Writer {
         self.bytes.extend(bytes);
     }
 
-    /// A number that needs at most 24 bits with its sign.
+    /// Writes a signed number of at most 24 bits.
     pub fn number(&mut self, number: i32) {
         self.bytes(&number.to_be_bytes()[1..]);
     }
 
-    /// A text of at most 255 bytes with its length before it; of a longer one, that is not the length.
+    /// Writes the length and the bytes of a text of at most 255 bytes. For a longer text the length is wrong.
     pub fn text(&mut self, text: &str) {
         self.byte(text.len() as u8);
         self.bytes(text.as_bytes());
@@ -35,7 +35,7 @@ impl Writer {
     }
 }
 
-/// Takes them apart.
+/// Reads values from bytes.
 #[derive(Debug)]
 pub struct Reader<'a> {
     rest: &'a [u8],
@@ -46,26 +46,26 @@ impl<'a> Reader<'a> {
         Self { rest: bytes }
     }
 
-    pub fn chunk<const N: usize>(&mut self) -> Result<[u8; N], Cut> {
-        let (chunk, rest) = self.rest.split_first_chunk().ok_or(Cut)?;
+    pub fn chunk<const N: usize>(&mut self) -> Result<[u8; N], Truncated> {
+        let (chunk, rest) = self.rest.split_first_chunk().ok_or(Truncated)?;
         self.rest = rest;
         Ok(*chunk)
     }
 
-    pub fn byte(&mut self) -> Result<u8, Cut> {
+    pub fn byte(&mut self) -> Result<u8, Truncated> {
         self.chunk().map(|[byte]| byte)
     }
 
-    pub fn number(&mut self) -> Result<i32, Cut> {
-        // The shift back copies the sign.
+    pub fn number(&mut self) -> Result<i32, Truncated> {
+        // The arithmetic shift restores the sign.
         self.chunk().map(|[high, middle, low]| i32::from_be_bytes([high, middle, low, 0]) >> 8)
     }
 
-    pub fn text(&mut self) -> Result<String, Cut> {
+    pub fn text(&mut self) -> Result<String, Truncated> {
         let length = usize::from(self.byte()?);
-        let (text, rest) = self.rest.split_at_checked(length).ok_or(Cut)?;
+        let (text, rest) = self.rest.split_at_checked(length).ok_or(Truncated)?;
         self.rest = rest;
-        String::from_utf8(text.to_vec()).map_err(|_| Cut)
+        String::from_utf8(text.to_vec()).map_err(|_| Truncated)
     }
 
     pub const fn is_at_end(&self) -> bool {

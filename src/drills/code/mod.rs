@@ -1,8 +1,8 @@
-//! An exercise as one line of letters and digits that can be pasted into a chat.
+//! Share codes: an exercise as one line of letters and digits that can be pasted into a chat.
 //!
-//! `carom:` is followed by bytes in [`base32`]: the version, the table, the rule, what is to follow, the layout, the shot, the
-//! name, the title, the tags, and a checksum of it all. In every version, the first byte is the version and the last four are
-//! the checksum.
+//! `carom:` is followed by bytes in [`base32`]: the version, the table, the rule, the flags, the layout, the shot, the
+//! name, the title, the tags, and a checksum of all these. In every version, the first byte is the version and the last
+//! four are the checksum.
 
 mod base32;
 mod bytes;
@@ -10,71 +10,72 @@ mod bytes;
 use crc::{CRC_32_ISO_HDLC, Crc};
 use glam::DVec2;
 
-use self::bytes::{Cut, Reader, Writer};
+use self::bytes::{Reader, Truncated, Writer};
 use super::{Exercise, ExerciseError, bare_tag, exercise::match_table};
 use crate::{game::Rule, physics::CueInputs, table::Layout};
 
-/// What a code begins with.
+/// The beginning of every code.
 const PREFIX: &str = "carom:";
 
-/// CRC-32 as in Ethernet and zip (IEEE 802.3). Changes within 32 consecutive bits are always noticed, a wrong letter and two
-/// that have changed places among them; all others but for one in four thousand million.
+/// CRC-32 as in Ethernet and zip (IEEE 802.3). It detects all changes within 32 consecutive bits, such as a wrong
+/// letter or two swapped letters, and all but one in four thousand million other changes.
 const CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
-/// The newest version that is understood, and the one that is written.
+/// The newest version that can be read, and the one that is written.
 const VERSION: u8 = 1;
 
-/// Longest code that still takes the title and the tags along, characters. The longest name, a layout and a shot alone stay
-/// below; a text that is too long for the byte of its length stays out.
+/// Maximum length of a code with title and tags, characters. The longest name with a layout and a shot stays below it.
+/// A text that is too long for its one-byte length is left out.
 const LONGEST: usize = 300;
 
-/// What stands in the byte after the rule: coordinates in full instead of tenths of a millimetre.
+/// Flag in the byte after the rule: coordinates in full precision instead of tenths of a millimetre.
 const EXACT: u8 = 1;
-/// There is a shot.
+/// Flag: the code contains a shot.
 const SHOT: u8 = 2;
 
 /// Tenths of a millimetre in a metre.
 const GRID: f64 = 1e4;
 
-/// Units in which a shot is written: a, b in 1e-5 R, theta and phi in 0.001°, V in 0.1 mm/s. Over the length of a `match`
-/// table, 0.001° is 0.05 mm.
+/// Resolution of a shot: a, b in 1e-5 R, theta and phi in 0.001°, V in 0.1 mm/s. Over the length of a `match` table,
+/// 0.001° is 0.05 mm.
 const SHOT_UNITS: [f64; 5] = [1e5, 1e5, 1e3, 1e3, 1e4];
 
 /// Why a share code cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum CodeError {
-    /// It is something else.
-    #[error("\"{0}\" is no share code; one begins with \"{PREFIX}\"")]
+    /// The text is not a share code.
+    #[error("\"{0}\" is not a share code; start with \"{PREFIX}\"")]
     Prefix(String),
-    /// A letter that no code has.
-    #[error("a share code has no '{0}'; it is made of letters and digits without u")]
+    /// A letter that cannot occur in a code.
+    #[error("a share code cannot contain '{0}'; it is made of letters and digits without u")]
     Letter(char),
-    /// It has been changed on its way.
+    /// The code was changed in transit.
     #[error(
-        "the share code is damaged: a letter is wrong, missing or too many; copy it again, from \"{PREFIX}\" to its end"
+        "the share code is damaged: a letter is wrong, missing or extra; copy it again, from \"{PREFIX}\" to its end"
     )]
     Damaged,
-    /// A newer program wrote it.
-    #[error("the share code is of version {0}; versions 1 to {VERSION} are understood, a newer carom has written it")]
+    /// The code was written by a newer version.
+    #[error("the share code has version {0}; versions 1 to {VERSION} can be read, a newer carom has written it")]
     Version(u8),
-    /// The exercise in it cannot be played.
+    /// The exercise in the code cannot be played.
     #[error(transparent)]
     Exercise(#[from] ExerciseError),
 }
 
-impl From<Cut> for CodeError {
-    fn from(_: Cut) -> Self {
+impl From<Truncated> for CodeError {
+    fn from(_: Truncated) -> Self {
         Self::Damaged
     }
 }
 
-/// An exercise as a share code.
+/// Encodes an exercise as a share code.
 ///
-/// It carries the table, the rule and the layout exactly; the shot rounded to 1e-5 R, 0.001° and 0.1 mm/s; the name; and the
-/// title and the tags as far as the code stays within 300 characters. It does not carry the point, the grade and par.
+/// The code contains the table, the rule and the layout exactly; the shot rounded to 1e-5 R, 0.001° and 0.1 mm/s; the
+/// name; and the title and the tags if the code stays within 300 characters. It does not contain the point, the grade
+/// and the par.
 ///
 /// # Errors
-/// Where the exercise cannot be played.
+/// Fails if the exercise cannot be played.
 pub fn encode(exercise: &Exercise) -> Result<String, ExerciseError> {
     exercise.validate()?;
     let full = code(exercise, &exercise.title, &exercise.tags);
@@ -94,7 +95,7 @@ fn code(exercise: &Exercise, title: &str, tags: &[String]) -> String {
     let mut writer = Writer::default();
     writer.byte(VERSION);
     writer.text(if exercise.table == match_table() { "" } else { &exercise.table });
-    // A rule is known by its cushions.
+    // The number of cushions identifies the rule.
     writer.byte(exercise.rule.cushions() as u8);
     writer.byte(has);
     for &x in coordinates {
@@ -118,16 +119,15 @@ fn code(exercise: &Exercise, title: &str, tags: &[String]) -> String {
     format!("{PREFIX}{}", base32::encode(&bytes))
 }
 
-/// Whether a text is meant to be a share code.
+/// Whether a text looks like a share code.
 pub fn is_code(text: &str) -> bool {
     text.trim_start().get(..PREFIX.len()).is_some_and(|start| start.eq_ignore_ascii_case(PREFIX))
 }
 
-/// Reads a share code; spaces and line breaks in it do not matter, and neither do capitals. The exercise is the user's
-/// own, and one that can be played.
+/// Decodes a share code, ignoring spaces, line breaks and case. The result is an own exercise of the user that can be played.
 ///
 /// # Errors
-/// [`CodeError`]: it is something else, it was changed on its way, or it is of a newer version.
+/// [`CodeError`]: the text is not a share code, was changed in transit, or has a newer version.
 pub fn decode(text: &str) -> Result<Exercise, CodeError> {
     let letters: String = text.chars().filter(|letter| !letter.is_whitespace()).collect();
     let prefix = letters.get(..PREFIX.len()).filter(|start| start.eq_ignore_ascii_case(PREFIX));
@@ -158,7 +158,7 @@ fn content_of(reader: &mut Reader) -> Result<Exercise, CodeError> {
     if has & !(EXACT | SHOT) != 0 {
         return Err(CodeError::Damaged);
     }
-    let mut coordinate = || -> Result<f64, Cut> {
+    let mut coordinate = || -> Result<f64, Truncated> {
         if has & EXACT == 0 {
             Ok(f64::from(i16::from_be_bytes(reader.chunk()?)) / GRID)
         } else {
@@ -183,22 +183,22 @@ fn content_of(reader: &mut Reader) -> Result<Exercise, CodeError> {
     let title = Some(reader.text()?).filter(|title| !title.is_empty()).unwrap_or_else(|| name.clone());
     let mut tags = Vec::new();
     while !reader.is_at_end() {
-        // A tag is one word, with or without a # before it.
+        // A tag is one word, with or without a leading #.
         let text = reader.text()?;
         tags.extend(text.split_whitespace().map(bare_tag).filter(|tag| !tag.is_empty()).map(str::to_owned));
     }
     Ok(Exercise { title, tags, shot, ..Exercise::own(&name, rule, &table, Layout::new(balls)) })
 }
 
-/// A coordinate in tenths of a millimetre; `None` where it is further out than they reach.
+/// Returns a coordinate in tenths of a millimetre; `None` if it is out of range.
 fn tenths(x: f64) -> Option<i16> {
     let tenths = (x * GRID).round();
     (tenths.abs() <= f64::from(i16::MAX)).then_some(tenths as i16)
 }
 
-/// A shot in [`SHOT_UNITS`]. The tip and the elevation are rounded towards nought, so that no limit is overstepped.
+/// Converts a shot to [`SHOT_UNITS`]. The tip and the elevation are rounded towards zero, so that no limit is exceeded.
 fn shot_in_units(shot: &CueInputs) -> [i32; 5] {
-    // What is a whole number but for rounding stays it.
+    // The tolerance keeps values that are integers up to rounding.
     let inward = |x: f64| ((x.abs() + 1e-6).floor() * x.signum()) as i32;
     let turn = (shot.phi.to_degrees() + 180.0).rem_euclid(360.0) - 180.0;
     let [a, b, theta, phi, speed] = SHOT_UNITS;

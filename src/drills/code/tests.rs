@@ -1,4 +1,4 @@
-//! Codes there and back, damaged, wrapped, and of other versions.
+//! Tests of share codes: round trips, damaged and wrapped codes, and other versions.
 
 use proptest::prelude::*;
 use rand::SeedableRng;
@@ -7,7 +7,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::*;
 use crate::table::Table;
 
-/// Layouts on the grid of a millimetre, anywhere, and with touching balls.
+/// Layouts on a millimetre grid, at any position, and with touching balls.
 fn layout(seed: u64, sort: u8) -> Layout {
     let table = Table::default();
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
@@ -33,7 +33,7 @@ prop_compose! {
         tags in prop::collection::vec("\\PC{1,20}", 0..5),
         shot in prop::option::of((-0.35..0.35, -0.35..0.35, 0.0..1.5_f64, -10.0..10.0, 0.01..9.0)),
     ) -> Exercise {
-        // A name does not begin with a dot.
+        // A name must not begin with a dot.
         let own = Exercise::own(&format!("x{name}"), rule, &match_table(), layout(seed, sort));
         let shot = shot.map(|(a, b, theta, phi, speed)| CueInputs { a, b, theta, phi, speed });
         Exercise { title, tags, shot, ..own }
@@ -61,7 +61,7 @@ proptest! {
         if exercise.title.len() < 40 && exercise.tags.is_empty() && !exercise.title.is_empty() {
             prop_assert_eq!(&read.title, &exercise.title);
         }
-        // What was read is written as it was.
+        // Decoding and encoding again gives the same exercise.
         prop_assert_eq!(decode(&encode(&read).unwrap()).unwrap(), read);
     }
 
@@ -121,7 +121,7 @@ fn tags_are_words_and_signs_that_mean_nothing_yet_are_damage() {
     assert_eq!(decode(&text).unwrap().tags, ["two", "words", "bare"]);
     let mut bytes = base32::decode(text.strip_prefix(PREFIX).unwrap()).unwrap();
     bytes.truncate(bytes.len() - size_of_val(&CHECKSUM.checksum(&[])));
-    // Behind the version, the table's empty name and the rule.
+    // The byte after the version, the table's empty name and the rule.
     bytes[3] |= 4;
     bytes.extend(CHECKSUM.checksum(&bytes).to_be_bytes());
     assert!(matches!(decode(&format!("{PREFIX}{}", base32::encode(&bytes))), Err(CodeError::Damaged)));

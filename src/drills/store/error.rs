@@ -1,4 +1,4 @@
-//! Why something cannot be kept or read.
+//! Errors of the practice store.
 
 use std::{
     io,
@@ -7,78 +7,78 @@ use std::{
 
 use super::super::{CodeError, ExerciseError, LibraryFileError, Session, SessionError, marked::MarkError};
 
-/// Why something cannot be kept or read. Whatever is on the disk is what it was.
+/// Why something cannot be saved or read. The files on disk are unchanged.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
-    /// The file system refuses.
+    /// A file system error.
     #[error("{}: {reason}", path.display())]
     File {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         reason: io::Error,
     },
-    /// It cannot be written.
+    /// The file cannot be written.
     #[error("{} cannot be written: {reason}", path.display())]
     Unwritten {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         reason: io::Error,
     },
-    /// It is no file of ours that is understood.
+    /// The file has an unknown format or version, or is damaged.
     #[error("{}: {error}", path.display())]
     Mark {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         error: MarkError,
     },
-    /// It is no file of exercises that is understood.
+    /// The file is not a readable file of exercises.
     #[error("{}: {error}", path.display())]
     Library {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         error: LibraryFileError,
     },
-    /// A position's file has none or several.
-    #[error("{}: there are {found} exercises in it; a position's file has one, carom drill import takes more", path.display())]
+    /// A position's file contains no exercise, or several.
+    #[error("{}: it contains {found} exercises; a position's file has one, carom drill import accepts more", path.display())]
     Many {
         /// The file.
         path: PathBuf,
-        /// Exercises in it.
+        /// Number of exercises in it.
         found: usize,
     },
-    /// What it holds cannot be played.
+    /// The exercise in the file cannot be played.
     #[error("{}: {error}", path.display())]
     Impossible {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         error: ExerciseError,
     },
-    /// It is called otherwise than what it holds.
-    #[error("{}: it holds \"{name}\"; rename the file or remove it", path.display())]
+    /// The file's name differs from the name in it.
+    #[error("{}: it contains \"{name}\"; rename the file or remove it", path.display())]
     Copy {
         /// The file.
         path: PathBuf,
-        /// What is in it.
+        /// The name in the file.
         name: String,
     },
-    /// A session that cannot have been played.
+    /// A session with invalid content.
     #[error("the session \"{session}\": {error}")]
     Session {
         /// The session.
         session: String,
-        /// Why.
+        /// The cause.
         error: SessionError,
     },
-    /// Another program has noted something in this session or taken it back; it is given as it stands now.
-    #[error("another program has changed the session \"{}\" meanwhile; nothing of yours was written over it", .0.id)]
+    /// Another program has added or removed attempts in this session. Contains the session as it is stored now.
+    #[error("another program has changed the session \"{}\" meanwhile; your changes were not written", .0.id)]
     Changed(Box<Session>),
-    /// A session has gone on here and elsewhere.
-    #[error("the session \"{0}\" has gone on both here and in the file, so it stays as it is here")]
+    /// A session has different new attempts here and in an imported file.
+    #[error("the session \"{0}\" was continued both here and in the file; the one here is kept")]
     Diverged(String),
     /// An exercise cannot be played.
     #[error(transparent)]
@@ -89,10 +89,10 @@ pub enum StoreError {
     /// A bundled exercise has this name.
     #[error("there is a bundled exercise \"{0}\"; give this one another name")]
     Bundled(String),
-    /// There is one of this name.
+    /// A position has this name.
     #[error("there is a position \"{0}\" already; give this one another name, or have it replaced")]
     Taken(String),
-    /// There is none.
+    /// No position has this name.
     #[error("there is no position \"{0}\" of your own")]
     Unknown(String),
 }

@@ -1,6 +1,6 @@
-//! Where practice is kept: one file a session and one file a position of the player's own, so that sessions of programs that
-//! run at the same time are never in each other's way. Two programs may go on with one session, as with an exam that was left:
-//! what one has noted meanwhile, the other does not write over. What cannot be read is named in a sentence and left as it is.
+//! Stores the practice data: one file per session and one per own position, so that programs that run at the same time
+//! do not interfere with each other's sessions. Two programs may continue the same session, such as an unfinished exam;
+//! neither overwrites what the other has recorded meanwhile. Files that cannot be read are reported and left unchanged.
 
 mod error;
 mod player;
@@ -26,22 +26,22 @@ use super::{
 };
 use crate::storage::{self, Lock, Places, create_atomic, is_name, remove_abandoned_files, write_atomic};
 
-/// What a session's file says that it is.
+/// The format's name in session files.
 const SESSION: &str = "carom-session";
 
-/// What the files are called after their names.
+/// File name extension.
 const EXTENSION: &str = "json";
 
-/// What was found in a folder.
+/// The content of a folder.
 #[derive(Debug)]
 pub struct Found<T> {
-    /// What could be read, by name.
+    /// The readable items, by name.
     pub items: Vec<T>,
-    /// A sentence for every file that could not.
+    /// A sentence for every file that cannot be read.
     pub notes: Vec<String>,
 }
 
-/// Sessions, positions and skill of a player, on the disk.
+/// A player's sessions, positions and skill on disk.
 #[derive(Clone, Debug)]
 pub struct Store {
     sessions: PathBuf,
@@ -50,39 +50,40 @@ pub struct Store {
 }
 
 impl Store {
-    /// The store in these places. Nothing is made before something is saved.
+    /// Creates a store for these places. Folders and files are created when something is first saved.
     pub fn new(places: &Places) -> Self {
         let Places { sessions, positions, player, .. } = places.clone();
         Self { sessions, positions, player }
     }
 
-    /// All sessions, the oldest first.
+    /// Reads all sessions, the oldest first.
     pub fn sessions(&self) -> Found<Session> {
         let mut found = read_all(&self.sessions, read_session);
         found.items.sort_by(|x, y| (x.started, &x.id).cmp(&(y.started, &y.id)));
         found
     }
 
-    /// The session of this name, if there is one.
+    /// Reads the session with this identifier, if there is one.
     ///
     /// # Errors
-    /// Where its file cannot be read.
+    /// Fails if its file cannot be read.
     pub fn session(&self, id: &str) -> Result<Option<Session>, StoreError> {
         let path = file(&self.sessions, id)?;
         if path.exists() { read_session(&path).map(Some) } else { Ok(None) }
     }
 
-    /// Writes a session's file, or replaces one that has no other attempts than those that were known `before`, and still has the
-    /// first `safe` of them, which are known to have been written. When this returns, the session is safe on the disk.
+    /// Writes a session's file. An existing file is replaced only if its attempts are a prefix of those known `before`,
+    /// and include the first `safe` ones, which are known to have been written. When this returns, the session is safe
+    /// on disk.
     ///
     /// # Errors
-    /// [`StoreError::Changed`] where another program has noted something in it or taken it back; where writing fails, or a file
-    /// of this name holds something else or is of a newer version. The file is then what it was.
+    /// [`StoreError::Changed`] if another program has added or removed attempts. Also fails if writing fails, or if a
+    /// file of this name has other content or a newer version. The file is then unchanged.
     pub fn save(&self, session: &Session, before: &[Attempt], safe: usize) -> Result<(), StoreError> {
         self.save_locked(&self.lock()?, session, before, safe)
     }
 
-    /// The same for who has the lock already.
+    /// Like [`save`](Self::save), for a caller that already has the lock.
     ///
     /// # Errors
     /// As [`Store::save`].
@@ -96,27 +97,27 @@ impl Store {
         let path = file(&self.sessions, &session.id)?;
         let is_new = !path.exists();
         if !is_new {
-            let kept: Kept = read_marked(&path)?;
-            is_called(&path, &kept.id)?;
-            // It may have fewer than `before`: what the disk has refused is only known here.
-            if kept.attempts.len() < safe || !Attempt::is_prefix(&kept.attempts, before) {
+            let stored: StoredSession = read_marked(&path)?;
+            check_name(&path, &stored.id)?;
+            // The file may have fewer attempts than `before`, because attempts that could not be written exist only here.
+            if stored.attempts.len() < safe || !Attempt::is_prefix(&stored.attempts, before) {
                 return Err(StoreError::Changed(Box::new(read_session(&path)?)));
             }
         }
         let written = self.write(lock, session);
         if is_new {
-            self.remove_leavings();
+            self.remove_abandoned();
         }
         written
     }
 
-    /// Removes what programs have left behind that were killed while they wrote a session.
-    fn remove_leavings(&self) {
-        // Somebody else's leavings are no reason to fail.
+    /// Removes the temporary files of programs that were killed while writing a session.
+    fn remove_abandoned(&self) {
+        // Failing to remove them does not matter.
         let _ = remove_abandoned_files(&self.sessions);
     }
 
-    /// Writes a session's file, whatever attempts are in it.
+    /// Writes a session's file, whatever attempts are in the existing one.
     fn write(&self, _lock: &Lock, session: &Session) -> Result<(), StoreError> {
         let path = file(&self.sessions, &session.id)?;
         let bytes = marked::write(SESSION, session).map_err(|error| StoreError::unwritten(&path, error.into()))?;
@@ -124,22 +125,22 @@ impl Store {
         written.map_err(|error| StoreError::unwritten(&path, error))
     }
 
-    /// The right to write sessions, which one program has at a time; waits for it.
+    /// Waits for the exclusive lock for writing sessions.
     ///
     /// # Errors
-    /// Where another keeps it for long, or whatever the file system reports.
+    /// Fails if another program holds it for too long, or on a file system error.
     pub fn lock(&self) -> Result<Lock, StoreError> {
         Lock::wait(&self.sessions).map_err(|error| StoreError::unwritten(&self.sessions, error))
     }
 
-    /// The player's own positions, by name.
+    /// Reads the player's own positions, by name.
     pub fn positions(&self) -> Found<Exercise> {
         let mut found = read_all(&self.positions, read_position);
         found.items.sort_by(|x, y| x.name.cmp(&y.name));
         found
     }
 
-    /// The bundled exercises and the player's own, and a sentence for each of these that cannot be used.
+    /// Returns the library of bundled exercises and own positions, and a sentence for each position that cannot be used.
     pub fn library(&self) -> (Library, Vec<String>) {
         let own = self.positions();
         let (library, refused) = Library::with_own(own.items);
@@ -147,11 +148,11 @@ impl Store {
         (library, own.notes.into_iter().chain(refused).collect())
     }
 
-    /// Keeps a position of the player's own, over another of its name only if `replaces` says so. Its category becomes
+    /// Saves an own position, replacing one of the same name only if `replaces` is set. Its category becomes
     /// [`Category::Own`].
     ///
     /// # Errors
-    /// Where it cannot be played, its name is taken, or the file cannot be written; what was kept is then what it was.
+    /// Fails if the position cannot be played, its name is taken, or the file cannot be written. An existing file is then unchanged.
     pub fn save_position(&self, position: &Exercise, replaces: bool) -> Result<(), StoreError> {
         position.validate()?;
         if Library::bundled().get(&position.name).is_ok() {
@@ -171,13 +172,13 @@ impl Store {
         })
     }
 
-    /// Removes a position of the player's own; what was practised on it stays in the sessions.
+    /// Removes an own position; practice on it remains in the sessions.
     ///
     /// # Errors
-    /// Where there is none of this name, a newer program wrote it, or its file cannot be removed.
+    /// Fails if there is none of this name, a newer program wrote it, or its file cannot be removed.
     pub fn remove_position(&self, name: &str) -> Result<(), StoreError> {
         let path = file(&self.positions, name)?;
-        // What a newer program wrote is not ours to remove.
+        // Files of newer versions are never removed.
         let read = read_position(&path);
         if let Err(StoreError::Library { error: LibraryFileError::Mark(MarkError::Version(_)), .. }) = read {
             return read.map(drop);
@@ -189,12 +190,12 @@ impl Store {
     }
 }
 
-/// The text of a position's file: a library of one.
+/// Returns the text of a position's file: a library with one exercise.
 fn position_text(position: &Exercise) -> Result<String, serde_json::Error> {
     LibraryFile::new(vec![Exercise { category: Category::Own, ..position.clone() }]).to_text()
 }
 
-/// The file called `name`.
+/// Returns the path of the file for `name`.
 fn file(folder: &Path, name: &str) -> Result<PathBuf, StoreError> {
     if is_name(name) {
         Ok(folder.join(format!("{name}.{EXTENSION}")))
@@ -203,9 +204,9 @@ fn file(folder: &Path, name: &str) -> Result<PathBuf, StoreError> {
     }
 }
 
-/// The part of a session's file that tells whose it is, and what is noted there.
+/// The part of a session's file that is needed to detect changes by other programs.
 #[derive(Deserialize)]
-struct Kept {
+struct StoredSession {
     id: String,
     attempts: Vec<Attempt>,
 }
@@ -217,7 +218,7 @@ fn read_marked<T: DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
 
 fn read_session(path: &Path) -> Result<Session, StoreError> {
     let session: Session = read_marked(path)?;
-    is_called(path, &session.id)?;
+    check_name(path, &session.id)?;
     validate(&session)?;
     Ok(session)
 }
@@ -231,14 +232,15 @@ fn read_position(path: &Path) -> Result<Exercise, StoreError> {
     let library = LibraryFile::parse(&text).map_err(|error| StoreError::Library { path: path.into(), error })?;
     let [exercise] = <[Exercise; 1]>::try_from(library.exercises)
         .map_err(|found| StoreError::Many { path: path.into(), found: found.len() })?;
-    is_called(path, &exercise.name)?;
+    check_name(path, &exercise.name)?;
     exercise.validate().map_err(|error| StoreError::Impossible { path: path.into(), error })?;
-    // The player's own, whatever somebody wrote into the file.
+    // The category in the file is ignored.
     Ok(Exercise { category: Category::Own, ..exercise })
 }
 
-/// Names are unique because those of files are: a copy under another name is none.
-fn is_called(path: &Path, name: &str) -> Result<(), StoreError> {
+/// Checks that the file has the name of its content. Names are unique because file names are, so a copy under another
+/// name is rejected.
+fn check_name(path: &Path, name: &str) -> Result<(), StoreError> {
     if path.file_stem().is_some_and(|stem| stem == name) {
         Ok(())
     } else {
@@ -246,7 +248,7 @@ fn is_called(path: &Path, name: &str) -> Result<(), StoreError> {
     }
 }
 
-/// Reads every file in a folder; one that is not there is empty.
+/// Reads every file in a folder; a missing folder counts as empty.
 fn read_all<T>(folder: &Path, read: impl Fn(&Path) -> Result<T, StoreError>) -> Found<T> {
     let mut found = Found { items: Vec::new(), notes: Vec::new() };
     let entries = match fs::read_dir(folder) {
@@ -266,13 +268,13 @@ fn read_all<T>(folder: &Path, read: impl Fn(&Path) -> Result<T, StoreError>) -> 
                 continue;
             }
         };
-        // Those that are being written have another extension.
+        // Files that are being written have another extension.
         if path.extension().is_none_or(|extension| extension != EXTENSION) {
             continue;
         }
         match read(&path) {
             Ok(item) => found.items.push(item),
-            // Removed since the folder was read.
+            // The file was removed after the folder was listed.
             Err(StoreError::File { reason, .. }) if reason.kind() == io::ErrorKind::NotFound => {}
             Err(error) => found.notes.push(format!("{error}; it is left as it is")),
         }

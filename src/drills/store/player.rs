@@ -1,4 +1,4 @@
-//! The player's own skill, kept in a file of its own.
+//! The player's own skill, stored in a file of its own.
 
 use std::io;
 
@@ -11,23 +11,23 @@ use crate::{
     storage::{self, write_atomic},
 };
 
-/// What the file says that it is.
+/// The format's name in the file.
 const PLAYER: &str = "carom-player";
 
-/// A skill that a player has taken for his own.
+/// A skill that the player has saved as their own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OwnSkill {
-    /// The errors.
+    /// The skill.
     pub skill: Skill,
-    /// When it was kept, Unix time in seconds.
+    /// When it was saved, Unix time in seconds.
     pub since: u64,
 }
 
 impl Store {
-    /// The player's own skill; `None` where none was kept.
+    /// Reads the player's own skill; `None` if none is saved.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    /// Fails if the file cannot be read.
     pub fn own_skill(&self) -> Result<Option<OwnSkill>, StoreError> {
         let text = storage::read_if_there(&self.player, storage::SMALL);
         let Some(text) = text.map_err(|error| StoreError::file(&self.player, error))? else { return Ok(None) };
@@ -35,11 +35,11 @@ impl Store {
         marked::read(PLAYER, &text).map(Some).map_err(refuse)
     }
 
-    /// Keeps a skill as the player's own.
+    /// Saves a skill as the player's own.
     ///
     /// # Errors
-    /// Where the file cannot be written, or the one that is there cannot be read, as one of a newer version; it is then what
-    /// it was.
+    /// Fails if the file cannot be written, or an existing one cannot be read, for example because its version is
+    /// newer. It is then unchanged.
     pub fn keep_skill(&self, skill: Skill) -> Result<(), StoreError> {
         self.own_skill()?;
         self.write_own(&OwnSkill { skill, since: now() })

@@ -1,4 +1,4 @@
-//! What is kept comes back, and what cannot be read stays.
+//! Tests that saved data is read back, and that unreadable files are left unchanged.
 
 use super::*;
 use crate::{
@@ -49,7 +49,7 @@ fn what_another_program_has_noted_in_a_session_is_not_written_over() {
     let [mut here, mut there] = [(); 2].map(|()| known.clone());
     there.log(true).unwrap();
     store.save(&there, &known.attempts, 0).unwrap();
-    // As many, and the same as far as one can tell: they are two attempts all the same.
+    // An equal number of attempts with the same visible content still are two different attempts.
     here.attempts.push(there.attempts[1].clone());
     here.log(false).unwrap();
     let mut shorter = known.clone();
@@ -61,7 +61,8 @@ fn what_another_program_has_noted_in_a_session_is_not_written_over() {
         }
     }
     assert_eq!(store.sessions().items, [there.clone()]);
-    // What the disk has refused before is written with the next attempt, and how good a stroke was makes no other of it.
+    // Attempts that could not be written before are written with the next one, and a changed evaluation of a stroke is
+    // no conflict.
     let mut ahead = there.clone();
     ahead.attempts[0].chance = Some(0.5);
     ahead.log(true).unwrap();
@@ -69,7 +70,7 @@ fn what_another_program_has_noted_in_a_session_is_not_written_over() {
     ahead.log(false).unwrap();
     store.save(&ahead, &before, 2).unwrap();
     assert_eq!(store.sessions().items, [ahead.clone()]);
-    // What another program has taken back does not come back.
+    // Attempts that another program has removed do not reappear.
     let mut shorter = ahead.clone();
     shorter.undo();
     store.save(&shorter, &ahead.attempts, 4).unwrap();
@@ -156,9 +157,9 @@ fn what_is_exported_here_is_imported_there_once_and_the_longer_session_wins() {
     assert_eq!(there.own_skill().unwrap().unwrap().skill, Skill::CLUB);
     let again = there.import(&practice);
     assert_eq!((again.known, again.positions, again.longer, again.refused.len()), (2, 0, 0, 1));
-    // And back: the shorter one here would lose nothing.
+    // In the other direction, the longer session here is not replaced by the shorter one.
     assert_eq!(here.import(&there.export().0).longer, 0);
-    // Where both have gone on, neither is written over.
+    // If both have continued, neither is overwritten.
     let [mut mine, mut yours] = [(); 2].map(|()| session.clone());
     for (store, session, made) in [(&here, &mut mine, true), (&there, &mut yours, false)] {
         session.log(made).unwrap();
@@ -168,7 +169,7 @@ fn what_is_exported_here_is_imported_there_once_and_the_longer_session_wins() {
     yours.log(false).unwrap();
     there.save(&yours, &yours.attempts[..4], 4).unwrap();
     let refused = here.import(&there.export().0).refused;
-    assert!(refused.iter().any(|one| one.contains("gone on both here")), "{refused:?}");
+    assert!(refused.iter().any(|one| one.contains("continued both here")), "{refused:?}");
     assert_eq!((here.sessions().items, there.sessions().items), (vec![mine], vec![yours]));
 }
 

@@ -1,14 +1,14 @@
-//! All of a player's practice as one JSON file, and back.
+//! Export and import of all of a player's practice as one JSON file.
 
 use serde::{Deserialize, Serialize};
 
 use super::{OwnSkill, Store, StoreError, file, position_text, read_position, validate};
 use crate::drills::{Attempt, Exercise, Library, LibraryFile, LibraryFileError, Session};
 
-/// All of a player's practice. Its file is one of exercises that holds more, so that one takes the other's place.
+/// All of a player's practice. Its file is a file of exercises with additional fields, so that each can be read as the other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Practice {
-    /// The player's own positions, with the marks of the file.
+    /// The player's own positions, with the header of the file.
     #[serde(flatten)]
     pub library: LibraryFile,
     /// All sessions.
@@ -19,32 +19,32 @@ pub struct Practice {
     pub player: Option<OwnSkill>,
 }
 
-/// What became of a file that was imported.
+/// The result of an import.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Imported {
-    /// Positions that are new.
+    /// New positions.
     pub positions: usize,
-    /// Sessions that are new.
+    /// New sessions.
     pub sessions: usize,
-    /// Sessions that were there with the first of their attempts.
+    /// Sessions that were replaced by ones with more attempts.
     pub longer: usize,
-    /// What was there already.
+    /// Items that existed already.
     pub known: usize,
-    /// A sentence for everything that was refused.
+    /// A sentence for everything that was rejected.
     pub refused: Vec<String>,
 }
 
 impl Practice {
-    /// Reads a file's text: that of [`Store::export`], or a file of exercises.
+    /// Parses a text from [`Store::export`], or a file of exercises.
     ///
     /// # Errors
-    /// Where it is something else or of a version that is not understood.
+    /// Fails if the text is in another format or in an unsupported version.
     pub fn parse(text: &str) -> Result<Self, LibraryFileError> {
         LibraryFile::parse(text)?;
         Ok(serde_json::from_str(text)?)
     }
 
-    /// Whether a file's text is what [`Store::export`] gave: a library of exercises, which may be somebody's work, has no sessions.
+    /// Whether a text comes from [`Store::export`]. A mere file of exercises, which may be somebody's work, has no sessions.
     pub fn is_export(text: &str) -> bool {
         let keys: Option<serde_json::Value> = serde_json::from_str(text).ok();
         Self::parse(text).is_ok() && keys.is_some_and(|keys| keys.get("sessions").is_some())
@@ -52,10 +52,10 @@ impl Practice {
 }
 
 impl Store {
-    /// All that is kept, and a sentence for every file that cannot be read and is missing.
+    /// Returns all stored data, and a sentence for every unreadable file that is missing from it.
     pub fn export(&self) -> (Practice, Vec<String>) {
         let (positions, mut sessions) = (self.positions(), self.sessions());
-        // One whose attempts were all taken back is none.
+        // A session without attempts is not exported.
         sessions.items.retain(|session| !session.attempts.is_empty());
         let mut notes = [positions.notes, sessions.notes].concat();
         let player = self.own_skill().unwrap_or_else(|error| {
@@ -65,9 +65,10 @@ impl Store {
         (Practice { library: LibraryFile::new(positions.items), sessions: sessions.items, player }, notes)
     }
 
-    /// Takes in what is not here yet. A session that is on both sides is replaced by one that goes on with it, and refused where
-    /// both have attempts that the other has not; a position whose name is that of another is refused; a skill is taken where
-    /// there is none. Nothing is removed, and what is refused or cannot be written does not keep the rest out.
+    /// Imports what does not exist yet. An existing session is replaced by a longer one that continues it, and rejected
+    /// if both have different new attempts. A position is rejected if another one has its name. The skill is imported
+    /// if none is saved.
+    /// Nothing is removed, and items that are rejected or cannot be written do not prevent the import of the others.
     pub fn import(&self, practice: &Practice) -> Imported {
         let mut imported = Imported::default();
         for position in &practice.library.exercises {
@@ -82,8 +83,8 @@ impl Store {
             });
         }
         if imported.sessions > 0 {
-            // Once: a look at the folder for each session would take ever longer.
-            self.remove_leavings();
+            // Done once: for each session, scanning the growing folder would take more and more time.
+            self.remove_abandoned();
         }
         if let Some(own) = &practice.player {
             let kept = self.own_skill().and_then(|here| if here.is_none() { self.write_own(own) } else { Ok(()) });
@@ -96,12 +97,12 @@ impl Store {
         match self.save_position(position, false) {
             Err(StoreError::Taken(name)) => {
                 let here = read_position(&file(&self.positions, &name)?)?;
-                // As text: a number that was written and read has been rounded.
+                // Compared as text, because a number that was written and read is rounded.
                 let same =
                     matches!((position_text(&here), position_text(position)), (Ok(here), Ok(there)) if here == there);
                 if same { Ok(Taken::Known) } else { Err(StoreError::Taken(name)) }
             }
-            // A library that comes with the program brings nothing new.
+            // Bundled exercises are already known.
             Err(StoreError::Bundled(name)) if Self::is_bundled_as(&name, position) => Ok(Taken::Known),
             saved => saved.map(|()| Taken::New),
         }
@@ -125,7 +126,7 @@ impl Store {
     }
 }
 
-/// What became of one thing.
+/// The result for one item.
 enum Taken {
     New,
     Longer,

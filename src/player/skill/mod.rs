@@ -1,4 +1,4 @@
-//! How well a player does what the coach says: the standard errors of the five cue inputs, and how they grow with the stroke.
+//! A player's execution errors: the standard errors of the five cue inputs, and how they grow with the stroke.
 
 mod level;
 mod text;
@@ -11,26 +11,26 @@ use crate::physics::CueInputs;
 use text::FORMS;
 pub use text::SkillError;
 
-/// A player's standard errors in the five cue inputs at a level stroke of [`Skill::REFERENCE_SPEED`], and how they grow with
-/// the stroke. They are independent and normally distributed.
+/// A player's standard errors in the five cue inputs at a level stroke of [`Skill::REFERENCE_SPEED`], and their growth
+/// with the stroke. The errors are independent and normally distributed.
 ///
-/// On the command line and in JSON it is a name, an average at three-cushion like `average=0.6`, or five numbers as people say
-/// them: millimetres, degrees and m/s, like `a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1`. Five numbers alone do not grow. `V=5%` is a
-/// share of the stroke's speed, and `growth=0.5` and `raised=1` may follow: see [`Growth`].
+/// On the command line and in JSON it is a name, a three-cushion average like `average=0.6`, or five numbers in
+/// millimetres, degrees and m/s, like `a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1`. Five numbers alone do not grow. `V=5%` is
+/// a share of the stroke's speed, and `growth=0.5` and `raised=1` may follow: see [`Growth`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct Skill {
-    /// Of the tip to the side, m.
+    /// Standard error of the tip position to the side, m.
     pub a: f64,
-    /// Of the tip's height, m.
+    /// Standard error of the tip's height, m.
     pub b: f64,
-    /// Of the elevation, rad.
+    /// Standard error of the elevation, rad.
     pub theta: f64,
-    /// Of the direction, rad.
+    /// Standard error of the direction, rad.
     pub phi: f64,
-    /// Of the speed, m/s.
+    /// Standard error of the speed, m/s.
     pub speed: f64,
-    /// How they grow with the stroke.
+    /// Growth of the errors with the stroke.
     pub growth: Growth,
 }
 
@@ -39,9 +39,9 @@ pub struct Skill {
 pub struct Growth {
     /// The share of the variance of tip and direction at the reference stroke that grows with the square of the speed, 0 to 1.
     pub speed: f64,
-    /// By how much the errors of tip and direction are larger when the cue is raised by 30°, as a share.
+    /// Relative increase of the errors of tip and direction when the cue is raised by 30°.
     pub elevation: f64,
-    /// Whether the error of the speed is a share of the speed.
+    /// Whether the error of the speed is proportional to the speed.
     pub is_share: bool,
 }
 
@@ -49,31 +49,31 @@ impl Growth {
     /// Errors that are the same for every stroke.
     pub const NONE: Self = Self { speed: 0.0, elevation: 0.0, is_share: false };
 
-    /// That of the named levels. The noise of a movement grows with its force (Schmidt et al. 1979, Harris and Wolpert 1998), so
-    /// that the error of the speed is a share of it. That half of the variance of tip and aim is noise of this kind, and
-    /// that a cue raised by 30° doubles the errors, are assumptions: nobody has measured them at carom.
+    /// The growth for the named levels. The noise of a movement grows with its force (Schmidt et al. 1979, Harris and
+    /// Wolpert 1998), so that the error of the speed is proportional to it. Two assumptions have not been measured at
+    /// carom: half of the variance of tip and aim is noise of this kind, and a cue raised by 30° doubles the errors.
     pub const USUAL: Self = Self { speed: 0.5, elevation: 1.0, is_share: true };
 }
 
-/// Steepest cue that errors lead to, rad: just below upright, unless the stroke is meant steeper.
+/// Steepest cue that errors can result in, rad: just below vertical, unless the intended cue is steeper.
 const STEEPEST: f64 = 89.9_f64.to_radians();
 
-/// Elevation for which [`Growth::elevation`] is given, rad: 30°.
+/// Elevation to which [`Growth::elevation`] refers, rad: 30°.
 const RAISED: f64 = std::f64::consts::PI / 6.0;
 
 impl Skill {
-    /// The speed of the stroke for which the errors are given, m/s: the filmed players' balls leave the cue at 3.5 m/s, which
-    /// is a stroke of 2.5 m/s.
+    /// Speed of the stroke to which the errors refer, m/s. In the filmed shots the balls leave the cue at 3.5 m/s,
+    /// which corresponds to a stroke of 2.5 m/s.
     pub const REFERENCE_SPEED: f64 = 2.5;
 
-    /// The fastest stroke that errors lead to, m/s: twice the fastest that can be meant.
+    /// Fastest stroke that errors can result in, m/s: twice the fastest intended one.
     pub const FASTEST: f64 = 2.0 * CueInputs::MAX_SPEED;
 
-    /// No errors.
+    /// A player without errors.
     pub const PERFECT: Self = Self { growth: Growth::NONE, ..Self::EXPERT.scaled(0.0) };
 
-    /// The errors of the Computer Olympiad's pool tournaments: 0.5 mm, 0.5 mm, 0.1°, 0.125°, 0.075 m/s, the same for every
-    /// stroke.
+    /// The errors in the Computer Olympiad's pool tournaments: 0.5 mm, 0.5 mm, 0.1°, 0.125°, 0.075 m/s, the same for
+    /// every stroke.
     pub const EXPERT: Self = Self {
         a: 0.5e-3,
         b: 0.5e-3,
@@ -83,7 +83,7 @@ impl Skill {
         growth: Growth::NONE,
     };
 
-    /// Those that have a name, the best first.
+    /// The named skills, best first.
     pub const NAMED: [(&'static str, Self); 6] = [
         ("perfect", Self::PERFECT),
         ("expert", Self::EXPERT),
@@ -93,7 +93,7 @@ impl Skill {
         ("beginner", Self::BEGINNER),
     ];
 
-    /// The same player with all errors so many times as large.
+    /// Returns the same player with all errors multiplied by `factor`.
     #[must_use]
     pub const fn scaled(self, factor: f64) -> Self {
         Self {
@@ -106,7 +106,7 @@ impl Skill {
         }
     }
 
-    /// How many times an expert's errors at the reference stroke, on average over the five.
+    /// Returns the errors at the reference stroke as a multiple of an expert's, averaged over the five inputs.
     pub fn scale(&self) -> f64 {
         self.values().iter().zip(Self::EXPERT.values()).map(|(own, expert)| own / expert).sum::<f64>() / 5.0
     }
@@ -116,7 +116,7 @@ impl Skill {
         *self == Self::PERFECT
     }
 
-    /// The errors at one stroke, which grow no further.
+    /// Returns the errors at one stroke, without further growth.
     #[inline]
     #[must_use]
     pub fn at(&self, cue: &CueInputs) -> Self {
@@ -133,28 +133,28 @@ impl Skill {
         }
     }
 
-    /// The stroke that comes of trying `cue` with these standard normal errors, on balls of `radius` m.
+    /// Returns the stroke that results from an attempt at `cue` with these standard normal errors, on balls of `radius` m.
     #[inline]
     pub fn stroke(&self, radius: f64, cue: &CueInputs, errors: &Errors) -> CueInputs {
         let own = self.at(cue);
         CueInputs {
             a: cue.a + own.a / radius * errors[0],
             b: cue.b + own.b / radius * errors[1],
-            // A cue is held neither below the cloth nor over the back.
+            // A cue is neither below the cloth nor beyond vertical.
             theta: (cue.theta + own.theta * errors[2]).clamp(0.0, STEEPEST.max(cue.theta)),
             phi: cue.phi + own.phi * errors[3],
-            // Nor does a stroke go backwards, or faster than a session's record may say (`drills::validity`).
+            // A stroke never goes backwards, nor faster than a session file may state (`drills::validity`).
             speed: (cue.speed + own.speed * errors[4]).clamp(1e-3, Self::FASTEST),
         }
     }
 
-    /// The standard error in one of the inputs at the reference stroke, in its unit; [`Skill::at`] gives those of a stroke.
+    /// Returns the standard error of one input at the reference stroke, in its unit; for other strokes see [`Skill::at`].
     pub fn error(&self, input: Input) -> f64 {
         let index = input as usize;
         self.values()[index] / FORMS[index].2
     }
 
-    /// The five in the order of [`FORMS`] and [`Input::ALL`], SI.
+    /// Returns the five errors in the order of [`FORMS`] and [`Input::ALL`], in SI units.
     const fn values(&self) -> [f64; 5] {
         [self.a, self.b, self.theta, self.phi, self.speed]
     }
@@ -183,7 +183,7 @@ mod tests {
     fn errors_never_turn_a_raised_cue_over() {
         for degrees in [80.0, 89.95_f64] {
             let cue = CueInputs { a: 0.0, b: 0.0, theta: degrees.to_radians(), phi: 0.0, speed: 2.0 };
-            // 40° too steep by one standard error of a player who is off by so much.
+            // 40° too steep by one standard error of a player with such large errors.
             let steepest = Skill { theta: 40.0_f64.to_radians(), ..Skill::CLUB }.stroke(0.03, &cue, &[1.0; 5]);
             steepest.validate().unwrap();
             assert!(steepest.theta >= cue.theta, "{steepest:?}");

@@ -1,42 +1,42 @@
-//! A skill as text: a name, or a player's own standard errors as people say them.
+//! The text form of a skill: a name, an average, or a player's own standard errors.
 
 use std::{fmt, str::FromStr};
 
 use super::{Growth, Skill};
 use crate::printing::{number, typed_number};
 
-/// Why a skill is refused.
+/// Why a skill is rejected.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum SkillError {
-    /// Neither a name nor five numbers, each once.
+    /// The text is neither a name, nor an average, nor five numbers, each given once.
     #[error(
         "there is no skill \"{0}\"; use perfect, expert, world-class, national, club or beginner, an average at \
          three-cushion like 0.6, or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\""
     )]
     Unknown(String),
-    /// An average that no level was measured to have.
+    /// The average is outside the measured range.
     #[error(
-        "no player was measured who averages {}; accepted are {} to {} points an inning at three-cushion, or world-class \
+        "no measured player averages {}; accepted are {} to {} points an inning at three-cushion, or world-class \
          (about 2), national (1), club (0.5) and beginner (0.15)",
         number(*_0), Skill::AVERAGES.0, Skill::AVERAGES.1
     )]
     Average(f64),
-    /// An error that nobody has.
+    /// An error is outside the accepted range.
     #[error("the skill has {name} = {}; accepted is 0 to {most} {unit}", number(*value))]
     Range {
         /// Name of the cue input.
         name: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
-        /// The largest that is accepted.
+        /// The largest accepted value.
         most: f64,
-        /// Its unit.
+        /// The unit of the value.
         unit: &'static str,
     },
 }
 
-/// The five errors as people say them: name, unit, SI units in one of it, and the largest that is accepted. A player who
-/// errs by more than a ball's radius, a right angle's half or 5 m/s plays no shot at all.
+/// The text form of the five errors: name, unit, the size of that unit in SI units, and the largest accepted value. A
+/// player with larger errors than a ball's radius, half a right angle or 5 m/s cannot play at all.
 pub(super) const FORMS: [(&str, &str, f64, f64); 5] = [
     ("a", "mm", 1e-3, 30.0),
     ("b", "mm", 1e-3, 30.0),
@@ -45,13 +45,13 @@ pub(super) const FORMS: [(&str, &str, f64, f64); 5] = [
     ("V", "m/s", 1.0, 5.0),
 ];
 
-/// What stands before an average at three-cushion; it may be left out.
+/// Optional prefix of a three-cushion average.
 const AVERAGE: &str = "average=";
 
 /// The name of the speed, whose error may be a share.
 const SPEED: &str = "V";
 
-/// The largest share of the speed that is accepted, %.
+/// The largest accepted share of the speed, %.
 const MOST_SHARE: f64 = 100.0;
 
 impl fmt::Display for Skill {
@@ -62,7 +62,7 @@ impl fmt::Display for Skill {
         if let Some(average) = self.as_average() {
             return formatter.pad(&format!("{AVERAGE}{average}"));
         }
-        // Twelve digits: what was read in degrees is written as it was.
+        // Twelve digits, so that a value read in degrees is written unchanged.
         let rounded = |value: f64| (value * 1e12).round() / 1e12;
         let Growth { speed, elevation, is_share } = self.growth;
         let part = |((name, _, unit, _), value): (&(&str, &str, f64, f64), f64)| {
@@ -80,7 +80,7 @@ impl fmt::Display for Skill {
     }
 }
 
-/// Name and largest value of the two numbers of a growth: with the speed and with the elevation.
+/// Names and largest values of the two numbers of a growth: with the speed and with the elevation.
 const GROWTHS: [(&str, f64); 2] = [("growth", 1.0), ("raised", 10.0)];
 
 impl FromStr for Skill {
@@ -95,7 +95,7 @@ impl FromStr for Skill {
         }
         let unknown = || SkillError::Unknown(text.to_owned());
         let number = |text: &str| text.trim().parse::<f64>().map_err(|_| unknown());
-        // Written so that NaN is refused.
+        // Written so that NaN is rejected.
         let checked = |name, value: f64, most, unit| {
             if (0.0..=most).contains(&value) { Ok(value) } else { Err(SkillError::Range { name, value, most, unit }) }
         };

@@ -197,7 +197,7 @@ fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
             "0.0000 m apart",
             "It stops there, in contact with yellow.",
             "It stops there, at the rail.",
-            "\"white\" cannot be met first; use any, yellow, red, cushion",
+            "\"white\" cannot be hit first; use any, yellow, red, cushion",
             "The rule is one-cushion",
         ],
     );

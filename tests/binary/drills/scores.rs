@@ -111,7 +111,7 @@ fn a_run_reads_strokes_and_the_word_coach_and_goes_on_after_a_line_that_is_none(
         attempts.iter().map(|attempt| (attempt["made"].as_bool(), attempt["helped"].as_bool())).collect();
     let [no, yes] = [false, true].map(Some);
     assert_eq!(told, [(no, no), (yes, yes), (yes, yes)], "two in a row end it");
-    assert_eq!(attempts[0]["verdict"], "No point: no ball was met");
+    assert_eq!(attempts[0]["verdict"], "No point: no ball was hit");
     let result = lines.last().unwrap();
     assert_eq!([&result["kind"], &result["over"], &result["high_run"]], [&json!("result"), &json!(true), &json!(2)]);
 }

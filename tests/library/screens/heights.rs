@@ -102,7 +102,7 @@ fn an_exercise_without_a_jump_says_so_and_a_ball_off_the_table_is_told() {
         ..exercise("off", "Off the table")
     };
     let player = Player::at_library(TRUE_COLOUR, &[off], &[]).press("Left Enter w Space").wait(60.0);
-    player.says("Foul: white left the table over the right rail and comes on the ");
+    player.says("Foul: white left the table over the right rail and goes to the ");
 }
 
 #[test]
