@@ -1,5 +1,5 @@
-//! The thesis' deep deterministic policy gradient (Algorithm 4, Table 4) with the networks of its reference 20, the
-//! example that comes with keras-rl.
+//! The thesis' deep deterministic policy gradient (DDPG; Algorithm 4, Table 4) with the networks of its reference 20, the
+//! example of keras-rl.
 
 use candle_core::{Device, Error, Tensor};
 use rand::RngExt;
@@ -28,57 +28,58 @@ use crate::learning::{
     settings::{SettingError, check, check_batch, check_count, check_layers, check_positive, check_share},
 };
 
-/// Settings of [`PlainDdpg`]: Table 4; what the thesis leaves open is as in keras-rl's example.
+/// Settings of [`PlainDdpg`]. The defaults are those of Table 4 or, if the thesis gives none, of keras-rl's example.
 #[expect(clippy::struct_excessive_bools, reason = "each is a setting by its own name, also in older files")]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PlainDdpgSettings {
-    /// When an episode is over.
+    /// When an episode ends.
     pub episode: Episode,
-    /// Units of the actor's hidden layers; its output is linear.
+    /// Units of the actor's hidden layers. Its output is linear.
     pub actor_layers: Vec<usize>,
-    /// Units of the critic's hidden layers; it sees state and action together.
+    /// Units of the critic's hidden layers. Its input is the state and the action.
     pub critic_layers: Vec<usize>,
     /// Adam's learning rate.
     pub learning_rate: f64,
-    /// Part k of the target networks that a soft update keeps (equation 59).
+    /// Share k of the target networks that a soft update keeps (equation 59).
     pub keep: f64,
-    /// Longest gradient that is not shortened.
+    /// Norm at which gradients are clipped.
     pub gradient_clip: f64,
-    /// Transitions remembered.
+    /// Capacity of the replay buffer, in transitions.
     pub memory: usize,
-    /// What a reward one shot later is worth now.
+    /// Discount factor.
     pub discount: f64,
-    /// Transitions an update learns from.
+    /// Minibatch size, in transitions.
     pub batch: usize,
     /// Shots before the first update.
     pub warm_up: usize,
-    /// Noise on the actions.
+    /// Exploration noise.
     pub noise: OrnsteinUhlenbeck,
-    /// Whether the noise begins at nought with every episode, as in keras-rl. With one shot an episode that leaves
-    /// white noise of a standard deviation of `sigma sqrt(dt)`.
+    /// Whether the noise restarts at zero with every episode, as in keras-rl. With one shot an episode the result is
+    /// white noise with a standard deviation of `sigma sqrt(dt)`.
     pub noise_restarts: bool,
-    /// Share of the noise that is left in the end.
+    /// Final noise as a share of the first.
     pub noise_falls_to: f64,
-    /// Share of the learning rate that is left in the end.
+    /// Final learning rate as a share of the first.
     pub learning_rate_falls_to: f64,
-    /// Shots over which these two and `cloning_width` fall, each by the same part with every shot.
+    /// Shots over which these two and `cloning_width` decay exponentially.
     pub falls_over: u64,
-    /// Share of a batch that is shots seen in hindsight (thesis 6.1.1). For rewards of points only, as the next.
+    /// Share of hindsight transitions in a minibatch (thesis 6.1.1). For rewards of points only, as the next setting.
     pub hindsight: f64,
-    /// Share of a batch that is demonstrations (thesis 6.1.2): shots that make the point, found by chance.
+    /// Share of demonstrations in a minibatch (thesis 6.1.2): shots that make the point, found by random search.
     pub demonstrations: f64,
-    /// Layouts, the first that are played, on which demonstrations are sought.
+    /// Number of layouts, from the first, on which demonstrations are searched.
     pub demonstration_layouts: u64,
-    /// Shots tried on each of them, beside those that the agent plays.
+    /// Random shots on each of them, in addition to the agent's shots.
     pub demonstration_tries: u32,
-    /// Weight of the actor's step towards such shots.
+    /// Weight of behaviour cloning in the actor's loss.
     pub cloning: f64,
-    /// How near they must be to its own action, first and last: a standard deviation in half turns of direction.
+    /// Width of the Gaussian around a lesson that the actor climbs, at first and in the end: a standard deviation of the direction,
+    /// in half turns.
     pub cloning_width: [f64; 2],
-    /// Weight of the actor's step up the critic.
+    /// Weight of the critic's value (the deterministic policy gradient) in the actor's loss.
     pub climbing: f64,
-    /// How strongly actions out of range are pulled back.
+    /// Weight of the penalty on actions out of range.
     pub range_pull: f64,
     /// Whether each transition of a minibatch is transformed by a random one of the table's symmetries (data augmentation).
     pub symmetric: bool,
@@ -176,12 +177,12 @@ impl PlainDdpgSettings {
         Rates { adam: AdamConfig { learning_rate, gradient_clip }, keep }
     }
 
-    /// The networks in a file that an agent with these settings has filled after so many updates.
+    /// Reads the networks of an agent with these settings after `updates` updates.
     fn networks(&self, reader: &Reader<'_>, updates: u32) -> Result<ActorCritic, WeightsError> {
         ActorCritic::from_values(&self.sizes(), self.rates(), &reader.array("networks")?.1, updates)
     }
 
-    /// What is left after `shots` of something of which `last` is left in the end.
+    /// Returns the factor of an exponential decay after `shots`; its final value is `last`.
     fn decayed(&self, last: f64, shots: u64) -> f64 {
         last.powf((shots as f64 / self.falls_over as f64).min(1.0))
     }
@@ -194,14 +195,14 @@ impl PlainDdpgSettings {
         Guidance { climbing, lessons, cloning, width: [width, speed], pull }
     }
 
-    /// How the agent sees every state; `None` if as it is on the table.
+    /// Returns the view in which the agent sees states; `None` for table coordinates.
     fn fixed_view(&self) -> Option<fn(State) -> View> {
         if self.relative { Some(View::relative) } else { self.canonical.then_some(View::canonical) }
     }
 
-    /// Rows of a batch for lessons of both kinds.
+    /// Returns the minibatch rows for hindsight and for demonstrations.
     fn lesson_rows(&self) -> [usize; 2] {
-        // A share that is not nought has a row at least: what is sought for it would not be learnt else.
+        // A positive share gets at least one row, so that the lessons that are searched for are also learnt from.
         [self.hindsight, self.demonstrations].map(|share| {
             let least = usize::from(share > 0.0);
             ((share * self.batch as f64) as usize).max(least)
@@ -209,12 +210,13 @@ impl PlainDdpgSettings {
     }
 }
 
-/// A point asks less of the speed than of the direction: lessons may be so many times farther in speed,
+/// Width of the Gaussian around a lesson in speed, relative to that in direction: points depend less on the speed.
 const SPEED_WIDTH: f64 = 10.0;
-/// and at most so far, of a range of two.
+
+/// Upper limit of that width. Actions range over 2.
 const WIDEST: f64 = 0.5;
 
-/// The agent.
+/// The thesis' DDPG agent.
 #[derive(Debug)]
 pub struct PlainDdpg {
     settings: PlainDdpgSettings,
@@ -231,7 +233,7 @@ struct PlainDdpgState {
     updates: u32,
     next: usize,
     noise: Action,
-    /// Those of an agent that has none are not written, as they were not before there were any.
+    /// Omitted for agents without lessons, so that their checkpoints equal those of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     lessons: Option<LessonsState>,
 }
@@ -339,7 +341,7 @@ impl Agent for PlainDdpg {
         Ok(Self { settings, networks, replay, lessons, noise, shots })
     }
 
-    /// The learning networks become both the learning ones and the targets; the optimisers start again.
+    /// The online networks of the file become the online and the target networks; the optimisers restart.
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
         self.networks = self.settings.networks(reader, 0)?.begun_anew()?;
         Ok(())
