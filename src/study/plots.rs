@@ -96,7 +96,8 @@ fn dots(study: &Study, family: &str, dt: Option<f64>) -> Option<Series> {
     let index = study.rows.iter().position(|row| row.method == family && row.dt == dt)?;
     let color = STYLES.iter().find(|look| look.0 == family)?.1;
     let points = study.points[index].iter().take(MAX_DOTS);
-    let points = points.map(|point| Spot { x: point.condition, y: point.rest.max(SMALLEST_ERROR), ..Spot::default() }).collect();
+    let points =
+        points.map(|point| Spot { x: point.condition, y: point.rest.max(SMALLEST_ERROR), ..Spot::default() }).collect();
     let words = study.rows[index].words;
     let name = dt.map_or_else(|| words.to_owned(), |dt| format!("{words}, dt {dt:e} s"));
     Some(Series { name, color, mark: Mark::Dots, points })

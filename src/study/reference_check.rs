@@ -98,12 +98,14 @@ fn check(reference: &Reference) -> Checked {
     let has_events = !reference.events.is_empty();
     let differs = |kinds: &mut dyn Iterator<Item = EventKind>| {
         let kinds: Vec<EventKind> = kinds.collect();
-        kinds.len() != reference.events.len() || !kinds.iter().zip(&reference.events).all(|(kind, it)| matches_event(*kind, it))
+        kinds.len() != reference.events.len()
+            || !kinds.iter().zip(&reference.events).all(|(kind, it)| matches_event(*kind, it))
     };
     let end = recording.as_ref().map(Recording::final_layout);
     let engine_wrong = has_events
         .then(|| recording.as_ref().is_none_or(|it| differs(&mut it.events().iter().map(|event| event.kind))));
-    let steady = recording.as_ref().filter(|_| reference.condition.is_none_or(|condition| condition < MAX_CONDITION_FOR_TIMES));
+    let steady =
+        recording.as_ref().filter(|_| reference.condition.is_none_or(|condition| condition < MAX_CONDITION_FOR_TIMES));
     let time_error = |recording: &Recording| {
         let pairs = recording.events().iter().zip(&reference.events);
         pairs.map(|(ours, theirs)| (ours.time - theirs.t).abs()).fold(0.0, f64::max)

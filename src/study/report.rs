@@ -88,7 +88,11 @@ fn study_text(out: &mut String, study: &Study) {
         "{:<METHOD$}{:>6}{:>11}  {:<27}{:<27}off by",
         "", "", "µs a shot", "error at rest, m", "in units"
     );
-    let _ = writeln!(out, "{:<METHOD$}{:>6}{:>11}  {SPREAD_HEADER:<27}{SPREAD_HEADER:<27}> 1e-9 m", "method", "shots", "mean");
+    let _ = writeln!(
+        out,
+        "{:<METHOD$}{:>6}{:>11}  {SPREAD_HEADER:<27}{SPREAD_HEADER:<27}> 1e-9 m",
+        "method", "shots", "mean"
+    );
     for row in &study.rows {
         let _ = writeln!(
             out,
@@ -106,7 +110,11 @@ fn study_text(out: &mut String, study: &Study) {
         "\n{:<METHOD$}{:<27}{:>9}{:>7}  {:<27}",
         "", "event times, s", "wrong", "first", "energy balance"
     );
-    let _ = writeln!(out, "{:<METHOD$}{SPREAD_HEADER:<27}{:>9}{:>7}  {SPREAD_HEADER:<27}gave up", "method", "sequence", "wrong");
+    let _ = writeln!(
+        out,
+        "{:<METHOD$}{SPREAD_HEADER:<27}{:>9}{:>7}  {SPREAD_HEADER:<27}gave up",
+        "method", "sequence", "wrong"
+    );
     for row in &study.rows {
         let _ = writeln!(
             out,

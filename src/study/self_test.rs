@@ -114,7 +114,8 @@ fn network(table: &Table, rule: Rule, policy: &Policy) -> NetworkTest {
     let layouts = held_out_layouts(table, LAYOUTS, SEED);
     let makes = |layout: &&_| scores(rule, table, layout, &policy.propose(table, layout, &Skill::PERFECT));
     let points = layouts.iter().filter(makes).count();
-    let least = if (table.name.as_str(), rule) == ("thesis", Rule::ThreeCushion) { LEAST_SHARE_ON_THESIS } else { LEAST_SHARE };
+    let least =
+        if (table.name.as_str(), rule) == ("thesis", Rule::ThreeCushion) { LEAST_SHARE_ON_THESIS } else { LEAST_SHARE };
     let is_right = points as f64 >= least * LAYOUTS as f64;
     NetworkTest { table: table.name.clone(), rule: rule.name(), layouts: LAYOUTS, points, is_right }
 }

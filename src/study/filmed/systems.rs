@@ -129,7 +129,8 @@ mod tests {
             for case in &system.cases {
                 let [from, to] = case.cue_line.map(DVec2::from_array);
                 let line = Line::between(from, to);
-                let numbers = coach_system.numbers(&line).unwrap_or_else(|| panic!("{coach_system} {:?}", case.cue_line));
+                let numbers =
+                    coach_system.numbers(&line).unwrap_or_else(|| panic!("{coach_system} {:?}", case.cue_line));
                 for (ours, theirs) in
                     [(numbers.start, case.start), (numbers.first, case.first), (numbers.third, case.third)]
                 {

@@ -101,7 +101,8 @@ impl Contact {
     pub fn gap<R: Real>(self, numbers: &Numbers<R>, balls: &Balls<R>) -> R {
         match self {
             Self::Balls(first, second) => {
-                let (difference, diameter) = (balls[first].position - balls[second].position, R::of(2.0) * numbers.radius);
+                let (difference, diameter) =
+                    (balls[first].position - balls[second].position, R::of(2.0) * numbers.radius);
                 // The difference of squares keeps digits that the square root would round off.
                 (difference.dot(difference) - diameter * diameter) / (difference.length() + diameter)
             }

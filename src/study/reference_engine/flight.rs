@@ -159,8 +159,8 @@ pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Ball
             } else {
                 shift(&mut other, gap);
             }
-            let met =
-                supported_meet(numbers, &mut one, &mut other).unwrap_or_else(|| balls_meet(numbers, &mut one, &mut other));
+            let met = supported_meet(numbers, &mut one, &mut other)
+                .unwrap_or_else(|| balls_meet(numbers, &mut one, &mut other));
             (balls[first], balls[second]) = (one, other);
             met
         }
@@ -286,7 +286,13 @@ fn supported_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut 
 /// Separates two balls, the lower one supported by the cloth, along `n` with at least the speed `slowest`. The energy comes
 /// from their sliding along each
 /// other, which neither opens nor closes the gap. Returns the dissipated energy per mass.
-fn separate_slowly<R: Real>(slowest: R, numbers: &Numbers<R>, n: Vector<R>, upper: &mut Ball<R>, lower: &mut Ball<R>) -> R {
+fn separate_slowly<R: Real>(
+    slowest: R,
+    numbers: &Numbers<R>,
+    n: Vector<R>,
+    upper: &mut Ball<R>,
+    lower: &mut Ball<R>,
+) -> R {
     let relative = upper.velocity - lower.velocity;
     let opening = relative.dot(n);
     let across = relative - n * opening;
