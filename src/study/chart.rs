@@ -1,6 +1,5 @@
 //! Charts of the study as SVG, drawn by plotters: panels side by side with shared axes and a legend below. They are dark on a
-//! white
-//! background, readable on any page.
+//! white background, readable on any page.
 
 use std::{f64::consts::TAU, io, ops::Range};
 

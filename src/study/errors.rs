@@ -54,8 +54,7 @@ impl Errors {
 }
 
 /// Returns the collisions without those that repeat the last collision of all their balls. How many bounces of a chatter a
-/// method reports, and how
-/// the balls move between them, is a choice of the method.
+/// method reports, and how the balls move between them, is a choice of the method.
 fn without_chatter(events: &[(f64, EventKind)]) -> Vec<(f64, EventKind)> {
     let mut last = [None; crate::table::BALLS];
     let mut kept = Vec::new();

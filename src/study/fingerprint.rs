@@ -13,8 +13,7 @@ use crate::{
 };
 
 /// The value of [`hash`] on `textbook` for balls that stay on the cloth, on every machine. It changes only when results change
-/// on
-/// purpose.
+/// on purpose.
 pub const TEXTBOOK: u64 = 0x714d_1dc1_8e09_286c;
 
 /// Number of shots in the hash.
@@ -65,8 +64,7 @@ pub fn shots(table: &Table, seed: u64, count: usize) -> Vec<(Layout, Impulse)> {
 }
 
 /// Hashes [`SHOTS`] shots on a table: 64-bit FNV-1a (Fowler, Noll and Vo). The cue ball's initial vertical speed rises from 0
-/// to `lift`,
-/// m/s, over the shots.
+/// to `lift`, m/s, over the shots.
 pub fn hash(table: &Table, lift: f64) -> u64 {
     let mut shots = shots(table, SEED, SHOTS);
     for (number, (_, impulse)) in shots.iter_mut().enumerate() {

@@ -31,8 +31,7 @@ const STYLES: [(&str, RGBColor, Mark); 7] = [
 ];
 
 /// Plots the error at rest against the run time: the median of each method with a thin line up to the 99th percentile. Methods
-/// with fixed
-/// steps form a curve over the time step.
+/// with fixed steps form a curve over the time step.
 ///
 /// # Errors
 /// Fails if the plot cannot be drawn.

@@ -14,8 +14,7 @@ use super::{
 use crate::table::Table;
 
 /// Shots in a timed block. Methods take turns block by block: a block is long enough for the clock, and short enough that
-/// machine noise affects
-/// all methods equally.
+/// machine noise affects all methods equally.
 const BLOCK: usize = 16;
 
 /// A block that takes longer than this, s, is timed only once: machine noise is short in comparison.

@@ -69,8 +69,7 @@ impl StudyShot {
 }
 
 /// Draws `count` shots from `seed`: balls anywhere, the tip within the miscue limit, the cue raised up to `steepest`, aimed at
-/// a random
-/// part of an object ball.
+/// a random part of an object ball.
 pub fn random_shots(table: &Table, count: usize, seed: u64, steepest: Steepest) -> Vec<StudyShot> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     (0..count).map(|_| random_shot(table, steepest, &mut rng)).collect()
@@ -134,8 +133,7 @@ pub struct ReferenceEvent {
 
 impl Reference {
     /// Returns the table of the shot, `None` if there is no preset of that name. If a ball leaves the cloth, the table gets the
-    /// default flight
-    /// parameters.
+    /// default flight parameters.
     pub fn table(&self) -> Option<Table> {
         let flies = self.events.iter().any(|event| event.kind == EventKind::Jumps(0).name());
         let table = Table::preset(&self.preset).ok()?;

@@ -167,8 +167,7 @@ const THESIS_UPDATES: [ThesisUpdate; 3] = [
 ];
 
 /// Runs `update` repeatedly and returns the updates per second of the thread's CPU time (wall time on systems other than
-/// Linux). All work
-/// stays on this one thread: candle's layers would otherwise move a part to other threads.
+/// Linux). All work stays on this one thread: candle's layers would otherwise move a part to other threads.
 fn updates_a_second<T>(
     time: Duration,
     mut update: impl FnMut() -> candle_core::Result<T> + Send,

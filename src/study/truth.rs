@@ -11,8 +11,7 @@ use crate::{
 };
 
 /// Relative perturbation from which the condition is computed. It is far above the rounding of the truth, and so small that a
-/// shot which
-/// amplifies by a factor of 1e9 still responds linearly.
+/// shot which amplifies by a factor of 1e9 still responds linearly.
 const PERTURBATION: f64 = 1e-15;
 
 /// Two collisions of the same partners within this time count as chatter, s.
@@ -28,8 +27,7 @@ pub struct Truth {
     /// Displacement of the final positions per relative change in speed or angle, m: the larger of the two.
     pub condition: f64,
     /// Whether balls chatter or slide off one another in bounces. How many of these events a method reports depends on where it
-    /// truncates
-    /// the series.
+    /// truncates the series.
     pub chatters: bool,
     /// Energy that the audit does not explain at the end, as a share of the initial energy.
     pub unaccounted: f64,

@@ -1,10 +1,8 @@
 //! Predictions from rail to rail: the motion of a filmed ball leaving a rail is fitted to its course up to the second rail
-//! after, and the impacts
-//! on the rails after that are predicted.
+//! after, and the impacts on the rails after that are predicted.
 //!
 //! The fit has seven parameters: position, velocity, slip and side spin. The course to the next rail determines all but the
-//! side spin, which
-//! follows from the rebound there.
+//! side spin, which follows from the rebound there.
 
 use glam::DVec2;
 
@@ -75,8 +73,7 @@ pub fn soften(miss: f64) -> f64 {
 
 impl Chain {
     /// Fits the motion at the first sample to the course up to the rail `last`. The search starts from `known`, or from several
-    /// values of the side spin.
-    /// Returns the motion and the sum of squared residuals.
+    /// values of the side spin. Returns the motion and the sum of squared residuals.
     pub fn fit(&self, table: &Table, last: usize, known: Option<Motion>) -> (Motion, f64) {
         let begin = self.samples[0].time;
         let until = self.hits[last].time;

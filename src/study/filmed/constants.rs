@@ -17,8 +17,7 @@ use crate::{
 pub const COUNT: usize = 11;
 
 /// Name of each constant in a table file, its prior (mean and standard deviation, from direct measurements on the film and from
-/// the literature), and
-/// the step for finite differences.
+/// the literature), and the step for finite differences.
 const PRIORS: [(&str, f64, f64, f64); COUNT] = [
     ("e_rail", 0.874, 0.016, 1e-3),
     ("mu_rail", 0.25, 0.05, 2e-3),

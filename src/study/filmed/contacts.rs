@@ -8,8 +8,7 @@ use crate::{
 };
 
 /// Two balls may have touched if their filmed centres come closer than their diameter plus this, m. Between two samples a fast
-/// ball may turn,
-/// where the film has a straight line.
+/// ball may turn, where the film has a straight line.
 const NEAR: f64 = 0.02;
 /// The same if both balls move, m; such balls may have passed without touching.
 const NEAR_MOVING: f64 = 0.006;

@@ -111,8 +111,7 @@ impl FilmedShot {
     }
 
     /// Returns a ball's position at `time`, m, by linear interpolation between samples. A ball at rest stays there until it
-    /// starts to move: it is not
-    /// interpolated towards the first sample in motion.
+    /// starts to move: it is not interpolated towards the first sample in motion.
     pub fn place(&self, ball: usize, time: f64) -> DVec2 {
         let track = &self.balls[ball];
         let after = track.partition_point(|sample| sample.time <= time);

@@ -27,12 +27,10 @@ pub struct Weighed {
 const ROUNDS: usize = 2000;
 
 /// Weighs models by stacking (Yao, Vehtari, Simpson and Gelman 2018): the weights are those of the mixture that maximizes the
-/// likelihood of the
-/// filmed rail impacts, each predicted with constants fitted to the other half of the film.
+/// likelihood of the filmed rail impacts, each predicted with constants fitted to the other half of the film.
 ///
 /// `sure` is the strength of the prior: the number of additional impacts that count as predicted equally well by all models. A
-/// few stretches
-/// therefore cannot rule out a model.
+/// few stretches therefore cannot rule out a model.
 pub fn weigh(table: &Table, models: &[RailModel], film: &[FilmedShot], sure: f64) -> Vec<Weighed> {
     let half = |rest: usize| -> Vec<FilmedShot> { film.iter().skip(rest).step_by(2).cloned().collect() };
     let halves = [half(0), half(1)];

@@ -1,10 +1,8 @@
 //! Comparison with filmed balls: how far the simulation deviates from real balls, and which constants fit them best.
 //!
 //! The film (`tests/data/filmed`, with its source) contains the positions of the balls at 50 frames a second. `rail_hits`
-//! detects impacts
-//! on rails. `chains` predicts from rail to rail, `whole` predicts whole shots, `systems` compares with diamond systems.
-//! `constants` fits the
-//! constants of a table, `laws` weighs the models of the rails.
+//! detects impacts on rails. `chains` predicts from rail to rail, `whole` predicts whole shots, `systems` compares with diamond
+//! systems. `constants` fits the constants of a table, `laws` weighs the models of the rails.
 
 mod chains;
 mod constants;

@@ -20,8 +20,7 @@ const MARGIN: u32 = 16;
 const ABOVE: u32 = 32;
 
 /// Draws the cue ball of some shots up to five seconds after the stroke, filmed (dots) and simulated on `table` (line), with
-/// the stroke fitted to
-/// the first two seconds.
+/// the stroke fitted to the first two seconds.
 ///
 /// # Errors
 /// Fails if the picture cannot be drawn.

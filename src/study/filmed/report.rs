@@ -9,8 +9,7 @@ use crate::{
 };
 
 /// Rail models to compare with that of the `match` table, with constants fitted to the whole film by `--fit`: name, model,
-/// `e_rail`, `mu_rail`,
-/// (height - R)/R.
+/// `e_rail`, `mu_rail`, (height - R)/R.
 const RIVALS: [(&str, RailModel, f64, f64, f64); 3] = [
     ("match, rails at the equator", RailModel::Equator, 0.9153, 0.2606, 0.0),
     ("match, sharp nose", RailModel::Nose, 0.8748, 0.2551, 0.2215),

@@ -1,8 +1,7 @@
 //! Compares diamond systems, by which players compute their lines, with the simulation.
 //!
 //! Each system predicts where a cue ball on a given line arrives. One natural stroke per system (side, roll and speed), the
-//! same for all its
-//! cases, is chosen to fit the arrivals best.
+//! same for all its cases, is chosen to fit the arrivals best.
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};

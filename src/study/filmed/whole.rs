@@ -1,6 +1,5 @@
 //! Predictions of whole shots: the stroke is fitted to the cue ball's first two seconds, and the following seconds are
-//! predicted with all
-//! impacts.
+//! predicted with all impacts.
 
 use glam::DVec2;
 

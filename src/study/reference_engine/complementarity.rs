@@ -1,11 +1,9 @@
 //! Solves the complementarity problem of resting contact: normal forces complementary to the opening rates, and frictions
-//! within their disks
-//! complementary to the slips that they would allow to begin.
+//! within their disks complementary to the slips that they would allow to begin.
 //!
 //! Each law states that its force is the projection of itself minus a multiple of its rate: onto the non-negative numbers, or
-//! onto the disk. Newton's
-//! method on these equations (Alart and Curnier 1991) converges in a few steps from near the solution; sweeps of the
-//! projections lead there.
+//! onto the disk. Newton's method on these equations (Alart and Curnier 1991) converges in a few steps from near the solution;
+//! sweeps of the projections lead there.
 
 use super::{Real, linear::solve};
 

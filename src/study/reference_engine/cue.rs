@@ -18,8 +18,7 @@ pub struct Stroke<R> {
 }
 
 /// Returns sine and cosine of the ball's direction with squirt: it deviates away from the tip's side by an angle with the
-/// tangent
-/// `5/2 a √(1-a²) / (1 + m/m_e + 5/2 (1-a²))` (Alciatore, TP A.31).
+/// tangent `5/2 a √(1-a²) / (1 + m/m_e + 5/2 (1-a²))` (Alciatore, TP A.31).
 fn squirted<R: Real>(numbers: &Numbers<R>, a: R, (sine, cosine): (R, R)) -> (R, R) {
     let Some(ratio) = numbers.end_ratio else { return (sine, cosine) };
     let (one, rest) = (R::of(1.0), (R::of(1.0) - a * a).max(R::zero()));
@@ -30,8 +29,7 @@ fn squirted<R: Real>(numbers: &Numbers<R>, a: R, (sine, cosine): (R, R)) -> (R, 
 }
 
 /// Returns velocity and spin just after the stroke, by thesis equations (9), (15) and (16) divided by the ball's mass, in the
-/// direction with
-/// squirt. If balls can leave the cloth, its reaction is included.
+/// direction with squirt. If balls can leave the cloth, its reaction is included.
 pub fn strike<R: Real>(numbers: &Numbers<R>, stroke: &Stroke<R>) -> (Vector<R>, Vector<R>) {
     let Stroke { a, b, theta: (sin_theta, cos_theta), phi, speed } = *stroke;
     let (sin_phi, cos_phi) = squirted(numbers, a, phi);

@@ -1,6 +1,5 @@
 //! Double-double arithmetic: numbers of about 32 digits as the unevaluated sum of two `f64`, by error-free sums and products
-//! (Dekker 1971; Hida, Li
-//! and Bailey 2001).
+//! (Dekker 1971; Hida, Li and Bailey 2001).
 //!
 //! The relative error of every operation is below 2^-102, as long as no value is near the limits of the `f64` range.
 
@@ -36,8 +35,7 @@ impl DoubleDouble {
     }
 
     /// Returns the exact product of two `f64`, by splitting each into halves of at most 26 bits. A fused multiply-add would
-    /// need a single operation, but
-    /// is a slow function call on machines that the program is not compiled for.
+    /// need a single operation, but is a slow function call on machines that the program is not compiled for.
     pub fn of_product(a: f64, b: f64) -> Self {
         let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
         let high = a * b;

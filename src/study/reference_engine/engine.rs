@@ -17,8 +17,7 @@ use crate::{
 };
 
 /// Returns the number of steps after which the engine gives up a shot. With 32 digits, no shot whose balls come to rest needs
-/// as many. With 16 or 8 digits,
-/// balls that press each other may separate and meet again forever.
+/// as many. With 16 or 8 digits, balls that press each other may separate and meet again forever.
 fn max_steps<R: Real>() -> usize {
     if R::ROUNDING < 1e-20 { 200_000 } else { 5_000 }
 }
@@ -53,8 +52,7 @@ impl<R: Real> Shot<R> {
 }
 
 /// Why this engine cannot judge a shot: the table has a law that it does not implement, or the equations are not solved. In
-/// double-double no shot is
-/// known for which the latter is true.
+/// double-double no shot is known for which the latter is true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unjudged {
     /// The solver found no forces that obey all laws of resting contact.

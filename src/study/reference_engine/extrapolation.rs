@@ -10,8 +10,7 @@ pub const COLUMNS: usize = 14;
 const SAME: f64 = 256.0;
 
 /// Limits of the factor by which `blur` widens this tolerance: an absolute one, and the power of rounding that replaces it for
-/// numbers with few
-/// digits.
+/// numbers with few digits.
 const BLURRED: f64 = 1e6;
 const BLURRED_POWER: f64 = -0.375;
 
@@ -78,8 +77,7 @@ impl<R: Real> State<R> {
 /// Columns agree if they differ by rounding, or by rounding times `blur` times the change itself.
 ///
 /// Changes since the start are integrated, not the state itself: large numbers in the state would leave their rounding in the
-/// changes, and the
-/// extrapolation would amplify it.
+/// changes, and the extrapolation would amplify it.
 pub fn extrapolate<R: Real>(
     start: &State<R>,
     step: R,

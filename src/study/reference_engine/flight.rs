@@ -1,6 +1,5 @@
 //! Balls off the cloth: the reaction of the cloth to a ball that is pressed into it or lands on it, and impacts of balls in the
-//! air. Every landing
-//! is an event, down to hops of the size of rounding.
+//! air. Every landing is an event, down to hops of the size of rounding.
 
 use super::{
     Ball, Motion, Numbers, Real, Vector,
@@ -59,8 +58,7 @@ fn apply_cloth_friction<R: Real>(numbers: &Numbers<R>, push: R, ball: &mut Ball<
 }
 
 /// Chooses the motion of a ball after a stroke or an impact. On the cloth the ball is pressed into it, and stays there if it
-/// rebounds no faster than
-/// the slowest bounce in the air. Returns the dissipated energy per mass.
+/// rebounds no faster than the slowest bounce in the air. Returns the dissipated energy per mass.
 pub fn settle<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
     let mut work = R::zero();
     if ball.position.z <= R::zero() {
@@ -180,8 +178,7 @@ pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Ball
 }
 
 /// Removes the remaining gap, which is rounding, from the position of a ball in the air, without landing it. A ball that is
-/// just being lifted stays at
-/// the height of the cloth.
+/// just being lifted stays at the height of the cloth.
 fn shift<R: Real>(ball: &mut Ball<R>, by: Vector<R>) {
     let height = ball.position.z.max(R::zero());
     ball.position = ball.position + by;
@@ -191,10 +188,8 @@ fn shift<R: Real>(ball: &mut Ball<R>, by: Vector<R>) {
 }
 
 /// Returns the relative velocity after an impact with restitution. Before the impact it was `across - approach n`; friction has
-/// already changed the part
-/// across. No impact in the air opens more slowly than `slowest`: an impact that approaches no faster loses nothing, and the
-/// missing energy comes
-/// from the part across.
+/// already changed the part across. No impact in the air opens more slowly than `slowest`: an impact that approaches no faster
+/// loses nothing, and the missing energy comes from the part across.
 fn opened<R: Real>(slowest: R, n: Vector<R>, opening: R, across: Vector<R>) -> Vector<R> {
     let missing = slowest * slowest - opening * opening;
     if missing <= R::zero() {
@@ -238,10 +233,8 @@ fn balls_meet<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second: &mut B
 }
 
 /// Collides a ball in the air with one on the cloth so softly that the lower ball stays there. The cloth supports the lower
-/// ball, so that it yields only
-/// horizontally, and the upper ball gets the rebound of both the balls and the cloth. Returns the same as [`balls_meet`];
-/// `None` if the lower ball is
-/// thrown up, or if the two separate anyway.
+/// ball, so that it yields only horizontally, and the upper ball gets the rebound of both the balls and the cloth. Returns the
+/// same as [`balls_meet`]; `None` if the lower ball is thrown up, or if the two separate anyway.
 fn supported_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut Ball<R>) -> Option<(R, R)> {
     let flight = numbers.flight?;
     let (mut first, mut second) = (*one, *other);
@@ -284,8 +277,7 @@ fn supported_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut 
 }
 
 /// Separates two balls, the lower one supported by the cloth, along `n` with at least the speed `slowest`. The energy comes
-/// from their sliding along each
-/// other, which neither opens nor closes the gap. Returns the dissipated energy per mass.
+/// from their sliding along each other, which neither opens nor closes the gap. Returns the dissipated energy per mass.
 fn separate_slowly<R: Real>(
     slowest: R,
     numbers: &Numbers<R>,

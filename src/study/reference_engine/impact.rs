@@ -1,6 +1,5 @@
 //! Collisions (thesis 2.2.2 and 2.2.3, and cushions with contact at the height of the nose). Each function returns the
-//! dissipated energy per mass,
-//! computed from the impulses.
+//! dissipated energy per mass, computed from the impulses.
 
 use super::{
     Ball, Numbers, Real, Vector,
@@ -60,9 +59,8 @@ pub fn rail_collides<R: Real>(numbers: &Numbers<R>, cushion: &Cushion<R>, n: Vec
 }
 
 /// Collides a ball with a nose. The normal impulse acts along the line from the nose to the ball's centre, and friction across
-/// it. The cloth
-/// absorbs a downward impulse. An upward impulse lifts the ball if it is fast enough and balls can leave the cloth. Also
-/// returns the upward impulse.
+/// it. The cloth absorbs a downward impulse. An upward impulse lifts the ball if it is fast enough and balls can leave the
+/// cloth. Also returns the upward impulse.
 fn nose_collides<R: Real>(
     numbers: &Numbers<R>,
     friction: R,
@@ -112,8 +110,7 @@ pub fn coulomb<R: Real>(friction: Option<R>, push: R, slip: R, stops: R) -> R {
 }
 
 /// Returns the work of friction: impulse times mean slip. Along the table the slip decreases by 7 times the impulse (two balls:
-/// half of that for
-/// one), upwards by 5 times, because no ball leaves the cloth.
+/// half of that for one), upwards by 5 times, because no ball leaves the cloth.
 fn friction_work<R: Real>(slip: Vector<R>, share: R, bodies: R) -> R {
     let along = slip.flat().dot(slip.flat()) * (R::of(1.0) - R::of(7.0) * bodies * share);
     let upwards = slip.z * slip.z * (R::of(1.0) - R::of(5.0) * bodies * share);

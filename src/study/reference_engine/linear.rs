@@ -3,8 +3,7 @@
 use super::Real;
 
 /// Solves `matrix x = side` by Gaussian elimination with full pivoting. Undetermined unknowns are zero. The caller has to check
-/// whether the equations
-/// contradict each other.
+/// whether the equations contradict each other.
 pub fn solve<R: Real>(mut matrix: Vec<Vec<R>>, mut side: Vec<R>) -> Vec<R> {
     let count = side.len();
     let mut order: Vec<usize> = (0..count).collect();

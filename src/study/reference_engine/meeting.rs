@@ -108,8 +108,7 @@ fn points_meet<R: Real>(reach: R, [d, v, k]: [Vector<R>; 3], horizon: R, finder:
         return finder(&c, horizon);
     }
     // The root at zero of touching bodies belongs to the past contact and is divided out. Nothing presses, so openings and
-    // closings below the
-    // tolerance are rounding.
+    // closings below the tolerance are rounding.
     if opening > closed() {
         return finder(&[c[1], c[2], c[3], c[4], zero], horizon);
     }

@@ -1,18 +1,16 @@
 //! The reference engine: an event-driven simulation in any precision and with any root finder. It is written directly from the
-//! equations, without
-//! optimizations, and independently of `physics` and `simulation`, so that an error in one is not repeated in the other.
+//! equations, without optimizations, and independently of `physics` and `simulation`, so that an error in one is not repeated
+//! in the other.
 //!
 //! With 32 digits it computes the truth against which everything else is measured. Both engines share the names of events and
-//! cushions, and the
-//! one law that is chosen rather than derived: the speed at which balls begin to bounce if no forces hold them together.
+//! cushions, and the one law that is chosen rather than derived: the speed at which balls begin to bounce if no forces hold
+//! them together.
 //!
 //! Free balls move on parabolas from event to event (`motion`, `meeting`), balls in the air from landing to landing (`flight`).
-//! Contacts that close
-//! at the same time are solved together (`rounds`); the table defines the laws of its parts (`table`, `rails`, `impact`).
-//! Bounces that shrink
-//! without end become a resting contact (`moment`). Its forces follow from the laws by complementarity (`rest`, `laws`,
-//! `system`,
-//! `complementarity`) and are integrated from one change of the laws to the next (`piece`, `extrapolation`).
+//! Contacts that close at the same time are solved together (`rounds`); the table defines the laws of its parts (`table`,
+//! `rails`, `impact`). Bounces that shrink without end become a resting contact (`moment`). Its forces follow from the laws by
+//! complementarity (`rest`, `laws`, `system`, `complementarity`) and are integrated from one change of the laws to the next
+//! (`piece`, `extrapolation`).
 
 mod complementarity;
 mod contact;

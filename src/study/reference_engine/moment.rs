@@ -23,8 +23,7 @@ pub struct Moment<R> {
 /// Processes `balls`, of which those in `resting` were in resting contact before; `creeping` allows slow slips to creep.
 ///
 /// Bounces that shrink in geometric progression end in a resting contact. The last impact of such a chatter has no restitution.
-/// This is tried
-/// once the rebound is slow enough, and accepted if the contact then presses.
+/// This is tried once the rebound is slow enough, and accepted if the contact then presses.
 ///
 /// # Errors
 /// [`Unjudged::Unsolved`] if no forces are found that obey all laws.

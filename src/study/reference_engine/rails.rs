@@ -60,8 +60,7 @@ pub struct Cushion<R> {
 
 impl<R: Real> Cushion<R> {
     /// Returns sine and cosine of the angle up to the nose, seen from the centre of a ball on the cloth, and the largest share
-    /// of the slip that a
-    /// smooth friction takes.
+    /// of the slip that a smooth friction takes.
     pub fn nose(&self) -> (R, R, Option<R>) {
         match self.meeting {
             Meeting::Nose { sine, cosine, most } => (sine, cosine, most),

@@ -6,8 +6,7 @@ use std::{
 };
 
 /// A real number of some precision. The engine needs the four operations, the square root, comparisons and, for the friction of
-/// some tables,
-/// the exponential and the hyperbolic tangent.
+/// some tables, the exponential and the hyperbolic tangent.
 pub trait Real:
     Copy
     + Debug

@@ -79,8 +79,7 @@ pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Opti
 /// Returns the pressing contacts if slips may creep, and whether one does; `None` if no forces are found.
 ///
 /// A slip with almost no driving force grows so slowly that the equations are stiff: the direction of its friction settles many
-/// thousand times
-/// faster. This direction is then the one in which the slip would begin from rest.
+/// thousand times faster. This direction is then the one in which the slip would begin from rest.
 pub fn creep<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Option<(Rest<R>, bool)> {
     let none = tolerance::creeping();
     let pressing = pressing(numbers, balls, &closed(numbers, balls), none).ok()?;
@@ -118,8 +117,8 @@ fn pressing<R: Real>(
 /// Makes the contacts that never slip open with the speed of a first bounce, and returns whether there are any.
 ///
 /// With unlimited friction there are states in which no forces obey all laws (Painlevé's paradox): the force that would prevent
-/// the slip makes the
-/// contact open, and the open contact, without forces, closes. The contact then begins to bounce, higher each time.
+/// the slip makes the contact open, and the open contact, without forces, closes. The contact then begins to bounce, higher
+/// each time.
 fn bounce<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, closed: &[Contact]) -> bool {
     let mut bounces = false;
     for contact in closed.iter().filter(|contact| contact.friction(numbers).is_none()) {

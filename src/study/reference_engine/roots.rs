@@ -3,13 +3,11 @@
 use super::Real;
 
 /// A root finder. Takes the coefficients, lowest first, of a polynomial that is not negative at zero, and the end of the
-/// interval. Returns the first
-/// falling root in `(0, end]`.
+/// interval. Returns the first falling root in `(0, end]`.
 pub type Finder<R> = fn(&[R; 5], R) -> Option<R>;
 
 /// Finds the root between extrema. A polynomial is monotone between its extrema, which are the roots of its derivative and
-/// found in the same way,
-/// so no root can be missed. Works in any precision.
+/// found in the same way, so no root can be missed. Works in any precision.
 pub fn by_extrema<R: Real>(gap: &[R; 5], end: R) -> Option<R> {
     let slope = derivative(gap);
     let mut low = R::zero();
@@ -51,8 +49,7 @@ fn derivative<R: Real>(polynomial: &[R]) -> Vec<R> {
 }
 
 /// Returns the root of a function that falls through zero between `low` and `high`: by a Newton step if it stays within the
-/// bracket, else by
-/// bisection.
+/// bracket, else by bisection.
 pub fn bracketed<R: Real>(value: impl Fn(R) -> R, slope: impl Fn(R) -> R, mut low: R, mut high: R) -> R {
     let half = R::of(0.5);
     let rounding = R::of(R::ROUNDING);
@@ -76,10 +73,8 @@ pub fn bracketed<R: Real>(value: impl Fn(R) -> R, slope: impl Fn(R) -> R, mut lo
 }
 
 /// Returns where a function without a known derivative falls through zero between `low`, where it is not negative, and `high`,
-/// where it is: by
-/// false position after Anderson and Björck (1973). The result is on the side of `high`. Every fourth step halves the range, or
-/// its decades. The
-/// search stops once the value at `high` is not below `-enough`.
+/// where it is: by false position after Anderson and Björck (1973). The result is on the side of `high`. Every fourth step
+/// halves the range, or its decades. The search stops once the value at `high` is not below `-enough`.
 pub fn falling_root<R: Real>(value: impl Fn(R) -> R, mut low: R, mut high: R, enough: R) -> R {
     let (zero, half, one) = (R::zero(), R::of(0.5), R::of(1.0));
     let narrow = R::of(4.0 * R::ROUNDING);

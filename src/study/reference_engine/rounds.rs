@@ -1,10 +1,8 @@
 //! Simultaneous impacts, in rounds: contacts that close at the same time are solved together.
 //!
 //! The normal impulses of a round are complementary to the speeds after it (Moreau 1988), `0 <= v+ + e v- ⊥ P >= 0`; the
-//! frictions follow from the
-//! slips before it. Contacts that close as a result form the next round. An impact thus passes through a row of balls as a
-//! chain, and the result does not
-//! depend on the numbering.
+//! frictions follow from the slips before it. Contacts that close as a result form the next round. An impact thus passes
+//! through a row of balls as a chain, and the result does not depend on the numbering.
 
 use super::{
     Numbers, Real, Unjudged, Vector,
@@ -27,8 +25,7 @@ pub fn touching_contacts<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Vec
 }
 
 /// Collides all touching contacts that close; the contacts in `inelastic` have no restitution. Returns the contacts with an
-/// impact, and the dissipated
-/// energy per mass.
+/// impact, and the dissipated energy per mass.
 ///
 /// # Errors
 /// [`Unjudged::Unsolved`] if no impulses are found.
@@ -62,10 +59,8 @@ pub fn collide<R: Real>(
 }
 
 /// Collides `contacts` that close at the same time. Contacts that share balls are solved together; any other contact, also one
-/// that remains alone after
-/// others are relieved, follows the table's own law. The contacts in `inelastic` have no restitution. Adds the contacts with an
-/// impulse to `met`, and
-/// returns the dissipated energy per mass.
+/// that remains alone after others are relieved, follows the table's own law. The contacts in `inelastic` have no restitution.
+/// Adds the contacts with an impulse to `met`, and returns the dissipated energy per mass.
 ///
 /// # Errors
 /// [`Unjudged::Unsolved`] if no impulses are found.
@@ -124,8 +119,7 @@ pub fn alone<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, contact: Conta
 }
 
 /// Applies simultaneous impacts that share balls, with these normal impulses, at the height of the balls' centres and with the
-/// friction of slow
-/// impacts. Adds the contacts with an impulse to `met`, and returns the dissipated energy per mass.
+/// friction of slow impacts. Adds the contacts with an impulse to `met`, and returns the dissipated energy per mass.
 fn one_round<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,

@@ -1,8 +1,7 @@
 //! Rows of the balls' equations: a speed that a law constrains, and the force that acts along it.
 //!
 //! One set of coefficients describes both. The speed is `linear·v + lever·w`, summed over the balls. A force of size `f` per
-//! ball mass
-//! accelerates a ball by `f linear` and its rotation by `f lever 5/(2R²)`.
+//! ball mass accelerates a ball by `f linear` and its rotation by `f lever 5/(2R²)`.
 
 use super::{
     Numbers, Real, Vector,

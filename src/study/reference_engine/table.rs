@@ -158,8 +158,7 @@ impl<R: Real> Numbers<R> {
     /// deceleration ends.
     ///
     /// The bands are those of `physics::rolling`: the last band starts where `c1 v` is 0.059 `c0`, any other covers the share
-    /// `a / (a + 4.3 c1 v)` of its
-    /// initial speed.
+    /// `a / (a + 4.3 c1 v)` of its initial speed.
     pub fn band(&self, speed: R) -> (R, R) {
         let (least, growth) = (R::ratio(5.0, 7.0) * self.roll, self.roll_growth);
         if growth <= R::zero() {

@@ -13,15 +13,13 @@ pub fn settled<R: Real>() -> R {
 }
 
 /// Contacts that open or close more slowly than this count as closed and at rest, m/s. The effect of a slip that has just begun
-/// on a contact is
-/// smaller.
+/// on a contact is smaller.
 pub fn closed<R: Real>() -> R {
     R::of(256.0) * settled()
 }
 
 /// A bounce slower than this ends a chatter if the contact presses, m/s. The rest of the chatter would move a ball by about its
-/// square, which is
-/// rounding.
+/// square, which is rounding.
 pub fn chatter<R: Real>() -> R {
     R::of(R::ROUNDING.sqrt())
 }
@@ -32,15 +30,13 @@ pub fn last_hop<R: Real>() -> R {
 }
 
 /// Forces per mass and accelerations below this count as zero, m/s². A violated law is detected with a delay of this size; the
-/// missed slip or gap
-/// grows with its square.
+/// missed slip or gap grows with its square.
 pub fn slack<R: Real>() -> R {
     R::of(R::ROUNDING.sqrt())
 }
 
 /// Slips below this follow their driving force without delay, m/s, if they grow so slowly that the direction of their friction
-/// settles much
-/// faster.
+/// settles much faster.
 pub fn creeping<R: Real>() -> R {
     R::of(R::ROUNDING.powf(0.375))
 }

@@ -82,8 +82,7 @@ impl Training {
     }
 
     /// Runs the training. `played` receives the number of shots after each iteration and returns whether to continue; `None` if
-    /// it stops
-    /// the training.
+    /// it stops the training.
     ///
     /// # Errors
     /// Fails if the agent cannot start.

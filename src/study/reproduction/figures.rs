@@ -201,8 +201,7 @@ const fn changed(name: &'static str, color: RGBColor, change: Change) -> Reading
 }
 
 /// Noise on DDPG's actions: 0.03, which the thesis' source uses when an episode is one shot, 0.1, and 0.1 decaying; then 0.03
-/// again in the
-/// canonical frame.
+/// again in the canonical frame.
 const NOISES: [Reading; 4] = [
     changed("0.03", CRIMSON, Change::None),
     changed("0.1", AZURE, Change::StrongNoise),
@@ -229,8 +228,7 @@ pub const READINGS: [Reading; 3] = [
 
 impl Reading {
     /// Returns the number of shots for a reading if one-shot episodes play `shots`. Games play a quarter: their shots are
-    /// simulated until all
-    /// balls are at rest, which takes up to ten times as long.
+    /// simulated until all balls are at rest, which takes up to ten times as long.
     pub const fn shots(&self, shots: u64) -> u64 {
         match self.episode {
             Episode::OneShot => shots,

@@ -84,8 +84,7 @@ impl Session {
     }
 
     /// Runs all trainings and passes each figure to `hand_over` once it is complete. `played` receives the number of shots
-    /// after each iteration and
-    /// returns whether to continue.
+    /// after each iteration and returns whether to continue.
     ///
     /// # Errors
     /// Fails if an agent cannot start, or with any error of `hand_over`.
@@ -148,8 +147,7 @@ pub fn csv(drawn: &Drawn) -> String {
 }
 
 /// Returns a line for each curve: its final value and, for figures of rewards, the agent's mean reward without exploration.
-/// Readings with several
-/// seeds get another line with mean and standard deviation.
+/// Readings with several seeds get another line with mean and standard deviation.
 pub fn summary(drawn: &Drawn) -> Vec<String> {
     let Drawn { figure, random, .. } = drawn;
     let held_out = |curve: &Curve| curve.held_out.filter(|_| figure.measure == Measure::MeanReward);

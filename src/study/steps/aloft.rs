@@ -14,8 +14,7 @@ use crate::{
 const LOCATED: i32 = 60;
 
 /// Returns the rebound speed, m/s, below which a ball stays on the cloth. Its hop would be shorter than a step or, if landings
-/// are located,
-/// so would be [`LOCATED`] hops together.
+/// are located, so would be [`LOCATED`] hops together.
 pub(super) fn last_hop(cloth: &Cloth, method: Steps) -> f64 {
     let seen = 0.5 * cloth.gravity * method.dt;
     if method.locate { seen * cloth.restitution.powi(LOCATED) } else { seen }
@@ -114,8 +113,8 @@ impl Stepper<'_> {
     }
 
     /// Handles a landing: the ball hops again, or stays on the cloth. The ball is detected below the cloth. Its landing speed
-    /// follows from energy
-    /// conservation: the present speed is too high, and would make hops that are as short as a step higher again.
+    /// follows from energy conservation: the present speed is too high, and would make hops that are as short as a step higher
+    /// again.
     pub(super) fn land(&mut self, index: usize) -> ControlFlow<()> {
         let Some(cloth) = self.cloth else { return ControlFlow::Continue(()) };
         let mut state = self.balls[index].state;

@@ -1,8 +1,6 @@
 //! Simulation with fixed time steps: the intuitive method (thesis 3.1). All balls advance by one step, and events are detected
-//! at its end. It is a
-//! baseline for the engine: its events are late, balls overlap or pass through each other (thesis Figures 10 and 11), and it
-//! measures by how
-//! much.
+//! at its end. It is a baseline for the engine: its events are late, balls overlap or pass through each other (thesis Figures
+//! 10 and 11), and it measures by how much.
 
 mod aloft;
 
