@@ -20,7 +20,10 @@ pub fn text(references: &[ReferenceRow], studies: &[Study]) -> String {
 }
 
 fn references_text(out: &mut String, rows: &[ReferenceRow]) {
-    let _ = writeln!(out, "Reference shots, computed elsewhere with 50 digits. Error at rest: median, p99, worst.");
+    let _ = writeln!(
+        out,
+        "Reference shots, computed by another program with 50 digits. Error at rest: median, p99, worst."
+    );
     let _ = writeln!(out, "A unit is (1 + condition) 2^-53 m: what one rounding of the input does to the shot.\n");
     let _ = writeln!(
         out,
@@ -80,7 +83,7 @@ fn study_text(out: &mut String, study: &Study) {
     let _ = writeln!(out, "Condition, m: {} (median, p99, worst).", spread(*condition_m));
     let _ = writeln!(
         out,
-        "Truth: the reference engine (32 digits), {truth_cost_us:.0} µs a shot with its two neighbours; its energy balance is off by {}.\n",
+        "Truth: the reference engine (32 digits), {truth_cost_us:.0} µs a shot with its two perturbed replays; its energy balance is off by {}.\n",
         spread(*truth_energy)
     );
     let _ = writeln!(
@@ -141,7 +144,7 @@ fn study_text(out: &mut String, study: &Study) {
     if let Some(engine) = study.rows.first() {
         let _ = writeln!(out, "\nThe engine's worst shot by units:\n{}\n", engine.worst_shot);
     }
-    let _ = writeln!(out, "Cost is {CLOCK}, the least of the rounds; the methods take turns every 16 shots.\n");
+    let _ = writeln!(out, "Cost is {CLOCK}, the minimum of the rounds; the methods take turns every 16 shots.\n");
 }
 
 /// Width of the method column.

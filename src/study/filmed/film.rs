@@ -74,7 +74,7 @@ struct Line {
 /// Returns the bundled film.
 ///
 /// # Panics
-/// Never: a test reads it.
+/// Never panics: a test parses the bundled film.
 pub fn bundled() -> Vec<FilmedShot> {
     let line = |line| serde_json::from_str(line).ok().and_then(FilmedShot::of);
     FILM.lines().map(line).collect::<Option<_>>().expect("the bundled film is valid: a test reads it")

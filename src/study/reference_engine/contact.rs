@@ -81,7 +81,7 @@ impl Contact {
         }
     }
 
-    /// Returns Coulomb's coefficient at low slip; `None` if the contact never slips.
+    /// Returns Coulomb's coefficient at rest; `None` if the contact never slips.
     pub fn friction<R: Real>(self, numbers: &Numbers<R>) -> Option<R> {
         match self {
             Self::Balls(..) => numbers.ball_friction,

@@ -64,7 +64,7 @@ pub enum Unjudged {
     /// The table is not level.
     #[error("the table is not level, and the reference engine has no model of a slope")]
     Slope,
-    /// The shot takes too many events.
+    /// The shot takes too many steps from event to event.
     #[error("more than {0} steps from event to event")]
     Endless(usize),
 }

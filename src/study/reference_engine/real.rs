@@ -17,7 +17,7 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Upper bound of the relative error of one operation.
+    /// Relative rounding error of one operation.
     const ROUNDING: f64;
 
     /// Returns the nearest number to `value`.

@@ -142,8 +142,7 @@ pub enum Change {
     FallingNoise,
     /// Layouts are transformed to their canonical frame.
     Canonical,
-    /// The same, and batches that also contain successful shots from outside the agent's own experience (thesis 6.1.1 and
-    /// 6.1.2).
+    /// The same, and training on shots that score a point in addition to the agent's own shots (thesis 6.1.1 and 6.1.2).
     Lessons {
         /// Share of hindsight transitions in a batch.
         hindsight: f64,

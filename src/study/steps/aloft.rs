@@ -13,8 +13,8 @@ use crate::{
 /// Maximum number of landings located within one step; the rest of the hops is dropped.
 const LOCATED: i32 = 60;
 
-/// Returns the rebound speed, m/s, below which a ball stays on the cloth. Its hop would be shorter than a step or, if landings
-/// are located, so would be [`LOCATED`] hops together.
+/// Returns the rebound speed, m/s, below which a ball stays on the cloth: that of a hop that lasts one step or, if landings are
+/// located, what is left of it after [`LOCATED`] more landings.
 pub(super) fn last_hop(cloth: &Cloth, method: Steps) -> f64 {
     let seen = 0.5 * cloth.gravity * method.dt;
     if method.locate { seen * cloth.restitution.powi(LOCATED) } else { seen }

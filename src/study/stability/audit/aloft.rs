@@ -77,7 +77,7 @@ pub struct Assumptions {
 }
 
 impl Assumptions {
-    /// Nothing.
+    /// Rounding decides nothing, and all impacts on the cloth join those before them.
     pub const NOTHING: Self = Self { grazes: false, none: 0.0, joins: u32::MAX, lies: false, is_micro: false };
 }
 

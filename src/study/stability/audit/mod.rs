@@ -259,7 +259,7 @@ impl Audit<'_> {
             }
             let lost = course.first_energy - course.energy;
             let lasts = piece.end - now;
-            let residual = if let Some(hops) = piece.segment.hops() {
+            let dissipated = if let Some(hops) = piece.segment.hops() {
                 let start = piece.segment.spatial_after(&self.trace.constants, 0.0);
                 aloft::landings_loss(self.table, &start, hops.landings(lasts))
             } else {
@@ -267,7 +267,7 @@ impl Audit<'_> {
                 free_loss(self.table, &state, piece.segment.motion, lasts)
             };
             let uncertainty = Uncertainty { energy: course.first_energy, time: piece.end, ..Uncertainty::default() };
-            self.note(figures, lost, lost - residual, &uncertainty, uncertainty.on_the_way(self.table, residual));
+            self.note(figures, lost, lost - dissipated, &uncertainty, uncertainty.on_the_way(self.table, dissipated));
         }
         while let Some(first) = resting.iter().flatten().next() {
             let until = first.end;

@@ -224,7 +224,8 @@ impl Moment<'_> {
         let unexplained_by = |directions: &[Column]| {
             let found = fit(directions, &change);
             let mut unexplained = -dot(&mean, &found.residual);
-            // Impulses are as uncertain as the change that determines them, divided by their shortest independent part of it.
+            // The uncertainty of the impulses is that of the change, divided by the shortest independent part of the
+            // directions.
             let rounding =
                 f64::EPSILON * (ROUNDINGS + impacts.len() as f64) * dot(&mean, &mean).sqrt() / found.shortest;
             for (index, contact) in contacts.iter().enumerate() {

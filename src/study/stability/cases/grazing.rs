@@ -19,7 +19,7 @@ pub const CASES: &[Case] = &[Case::new("grazing contact, relative depth 1e-15 to
 /// rounded to half an ε, and so is the root of their difference.
 const UNDECIDED: f64 = 4.0 * f64::EPSILON;
 
-/// The ball moves exactly along x, because neither its velocity nor its slip has another component.
+/// The ball moves exactly along x, because neither its velocity nor its spin has a sideways effect.
 fn shot(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let depth = draw::one_of(rng, &[-1.0, 1.0]) * draw::log_uniform(rng, 1e-15, 1e-3);
     let beside = 2.0 * table.radius * (1.0 - depth) * draw::one_of(rng, &[-1.0, 1.0]);
