@@ -1,6 +1,6 @@
 //! The laws in force for balls in resting contact: what slips, rolls or spins.
 //!
-//! Slipping, rolling and spinning meet a friction of known size and direction. What does not slip, roll or spin is held at rest
+//! Slipping, rolling and spinning meet a friction of known size and direction. Without slip, roll or spin, the body is held at rest
 //! by a friction of up to that size. The normal force of a contact is as large as needed to keep it closed.
 
 use super::{

@@ -235,7 +235,7 @@ impl Scene<'_> {
         let is_better = |at_edge: &Power| {
             at_edge.is_possible
                 && 2.0 * at_edge.defect < without_edges.defect
-                && (at_edge.is_unique || !plain.is_unique)
+                && (at_edge.is_unique || !without_edges.is_unique)
         };
         // The friction of a slip that has hardly begun acts against the rate of the slip, which may have another direction.
         // This is tried only if no interpolation explains the residual.
