@@ -28,6 +28,7 @@ fn with(table: &Table, rng: &mut Xoshiro256PlusPlus, stroke: CueDegrees) -> Shot
     Shot { layout: Layout::random(table, rng), cue: stroke }
 }
 
+/// Draws a speed, half of the time so low that the ball often meets nothing.
 fn speed(rng: &mut Xoshiro256PlusPlus) -> f64 {
     if rng.random_bool(0.5) { rng.random_range(0.05..0.5) } else { rng.random_range(0.5..8.0) }
 }
