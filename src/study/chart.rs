@@ -1,5 +1,5 @@
-//! Charts of the study as SVG, drawn by plotters: panels side by side on the same axes, with a legend below, dark on a white card so
-//! that they can be read on any page.
+//! Charts of the study as SVG, drawn by plotters: panels side by side with shared axes and a legend below. They are dark on a
+//! white background, readable on any page.
 
 use std::{f64::consts::TAU, io, ops::Range};
 
@@ -9,104 +9,104 @@ use plotters::{
     style::text_anchor::{HPos, Pos, VPos},
 };
 
-/// Where a chart is drawn.
+/// A drawing area of the SVG backend.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// What drawing comes to.
+/// Result of a drawing operation.
 pub type Drawn<T = ()> = Result<T, DrawingAreaErrorKind<io::Error>>;
 
 /// Colour of text.
 pub const INK: RGBColor = RGBColor(0x24, 0x29, 0x2f);
-/// Colour of frames, and of what is there to compare with.
+/// Colour of frames and baselines.
 pub const GREY: RGBColor = RGBColor(0x8c, 0x95, 0x9f);
-/// The first colour of a curve.
+/// First colour for curves.
 pub const CRIMSON: RGBColor = RGBColor(0xd1, 0x24, 0x2f);
-/// The second.
+/// Second colour for curves.
 pub const AZURE: RGBColor = RGBColor(0x09, 0x69, 0xda);
-/// The third.
+/// Third colour for curves.
 pub const FOREST: RGBColor = RGBColor(0x1a, 0x7f, 0x37);
-/// The fourth.
+/// Fourth colour for curves.
 pub const VIOLET: RGBColor = RGBColor(0x82, 0x50, 0xdf);
-/// The colour of what others reached.
+/// Colour of published results.
 pub const RUST: RGBColor = RGBColor(0xbc, 0x4c, 0x00);
 
 const GRID: RGBColor = RGBColor(0xe3, 0xe6, 0xea);
 const FONT: &str = "system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif";
-/// Pixels of ordinary text.
+/// Size of ordinary text, pixels.
 const TEXT: i32 = 30;
-/// Series in a row of the legend, and a row's height in pixels.
+/// Series in a row of the legend, and the height of a row in pixels.
 const PER_ROW: usize = 3;
 const ROW: u32 = 46;
 
-/// How a point is marked.
+/// The marker of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// A filled circle.
     Circle,
     /// A filled square.
     Square,
-    /// A square on its corner.
+    /// A square standing on its corner.
     Diamond,
     /// A triangle.
     Triangle,
-    /// A large star: what it is all about.
+    /// A large star, for the main subject.
     Star,
-    /// Many small dots, not joined.
+    /// Small dots without a line.
     Dots,
-    /// A line without marks.
+    /// A line without markers.
     Line,
-    /// A dashed line without marks.
+    /// A dashed line without markers.
     Dashes,
 }
 
-/// Points that belong together.
+/// A named series of points.
 #[derive(Clone, Debug)]
 pub struct Series {
-    /// What the legend says; nothing if it does not mention it.
+    /// Its name in the legend; empty to leave it out.
     pub name: String,
     /// Its colour.
     pub color: RGBColor,
-    /// Its marks; all but dots are joined by a line.
+    /// Its marker; all series except dots are joined by a line.
     pub mark: Mark,
     /// Its points.
     pub points: Vec<Spot>,
 }
 
-/// One point of a series.
+/// One data point of a series.
 #[derive(Clone, Debug, Default)]
 pub struct Spot {
-    /// Along the x axis.
+    /// Value on the x axis.
     pub x: f64,
-    /// Along the y axis.
+    /// Value on the y axis.
     pub y: f64,
-    /// An upper value of y, to which a thin line is drawn.
+    /// Upper end of a thin vertical line (error bar) from `y`.
     pub upper: Option<f64>,
-    /// What stands below it.
+    /// The text below the point.
     pub label: String,
 }
 
 /// One panel.
 #[derive(Clone, Debug)]
 pub struct Panel {
-    /// What stands above it.
+    /// The title above the panel.
     pub title: String,
-    /// Its series; those of the same name in other panels must look the same.
+    /// Its series. Series of the same name must look the same in all panels.
     pub series: Vec<Series>,
 }
 
 /// An axis.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// What stands beside it.
+    /// The text along the axis.
     pub label: String,
-    /// What it shows: exponents of ten if it is logarithmic. What lies beyond is put at its end.
+    /// The range of the axis: exponents of ten if it is logarithmic. Values outside are drawn at its end.
     pub range: Range<f64>,
-    /// Whether powers of ten are equally far apart.
+    /// Whether the axis is logarithmic.
     pub is_logarithmic: bool,
 }
 
 impl Axis {
-    /// A logarithmic axis of whole decades around all of `values` that are positive and finite, from 10^`least` to 10^`most` at most.
+    /// Returns a logarithmic axis of whole decades around all positive and finite `values`, within 10^`least` to 10^`most`.
     pub fn decades(label: &str, values: impl Iterator<Item = f64>, least: i32, most: i32) -> Self {
         let (mut low, mut high) = (most, least);
         for value in values.filter(|value| *value > 0.0 && value.is_finite()) {
@@ -118,13 +118,13 @@ impl Axis {
         Self { label: label.to_owned(), range, is_logarithmic: true }
     }
 
-    /// Whether a value lies on it.
+    /// Whether a value is within the axis range.
     pub fn shows(&self, value: f64) -> bool {
         (self.range.start..=self.range.end).contains(&self.unbounded(value))
     }
 
-    /// Where a value is drawn.
-    fn place(&self, value: f64) -> f64 {
+    /// Returns the coordinate at which a value is drawn, clamped to the range.
+    fn coordinate(&self, value: f64) -> f64 {
         self.unbounded(value).clamp(self.range.start, self.range.end)
     }
 
@@ -132,21 +132,21 @@ impl Axis {
         if self.is_logarithmic { value.max(f64::MIN_POSITIVE).log10() } else { value }
     }
 
-    /// How many values are named at most: names of more would touch.
-    fn labels(&self) -> usize {
+    /// Returns the maximum number of tick labels: more would overlap.
+    fn max_labels(&self) -> usize {
         let most = 9;
         if self.is_logarithmic { most.min((self.range.end - self.range.start) as usize + 1) } else { most }
     }
 
-    fn name(&self, place: f64) -> String {
+    fn tick_label(&self, coordinate: f64) -> String {
         if self.is_logarithmic {
             let digit = |c: char| {
                 c.to_digit(10).map_or('⁻', |digit| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize])
             };
-            format!("10{}", format!("{place:.0}").chars().map(digit).collect::<String>())
+            format!("10{}", format!("{coordinate:.0}").chars().map(digit).collect::<String>())
         } else {
-            // Without the noise of the last digits.
-            format!("{}", (place * 1e9).round() / 1e9)
+            // Rounded to drop the noise of the last digits.
+            format!("{}", (coordinate * 1e9).round() / 1e9)
         }
     }
 }
@@ -163,10 +163,10 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// The picture, with panels of the given size in pixels, their names and labels within.
+    /// Draws the chart with panels of the given size in pixels, titles and labels included.
     ///
     /// # Errors
-    /// If it cannot be drawn.
+    /// Fails if the chart cannot be drawn.
     pub fn svg(&self, [width, height]: [u32; 2]) -> io::Result<String> {
         let legend = self.legend();
         let rows = legend.len().div_ceil(PER_ROW) as u32;
@@ -185,7 +185,7 @@ impl Chart {
         })
     }
 
-    /// One series of every name.
+    /// Returns one series of every name.
     fn legend(&self) -> Vec<&Series> {
         let mut legend: Vec<&Series> = Vec::new();
         for series in self.panels.iter().flat_map(|panel| &panel.series) {
@@ -212,13 +212,13 @@ impl Chart {
             .label_style(text(INK))
             .x_desc(&self.x.label)
             .y_desc(&self.y.label)
-            .x_labels(self.x.labels())
-            .y_labels(self.y.labels())
-            .x_label_formatter(&|place| self.x.name(*place))
-            .y_label_formatter(&|place| self.y.name(*place))
+            .x_labels(self.x.max_labels())
+            .y_labels(self.y.max_labels())
+            .x_label_formatter(&|coordinate| self.x.tick_label(*coordinate))
+            .y_label_formatter(&|coordinate| self.y.tick_label(*coordinate))
             .draw()?;
         for series in &panel.series {
-            let place = |x, y| (self.x.place(x), self.y.place(y));
+            let place = |x, y| (self.x.coordinate(x), self.y.coordinate(y));
             let points = || series.points.iter().map(|spot| place(spot.x, spot.y));
             let line = series.color.stroke_width(3);
             match series.mark {
@@ -252,7 +252,7 @@ impl Chart {
 }
 
 impl Series {
-    /// Its mark and its name, at a place in pixels.
+    /// Draws the legend entry, marker and name, at a position in pixels.
     fn in_legend(&self, area: &Area<'_>, (x, y): (i32, i32)) -> Drawn {
         let reach = TEXT;
         let line = self.color.stroke_width(3);
@@ -272,7 +272,7 @@ impl Series {
 }
 
 impl Mark {
-    /// The corners of its shape about the point, in pixels; none where points are not marked one by one.
+    /// Returns the corners of the marker's shape around the point, in pixels; `None` if points are not marked individually.
     fn corners(self) -> Option<Vec<(i32, i32)>> {
         let (corners, radii, turned) = match self {
             Self::Circle => (24, [9.0, 9.0], 0.0),
@@ -291,10 +291,10 @@ impl Mark {
     }
 }
 
-/// A picture of so many pixels on a white card.
+/// Draws an SVG of the given size in pixels on a white background.
 ///
 /// # Errors
-/// If it cannot be drawn.
+/// Fails if the picture cannot be drawn.
 pub fn svg([width, height]: [u32; 2], draw: impl FnOnce(&Area<'_>) -> Drawn) -> io::Result<String> {
     let mut svg = String::new();
     let area = SVGBackend::with_string(&mut svg, (width, height)).into_drawing_area();
@@ -303,7 +303,7 @@ pub fn svg([width, height]: [u32; 2], draw: impl FnOnce(&Area<'_>) -> Drawn) -> 
     Ok(svg)
 }
 
-/// Ordinary text.
+/// Returns the style of ordinary text.
 pub fn text(color: RGBColor) -> TextStyle<'static> {
     (FONT, TEXT).into_font().color(&color)
 }
@@ -323,9 +323,9 @@ mod tests {
     #[test]
     fn values_are_named_as_people_write_them() {
         let powers = Axis::decades("", [1e-12, 1.0].into_iter(), -20, 6);
-        assert_eq!([powers.name(-12.0), powers.name(0.0)], ["10⁻¹²", "10⁰"]);
+        assert_eq!([powers.tick_label(-12.0), powers.tick_label(0.0)], ["10⁻¹²", "10⁰"]);
         let plain = Axis { is_logarithmic: false, ..powers };
-        assert_eq!([plain.name(0.1 + 0.2), plain.name(250.0)], ["0.3", "250"]);
+        assert_eq!([plain.tick_label(0.1 + 0.2), plain.tick_label(250.0)], ["0.3", "250"]);
     }
 
     #[test]

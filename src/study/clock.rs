@@ -1,8 +1,8 @@
-//! The clock that costs are measured by.
+//! The clock for cost measurements.
 
 use crate::platform::thread_time;
 
-/// What `work` returns, and the seconds that it has taken on the clock.
+/// Runs `work` and returns its result and the CPU time of the thread, s.
 pub fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let start = thread_time();
     let result = work();

@@ -1,4 +1,4 @@
-//! How far a method is off on one shot, each kind of error apart.
+//! Errors of a method on one shot, separated by kind.
 
 use super::{methods::Run, truth::Truth};
 use crate::{
@@ -6,26 +6,26 @@ use crate::{
     simulation::{Event, EventKind},
 };
 
-/// The rules whose outcome is watched, the easiest and the hardest.
+/// The rules whose outcome is compared: the easiest and the hardest.
 pub const RULES: [Rule; 2] = [Rule::StraightRail, Rule::ThreeCushion];
 
 /// The errors of one run.
 #[derive(Clone, Copy, Debug)]
 pub struct Errors {
-    /// Greatest distance of a ball at rest from its true place, m.
+    /// Greatest distance between a ball's final position and its true final position, m.
     pub rest: f64,
-    /// The same over `(1 + condition) 2^-53`.
+    /// `rest` in units of `(1 + condition) 2^-53`.
     pub rest_units: f64,
-    /// Greatest error of an event's time up to the first event that differs, s; none where no event is in common.
+    /// Greatest error of an event time before the first event that differs, s; `None` if the runs have no event in common.
     pub time: Option<f64>,
-    /// Index of the first event that differs.
+    /// Index of the first event that differs; `None` if all events agree.
     pub differs_at: Option<usize>,
-    /// Whether the outcome under each of the rules is the wrong one.
+    /// Whether the outcome is wrong under each of [`RULES`].
     pub flips: [bool; 2],
 }
 
 impl Errors {
-    /// Compares a run to the truth.
+    /// Compares a run with the truth.
     pub fn of(truth: &Truth, run: &Run) -> Self {
         let rest = truth.distance(&run.end);
         let (mine, theirs) = if truth.chatters {
@@ -34,7 +34,7 @@ impl Errors {
             (run.events.clone(), truth.events.clone())
         };
         let same = mine.iter().zip(&theirs).take_while(|(mine, theirs)| mine.1 == theirs.1).count();
-        let late = mine.iter().zip(&theirs).take(same).map(|(mine, theirs)| (mine.0 - theirs.0).abs());
+        let time_errors = mine.iter().zip(&theirs).take(same).map(|(mine, theirs)| (mine.0 - theirs.0).abs());
         let outcome = |events: &[(f64, EventKind)]| {
             let mut tally = Tally::default();
             for &(time, kind) in events {
@@ -42,19 +42,19 @@ impl Errors {
             }
             RULES.map(|rule| tally.is_point(rule))
         };
-        let (ours, right) = (outcome(&run.events), outcome(&truth.events));
+        let (computed, expected) = (outcome(&run.events), outcome(&truth.events));
         Self {
             rest,
             rest_units: rest / truth.unit(),
-            time: late.reduce(f64::max),
+            time: time_errors.reduce(f64::max),
             differs_at: (same < mine.len().max(theirs.len())).then_some(same),
-            flips: std::array::from_fn(|rule| ours[rule] != right[rule]),
+            flips: std::array::from_fn(|rule| computed[rule] != expected[rule]),
         }
     }
 }
 
-/// The collisions without those that repeat the last one of all their balls: how many bounces of a chatter are told, and
-/// what the balls do between them, is a method's own choice.
+/// Returns the collisions without those that repeat the last collision of all their balls. How many bounces of a chatter a
+/// method reports, and how the balls move between them, is a choice of the method.
 fn without_chatter(events: &[(f64, EventKind)]) -> Vec<(f64, EventKind)> {
     let mut last = [None; crate::table::BALLS];
     let mut kept = Vec::new();

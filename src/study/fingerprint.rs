@@ -1,4 +1,4 @@
-//! The bits of many shots in one number: two programs that tell the same number play the same shots.
+//! A hash of the bits of many shots: two builds with the same hash compute the same shots.
 
 use std::ops::ControlFlow;
 
@@ -12,19 +12,20 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// What [`hash`] finds on `textbook` for balls that stay on the cloth, on every machine. It changes where results change on purpose.
+/// The value of [`hash`] on `textbook` for balls that stay on the cloth, on every machine. It changes only when results change
+/// on purpose.
 pub const TEXTBOOK: u64 = 0x714d_1dc1_8e09_286c;
 
-/// Shots whose bits the number is made of.
+/// Number of shots in the hash.
 pub const SHOTS: usize = 2000;
 
-/// Their seed.
+/// Seed of these shots.
 const SEED: u64 = 2;
 
-/// All that happens in a shot, bit by bit.
+/// The complete course of a shot, bit by bit.
 #[derive(Default, Debug, PartialEq, Eq)]
 pub struct Trace {
-    /// Times, kinds and places of the events, and where the balls stop.
+    /// Times, kinds and participants of the events, and the final positions.
     pub bits: Vec<u64>,
 }
 
@@ -33,13 +34,13 @@ impl Observer for Trace {
         let (first, second) = event.kind.balls();
         let rail = event.kind.rail().map_or(9, |rail| rail as usize);
         let kind: u64 = event.kind.name().bytes().map(u64::from).sum();
-        let place = first * 100 + second.unwrap_or(BALLS) * 10 + rail;
-        self.bits.extend([event.time.to_bits(), kind, place as u64]);
+        let participants = first * 100 + second.unwrap_or(BALLS) * 10 + rail;
+        self.bits.extend([event.time.to_bits(), kind, participants as u64]);
         ControlFlow::Continue(())
     }
 }
 
-/// What happens in one shot.
+/// Records one shot.
 pub fn trace<S: Savings>(table: &Table, layout: &Layout, impulse: &Impulse) -> Trace {
     let mut trace = Trace::default();
     let end = simulate_with::<S, _>(table, layout, impulse, &mut trace);
@@ -49,7 +50,7 @@ pub fn trace<S: Savings>(table: &Table, layout: &Layout, impulse: &Impulse) -> T
     trace
 }
 
-/// Random shots that take nothing but sums and products to make: sines differ in the last bit from machine to machine.
+/// Draws random shots using only sums and products: sines differ in the last bit from machine to machine.
 pub fn shots(table: &Table, seed: u64, count: usize) -> Vec<(Layout, Impulse)> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut draw = |limit: f64| rng.random_range(-limit..limit);
@@ -62,8 +63,8 @@ pub fn shots(table: &Table, seed: u64, count: usize) -> Vec<(Layout, Impulse)> {
     impulses.into_iter().map(|impulse| (Layout::random(table, &mut rng), impulse)).collect()
 }
 
-/// The number of [`SHOTS`] shots on a table: FNV-1a of 64 bits (Fowler, Noll and Vo). The cue ball leaves the cloth with up to `lift`
-/// m/s, a little faster from shot to shot.
+/// Hashes [`SHOTS`] shots on a table: 64-bit FNV-1a (Fowler, Noll and Vo). The cue ball's initial vertical speed rises from 0
+/// to `lift`, m/s, over the shots.
 pub fn hash(table: &Table, lift: f64) -> u64 {
     let mut shots = shots(table, SEED, SHOTS);
     for (number, (_, impulse)) in shots.iter_mut().enumerate() {

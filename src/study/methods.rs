@@ -1,4 +1,4 @@
-//! The methods that are compared, and what each makes of a shot.
+//! The compared methods, and the result of each on a shot.
 
 use std::{fmt, ops::ControlFlow};
 
@@ -17,24 +17,24 @@ use crate::{
 /// A way to compute a shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// The program's own engine.
+    /// The engine of this program.
     Engine,
-    /// The reference engine, by roots between extrema.
-    Plain,
+    /// The reference engine with roots bracketed between extrema.
+    Extrema,
     /// The reference engine with Ferrari's closed form.
     ClosedForm,
     /// The reference engine with Algorithm 1010.
     Algorithm1010,
     /// The reference engine in single precision.
     Single,
-    /// The intuitive method.
+    /// Fixed time steps: the intuitive method of the thesis.
     Steps(Steps),
 }
 
 impl Method {
-    /// Everything that is compared, with time steps down to `finest`, s.
+    /// Returns every compared method, with time steps down to `finest`, s.
     pub fn all(finest: f64) -> Vec<Self> {
-        let mut methods = vec![Self::Engine, Self::Plain, Self::ClosedForm, Self::Algorithm1010, Self::Single];
+        let mut methods = vec![Self::Engine, Self::Extrema, Self::ClosedForm, Self::Algorithm1010, Self::Single];
         for locate in [false, true] {
             let steps = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6].into_iter().filter(|dt| *dt >= finest);
             methods.extend(steps.map(|dt| Self::Steps(Steps { dt, locate })));
@@ -42,10 +42,10 @@ impl Method {
         methods
     }
 
-    /// What people are told of its family.
+    /// Returns the name of the method's family in reports.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Plain => "reference engine (64 bits), extrema",
+            Self::Extrema => "reference engine (64 bits), extrema",
             Self::ClosedForm => "reference engine (64 bits), Ferrari",
             Self::Algorithm1010 => "reference engine (64 bits), Algorithm 1010",
             Self::Single => "reference engine (32 bits), extrema",
@@ -53,11 +53,11 @@ impl Method {
         }
     }
 
-    /// The family that it belongs to, as JSON and CSV name it: what differs by the time step alone is one.
+    /// Returns the name of the method's family in JSON and CSV. Methods that differ only by the time step share a family.
     pub const fn family(self) -> &'static str {
         match self {
             Self::Engine => "engine",
-            Self::Plain => "plain, roots between extrema",
+            Self::Extrema => "plain, roots between extrema",
             Self::ClosedForm => "plain, Ferrari's formula",
             Self::Algorithm1010 => "plain, Algorithm 1010",
             Self::Single => "plain, f32",
@@ -66,7 +66,7 @@ impl Method {
         }
     }
 
-    /// The time step, s.
+    /// Returns the time step, s; `None` for event-driven methods.
     pub const fn time_step(self) -> Option<f64> {
         match self {
             Self::Steps(Steps { dt, .. }) => Some(dt),
@@ -74,7 +74,7 @@ impl Method {
         }
     }
 
-    /// Plays a shot to its end; `None` where the method gives up.
+    /// Plays a shot to its end; `None` if the method gives up.
     pub fn play(self, table: &Table, shot: &StudyShot) -> Option<Run> {
         match self {
             Self::Engine => {
@@ -82,10 +82,10 @@ impl Method {
                 let end = simulate(table, &shot.layout, &shot.impulse, &mut events);
                 Some(Run { events: events.0, end: end.layout(table), unaccounted: None })
             }
-            Self::Plain => plain(table, shot, by_extrema::<f64>),
-            Self::ClosedForm => plain(table, shot, closed_form),
-            Self::Algorithm1010 => plain(table, shot, algorithm_1010),
-            Self::Single => plain(table, shot, by_extrema::<f32>),
+            Self::Extrema => play_reference(table, shot, by_extrema::<f64>),
+            Self::ClosedForm => play_reference(table, shot, closed_form),
+            Self::Algorithm1010 => play_reference(table, shot, algorithm_1010),
+            Self::Single => play_reference(table, shot, by_extrema::<f32>),
             Self::Steps(steps) => {
                 let mut events = Events::default();
                 let stepped = steps.simulate(table, &shot.layout, &shot.impulse, &mut events);
@@ -94,8 +94,8 @@ impl Method {
         }
     }
 
-    /// Share of the energy for which friction and impacts do not account; `None` for shots too long to keep, and for the steps'
-    /// courses in the air, of which no account is kept.
+    /// Returns the share of the energy that friction and impacts do not explain. `None` for shots too long to store, and for
+    /// stepped shots with flights, which have no energy audit.
     pub fn unaccounted(self, table: &Table, shot: &StudyShot, run: &Run) -> Option<f64> {
         let mut trace = Trace::new(table);
         match self {
@@ -129,18 +129,18 @@ impl fmt::Display for Method {
     }
 }
 
-/// What a method makes of a shot.
+/// The result of a method on a shot.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// Its events and their times, s.
+    /// The events and their times, s.
     pub events: Vec<(f64, EventKind)>,
-    /// Where the balls come to rest.
+    /// Final positions of the balls.
     pub end: Layout,
-    /// Share of the energy for which nothing accounts, where the run itself has kept account.
+    /// Share of unexplained energy; `None` if the run itself does not audit it.
     pub unaccounted: Option<f64>,
 }
 
-/// Keeps the events alone: all that a comparison needs.
+/// Records the events only: all that a comparison needs.
 #[derive(Default)]
 struct Events(Vec<(f64, EventKind)>);
 
@@ -151,7 +151,7 @@ impl Observer for Events {
     }
 }
 
-fn plain<R: Real>(table: &Table, shot: &StudyShot, finder: Finder<R>) -> Option<Run> {
+fn play_reference<R: Real>(table: &Table, shot: &StudyShot, finder: Finder<R>) -> Option<Run> {
     let flat = |v: glam::DVec2| Vector::new(R::of(v.x), R::of(v.y), R::zero());
     let (velocity, spin) = motion(shot);
     let played = play(&Numbers::of(table), shot.layout.balls.map(flat), velocity, spin, finder).ok()?;

@@ -1,4 +1,4 @@
-//! The program measuring itself: error against run time, stability, throughput.
+//! Measurements of the program itself: accuracy against run time, numerical stability, throughput.
 
 mod chart;
 mod clock;

@@ -1,4 +1,4 @@
-//! The study's two pictures: what exactness costs, and what limits it.
+//! The two plots of the study: the error against the run time, and against the condition of the shot.
 
 use std::io;
 
@@ -13,14 +13,14 @@ use super::{
 /// Width and height of a panel in pixels.
 const SIZE: [u32; 2] = [900, 820];
 
-/// Errors below this are drawn there, m: the last digit of a coordinate.
-const LEAST: f64 = 1e-17;
+/// Smaller errors are drawn at this value, m: the last digit of a coordinate.
+const SMALLEST_ERROR: f64 = 1e-17;
 
-/// Most dots of a series; more would only hide each other.
-const MOST_DOTS: usize = 300;
+/// Maximum number of dots in a series; more would only overlap.
+const MAX_DOTS: usize = 300;
 
-/// How each family is drawn, in the legend's order.
-const LOOKS: [(&str, RGBColor, Mark); 7] = [
+/// Colour and marker of each family, in the legend's order.
+const STYLES: [(&str, RGBColor, Mark); 7] = [
     ("engine", CRIMSON, Mark::Star),
     ("plain, roots between extrema", AZURE, Mark::Square),
     ("plain, Ferrari's formula", RGBColor(0xbf, 0x39, 0x89), Mark::Triangle),
@@ -30,14 +30,14 @@ const LOOKS: [(&str, RGBColor, Mark); 7] = [
     ("steps, events located", VIOLET, Mark::Circle),
 ];
 
-/// Error at rest against run time: the median of each method, a thin line up to 99 in a hundred shots, and for methods of
-/// fixed steps a curve over the time step.
+/// Plots the error at rest against the run time: the median of each method with a thin line up to the 99th percentile. Methods
+/// with fixed steps form a curve over the time step.
 ///
 /// # Errors
-/// If it cannot be drawn.
+/// Fails if the plot cannot be drawn.
 pub fn error_against_time(studies: &[Study]) -> io::Result<String> {
     let panels = studies.iter().map(|study| {
-        let series = LOOKS.iter().filter_map(|&(family, color, mark)| {
+        let series = STYLES.iter().filter_map(|&(family, color, mark)| {
             let rows = || study.rows.iter().filter(|row| row.method == family);
             let points: Vec<_> = rows().filter_map(point_of).collect();
             let name = rows().next()?.words.to_owned();
@@ -53,7 +53,7 @@ pub fn error_against_time(studies: &[Study]) -> io::Result<String> {
     Chart { x, y, panels }.svg(SIZE)
 }
 
-/// The table of a study, and how far the cue is raised on it.
+/// Returns the panel title: the table and the greatest elevation.
 fn title(study: &Study) -> String {
     format!("\"{}\" table, cue up to {:.0}°", study.summary.table, study.summary.steepest_deg)
 }
@@ -61,14 +61,14 @@ fn title(study: &Study) -> String {
 fn point_of(row: &Row) -> Option<Spot> {
     let rest = row.rest_m?;
     let label = row.dt.map_or_else(String::new, |dt| format!("{dt:e} s"));
-    Some(Spot { x: row.cost_us, y: rest.median.max(LEAST), upper: Some(rest.p99.max(LEAST)), label })
+    Some(Spot { x: row.cost_us, y: rest.median.max(SMALLEST_ERROR), upper: Some(rest.p99.max(SMALLEST_ERROR)), label })
 }
 
-/// Error at rest against the shot's own amplification, shot by shot, and beside it one unit and 64 of them: a unit is
-/// (1 + condition) 2^-53 m.
+/// Plots the error at rest against the condition, one dot a shot, with lines at 1 and 64 units; a unit is (1 + condition) 2^-53
+/// m.
 ///
 /// # Errors
-/// If it cannot be drawn.
+/// Fails if the plot cannot be drawn.
 pub fn error_against_condition(studies: &[Study]) -> io::Result<String> {
     let shown = [("plain, f32", None), ("steps", Some(1e-3)), ("steps, events located", Some(1e-3)), ("engine", None)];
     let panels = studies.iter().map(|study| {
@@ -93,9 +93,10 @@ pub fn error_against_condition(studies: &[Study]) -> io::Result<String> {
 
 fn dots(study: &Study, family: &str, dt: Option<f64>) -> Option<Series> {
     let index = study.rows.iter().position(|row| row.method == family && row.dt == dt)?;
-    let color = LOOKS.iter().find(|look| look.0 == family)?.1;
-    let points = study.points[index].iter().take(MOST_DOTS);
-    let points = points.map(|point| Spot { x: point.condition, y: point.rest.max(LEAST), ..Spot::default() }).collect();
+    let color = STYLES.iter().find(|look| look.0 == family)?.1;
+    let points = study.points[index].iter().take(MAX_DOTS);
+    let points =
+        points.map(|point| Spot { x: point.condition, y: point.rest.max(SMALLEST_ERROR), ..Spot::default() }).collect();
     let words = study.rows[index].words;
     let name = dt.map_or_else(|| words.to_owned(), |dt| format!("{words}, dt {dt:e} s"));
     Some(Series { name, color, mark: Mark::Dots, points })

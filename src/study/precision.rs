@@ -1,4 +1,4 @@
-//! The work-precision study: every method plays the same shots, in turn, and is measured by the truth.
+//! The work-precision study: all methods play the same shots, block by block, and are compared with the truth.
 
 use serde::Serialize;
 
@@ -13,78 +13,78 @@ use super::{
 };
 use crate::table::Table;
 
-/// Shots that a method plays before the next one has its turn: long enough for the clock, and short enough that a
-/// machine's noise hits all methods alike.
+/// Shots in a timed block. Methods take turns block by block: a block is long enough for the clock, and short enough that
+/// machine noise affects all methods equally.
 const BLOCK: usize = 16;
 
-/// A block that takes longer than this is timed once: a machine's noise is short, s.
-const LONG: f64 = 0.1;
+/// A block that takes longer than this, s, is timed only once: machine noise is short in comparison.
+const LONG_BLOCK: f64 = 0.1;
 
-/// Seconds that a shot takes on the table, about: it tells how many steps one costs.
-const SHOT_SECONDS: f64 = 8.0;
+/// Approximate duration of a shot on the table, s, from which the number of time steps is estimated.
+const TYPICAL_SHOT: f64 = 8.0;
 
-/// What to study.
+/// The setup of a study.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The table.
     pub table: Table,
-    /// The name or the path by which `--table` finds it.
+    /// The name or path by which `--table` finds the table.
     pub found_by: String,
-    /// How far the cue is raised in its shots.
+    /// Greatest cue elevation of the shots.
     pub steepest: Steepest,
     /// The shots.
     pub shots: Vec<StudyShot>,
     /// The methods.
     pub methods: Vec<Method>,
-    /// How often each block of shots is timed; the fastest counts.
+    /// Number of timings of each block of shots; the fastest counts.
     pub rounds: usize,
-    /// Steps that a method may take in a round: methods of short steps play fewer shots, always the first ones.
+    /// Maximum number of time steps of a method in a round. Methods with short steps play fewer shots, always the first ones.
     pub steps: f64,
 }
 
-/// One method on one table.
+/// The results of one method on one table.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// The table's name.
     pub table: String,
-    /// Up to how many degrees the cue is raised.
+    /// Greatest cue elevation, degrees.
     pub steepest_deg: f64,
-    /// The method's family.
+    /// The method's family in JSON and CSV.
     pub method: &'static str,
-    /// What people are told of it.
+    /// The method's family in reports.
     #[serde(skip)]
     pub words: &'static str,
-    /// Its time step, s.
+    /// The time step, s; `None` for event-driven methods.
     pub dt: Option<f64>,
-    /// Shots that it played.
+    /// Number of shots played.
     pub shots: usize,
-    /// Shots that it gave up.
+    /// Number of shots on which the method gave up.
     pub failed: usize,
-    /// Mean CPU time of a shot, µs; the spread is that of blocks of 16 shots.
+    /// Mean CPU time of a shot, µs.
     pub cost_us: f64,
-    /// Spread of the cost over blocks, µs a shot.
+    /// Spread of the cost over blocks of 16 shots, µs a shot.
     pub cost_spread_us: Option<Spread>,
-    /// Distance of the balls at rest from their true places, m.
+    /// Distance between the final positions and the true ones, m.
     pub rest_m: Option<Spread>,
-    /// The same over `(1 + condition) 2^-53`.
+    /// `rest_m` in units of `(1 + condition) 2^-53`.
     pub rest_units: Option<Spread>,
-    /// Shots that are off by more than a billionth of a metre at rest.
+    /// Shots with an error at rest of more than 1e-9 m.
     pub beyond_1e_9_m: Share,
-    /// Error of event times, s.
+    /// Error of the event times, s.
     pub time_s: Option<Spread>,
-    /// The same over `(1 + condition) 2^-53`.
+    /// `time_s` in units of `(1 + condition) 2^-53`.
     pub time_units: Option<Spread>,
     /// Shots with a wrong sequence of events.
     pub wrong_sequence: Share,
-    /// Median index of the first event that differs, among those.
+    /// Median index of the first event that differs, over the shots with a wrong sequence.
     pub first_wrong: Option<f64>,
-    /// Energy for which nothing accounts, as a share of the first.
+    /// Unexplained energy as a share of the initial energy.
     pub energy: Option<Spread>,
     /// Shots whose outcome is wrong under straight rail.
     pub flips_straight: Share,
     /// Shots whose outcome is wrong under three-cushion.
     pub flips_three_cushion: Share,
-    /// The shot that is furthest off, as a command line.
+    /// The shot with the largest error in units, as a command line.
     pub worst_shot: String,
 }
 
@@ -97,21 +97,21 @@ pub struct Point {
     pub rest: f64,
 }
 
-/// What has come of a study.
+/// The results of a study.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// What the shots are like.
+    /// Summary of the shots and their truth.
     pub summary: Summary,
     /// The methods in the plan's order.
     pub rows: Vec<Row>,
-    /// Each method's shots.
+    /// The plotted shots of each method.
     pub points: Vec<Vec<Point>>,
-    /// Why the truth of a shot is not known, for each such shot.
+    /// Why the truth is not known, for each shot without a truth.
     pub unjudged: Vec<Unjudged>,
 }
 
 impl Study {
-    /// Why shots are not judged: each reason once.
+    /// Returns the distinct reasons for which shots are not judged.
     pub fn why_unjudged(&self) -> String {
         let mut reasons: Vec<String> = Vec::new();
         for why in &self.unjudged {
@@ -124,28 +124,28 @@ impl Study {
     }
 }
 
-/// The shots of one table and their truth.
+/// Summary of one table's shots and their truth.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
     /// The table's name.
     pub table: String,
-    /// Up to how many degrees the cue is raised.
+    /// Greatest cue elevation, degrees.
     pub steepest_deg: f64,
-    /// Of the judged shots, the share in which a ball leaves the cloth.
+    /// Share of the judged shots in which a ball leaves the cloth.
     pub flies: Share,
-    /// Shots with known truth: all others are neither judged nor timed.
+    /// Shots whose truth is known; all others are neither judged nor timed.
     pub judged: Share,
-    /// Of those, the share in which balls chatter or rest against something while they move.
+    /// Share of the judged shots in which balls chatter or rest against something while they move.
     pub chatters: Share,
-    /// Their condition, m.
+    /// Condition of the judged shots, m.
     pub condition_m: Option<Spread>,
-    /// What the truth's own energy balance is off by, as a share of the first energy.
+    /// Error of the truth's own energy balance, as a share of the initial energy.
     pub truth_energy: Option<Spread>,
-    /// Mean CPU time of the truth, its two neighbours included, µs a shot.
+    /// Mean CPU time of the truth, including its two perturbed shots, µs a shot.
     pub truth_cost_us: f64,
 }
 
-/// What is gathered of one method.
+/// Accumulated results of one method.
 #[derive(Default)]
 struct Gathered {
     cost: f64,
@@ -154,13 +154,13 @@ struct Gathered {
 }
 
 impl Plan {
-    /// Shots that `method` plays.
+    /// Number of shots that `method` plays.
     fn limit(&self, method: Method) -> usize {
-        let steps = method.time_step().map_or(f64::INFINITY, |dt| self.steps * dt / SHOT_SECONDS);
+        let steps = method.time_step().map_or(f64::INFINITY, |dt| self.steps * dt / TYPICAL_SHOT);
         (steps.max(4.0) as usize).min(self.shots.len())
     }
 
-    /// Carries it out; `progress` is told the number of shots that are done.
+    /// Runs the study. `progress` receives the number of shots done.
     pub fn run(&self, mut progress: impl FnMut(usize)) -> Study {
         let mut truths: Vec<Result<Truth, Unjudged>> = Vec::with_capacity(self.shots.len());
         let mut gathered: Vec<Gathered> = self.methods.iter().map(|_| Gathered::default()).collect();
@@ -174,7 +174,7 @@ impl Plan {
             let mut runs: Vec<Vec<Option<Run>>> = vec![Vec::new(); self.methods.len()];
             for round in 0..self.rounds {
                 for (index, &method) in self.methods.iter().enumerate() {
-                    if round > 0 && fastest[index] > LONG {
+                    if round > 0 && fastest[index] > LONG_BLOCK {
                         continue;
                     }
                     let shots = judged.iter().filter(|&&shot| shot < self.limit(method));

@@ -1,4 +1,4 @@
-//! The truth and the engine on the shots that an independent program computed with 50 digits.
+//! Checks the truth and the engine against shots that an independent program computed with 50 digits.
 
 use serde::Serialize;
 
@@ -13,51 +13,51 @@ use crate::{
     table::Layout,
 };
 
-/// Goal for the engine's error over `(1 + condition) 2^-53`: the median.
+/// Goal for the median of the engine's error in units of `(1 + condition) 2^-53`.
 pub const GOAL_MEDIAN: f64 = 2.0;
 
-/// The same for 99 in a hundred shots.
+/// Goal for the 99th percentile of the same error.
 pub const GOAL_P99: f64 = 64.0;
 
-/// Below this condition, m, times are told to a billionth of a second.
-const STEADY: f64 = 1e6;
+/// Event times are compared only for shots below this condition, m; their times are accurate to 1e-9 s.
+const MAX_CONDITION_FOR_TIMES: f64 = 1e6;
 
-/// One reference file.
+/// The results on one reference file.
 #[derive(Clone, Debug, Serialize)]
 pub struct ReferenceRow {
     /// The file's name: shots, hard, contact or flights.
     pub file: &'static str,
-    /// Its shots.
+    /// Number of shots in it.
     pub shots: usize,
-    /// Those that the truth cannot judge.
+    /// Number of shots whose truth is not known.
     pub unjudged: usize,
-    /// Distance of the truth's balls at rest from the file's, m. The file's own digits end at about 3e-16.
+    /// Distance between the truth's final positions and the file's, m. The file's own digits end at about 3e-16.
     pub truth_m: Option<Spread>,
-    /// The same over `(1 + condition) 2^-53`, where the file tells the condition.
+    /// `truth_m` in units of `(1 + condition) 2^-53`, for shots whose condition is in the file.
     pub truth_units: Option<Spread>,
-    /// Shots in which the truth has another sequence of events.
+    /// Shots in which the truth has a different sequence of events.
     pub truth_wrong: Share,
-    /// Distance of the engine's balls at rest from the file's, m.
+    /// Distance between the engine's final positions and the file's, m.
     pub engine_m: Option<Spread>,
-    /// The same over `(1 + condition) 2^-53`.
+    /// `engine_m` in units of `(1 + condition) 2^-53`.
     pub engine_units: Option<Spread>,
-    /// Shots in which the engine has another sequence of events.
+    /// Shots in which the engine has a different sequence of events.
     pub engine_wrong: Share,
-    /// The largest error of an event's time in each shot that the engine plays in the right sequence, s. Shots whose condition is a
-    /// million or more do not count.
+    /// The largest error of an event time in each shot with a correct sequence, s. Shots with a condition of a million or more
+    /// are excluded.
     pub engine_time_s: Option<Spread>,
-    /// The error of the time at which all balls rest, s, in all shots but these.
+    /// The error of the time at which all balls rest, s, with the same exclusion.
     pub engine_duration_s: Option<Spread>,
-    /// Distance of the engine's balls at rest from the truth's, m.
+    /// Distance between the engine's final positions and the truth's, m.
     pub engine_to_truth_m: Option<Spread>,
 }
 
-/// All files; a shot whose table or layout is refused counts as infinitely wrong.
+/// Checks all files. A shot whose table or layout is rejected counts as an infinite error.
 pub fn check_references() -> Vec<ReferenceRow> {
     references().into_iter().map(|(file, shots)| row(file, &shots)).collect()
 }
 
-/// What is found on one shot.
+/// The results on one shot.
 struct Checked {
     unit: Option<f64>,
     truth: Option<f64>,
@@ -98,12 +98,14 @@ fn check(reference: &Reference) -> Checked {
     let has_events = !reference.events.is_empty();
     let differs = |kinds: &mut dyn Iterator<Item = EventKind>| {
         let kinds: Vec<EventKind> = kinds.collect();
-        kinds.len() != reference.events.len() || !kinds.iter().zip(&reference.events).all(|(kind, it)| is(*kind, it))
+        kinds.len() != reference.events.len()
+            || !kinds.iter().zip(&reference.events).all(|(kind, it)| matches_event(*kind, it))
     };
     let end = recording.as_ref().map(Recording::final_layout);
     let engine_wrong = has_events
         .then(|| recording.as_ref().is_none_or(|it| differs(&mut it.events().iter().map(|event| event.kind))));
-    let steady = recording.as_ref().filter(|_| reference.condition.is_none_or(|condition| condition < STEADY));
+    let steady =
+        recording.as_ref().filter(|_| reference.condition.is_none_or(|condition| condition < MAX_CONDITION_FOR_TIMES));
     let time_error = |recording: &Recording| {
         let pairs = recording.events().iter().zip(&reference.events);
         pairs.map(|(ours, theirs)| (ours.time - theirs.t).abs()).fold(0.0, f64::max)
@@ -115,7 +117,7 @@ fn check(reference: &Reference) -> Checked {
             .as_ref()
             .filter(|_| has_events)
             .map(|truth| differs(&mut truth.events.iter().map(|event| event.1))),
-        // A ball that left the table counts where it ended, not on its spot.
+        // A ball that left the table is compared where it ended, not on its spot.
         engine: recording
             .as_ref()
             .map_or(f64::INFINITY, |it| distance(&Layout::new(it.positions(it.duration())), &reference.end)),
@@ -127,13 +129,13 @@ fn check(reference: &Reference) -> Checked {
 }
 
 fn distance(one: &Layout, other: &Layout) -> f64 {
-    // In double-double: a difference of rounding's size is what is looked for.
+    // In double-double, because the difference is of the order of rounding errors.
     let apart = |a: f64, b: f64| (DoubleDouble::of(a) - DoubleDouble::of(b)).to_f64();
     let pairs = one.balls.iter().zip(&other.balls);
     pairs.map(|(a, b)| apart(a.x, b.x).hypot(apart(a.y, b.y))).fold(0.0, f64::max)
 }
 
-fn is(kind: EventKind, written: &ReferenceEvent) -> bool {
+fn matches_event(kind: EventKind, written: &ReferenceEvent) -> bool {
     let (first, second) = kind.balls();
     let balls: Vec<usize> = [Some(first), second].into_iter().flatten().collect();
     kind.name() == written.kind && balls == written.balls && kind.rail().map(Rail::name) == written.rail.as_deref()

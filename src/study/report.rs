@@ -1,4 +1,4 @@
-//! The study as text for people and as CSV for programs.
+//! Formats the study as text for people and as CSV for programs.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use super::{
 };
 use crate::platform::CLOCK;
 
-/// The report for people.
+/// Returns the report for people.
 pub fn text(references: &[ReferenceRow], studies: &[Study]) -> String {
     let mut out = String::new();
     references_text(&mut out, references);
@@ -20,7 +20,10 @@ pub fn text(references: &[ReferenceRow], studies: &[Study]) -> String {
 }
 
 fn references_text(out: &mut String, rows: &[ReferenceRow]) {
-    let _ = writeln!(out, "Reference shots, computed elsewhere with 50 digits. Error at rest: median, p99, worst.");
+    let _ = writeln!(
+        out,
+        "Reference shots, computed by another program with 50 digits. Error at rest: median, p99, worst."
+    );
     let _ = writeln!(out, "A unit is (1 + condition) 2^-53 m: what one rounding of the input does to the shot.\n");
     let _ = writeln!(
         out,
@@ -80,7 +83,7 @@ fn study_text(out: &mut String, study: &Study) {
     let _ = writeln!(out, "Condition, m: {} (median, p99, worst).", spread(*condition_m));
     let _ = writeln!(
         out,
-        "Truth: the reference engine (32 digits), {truth_cost_us:.0} µs a shot with its two neighbours; its energy balance is off by {}.\n",
+        "Truth: the reference engine (32 digits), {truth_cost_us:.0} µs a shot with its two perturbed replays; its energy balance is off by {}.\n",
         spread(*truth_energy)
     );
     let _ = writeln!(
@@ -88,7 +91,11 @@ fn study_text(out: &mut String, study: &Study) {
         "{:<METHOD$}{:>6}{:>11}  {:<27}{:<27}off by",
         "", "", "µs a shot", "error at rest, m", "in units"
     );
-    let _ = writeln!(out, "{:<METHOD$}{:>6}{:>11}  {THREE:<27}{THREE:<27}> 1e-9 m", "method", "shots", "mean");
+    let _ = writeln!(
+        out,
+        "{:<METHOD$}{:>6}{:>11}  {SPREAD_HEADER:<27}{SPREAD_HEADER:<27}> 1e-9 m",
+        "method", "shots", "mean"
+    );
     for row in &study.rows {
         let _ = writeln!(
             out,
@@ -106,7 +113,11 @@ fn study_text(out: &mut String, study: &Study) {
         "\n{:<METHOD$}{:<27}{:>9}{:>7}  {:<27}",
         "", "event times, s", "wrong", "first", "energy balance"
     );
-    let _ = writeln!(out, "{:<METHOD$}{THREE:<27}{:>9}{:>7}  {THREE:<27}gave up", "method", "sequence", "wrong");
+    let _ = writeln!(
+        out,
+        "{:<METHOD$}{SPREAD_HEADER:<27}{:>9}{:>7}  {SPREAD_HEADER:<27}gave up",
+        "method", "sequence", "wrong"
+    );
     for row in &study.rows {
         let _ = writeln!(
             out,
@@ -133,15 +144,16 @@ fn study_text(out: &mut String, study: &Study) {
     if let Some(engine) = study.rows.first() {
         let _ = writeln!(out, "\nThe engine's worst shot by units:\n{}\n", engine.worst_shot);
     }
-    let _ = writeln!(out, "Cost is {CLOCK}, the least of the rounds; the methods take turns every 16 shots.\n");
+    let _ = writeln!(out, "Cost is {CLOCK}, the minimum of the rounds; the methods take turns every 16 shots.\n");
 }
 
-/// Width of the column of methods.
+/// Width of the method column.
 const METHOD: usize = 44;
 
-const THREE: &str = "median    p99     worst";
+/// Header of a spread's three columns.
+const SPREAD_HEADER: &str = "median    p99     worst";
 
-/// A method's name with its time step.
+/// Returns a method's name with its time step.
 pub fn name(row: &Row) -> String {
     row.dt.map_or_else(|| row.words.to_owned(), |dt| format!("{}, dt {dt:.0e} s", row.words))
 }
@@ -172,12 +184,12 @@ fn flips(share: Share) -> String {
     format!("{} ({:.2} % to {:.2} %)", wrong(share), 100.0 * share.low, 100.0 * share.high)
 }
 
-/// A text as a field of CSV, whatever it holds.
+/// Quotes a text as a CSV field.
 pub fn csv_text(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\""))
 }
 
-/// One line a table and method.
+/// Returns the study as CSV with one line for each table and method.
 pub fn csv(studies: &[Study]) -> String {
     let spreads = ["cost_us", "rest_m", "rest_units", "time_s", "time_units", "energy"];
     let shares = ["beyond_1e_9_m", "wrong_sequence", "flips_straight", "flips_three_cushion"];

@@ -1,5 +1,5 @@
-//! A second of work that tells whether this build computes what it should: the engine by the bits of its shots, the networks by
-//! the points that they make.
+//! Self-test of about a second: checks the engine by the bits of its shots, and the bundled networks by the points that they
+//! score.
 
 use std::time::Instant;
 
@@ -13,60 +13,60 @@ use crate::{
     table::{PRESETS, Table},
 };
 
-/// Layouts of each network: a tenth of a second or two for all of them.
+/// Layouts per network: one or two tenths of a second for all of them.
 const LAYOUTS: usize = 200;
 
-/// Their seed.
+/// Seed of these layouts.
 const SEED: u64 = 23;
 
-/// The share of points below which a network is not what it was when it was bundled: without errors all but one make 0.85 and more,
-/// and the standard error of 200 layouts is 0.025 at most there.
-const LEAST: f64 = 0.7;
+/// Least share of points of an intact network. Without execution errors, all networks but one score 0.85 or more, where the
+/// standard error of 200 layouts is at most 0.025.
+const LEAST_SHARE: f64 = 0.7;
 
-/// The same for three cushions on `thesis`, where it is 0.51 and the standard error 0.035.
-const LEAST_OF_THESIS: f64 = 0.35;
+/// Least share for three-cushion on `thesis`, whose network scores 0.51 with a standard error of 0.035.
+const LEAST_SHARE_ON_THESIS: f64 = 0.35;
 
-/// What the engine has computed.
+/// Result of the engine's test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct EngineTest {
-    /// Shots that were played on `textbook`.
+    /// Number of shots played on `textbook`.
     pub shots: usize,
-    /// The number of their bits.
+    /// Hash of their bits.
     pub hash: u64,
-    /// Whether it is the number that every machine finds.
+    /// Whether the hash is the expected one.
     pub is_right: bool,
 }
 
-/// What a bundled network has decided.
+/// Result of a bundled network's test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NetworkTest {
-    /// Its table.
+    /// The network's table.
     pub table: String,
-    /// Its rule.
+    /// The network's rule.
     pub rule: &'static str,
-    /// Layouts.
+    /// Number of layouts.
     pub layouts: usize,
-    /// Points that its strokes make there.
+    /// Number of points that its strokes score there.
     pub points: usize,
-    /// Whether they are as many as they should be.
+    /// Whether the number of points is high enough.
     pub is_right: bool,
 }
 
-/// What came of the test.
+/// Result of the self-test.
 #[derive(Clone, Debug, Serialize)]
 pub struct SelfTest {
-    /// None where it could not be tried.
+    /// `None` if the test could not run.
     pub engine: Option<EngineTest>,
-    /// None of them where one could not be tried.
+    /// Empty if a network could not be tested.
     pub networks: Vec<NetworkTest>,
-    /// How long it took, s.
+    /// Duration of the test, s.
     pub seconds: f64,
-    /// Why something could not be tried.
+    /// Reasons for which a part could not be tested.
     errors: Vec<String>,
 }
 
 impl SelfTest {
-    /// Plays the shots of the [`fingerprint`](super::fingerprint), lets every bundled network decide, and plays what it decides.
+    /// Plays the shots of the [`fingerprint`](super::fingerprint), and the shots that every bundled network chooses.
     pub fn run() -> Self {
         let start = Instant::now();
         let mut errors = Vec::new();
@@ -79,7 +79,7 @@ impl SelfTest {
         Self { engine, networks, seconds: start.elapsed().as_secs_f64(), errors }
     }
 
-    /// A sentence for each thing that is wrong.
+    /// Returns a sentence for each problem.
     pub fn problems(&self) -> impl Iterator<Item = String> {
         let engine = self.engine.filter(|test| !test.is_right).map(|test| {
             format!(
@@ -89,7 +89,7 @@ impl SelfTest {
         });
         let networks = self.networks.iter().filter(|test| !test.is_right).map(|test| {
             format!(
-                "the networks for {} on \"{}\" make {} of {} points, which is too few; please report it",
+                "the networks for {} on \"{}\" score on only {} of {} layouts; please report it",
                 test.rule, test.table, test.points, test.layouts
             )
         });
@@ -102,7 +102,7 @@ fn networks() -> Result<Vec<NetworkTest>, String> {
     for name in PRESETS {
         let table = Table::preset(name).map_err(|error| error.to_string())?;
         for rule in Rule::ALL {
-            // On a table without networks of its own it tries those for all tables like it.
+            // On a table without its own networks, this tries those trained for similar tables.
             let Some(policy) = Policy::bundled_for(&table, rule, false) else { continue };
             tests.push(network(&table, rule, &policy.map_err(|error| error.to_string())?));
         }
@@ -114,7 +114,8 @@ fn network(table: &Table, rule: Rule, policy: &Policy) -> NetworkTest {
     let layouts = held_out_layouts(table, LAYOUTS, SEED);
     let makes = |layout: &&_| scores(rule, table, layout, &policy.propose(table, layout, &Skill::PERFECT));
     let points = layouts.iter().filter(makes).count();
-    let least = if (table.name.as_str(), rule) == ("thesis", Rule::ThreeCushion) { LEAST_OF_THESIS } else { LEAST };
+    let least =
+        if (table.name.as_str(), rule) == ("thesis", Rule::ThreeCushion) { LEAST_SHARE_ON_THESIS } else { LEAST_SHARE };
     let is_right = points as f64 >= least * LAYOUTS as f64;
     NetworkTest { table: table.name.clone(), rule: rule.name(), layouts: LAYOUTS, points, is_right }
 }

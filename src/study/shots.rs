@@ -1,4 +1,4 @@
-//! The shots that are studied: random ones that a player could play, and those of the reference files.
+//! The shots of the study: random ones that a player could play, and those of the reference files.
 
 use std::f64::consts::TAU;
 
@@ -13,43 +13,43 @@ use crate::{
     table::{Flight, Layout, Table},
 };
 
-/// The steepest elevation that is drawn.
+/// The greatest cue elevation of random shots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steepest(f64);
 
 impl Steepest {
-    /// That of usual strokes: 20 degrees.
+    /// Usual strokes: 20 degrees.
     pub const USUAL: Self = Self(0.35);
-    /// That of jumps and massés: 60 degrees.
+    /// Jumps and massés: 60 degrees.
     pub const FLIGHTS: Self = Self(std::f64::consts::FRAC_PI_3);
 
-    /// It in degrees.
+    /// Returns the elevation in degrees.
     pub fn degrees(self) -> f64 {
         self.0.to_degrees().round()
     }
 }
 
-/// Cue speeds that are drawn, m/s.
+/// Range of the random cue speeds, m/s.
 const SPEEDS: std::ops::Range<f64> = 0.5..6.0;
 
 /// A shot to study.
 #[derive(Clone, Copy, Debug)]
 pub struct StudyShot {
-    /// The balls.
+    /// Initial positions of the balls.
     pub layout: Layout,
     /// The stroke.
     pub cue: CueInputs,
-    /// What the stroke gives the cue ball: every method starts from these very bits.
+    /// The impulse of the stroke on the cue ball. Every method starts from exactly these bits.
     pub impulse: Impulse,
 }
 
 impl StudyShot {
-    /// A shot on `table`.
+    /// Creates a shot on `table`.
     pub fn new(table: &Table, layout: Layout, cue: CueInputs) -> Self {
         Self { layout, cue, impulse: strike(table, &cue) }
     }
 
-    /// The command line that plays it on the table that `--table` finds by this name or path.
+    /// Returns the command line that plays the shot on the table that `--table` finds by this name or path.
     pub fn command_line(&self, table: &str) -> String {
         let [p, q, r] = self.layout.balls;
         let CueInputs { a, b, theta, phi, speed } = self.cue;
@@ -68,8 +68,8 @@ impl StudyShot {
     }
 }
 
-/// `count` shots drawn from `seed`: balls anywhere, the tip within the miscue limit, the cue raised up to `steepest`, aimed
-/// somewhere at an object ball.
+/// Draws `count` shots from `seed`: balls anywhere, the tip within the miscue limit, the cue raised up to `steepest`, aimed at
+/// a random part of an object ball.
 pub fn random_shots(table: &Table, count: usize, seed: u64, steepest: Steepest) -> Vec<StudyShot> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     (0..count).map(|_| random_shot(table, steepest, &mut rng)).collect()
@@ -88,7 +88,7 @@ fn random_shot(table: &Table, steepest: Steepest, rng: &mut impl Rng) -> StudySh
     let offset = (table.miscue_limit * rng.random_range(0.0..1.0)).sqrt();
     let (a, b) = (offset * rng.random_range(0.0..TAU).sin(), 0.0);
     let b = b + rng.random_range(-1.0..1.0) * (offset * offset - a * a).max(0.0).sqrt();
-    // Rounded to what a person could type, so that the command line gives the same bits.
+    // Rounded to digits that a person could type, so that the command line reproduces the same bits.
     let digits = |x: f64| (1e6 * x).round() / 1e6;
     let degrees = |x: f64| digits(x.to_degrees()).to_radians();
     let theta = degrees(rng.random_range(0.0..steepest.0));
@@ -97,23 +97,23 @@ fn random_shot(table: &Table, steepest: Steepest, rng: &mut impl Rng) -> StudySh
     StudyShot::new(table, layout, cue)
 }
 
-/// A shot that an independent program computed with 50 digits, rounded to `f64` where it wrote them.
+/// A shot computed by an independent program with 50 digits; its numbers are rounded to `f64` in the file.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Reference {
-    /// The table's name.
+    /// Name of the table preset.
     pub preset: String,
-    /// The balls.
+    /// Initial positions of the balls.
     pub layout: Layout,
-    /// The stroke as it is written, angles in degrees.
+    /// The stroke as written in the file, angles in degrees.
     pub cue: CueDegrees,
-    /// When all balls are at rest, s.
+    /// Time at which all balls are at rest, s.
     pub duration: f64,
-    /// How far the end moves per unit of relative change in speed or angle, m. Not known of resting contacts.
+    /// Displacement of the final positions per relative change in speed or angle, m; `None` for resting contacts.
     pub condition: Option<f64>,
-    /// What happens.
+    /// The events; empty for resting contacts.
     #[serde(default)]
     pub events: Vec<ReferenceEvent>,
-    /// Where the balls come to rest.
+    /// Final positions of the balls.
     #[serde(rename = "final")]
     pub end: Layout,
 }
@@ -123,23 +123,24 @@ pub struct Reference {
 pub struct ReferenceEvent {
     /// Its time, s.
     pub t: f64,
-    /// Its kind, by the name that `EventKind` has.
+    /// Its kind, named as in [`EventKind::name`].
     pub kind: String,
-    /// The balls that take part.
+    /// The balls involved.
     pub balls: Vec<usize>,
-    /// The cushion that takes part.
+    /// The cushion involved; `None` for other events.
     pub rail: Option<String>,
 }
 
 impl Reference {
-    /// The table that it is played on, `None` if there is none of its name: with the cloth's defaults where a ball leaves it.
+    /// Returns the table of the shot, `None` if there is no preset of that name. If a ball leaves the cloth, the table gets the
+    /// default flight parameters.
     pub fn table(&self) -> Option<Table> {
         let flies = self.events.iter().any(|event| event.kind == EventKind::Jumps(0).name());
         let table = Table::preset(&self.preset).ok()?;
         Some(if flies { Table { flight: table.flight.or(Some(Flight::default())), ..table } } else { table })
     }
 
-    /// Where the balls are in the end, those that left the table on their spots.
+    /// Returns the final positions; a ball that left the table is on its spot.
     pub fn end_on(&self, table: &Table) -> Layout {
         let leaves = |ball| {
             let is_it =
@@ -150,7 +151,7 @@ impl Reference {
     }
 }
 
-/// The reference files by name: ordinary shots, hard ones, resting contacts, and flights.
+/// Returns the reference files by name: ordinary shots, hard ones, resting contacts, and flights.
 pub fn references() -> [(&'static str, Vec<Reference>); 4] {
     let read = |text: &str| {
         let line = |line| serde_json::from_str(line).expect("the bundled reference shots are valid: a test reads them");

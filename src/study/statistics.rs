@@ -1,48 +1,48 @@
-//! Median, 99th percentile and worst of a kind of error: a mean alone would hide what matters.
+//! Median, 99th percentile and maximum of an error: a mean alone would hide the tail.
 
 use serde::Serialize;
 
 use crate::statistics::SuccessRate;
 
-/// How a kind of error is spread over the shots.
+/// Distribution of an error over the shots.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Half of the shots are better.
+    /// The median.
     pub median: f64,
-    /// 99 in a hundred are better.
+    /// The 99th percentile.
     pub p99: f64,
-    /// None is worse.
+    /// The maximum.
     pub worst: f64,
 }
 
 impl Spread {
-    /// The spread of `values`, if there are any. What is not a number counts as infinitely bad.
+    /// Computes the spread of `values`; `None` if there are none. NaN counts as infinity.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let mut values: Vec<f64> =
             values.into_iter().map(|value| if value.is_nan() { f64::INFINITY } else { value }).collect();
         values.sort_by(f64::total_cmp);
         let last = values.len().checked_sub(1)?;
-        // The nearest rank: the smallest value that so large a share does not exceed.
+        // Nearest rank: the smallest value that at least this share of the values does not exceed.
         let rank = |share: f64| values[((share * values.len() as f64).ceil() as usize).saturating_sub(1).min(last)];
         Some(Self { median: rank(0.5), p99: rank(0.99), worst: values[last] })
     }
 }
 
-/// A share of the shots and its 95 % interval (Wilson's).
+/// A share of the shots and its 95 % confidence interval (Wilson's).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Share {
-    /// How many of the shots.
+    /// Number of shots that count.
     pub count: usize,
-    /// Of how many.
+    /// Number of all shots.
     pub of: usize,
-    /// Lower end of the interval.
+    /// Lower bound of the interval.
     pub low: f64,
-    /// Upper end.
+    /// Upper bound of the interval.
     pub high: f64,
 }
 
 impl Share {
-    /// The share of those for which something holds.
+    /// Computes the share of `true` values.
     pub fn of(holds: impl IntoIterator<Item = bool>) -> Self {
         let (mut count, mut of) = (0, 0);
         for one in holds {

@@ -1,4 +1,4 @@
-//! How much this machine does in a second: shots, recommendations, decisions and updates of the networks.
+//! Benchmark of this machine: shots, recommendations, network decisions and network updates per second.
 
 use std::{
     f64::consts::PI,
@@ -36,41 +36,41 @@ use crate::{
     table::{Layout, PRESETS, Table},
 };
 
-/// Shots or layouts that are drawn beforehand; they are played again and again.
-const DRAWN: usize = 4096;
+/// Number of shots or layouts drawn beforehand; the benchmark cycles through them.
+const SAMPLES: usize = 4096;
 
-/// Seed of everything that is drawn: every run measures the same.
+/// Seed of all random draws: every run measures the same work.
 const SEED: u64 = 7;
 
-/// One figure.
+/// One benchmark result.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Figure {
-    /// What is counted.
+    /// The counted operation.
     pub what: &'static str,
-    /// Layers, batch and operations, where networks learn.
+    /// Layers, batch size and operations, for network updates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sizes: Option<String>,
     /// The table.
     pub table: String,
-    /// Threads that worked at it.
+    /// Number of threads used.
     pub threads: usize,
-    /// How many of it a second.
+    /// Operations per second.
     pub per_second: f64,
 }
 
-/// The machine that was measured.
+/// The machine that ran the benchmark.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Machine {
-    /// Name of the processor, or its architecture where the name is not to be had.
+    /// Name of the processor, or its architecture if the name is not available.
     pub cpu: String,
-    /// Threads that it runs at once.
+    /// Number of hardware threads.
     pub threads: usize,
     /// Operating system.
     pub os: &'static str,
 }
 
 impl Machine {
-    /// This one.
+    /// Returns this machine.
     pub fn this() -> Self {
         let listed = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
         let name = listed.lines().filter_map(|line| line.split_once(':')).find(|(key, _)| key.trim() == "model name");
@@ -82,15 +82,15 @@ impl Machine {
     }
 }
 
-/// Measures everything, each figure for `time`, and hands each over as soon as it is known.
+/// Runs all benchmarks, each for `time`, and reports each result as soon as it is known.
 ///
 /// # Errors
-/// Where the networks cannot be used.
-pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> candle_core::Result<Vec<Figure>> {
+/// Fails if the networks cannot be used.
+pub fn measure(time: Duration, mut report: impl FnMut(&Figure)) -> candle_core::Result<Vec<Figure>> {
     let mut figures = Vec::new();
     let mut note = |what, sizes: Option<String>, table: &Table, threads, per_second| {
         let figure = Figure { what, sizes, table: table.name.clone(), threads, per_second };
-        tell(&figure);
+        report(&figure);
         figures.push(figure);
     };
     let cores = thread::available_parallelism().map_or(1, std::num::NonZero::get);
@@ -121,7 +121,7 @@ pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> candle_core::Re
     Ok(figures)
 }
 
-/// Random layouts, and strokes at the centre of the ball in any direction with 0.5 to 6 m/s, as in training.
+/// Draws random layouts and centre-ball strokes in any direction with 0.5 to 6 m/s, as in training.
 fn shots(table: &Table) -> Vec<(Layout, CueInputs)> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
     let mut shot = || {
@@ -129,17 +129,17 @@ fn shots(table: &Table) -> Vec<(Layout, CueInputs)> {
         let (phi, speed) = (rng.random_range(-PI..PI), rng.random_range(0.5..6.0));
         (layout, CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed })
     };
-    (0..DRAWN).map(|_| shot()).collect()
+    (0..SAMPLES).map(|_| shot()).collect()
 }
 
-/// How many of `items` a second `work` does.
+/// Returns how many `items` per second `work` processes.
 fn rate<T, R>(time: Duration, items: &[T], work: impl Fn(&T) -> R) -> f64 {
     let start = Instant::now();
     let mut done = 0_u64;
     for item in items.iter().cycle() {
         std::hint::black_box(work(item));
         done += 1;
-        // The clock is cheap beside any of this work.
+        // Reading the clock is cheap compared with any of this work.
         if start.elapsed() >= time {
             break;
         }
@@ -147,18 +147,18 @@ fn rate<T, R>(time: Duration, items: &[T], work: impl Fn(&T) -> R) -> f64 {
     done as f64 / start.elapsed().as_secs_f64()
 }
 
-/// The same on several threads, each of which begins elsewhere in the list.
+/// Returns the total rate of several threads, each of which starts at a different index of the list.
 fn rate_on<T: Sync, R>(threads: usize, time: Duration, items: &[T], work: impl Fn(&T) -> R + Sync) -> f64 {
     let starts: Vec<usize> = (0..threads).map(|thread| thread * items.len() / threads).collect();
     parallel::map(threads, &starts, |start| rate(time, &items[*start..], &work)).into_iter().sum()
 }
 
-/// How the passes of networks are computed, and how that is told.
+/// Implementations of the network passes, and their names in the results.
 const OPERATIONS: [(Operations, &str); 2] =
     [(Operations::Fused, "a network as one operation"), (Operations::Plain, "candle's own layers")];
 
-/// The networks of thesis Table 4 and of the example to which it refers (its reference 20): hidden layers of actor and critic,
-/// the batch, and whether the episodes in it go on, so that the target networks are asked as well.
+/// The networks of thesis Table 4 and of the example that it cites (its reference 20): hidden layers of actor and critic, batch
+/// size, and whether the batch's transitions are non-terminal, so that the target networks are evaluated too.
 type ThesisUpdate = (&'static str, [&'static [usize]; 2], usize, bool);
 const THESIS_UPDATES: [ThesisUpdate; 3] = [
     ("actor 16-16-16, critic 32-32-32, batch 32", [&[16; 3], &[32; 3]], 32, true),
@@ -166,8 +166,8 @@ const THESIS_UPDATES: [ThesisUpdate; 3] = [
     ("actor and critic 256-256, batch 256", [&[256; 2], &[256; 2]], 256, true),
 ];
 
-/// Runs `update` again and again; how often a second of one thread's own time (on Linux; elsewhere the wall's). It has all the work: candle's
-/// layers would leave a part to other threads.
+/// Runs `update` repeatedly and returns the updates per second of the thread's CPU time (wall time on systems other than
+/// Linux). All work stays on this one thread: candle's layers would otherwise move a part to other threads.
 fn updates_a_second<T>(
     time: Duration,
     mut update: impl FnMut() -> candle_core::Result<T> + Send,
@@ -186,14 +186,14 @@ fn updates_a_second<T>(
     })
 }
 
-/// Updates of the thesis' critic, actor and their averaged copies, from a batch that is at hand.
+/// Measures updates of the thesis' actor, critic and their target networks on a fixed batch.
 fn thesis_updates(
     time: Duration,
     (_, [actor, critic], rows, goes_on): ThesisUpdate,
     operations: Operations,
 ) -> candle_core::Result<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
-    // Slow enough to stay finite, for the same batch again and again is nothing to learn from.
+    // A small learning rate keeps the networks finite: training on one batch over and over cannot converge to anything useful.
     let rates = Rates { adam: AdamConfig { learning_rate: 1e-6, gradient_clip: 1.0 }, keep: 0.999 };
     let mut agent = ActorCritic::random(&sizes(actor, critic), rates, &mut rng)?.with(operations);
     let mut number = || rng.random_range(-1.0..1.0);
@@ -211,7 +211,7 @@ fn thesis_updates(
     updates_a_second(time, || agent.update(&batch, &Guidance::NONE))
 }
 
-/// Updates of the networks that coach, with the default settings, from a batch that is at hand.
+/// Measures updates of the coach's networks on a fixed batch, with the default settings except for the learning rates.
 fn coach_updates(time: Duration, table: &Table, operations: Operations) -> candle_core::Result<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
     let settings =

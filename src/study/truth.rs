@@ -1,4 +1,5 @@
-//! What really becomes of a shot: the reference engine with 32 digits, and how much the shot amplifies a change.
+//! The true course of a shot, from the reference engine with 32 digits, and the shot's condition: how much it amplifies a
+//! change.
 
 use super::{
     reference_engine::{DoubleDouble, Motion, Numbers, Real, Shot, Stroke, Unjudged, Vector, by_extrema, play, strike},
@@ -9,56 +10,56 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// Relative change from which the amplification is taken: far above the truth's rounding, and so far below all else that
-/// a shot which amplifies a billionfold is still linear in it.
-const CHANGE: f64 = 1e-15;
+/// Relative perturbation from which the condition is computed. It is far above the rounding of the truth, and so small that a
+/// shot which amplifies by a factor of 1e9 still responds linearly.
+const PERTURBATION: f64 = 1e-15;
 
-/// Two meetings of the same partners within this time are a chatter, s.
+/// Two collisions of the same partners within this time count as chatter, s.
 const CHATTER: f64 = 1e-6;
 
-/// A shot's true course, rounded to `f64` where nothing more is needed.
+/// The true course of a shot, rounded to `f64` where that is precise enough.
 #[derive(Clone, Debug)]
 pub struct Truth {
     /// All events.
     pub events: Vec<(f64, EventKind)>,
-    /// Where the balls come to rest, m; those that left the table are on their spots.
+    /// Final positions of the balls, m; a ball that left the table is on its spot.
     pub end: [Vector<DoubleDouble>; BALLS],
-    /// How far the end moves per unit of relative change in speed or angle, m: the worse of the two.
+    /// Displacement of the final positions per relative change in speed or angle, m: the larger of the two.
     pub condition: f64,
-    /// Whether balls chatter or slide off one another in bounces, so that what is told of these depends on where a method stops
-    /// telling.
+    /// Whether balls chatter or slide off one another in bounces. How many of these events a method reports depends on where it
+    /// truncates the series.
     pub chatters: bool,
-    /// Energy at the start for which nothing accounts at the end, as a share.
+    /// Energy that the audit does not explain at the end, as a share of the initial energy.
     pub unaccounted: f64,
 }
 
 impl Truth {
-    /// Plays a shot three times: as it is, a little faster, and a little turned.
+    /// Plays a shot three times: unchanged, slightly faster, and slightly rotated.
     ///
     /// # Errors
-    /// [`Unjudged`], where the truth is not known.
+    /// [`Unjudged`] if the truth cannot be computed.
     pub fn of(table: &Table, shot: &StudyShot) -> Result<Self, Unjudged> {
         let numbers = Numbers::of(table);
         let of = DoubleDouble::of;
         let (velocity, spin) = motion(shot);
-        let true_shot = play(&numbers, places(&shot.layout), velocity, spin, by_extrema)?;
-        let faster = of(1.0) + of(CHANGE);
-        // The impulse is linear in the cue's speed, and turns with its direction.
-        let faster = play(&numbers, places(&shot.layout), velocity * faster, spin * faster, by_extrema)?;
-        let angle = of(shot.cue.phi) * of(CHANGE);
+        let true_shot = play(&numbers, positions(&shot.layout), velocity, spin, by_extrema)?;
+        let faster = of(1.0) + of(PERTURBATION);
+        // The impulse is linear in the cue's speed, and rotates with the cue's direction.
+        let faster = play(&numbers, positions(&shot.layout), velocity * faster, spin * faster, by_extrema)?;
+        let angle = of(shot.cue.phi) * of(PERTURBATION);
         let turn = |v: Vector<DoubleDouble>| v + Vector::up().cross(v) * angle;
-        let turned = play(&numbers, places(&shot.layout), turn(velocity), turn(spin), by_extrema)?;
+        let turned = play(&numbers, positions(&shot.layout), turn(velocity), turn(spin), by_extrema)?;
         let moved = |other: &Shot<DoubleDouble>| {
             let ends = ends(table, &true_shot).into_iter().zip(ends(table, other));
-            ends.map(|(a, b)| (a - b).length().to_f64()).fold(0.0, f64::max) / CHANGE
+            ends.map(|(a, b)| (a - b).length().to_f64()).fold(0.0, f64::max) / PERTURBATION
         };
         Ok(Self::from_shot(table, &true_shot, moved(&faster).max(moved(&turned))))
     }
 
-    /// The truth of a reference shot, from the angles in degrees on.
+    /// Computes the truth of a reference shot, starting from its angles in degrees.
     ///
     /// # Errors
-    /// [`Unjudged`], where the truth is not known.
+    /// [`Unjudged`] if the truth cannot be computed.
     pub fn of_reference(table: &Table, reference: &Reference) -> Result<Self, Unjudged> {
         let numbers = Numbers::of(table);
         let of = DoubleDouble::of;
@@ -67,7 +68,7 @@ impl Truth {
         let (theta, phi) = (turn(cue.theta_deg), turn(cue.phi_deg));
         let (velocity, spin) =
             strike(&numbers, &Stroke { a: of(cue.a), b: of(cue.b), theta, phi, speed: of(cue.speed) });
-        let shot = play(&numbers, places(&reference.layout), velocity, spin, by_extrema)?;
+        let shot = play(&numbers, positions(&reference.layout), velocity, spin, by_extrema)?;
         Ok(Self::from_shot(table, &shot, reference.condition.unwrap_or(0.0)))
     }
 
@@ -78,37 +79,37 @@ impl Truth {
         Self { events, end: ends(table, shot), condition, chatters, unaccounted }
     }
 
-    /// Whether a ball leaves the cloth.
+    /// Whether any ball leaves the cloth.
     pub fn flies(&self) -> bool {
         self.events.iter().any(|(_, kind)| matches!(kind, EventKind::Jumps(_)))
     }
 
-    /// Greatest distance of a ball at rest from where it should be, m.
+    /// Greatest distance between the final positions in `end` and the true ones, m.
     pub fn distance(&self, end: &Layout) -> f64 {
-        let apart = self.end.iter().zip(places(end)).map(|(truth, ball)| (*truth - ball).length().to_f64());
-        apart.fold(0.0, f64::max)
+        let distances = self.end.iter().zip(positions(end)).map(|(truth, ball)| (*truth - ball).length().to_f64());
+        distances.fold(0.0, f64::max)
     }
 
-    /// The error that no double-precision program can be blamed for, m: that of a rounded input.
+    /// The error unit, m: the error from rounding the input, which no double-precision program can avoid.
     pub fn unit(&self) -> f64 {
         (1.0 + self.condition) * f64::ROUNDING
     }
 }
 
-fn places(layout: &Layout) -> [Vector<DoubleDouble>; BALLS] {
+fn positions(layout: &Layout) -> [Vector<DoubleDouble>; BALLS] {
     layout.balls.map(|ball| Vector::new(DoubleDouble::of(ball.x), DoubleDouble::of(ball.y), DoubleDouble::of(0.0)))
 }
 
-/// Velocity and spin of a shot's cue ball.
+/// Initial velocity and spin of a shot's cue ball.
 pub fn motion<R: Real>(shot: &StudyShot) -> (Vector<R>, Vector<R>) {
     let (v, w) = (shot.impulse.velocity.extend(shot.impulse.lift), shot.impulse.spin);
     let vector = |v: glam::DVec3| Vector::new(R::of(v.x), R::of(v.y), R::of(v.z));
     (vector(v), vector(w))
 }
 
-/// Where a shot's balls are at rest; those that left the table are on their spots.
+/// Final positions of a shot's balls; a ball that left the table is on its spot.
 fn ends(table: &Table, shot: &Shot<DoubleDouble>) -> [Vector<DoubleDouble>; BALLS] {
-    let spotted = places(&shot.layout(table));
+    let spotted = positions(&shot.layout(table));
     std::array::from_fn(
         |ball| {
             if shot.end[ball].motion == Motion::OffTable { spotted[ball] } else { shot.end[ball].position }
@@ -140,7 +141,7 @@ mod tests {
     fn judges_all(random: usize, adversarial_shots: usize) {
         let judge = |table: &Table, shot: &StudyShot| {
             let (velocity, spin) = motion(shot);
-            play(&Numbers::of(table), places(&shot.layout), velocity, spin, by_extrema).unwrap();
+            play(&Numbers::of(table), positions(&shot.layout), velocity, spin, by_extrema).unwrap();
         };
         for table in ["thesis", "textbook"].map(|name| Table::preset(name).unwrap()) {
             for shot in random_shots(&table, random, 1, Steepest::USUAL) {

@@ -1,8 +1,8 @@
-//! From rail to rail: the motion of a filmed ball on leaving a rail is fitted to its course up to the second rail after,
-//! and the rails behind that are predicted.
+//! Predictions from rail to rail: the motion of a filmed ball leaving a rail is fitted to its course up to the second rail
+//! after, and the impacts on the rails after that are predicted.
 //!
-//! Seven numbers are fitted: place, velocity, slip and side spin. The course to the next rail shows all but the side spin,
-//! which shows in how the ball leaves that rail.
+//! The fit has seven parameters: position, velocity, slip and side spin. The course to the next rail determines all but the
+//! side spin, which follows from the rebound there.
 
 use glam::DVec2;
 
@@ -17,42 +17,42 @@ use crate::{
     table::Table,
 };
 
-/// A filmed ball from one rail to some others, with no other ball near.
+/// The course of a filmed ball over several rails, with no other ball near.
 #[derive(Clone, Debug)]
 pub struct Chain {
     /// The samples between the rails.
     pub samples: Vec<Sample>,
-    /// The rails, that which it leaves first.
+    /// The rail impacts; the course starts at the first.
     pub hits: Vec<RailHit>,
 }
 
-/// How a chain came out.
+/// The prediction of a chain, compared with the film.
 #[derive(Clone, Debug)]
 pub struct Played {
-    /// Distances from where the ball met the rails, m, for those of `hits[1..]`.
+    /// Distances between predicted and filmed impacts, m, for `hits[1..]`.
     pub places: Vec<f64>,
-    /// By how much it was late there, s.
-    pub late: Vec<f64>,
+    /// Delays of the predicted impacts, s.
+    pub delays: Vec<f64>,
 }
 
-/// Samples nearer in time to a rail hit than this may lie in the rail, s.
+/// Samples closer than this to a rail impact may show the ball in contact with the rail, s.
 const IN_RAIL: f64 = 0.011;
 
-/// Residuals far above this count less and less, m.
+/// Scale of the robust loss, m: residuals far above it are damped.
 const ROBUST: f64 = 0.02;
 
-/// All stretches of `count` rails in a row.
+/// Returns all stretches of `count` consecutive rails.
 pub fn all(table: &Table, film: &[FilmedShot], count: usize) -> Vec<Chain> {
-    film.iter().flat_map(|shot| readable(shot, chains(table, shot, count))).collect()
+    film.iter().flat_map(|shot| with_samples(shot, chains(table, shot, count))).collect()
 }
 
-/// The film's stretches of three to five rails that do not overlap: what constants are fitted with.
-pub fn apart(table: &Table, film: &[FilmedShot]) -> Vec<Chain> {
-    film.iter().flat_map(|shot| readable(shot, stretches(table, shot, 3, 5))).collect()
+/// Returns disjoint stretches of three to five rails, for fitting constants.
+pub fn disjoint(table: &Table, film: &[FilmedShot]) -> Vec<Chain> {
+    film.iter().flat_map(|shot| with_samples(shot, stretches(table, shot, 3, 5))).collect()
 }
 
-/// Those whose first two legs show something.
-fn readable(shot: &FilmedShot, found: Vec<(usize, Vec<RailHit>)>) -> Vec<Chain> {
+/// Returns the stretches with at least four samples on each of the first two legs.
+fn with_samples(shot: &FilmedShot, found: Vec<(usize, Vec<RailHit>)>) -> Vec<Chain> {
     let chain = |(ball, hits): (usize, Vec<RailHit>)| {
         let (from, to) = (hits[0].time + IN_RAIL, hits[hits.len() - 1].time);
         let free = |time: f64| hits.iter().all(|hit| (time - hit.time).abs() > IN_RAIL);
@@ -66,14 +66,14 @@ fn readable(shot: &FilmedShot, found: Vec<(usize, Vec<RailHit>)>) -> Vec<Chain> 
     found.into_iter().map(chain).filter(|chain| shows(chain, 0) && shows(chain, 1)).collect()
 }
 
-/// A residual that grows ever more slowly beyond [`ROBUST`].
+/// Damps a residual: linear near zero, logarithmic beyond [`ROBUST`].
 pub fn soften(miss: f64) -> f64 {
     ROBUST * (miss / ROBUST).asinh()
 }
 
 impl Chain {
-    /// The motion at the first sample that fits the course up to the rail `last` best, from several beginnings or from
-    /// one that is known.
+    /// Fits the motion at the first sample to the course up to the rail `last`. The search starts from `known`, or from several
+    /// values of the side spin. Returns the motion and the sum of squared residuals.
     pub fn fit(&self, table: &Table, last: usize, known: Option<Motion>) -> (Motion, f64) {
         let begin = self.samples[0].time;
         let until = self.hits[last].time;
@@ -87,7 +87,8 @@ impl Chain {
                 let miss = *place - sample.place;
                 out.extend([soften(miss.x), soften(miss.y)]);
             }
-            // No ball slips or spins much faster than it moves: where the film says nothing, less is likelier.
+            // A weak prior: slip and spin are not much faster than the motion, so less is likelier if the film does not
+            // determine them.
             out.extend([1e-4 * numbers[4], 1e-4 * numbers[5], 1e-4 * numbers[6]]);
         };
         let (first, second) = (self.samples[0], self.samples[1]);
@@ -110,18 +111,18 @@ impl Chain {
         best.unwrap_or((Motion { place: first.place, velocity, slip: DVec2::ZERO, side: 0.0 }, f64::INFINITY))
     }
 
-    /// Fits the first two legs and predicts the rest.
+    /// Fits the motion to the first two legs and predicts the rest.
     pub fn play(&self, table: &Table) -> Played {
         let (motion, _) = self.fit(table, 2, None);
         let begin = self.samples[0].time;
         let followed =
             Follower::new(&[], self.hits.len() - 1).of(table, &alone(motion.place), &motion.impulse(table.radius));
-        let (mut places, mut late) = (Vec::new(), Vec::new());
+        let (mut places, mut delays) = (Vec::new(), Vec::new());
         for (index, hit) in self.hits[1..].iter().enumerate() {
             let met = followed.hits.get(index);
             places.push(met.map_or(9.0, |(_, _, place)| place.distance(hit.place)));
-            late.push(met.map_or(9.0, |(time, ..)| begin + time - hit.time));
+            delays.push(met.map_or(9.0, |(time, ..)| begin + time - hit.time));
         }
-        Played { places, late }
+        Played { places, delays }
     }
 }

@@ -1,4 +1,4 @@
-//! Fitting a table's constants to the film, with their uncertainties and correlations.
+//! Fits a table's constants to the film, with uncertainties and correlations.
 
 use glam::DVec2;
 use serde::Serialize;
@@ -13,12 +13,12 @@ use crate::{
     table::{Fade, RailModel, Table},
 };
 
-/// How many constants are fitted.
+/// Number of fitted constants.
 pub const COUNT: usize = 11;
 
-/// Each constant's name in a table's file, what is known of it without this fit (a value and its standard deviation, from
-/// direct measurements on the film and from the literature), and the step for derivatives.
-const KNOWN: [(&str, f64, f64, f64); COUNT] = [
+/// Name of each constant in a table file, its prior (mean and standard deviation, from direct measurements on the film and from
+/// the literature), and the step for finite differences.
+const PRIORS: [(&str, f64, f64, f64); COUNT] = [
     ("e_rail", 0.874, 0.016, 1e-3),
     ("mu_rail", 0.25, 0.05, 2e-3),
     ("(height - R)/R", 0.185, 0.03, 2e-3),
@@ -32,40 +32,40 @@ const KNOWN: [(&str, f64, f64, f64); COUNT] = [
     ("mu_s", 0.205, 0.005, 1e-3),
 ];
 
-/// What a stretch of three to five rails is expected to be off by, m: how far a residual counts fully.
-const EXPECTED: f64 = 0.003;
+/// Expected rms residual of a stretch of three to five rails, m. Larger residuals count less than proportionally.
+const EXPECTED_RMS: f64 = 0.003;
 
-/// Rounds in which the constants are fitted for given beginnings of the stretches, and those sought anew.
+/// Number of rounds. Each fits the constants with fixed initial motions of the stretches, then fits these motions again.
 const ROUNDS: usize = 4;
 
-/// Constants that were fitted.
+/// The result of a fit.
 #[derive(Clone, Debug, Serialize)]
 pub struct Fitted {
-    /// The rail's model.
+    /// The model of the rails.
     pub model: RailModel,
-    /// Stretches of the film that were used.
+    /// Number of stretches of the film in the fit.
     pub stretches: usize,
-    /// Name, value and standard deviation of each.
+    /// Name, value and standard deviation of each constant.
     pub constants: Vec<Constant>,
-    /// Their correlations, rows one after another in the same order.
+    /// Correlation matrix by rows, in the same order.
     pub correlations: Vec<Vec<f64>>,
-    /// The table with these constants.
+    /// The table with the fitted constants.
     #[serde(skip)]
     pub table: Table,
 }
 
-/// One of them.
+/// A fitted constant.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Constant {
-    /// As in the table's file.
+    /// Its name in a table file.
     pub name: &'static str,
     /// Its value.
     pub value: f64,
-    /// Standard deviation, from the fit and from what was known before.
+    /// Standard deviation, from the fit and the prior.
     pub deviation: f64,
 }
 
-/// `table` with these constants on rails of this model.
+/// Returns `table` with these constants and this model of the rails.
 fn with(table: &Table, model: RailModel, values: &[f64; COUNT]) -> Table {
     let [e, mu, height, kappa, fade, roll, growth, spin, tilt_x, tilt_y, slide] = *values;
     let mut table = Table {
@@ -86,10 +86,10 @@ fn with(table: &Table, model: RailModel, values: &[f64; COUNT]) -> Table {
     table
 }
 
-/// Fits the constants of cloth and rails to the rails that the film's balls met; balls, cue and sizes are `table`'s.
+/// Fits the constants of cloth and rails to the filmed rail impacts. Balls, cue and sizes are those of `table`.
 pub fn fit_constants(table: &Table, model: RailModel, film: &[FilmedShot]) -> Fitted {
-    let stretches = chains::apart(table, film);
-    let mut values = KNOWN.map(|(_, value, ..)| value);
+    let stretches = chains::disjoint(table, film);
+    let mut values = PRIORS.map(|(_, value, ..)| value);
     let begin = |table: &Table, stretch: &Chain, known: Option<Motion>| {
         let last = stretch.hits.len() - 1;
         let anew = stretch.fit(table, last, None);
@@ -100,15 +100,15 @@ pub fn fit_constants(table: &Table, model: RailModel, film: &[FilmedShot]) -> Fi
     let mut motions: Vec<Motion> = stretches.iter().map(|stretch| begin(&first, stretch, None)).collect();
     let mut normal = Vec::new();
     for _ in 0..ROUNDS {
-        let found = fit(values, KNOWN.map(|(.., step)| step), 6, &mut |values, out| {
+        let found = fit(values, PRIORS.map(|(.., step)| step), 6, &mut |values, out| {
             out.clear();
             let table = with(table, model, values);
             for (stretch, motion) in stretches.iter().zip(&motions) {
                 let (_, squares) = stretch.fit(&table, stretch.hits.len() - 1, Some(*motion));
                 let rms = (squares / stretch.samples.len() as f64).sqrt();
-                out.push((rms / EXPECTED).asinh());
+                out.push((rms / EXPECTED_RMS).asinh());
             }
-            out.extend(values.iter().zip(KNOWN).map(|(value, (_, known, deviation, _))| (value - known) / deviation));
+            out.extend(values.iter().zip(PRIORS).map(|(value, (_, known, deviation, _))| (value - known) / deviation));
         });
         (values, normal) = (found.parameters, found.normal);
         let table = with(table, model, &values);
@@ -118,7 +118,7 @@ pub fn fit_constants(table: &Table, model: RailModel, film: &[FilmedShot]) -> Fi
     }
     let covariance = inverse(&normal).unwrap_or(vec![vec![f64::NAN; COUNT]; COUNT]);
     let deviation = |index: usize| covariance[index][index].sqrt();
-    let constants = (0..COUNT).map(|i| Constant { name: KNOWN[i].0, value: values[i], deviation: deviation(i) });
+    let constants = (0..COUNT).map(|i| Constant { name: PRIORS[i].0, value: values[i], deviation: deviation(i) });
     let correlations =
         (0..COUNT).map(|i| (0..COUNT).map(|j| covariance[i][j] / (deviation(i) * deviation(j))).collect());
     Fitted {
@@ -126,7 +126,7 @@ pub fn fit_constants(table: &Table, model: RailModel, film: &[FilmedShot]) -> Fi
         stretches: stretches.len(),
         constants: constants.collect(),
         correlations: correlations.collect(),
-        // The film's table leans a little its own way: another one does not.
+        // The filmed table has a slight tilt of its own, which no other table shares.
         table: Table { tilt: DVec2::ZERO, ..with(table, model, &values) },
     }
 }

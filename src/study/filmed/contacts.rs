@@ -1,4 +1,4 @@
-//! What a film shows the cue ball meet: balls and cushions in their order, and by them whether the shot is a point.
+//! The cue ball's impacts on balls and cushions in the film, in order, and whether the shot scores by them.
 
 use super::film::{FilmedShot, Sample, first_moved};
 use crate::{
@@ -7,19 +7,19 @@ use crate::{
     table::{BALLS, Rail, Table},
 };
 
-/// Two balls may have touched where their filmed centres come nearer than their diameter and this, m: between two
-/// samples a fast ball turns where the film shows a straight line.
+/// Two balls may have touched if their filmed centres come closer than their diameter plus this, m. Between two samples a fast
+/// ball may turn, where the film has a straight line.
 const NEAR: f64 = 0.02;
-/// The same where both balls move, which need not have touched at all.
-const NEARER: f64 = 0.006;
-/// Time between two looks, s, and how far beyond its samples a contact is looked for, s.
+/// The same if both balls move, m; such balls may have passed without touching.
+const NEAR_MOVING: f64 = 0.006;
+/// Time step of the search for a contact, s, and its extent beyond the samples, s.
 const STEP: f64 = 0.002;
 const BEYOND: f64 = 0.02;
-/// A ball that turns nearer to a cushion than this has met it, m: a fast one may do so between two samples.
+/// A ball that reverses closer to a cushion than this has hit it, m: a fast ball may do so between two samples.
 const AT_RAIL: f64 = 0.03;
 
 impl FilmedShot {
-    /// What the cue ball meets, in order of time: each object ball for the first time, and every cushion.
+    /// Returns the impacts of the cue ball in order of time: the first on each object ball, and all on cushions.
     pub fn meetings(&self, table: &Table) -> Vec<Event> {
         let balls = (1..BALLS).filter_map(|ball| {
             let time = self.first_contact(table, ball)?;
@@ -34,37 +34,38 @@ impl FilmedShot {
         events
     }
 
-    /// Whether the film shows a point.
+    /// Whether the filmed shot scores a point.
     pub fn is_point(&self, table: &Table, rule: Rule) -> bool {
         let mut tally = Tally::default();
         self.meetings(table).iter().for_each(|event| tally.note(event));
         tally.is_point(rule)
     }
 
-    /// When the cue ball meets an object ball for the first time, s of the film.
+    /// Returns the time of the cue ball's first impact on an object ball, s of the film.
     fn first_contact(&self, table: &Table, ball: usize) -> Option<f64> {
         let (track, diameter) = (&self.balls[ball], 2.0 * table.radius);
         let moved = first_moved(track)?;
         let distance = |time: f64| self.place(0, time).distance(self.place(ball, time));
-        // While it lies: where the cue ball is nearest to it between the two samples that show that it was moved.
+        // While the object ball is at rest: the time at which the cue ball is nearest to it, between the two samples around the
+        // start of its motion.
         let (from, to) = (track[moved - 1].time - BEYOND, track[moved].time + BEYOND);
         let lying = |time: f64| self.place(0, time).distance(track[0].place);
-        let nearest = looks(from, to).min_by(|one, other| lying(*one).total_cmp(&lying(*other)))?;
+        let nearest = sample_times(from, to).min_by(|one, other| lying(*one).total_cmp(&lying(*other)))?;
         if lying(nearest) < diameter + NEAR {
             return Some(nearest);
         }
-        // The other object ball has moved it.
-        looks(to, self.balls[0].last()?.time).find(|time| distance(*time) < diameter + NEARER)
+        // Otherwise, the other object ball has moved it.
+        sample_times(to, self.balls[0].last()?.time).find(|time| distance(*time) < diameter + NEAR_MOVING)
     }
 }
 
-/// Moments between two times, s.
-fn looks(from: f64, to: f64) -> impl Iterator<Item = f64> {
+/// Returns equidistant times between two times, s.
+fn sample_times(from: f64, to: f64) -> impl Iterator<Item = f64> {
     let count = ((to - from) / STEP).max(0.0) as u32;
     (0..=count).map(move |n| from + STEP * f64::from(n))
 }
 
-/// When a ball turns at a cushion, s; one that stays there for a while has met it once.
+/// Returns the times at which a ball reverses at a cushion, s. A ball that stays there for a while counts once.
 fn turns(table: &Table, track: &[Sample], rail: Rail) -> Vec<f64> {
     let inwards = rail.normal();
     let reach = inwards.abs().dot(table.reach());

@@ -1,4 +1,4 @@
-//! The film: shots of a real match as the places of their balls over time.
+//! The film: ball positions over time in the shots of a real match.
 
 use glam::DVec2;
 use serde::Deserialize;
@@ -8,39 +8,38 @@ use crate::table::{BALLS, Table};
 /// The bundled half of the film.
 static FILM: &str = include_str!("../../../tests/data/filmed/shots.jsonl");
 
-/// A ball moves once it is farther than this from where it lay, m: ten times the noise.
-const MOVED: f64 = 0.003;
+/// A ball has moved if it is farther than this from its first position, m: ten times the noise.
+const MOTION_THRESHOLD: f64 = 0.003;
 
-/// How far a place on the film is from the ball's, m.
-const NOISE: f64 = MOVED / 10.0;
+/// Noise of a filmed position, m.
+const NOISE: f64 = MOTION_THRESHOLD / 10.0;
 
-/// Where a ball was at some moment.
+/// The position of a ball at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Time since the film of the shot begins, s.
+    /// Time since the start of the shot's film, s.
     pub time: f64,
-    /// The ball's centre, m from the table's.
+    /// Centre of the ball relative to the table's centre, m.
     pub place: DVec2,
 }
 
 /// One filmed shot, the cue ball first.
 #[derive(Clone, Debug)]
 pub struct FilmedShot {
-    /// Its number in the match.
+    /// Number of the shot in the match.
     pub number: u32,
-    /// Which of the film's three balls comes first here, second and third: the one that was struck, then the other
-    /// player's, then the red.
+    /// Film indices of the three balls in the order used here: the struck ball, the opponent's ball, the red.
     pub order: [usize; BALLS],
-    /// The balls' places over time; a ball that lies still has few samples.
+    /// Positions of each ball over time; a ball at rest has few samples.
     pub balls: [Vec<Sample>; BALLS],
-    /// When the cue ball was struck, s.
+    /// Time of the stroke, s.
     pub start: f64,
 }
 
-/// A table of another size than the filmed one: its places are other places.
+/// A table whose size differs from the filmed one, so that its positions are not comparable.
 #[derive(Clone, Debug, thiserror::Error, PartialEq)]
 #[error(
-    "the table \"{table}\" has {key} = {value} m, but the filmed one {key} = {filmed} m; accepted is that, to 0.3 mm"
+    "the table \"{table}\" has {key} = {value} m, but the filmed one {key} = {filmed} m; accepted is the filmed size, to 0.3 mm"
 )]
 pub struct NotFilmed {
     table: String,
@@ -49,12 +48,12 @@ pub struct NotFilmed {
     filmed: f64,
 }
 
-/// Whether balls of this table could lie and run where the bundled film shows them.
+/// Checks that the table has the size of the filmed one.
 ///
 /// # Errors
-/// [`NotFilmed`] for other sides or balls than those of the filmed table.
+/// [`NotFilmed`] if the sides or the balls differ from those of the filmed table.
 pub fn check_size(table: &Table) -> Result<(), NotFilmed> {
-    // `match` is fitted to the film.
+    // The default table, `match`, is fitted to the film.
     let filmed = Table::default();
     let sizes = |table: &Table| [("L", table.length), ("l", table.width), ("R", table.radius)];
     let pairs = sizes(table).into_iter().zip(sizes(&filmed));
@@ -72,23 +71,23 @@ struct Line {
     balls: [Vec<[f64; 3]>; BALLS],
 }
 
-/// The bundled film.
+/// Returns the bundled film.
 ///
 /// # Panics
-/// Never: a test reads it.
+/// Never panics: a test parses the bundled film.
 pub fn bundled() -> Vec<FilmedShot> {
     let line = |line| serde_json::from_str(line).ok().and_then(FilmedShot::of);
     FILM.lines().map(line).collect::<Option<_>>().expect("the bundled film is valid: a test reads it")
 }
 
 impl FilmedShot {
-    /// None where no ball moves.
+    /// Converts a line of the file; `None` if no ball moves.
     fn of(Line { shot: number, balls }: Line) -> Option<Self> {
         let tracks = balls.map(|ball| {
             let sample = |[time, x, y]: [f64; 3]| Sample { time, place: DVec2::new(x, y) };
             ball.into_iter().map(sample).collect::<Vec<_>>()
         });
-        // A ball with few samples may have begun to move long before the sample that shows it.
+        // A ball with few samples may have started to move long before the sample that shows it.
         let shown = |ball: &usize| first_moved(&tracks[*ball]).map(|moved| tracks[*ball][moved].time);
         let starts = [0, 1, 2].map(|ball: usize| start_of(&tracks[ball]));
         let moved = (0..BALLS).filter_map(|ball| Some((ball, (shown(&ball)?, starts[ball]))));
@@ -98,21 +97,21 @@ impl FilmedShot {
         Some(Self { number, order, balls: order.map(|ball| tracks[ball].clone()), start })
     }
 
-    /// Speed of the cue ball as soon as the film shows it, m/s.
+    /// Returns the speed of the cue ball at its first two moving samples, m/s.
     pub fn speed(&self) -> f64 {
         let moving: Vec<_> = self.balls[0].iter().filter(|sample| sample.time > self.start + 0.005).take(2).collect();
         let [one, other] = moving[..] else { return 0.0 };
         other.place.distance(one.place) / (other.time - one.time)
     }
 
-    /// How long it is filmed after the stroke, s.
+    /// Returns the duration of the film after the stroke, s.
     pub fn lasts(&self) -> f64 {
         let ends = self.balls.iter().filter_map(|track| Some(track.last()?.time));
         ends.fold(0.0, f64::max) - self.start
     }
 
-    /// A ball's place at `time`, m: between two samples on the straight line; one that lies does not creep towards the first
-    /// sample that shows it on its way.
+    /// Returns a ball's position at `time`, m, by linear interpolation between samples. A ball at rest stays there until it
+    /// starts to move: it is not interpolated towards the first sample in motion.
     pub fn place(&self, ball: usize, time: f64) -> DVec2 {
         let track = &self.balls[ball];
         let after = track.partition_point(|sample| sample.time <= time);
@@ -127,17 +126,18 @@ impl FilmedShot {
     }
 }
 
-/// The first sample of a ball away from where it lay.
+/// Returns the index of the first sample away from the ball's first position.
 pub(super) fn first_moved(track: &[Sample]) -> Option<usize> {
-    track.iter().position(|sample| sample.place.distance(track[0].place) > MOVED)
+    track.iter().position(|sample| sample.place.distance(track[0].place) > MOTION_THRESHOLD)
 }
 
-/// When a ball begins to move: where the way from its last sample at rest leads back to.
+/// Returns the time at which a ball starts to move, extrapolated back to its last position at rest.
 fn start_of(track: &[Sample]) -> f64 {
     let rest = track[0].place;
     first_moved(track).map_or(f64::INFINITY, |moved| {
         let (last, now) = (track[moved - 1], track[moved]);
-        // At the speed of the next stretch, if there is one; a ball that is hit does not creep.
+        // Uses the speed from this sample to the next, at least 0.05 m/s, if there is a next one: a ball that is hit does not
+        // creep.
         match track.get(moved + 1) {
             Some(next) => {
                 let speed = next.place.distance(now.place) / (next.time - now.time);
@@ -157,7 +157,7 @@ mod tests {
         let film = bundled();
         assert_eq!(film.len(), 91);
         for shot in &film {
-            // Two shots are filmed from long before the stroke.
+            // The film of two shots starts long before the stroke.
             assert!((0.0..7.0).contains(&shot.start), "shot {} starts at {}", shot.number, shot.start);
             let moved = shot.place(0, shot.start + 0.1).distance(shot.balls[0][0].place);
             assert!(moved > 0.02, "shot {}: {moved}", shot.number);
@@ -181,7 +181,7 @@ mod tests {
     fn a_ball_lies_still_until_it_is_struck() {
         for shot in bundled() {
             let rest = shot.balls[0][0].place;
-            assert!(shot.place(0, shot.start - 1e-9).distance(rest) < MOVED, "shot {}", shot.number);
+            assert!(shot.place(0, shot.start - 1e-9).distance(rest) < MOTION_THRESHOLD, "shot {}", shot.number);
             let moving = shot.place(0, shot.start + 0.01).distance(rest);
             assert!(moving > 0.005, "shot {}: {moving} m in 10 ms", shot.number);
         }
@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn a_ball_that_is_hardly_sampled_is_not_taken_for_the_one_that_was_struck() {
-        // In shot 48 the other player's ball is nudged at the end; the film has three samples of it.
+        // In shot 48 the opponent's ball is nudged at the end; the film has three samples of it.
         let film = bundled();
         let shot = film.iter().find(|shot| shot.number == 48).unwrap();
         assert_eq!((shot.order, shot.balls[1].len()), ([0, 1, 2], 3));

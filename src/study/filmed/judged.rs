@@ -1,4 +1,4 @@
-//! How far a table's model is from the film: one row of the report.
+//! Evaluates a table's model on the film: one row of the report.
 
 use std::time::Instant;
 
@@ -17,33 +17,33 @@ use crate::{
     table::{Rail, Table},
 };
 
-/// What a model reaches on some shots of the film.
+/// The errors of a model on some shots of the film.
 #[derive(Clone, Debug, Serialize)]
 pub struct Judged {
-    /// What was judged: a table and its rail's model.
+    /// Name of the model: a table and its model of the rails.
     pub model: String,
-    /// Chains of four rails, and how far from the fourth the prediction is, median diamonds.
+    /// Number of chains of four rails, and the median error at the fourth, diamonds.
     pub next_rail: (usize, f64),
-    /// Chains of five rails, and how far from the fifth it is, median diamonds.
+    /// Number of chains of five rails, and the median error at the fifth, diamonds.
     pub rail_after: (usize, f64),
-    /// By how much the ball comes late to the fourth and to the fifth rail, median s.
+    /// Median delays of the ball at the fourth and at the fifth rail, s.
     pub late_s: [f64; 2],
-    /// Whole shots, and the cue ball's error at 3, 4 and 5 s, median cm.
+    /// Number of whole shots, and the cue ball's median errors at 3, 4 and 5 s, cm.
     pub whole_cm: (usize, [f64; 3]),
-    /// Each diamond system with its best natural stroke.
+    /// The best natural stroke of each diamond system.
     pub systems: Vec<Natural>,
-    /// Time of a rail impact, ns.
+    /// Computing time of a rail impact, ns.
     pub impact_ns: f64,
 }
 
-/// Judges a table on the film.
+/// Evaluates a table on the film.
 pub fn judge(name: &str, table: &Table, film: &[FilmedShot]) -> Judged {
     let diamond = table.diamond();
     let median = |values: Vec<f64>| Spread::of(values).map_or(f64::NAN, |spread| spread.median);
     let [four, five] = [4, 5].map(|count| {
         let played: Vec<_> = chains::all(table, film, count).iter().map(|chain| chain.play(table)).collect();
         let places = played.iter().map(|played| played.places[count - 2] / diamond).collect();
-        let late = played.iter().map(|played| played.late[count - 2]).collect();
+        let late = played.iter().map(|played| played.delays[count - 2]).collect();
         (played.len(), median(places), median(late))
     });
     let shots: Vec<_> =
@@ -60,10 +60,10 @@ pub fn judge(name: &str, table: &Table, film: &[FilmedShot]) -> Judged {
     }
 }
 
-/// Impacts of a round in which their time is measured.
+/// Number of impacts in a timed round.
 const IMPACTS: u32 = 2000;
 
-/// Time of a rail impact, ns: the least of several rounds over balls of many speeds and spins.
+/// Measures the computing time of a rail impact, ns: the minimum of several rounds over balls with many speeds and spins.
 fn impact_time(table: &Table) -> f64 {
     let cushion = Cushion::of(table, Rail::Top);
     let balls: Vec<BallState> = (0..IMPACTS)

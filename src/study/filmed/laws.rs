@@ -1,4 +1,4 @@
-//! How much each law of the rails is to be believed after the film: by how well it predicts shots that it was not fitted to.
+//! Weighs the models of the rails by how well they predict filmed shots that they were not fitted to.
 
 use super::{
     chains,
@@ -10,27 +10,27 @@ use crate::{
     table::{RailModel, Table},
 };
 
-/// A law of the rails, and what the film says of it.
+/// A model of the rails and its weight.
 #[derive(Clone, Debug)]
 pub struct Weighed {
-    /// The law with its own best constants on the whole film.
+    /// The model with its constants fitted to the whole film.
     pub fitted: Fitted,
-    /// How likely it is that the law predicts a meeting with a rail, among those that were weighed together.
+    /// Weight of the model in the mixture of all weighed models that predicts the rail impacts best.
     pub weight: f64,
-    /// By how much it misses the rails that it predicts on shots it was not fitted to: median, diamonds. A rail that is not met counts as 9 m off.
+    /// Median error on rails of shots outside the fit, diamonds. A rail that the ball does not reach counts as 9 m off.
     pub median: f64,
-    /// How many of these there are.
+    /// Number of predicted rails.
     pub predicted: usize,
 }
 
-/// Rounds of the weights' search, which converges to the one maximum.
+/// Iterations of the search for the weights, which converges to the only maximum.
 const ROUNDS: usize = 2000;
 
-/// Weighs laws by stacking (Yao, Vehtari, Simpson and Gelman 2018): the weights are those of the mixture that makes the filmed rails
-/// most likely that were predicted by the constants of the other half of the film.
+/// Weighs models by stacking (Yao, Vehtari, Simpson and Gelman 2018): the weights are those of the mixture that maximizes the
+/// likelihood of the filmed rail impacts, each predicted with constants fitted to the other half of the film.
 ///
-/// As many meetings of each law count as if `sure` of them had been predicted equally well by all: few stretches shall
-/// not rule out a law.
+/// `sure` is the strength of the prior: the number of additional impacts that count as predicted equally well by all models. A
+/// few stretches therefore cannot rule out a model.
 pub fn weigh(table: &Table, models: &[RailModel], film: &[FilmedShot], sure: f64) -> Vec<Weighed> {
     let half = |rest: usize| -> Vec<FilmedShot> { film.iter().skip(rest).step_by(2).cloned().collect() };
     let halves = [half(0), half(1)];
@@ -50,11 +50,12 @@ pub fn weigh(table: &Table, models: &[RailModel], film: &[FilmedShot], sure: f64
         })
         .collect();
     let median = |misses: &Vec<f64>| Spread::of(misses.clone()).map_or(f64::NAN, |spread| spread.median);
-    // Half of a Cauchy distribution lies within its scale: a ball that slips in place of sticking is far off.
+    // The likelihood is a Cauchy distribution, half of which lies within its scale: a ball that slips instead of sticking is
+    // far off.
     let scale = median(&misses.concat());
-    let likely: Vec<Vec<f64>> =
+    let likelihoods: Vec<Vec<f64>> =
         misses.iter().map(|misses| misses.iter().map(|miss| 1.0 / (1.0 + (miss / scale).powi(2))).collect()).collect();
-    let weights = stacked(&likely, sure);
+    let weights = stacking_weights(&likelihoods, sure);
     let weighed = |((model, weight), misses): ((&RailModel, f64), &Vec<f64>)| Weighed {
         fitted: fit_constants(table, *model, film),
         weight,
@@ -64,16 +65,16 @@ pub fn weigh(table: &Table, models: &[RailModel], film: &[FilmedShot], sure: f64
     models.iter().zip(weights).zip(&misses).map(weighed).collect()
 }
 
-/// The weights with which a mixture makes what was seen most likely, by expectation maximization; `likely` has a row a law.
-fn stacked(likely: &[Vec<f64>], sure: f64) -> Vec<f64> {
-    let laws = likely.len() as f64;
-    let seen = likely.first().map_or(0, Vec::len);
-    let mut weights = vec![1.0 / laws; likely.len()];
+/// Returns the weights of the mixture with the greatest likelihood, by expectation maximization. `likelihoods` has a row per model.
+fn stacking_weights(likelihoods: &[Vec<f64>], sure: f64) -> Vec<f64> {
+    let laws = likelihoods.len() as f64;
+    let seen = likelihoods.first().map_or(0, Vec::len);
+    let mut weights = vec![1.0 / laws; likelihoods.len()];
     for _ in 0..ROUNDS {
-        let mut shares = vec![sure / laws; likely.len()];
+        let mut shares = vec![sure / laws; likelihoods.len()];
         for index in 0..seen {
-            let all: f64 = likely.iter().zip(&weights).map(|(row, weight)| weight * row[index]).sum();
-            for ((share, row), weight) in shares.iter_mut().zip(likely).zip(&weights) {
+            let all: f64 = likelihoods.iter().zip(&weights).map(|(row, weight)| weight * row[index]).sum();
+            for ((share, row), weight) in shares.iter_mut().zip(likelihoods).zip(&weights) {
                 *share += weight * row[index] / all;
             }
         }
@@ -89,14 +90,14 @@ mod tests {
     #[test]
     fn a_law_that_predicts_better_weighs_more_and_few_cases_rule_out_none() {
         let (good, bad) = (vec![0.9; 20], vec![0.1; 20]);
-        let [first, second] = stacked(&[good.clone(), bad.clone()], 0.0)[..] else { panic!() };
+        let [first, second] = stacking_weights(&[good.clone(), bad.clone()], 0.0)[..] else { panic!() };
         assert!(first > 0.999 && (first + second - 1.0).abs() < 1e-9);
-        let sure = stacked(&[good, bad], 20.0);
+        let sure = stacking_weights(&[good, bad], 20.0);
         assert!((0.2..0.35).contains(&sure[1]), "{sure:?}");
-        // Each right on half of the cases: the mixture needs both.
+        // Each model is right on half of the cases: the mixture needs both.
         let [one, other]: [Vec<f64>; 2] =
             [0, 1].map(|rest| (0..20).map(|index| if index % 2 == rest { 0.9 } else { 0.1 }).collect());
-        let both = stacked(&[one, other], 0.0);
+        let both = stacking_weights(&[one, other], 0.0);
         assert!((both[0] - 0.5).abs() < 1e-6, "{both:?}");
     }
 }

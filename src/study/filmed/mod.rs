@@ -1,8 +1,8 @@
-//! Filmed balls: how far the simulation is from what real balls did, and which constants come nearest.
+//! Comparison with filmed balls: how far the simulation deviates from real balls, and which constants fit them best.
 //!
-//! The film (`tests/data/filmed`, with its source) shows the balls' places at 50 pictures a second. `rail_hits` finds
-//! where balls met rails; `chains` predicts from rail to rail, `whole` whole shots, `systems` what players count on;
-//! `constants` fits a table, `laws` says how far each law of the rails is to be believed.
+//! The film (`tests/data/filmed`, with its source) contains the positions of the balls at 50 frames a second. `rail_hits`
+//! detects impacts on rails. `chains` predicts from rail to rail, `whole` predicts whole shots, `systems` compares with diamond
+//! systems. `constants` fits the constants of a table, `laws` weighs the models of the rails.
 
 mod chains;
 mod constants;

@@ -1,4 +1,4 @@
-//! A picture of filmed and simulated courses.
+//! Draws filmed and simulated courses.
 
 use std::io;
 
@@ -12,18 +12,18 @@ use crate::{
     table::Table,
 };
 
-/// Panels side by side, and pixels of a metre.
+/// Number of panels in a row, and pixels per metre.
 const COLUMNS: usize = 3;
 const SCALE: f64 = 260.0;
 /// Pixels around a panel and above it.
 const MARGIN: u32 = 16;
 const ABOVE: u32 = 32;
 
-/// The cue ball of some shots up to five seconds after the stroke, filmed (dots) and simulated on `table` (a line), its stroke fitted to
-/// the first two seconds.
+/// Draws the cue ball of some shots up to five seconds after the stroke, filmed (dots) and simulated on `table` (line), with
+/// the stroke fitted to the first two seconds.
 ///
 /// # Errors
-/// If it cannot be drawn.
+/// Fails if the picture cannot be drawn.
 pub fn paths(table: &Table, film: &[FilmedShot]) -> io::Result<String> {
     let shown: Vec<&FilmedShot> = film.iter().filter(|shot| shot.is_long_enough()).step_by(8).take(12).collect();
     let pixels = |metres: f64, around: u32| (SCALE * metres) as u32 + around;

@@ -1,31 +1,31 @@
-//! Where and when a filmed ball met the rails, and the chains of rails that it met without another ball between.
+//! Detects the rail impacts of filmed balls, and chains of consecutive impacts without another ball between.
 
 use glam::DVec2;
 
 use super::film::{FilmedShot, Sample};
 use crate::table::{BALLS, Rail, Table};
 
-/// A filmed meeting of a ball with a rail.
+/// A filmed impact of a ball on a rail.
 #[derive(Clone, Copy, Debug)]
 pub struct RailHit {
     /// Time, s.
     pub time: f64,
     /// The rail.
     pub rail: Rail,
-    /// The ball's centre, m.
+    /// Centre of the ball, m.
     pub place: DVec2,
 }
 
-/// Samples on each side of a hit whose line leads to it.
-const SIDE: usize = 2;
+/// Number of samples on each side of an impact for its straight line.
+const SAMPLES_PER_SIDE: usize = 2;
 
-/// The lines before and after a hit meet the rail within this time of each other, s: dwell and noise.
-const AGREE: f64 = 0.03;
+/// Greatest time between the intersections of both lines with the rail, s: covers dwell time and noise.
+const MAX_DISAGREEMENT: f64 = 0.03;
 
-/// Balls nearer than their diameter and this may have touched, m.
+/// Balls closer than their diameter plus this may have touched, m.
 const CLEARANCE: f64 = 0.006;
 
-/// All rail hits of one ball that the film shows clearly, in order of time.
+/// Returns all clearly visible rail impacts of one ball, in order of time.
 pub fn rail_hits(table: &Table, track: &[Sample]) -> Vec<RailHit> {
     let mut hits = Vec::new();
     for rail in Rail::ALL {
@@ -44,12 +44,12 @@ pub fn rail_hits(table: &Table, track: &[Sample]) -> Vec<RailHit> {
     hits
 }
 
-/// The hit near sample `i`: where the straight lines through the samples before and after it meet the rail.
+/// Returns the impact near sample `i`, where the straight lines through the samples before and after it intersect the rail.
 fn hit_at(table: &Table, track: &[Sample], i: usize, rail: Rail) -> Option<RailHit> {
     let n = rail.normal();
     let reach = n.abs().dot(table.reach());
     let gap = |sample: &Sample| sample.place.dot(n) + reach;
-    // A sample on the rail itself belongs to neither side.
+    // A sample on the rail belongs to neither side.
     let on_rail = gap(&track[i]) < 0.002;
     let meets = |samples: &[Sample]| -> Option<(f64, DVec2)> {
         let (first, last) = (samples.first()?, samples.last()?);
@@ -60,11 +60,11 @@ fn hit_at(table: &Table, track: &[Sample], i: usize, rail: Rail) -> Option<RailH
         (lasts > 0.0 && lasts < 0.13 && closing.abs() > 0.03)
             .then(|| (time, first.place + (time - first.time) * velocity))
     };
-    // A sample off the rail lies before the hit or after it: on the side whose lines agree better.
+    // A sample off the rail belongs before or after the impact: to the side for which the lines agree better.
     let sides: &[[usize; 2]] = if on_rail { &[[i, i + 1]] } else { &[[i + 1, i + 1], [i, i]] };
     let found = sides.iter().filter_map(|&[end, begin]| {
-        let before = &track[end.saturating_sub(SIDE)..end];
-        let after = track.get(begin..(begin + SIDE).min(track.len()))?;
+        let before = &track[end.saturating_sub(SAMPLES_PER_SIDE)..end];
+        let after = track.get(begin..(begin + SAMPLES_PER_SIDE).min(track.len()))?;
         if before.len() < 2 || after.len() < 2 {
             return None;
         }
@@ -73,11 +73,11 @@ fn hit_at(table: &Table, track: &[Sample], i: usize, rail: Rail) -> Option<RailH
         place += (-reach - place.dot(n)) * n;
         Some(((t1 - t2).abs(), p1.distance(p2), RailHit { time: 0.5 * (t1 + t2), rail, place }))
     });
-    let (apart, beside, hit) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (apart < AGREE && beside < 0.05).then_some(hit)
+    let (time_difference, distance, hit) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (time_difference < MAX_DISAGREEMENT && distance < 0.05).then_some(hit)
 }
 
-/// Whether a ball came near another between two times.
+/// Whether no other ball came near this one between two times.
 pub fn is_undisturbed(table: &Table, shot: &FilmedShot, ball: usize, from: f64, to: f64) -> bool {
     let steps = ((to - from) / 0.005).ceil().max(1.0);
     let near = 2.0 * table.radius + CLEARANCE;
@@ -88,7 +88,7 @@ pub fn is_undisturbed(table: &Table, shot: &FilmedShot, ball: usize, from: f64, 
     })
 }
 
-/// All stretches of `count` rail hits in a row with no other ball near; each as the ball and its hits.
+/// Returns all stretches of `count` consecutive rail impacts with no other ball near, as ball index and impacts.
 pub fn chains(table: &Table, shot: &FilmedShot, count: usize) -> Vec<(usize, Vec<RailHit>)> {
     let mut chains = Vec::new();
     for ball in 0..BALLS {
@@ -100,7 +100,7 @@ pub fn chains(table: &Table, shot: &FilmedShot, count: usize) -> Vec<(usize, Vec
     chains
 }
 
-/// The film's rail hits in stretches that do not overlap, each as long as no other ball comes near, of `least` to `most`.
+/// Returns disjoint stretches of `least` to `most` rail impacts, each as long as possible with no other ball near.
 pub fn stretches(table: &Table, shot: &FilmedShot, least: usize, most: usize) -> Vec<(usize, Vec<RailHit>)> {
     let mut found = Vec::new();
     for ball in 0..BALLS {

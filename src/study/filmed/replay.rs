@@ -1,4 +1,4 @@
-//! A filmed shot beside the simulated one: both on one clock that begins with the stroke.
+//! A filmed shot next to the simulated one, on a common clock that starts with the stroke.
 
 use glam::DVec2;
 
@@ -12,30 +12,30 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Why a filmed shot cannot be played beside its film.
+/// Why a filmed shot cannot be simulated.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum ReplayError {
-    /// The film is too short to tell the stroke.
+    /// The film is too short to fit the stroke.
     #[error("shot {0} of the film shows the cue ball too briefly to tell how it was struck; two samples are needed")]
     Short(u32),
-    /// The simulator refuses what the film shows.
+    /// The simulator rejects the filmed positions or motion.
     #[error("shot {number} of the film cannot be played: {error}")]
     Refused {
-        /// Its number in the match.
+        /// Number of the shot in the match.
         number: u32,
         /// What is wrong.
         error: ShotError,
     },
 }
 
-/// A filmed shot, and the simulated one whose stroke was fitted to the film's first [`super::FITTED`] seconds.
+/// A filmed shot and its simulation, with the stroke fitted to the film's first [`super::FITTED`] seconds.
 #[derive(Clone, Debug)]
 pub struct Replay {
     /// The film.
     pub filmed: FilmedShot,
-    /// How the stroke was fitted.
+    /// The fit of the stroke.
     pub fitted: Whole,
-    /// What the simulation makes of it.
+    /// The simulated shot.
     pub recording: Recording,
 }
 
@@ -43,7 +43,7 @@ impl Replay {
     /// Fits the stroke of a filmed shot on `table` and plays it.
     ///
     /// # Errors
-    /// A film that is too short, or shows what is impossible on this table.
+    /// Fails if the film is too short, or contains something impossible on this table.
     pub fn new(table: &Table, filmed: &FilmedShot) -> Result<Self, ReplayError> {
         let number = filmed.number;
         let refuse = |error| ReplayError::Refused { number, error };
@@ -55,25 +55,25 @@ impl Replay {
         Ok(Self { filmed: filmed.clone(), fitted, recording })
     }
 
-    /// Until all balls lie still, in the film and in the simulation, s after the stroke.
+    /// Returns the time until all balls are at rest in film and simulation, s after the stroke.
     pub fn duration(&self) -> f64 {
         let filmed = self.filmed.lasts() + self.filmed.start - self.fitted.start;
         self.recording.duration().max(filmed)
     }
 
-    /// Where the film shows the balls at `time`, s after the stroke; at its ends they lie still.
+    /// Returns the filmed positions at `time`, s after the stroke; before and after the film the balls are at rest.
     pub fn filmed_places(&self, time: f64) -> [DVec2; BALLS] {
         std::array::from_fn(|ball| self.filmed.place(ball, self.fitted.start + time))
     }
 
-    /// Whether the simulated shot is a point.
+    /// Whether the simulated shot scores a point.
     pub fn is_simulated_point(&self, rule: Rule) -> bool {
         let mut tally = Tally::default();
         self.recording.events().iter().for_each(|event| tally.note(event));
         tally.is_point(rule)
     }
 
-    /// How far each simulated ball is from the filmed one at `time`, m.
+    /// Returns the distance of each simulated ball from the filmed one at `time`, m.
     pub fn apart(&self, time: f64) -> [f64; BALLS] {
         let (filmed, simulated) = (self.filmed_places(time), self.recording.positions(time));
         std::array::from_fn(|ball| filmed[ball].distance(simulated[ball]))
@@ -93,7 +93,7 @@ mod tests {
     fn film_and_simulation_begin_together_and_part_as_the_study_says() {
         let table = Table::default();
         let replay = Replay::new(&table, &shot(2)).unwrap();
-        // The film is read along straight lines between pictures 20 ms apart, in one of which the ball is struck.
+        // The film is interpolated linearly between frames 20 ms apart, and the stroke falls between two of them.
         assert!(replay.apart(0.0).iter().all(|apart| *apart < 0.002), "{:?}", replay.apart(0.0));
         let fitted = (1..20).map(|n| replay.apart(FITTED * f64::from(n) / 20.0)[0]).fold(0.0, f64::max);
         assert!(fitted < 0.03, "{fitted} m on the part that was fitted");

@@ -1,4 +1,4 @@
-//! What models of the table reach on the film, as text and CSV.
+//! Formats the evaluation of table models on the film, as text and CSV.
 
 use std::fmt::Write;
 
@@ -8,15 +8,15 @@ use crate::{
     table::{RailModel, Table},
 };
 
-/// Rail models beside that of the `match` table, with their own best constants on the whole film by `--fit`: model, `e_rail`,
-/// `mu_rail`, (height - R)/R.
+/// Rail models to compare with that of the `match` table, with constants fitted to the whole film by `--fit`: name, model,
+/// `e_rail`, `mu_rail`, (height - R)/R.
 const RIVALS: [(&str, RailModel, f64, f64, f64); 3] = [
     ("match, rails at the equator", RailModel::Equator, 0.9153, 0.2606, 0.0),
     ("match, sharp nose", RailModel::Nose, 0.8748, 0.2551, 0.2215),
     ("match, Mathavan's rails", RailModel::Mathavan, 0.889, 0.213, 0.202),
 ];
 
-/// The models that the report compares: the textbook's, the rivals, and the `match` table's own.
+/// Returns the compared models: `textbook`, the rivals, and `match`.
 pub fn models() -> Vec<(String, Table)> {
     let table = Table::default();
     let rivals = RIVALS.map(|(name, model, e, mu, sine)| {
@@ -30,17 +30,17 @@ pub fn models() -> Vec<(String, Table)> {
     textbook.into_iter().chain(rivals).chain([(table.name.clone(), table)]).collect()
 }
 
-/// A median, where there is a case to take it of.
-fn known(median: f64) -> Option<f64> {
+/// Returns the median, `None` if there is no case.
+fn finite(median: f64) -> Option<f64> {
     Some(median).filter(|median| !median.is_nan())
 }
 
-/// The same for people.
-fn shown(median: f64, format: fn(f64) -> String) -> String {
-    known(median).map_or_else(|| "-".to_owned(), format)
+/// Formats the median for people.
+fn format_median(median: f64, format: fn(f64) -> String) -> String {
+    finite(median).map_or_else(|| "-".to_owned(), format)
 }
 
-/// The report for people.
+/// Returns the report for people.
 pub fn text(rows: &[Judged]) -> String {
     let mut out = String::from(
         "Rails: the motion of a ball that leaves a rail is fitted up to the second rail after; the next two are predicted.\n\
@@ -54,9 +54,9 @@ pub fn text(rows: &[Judged]) -> String {
     for row in rows {
         let systems: Vec<_> = row.systems.iter().map(|system| format!("{:.2}", system.rms)).collect();
         let [next, after] = [row.next_rail, row.rail_after]
-            .map(|(count, median)| format!("{} ({count})", shown(median, |median| format!("{median:.3}"))));
-        let [next_late, after_late] = row.late_s.map(|late| shown(late, |late| format!("{late:+.3}")));
-        let [a, b, c] = row.whole_cm.1.map(|cm| shown(cm, |cm| format!("{cm:.1}")));
+            .map(|(count, median)| format!("{} ({count})", format_median(median, |median| format!("{median:.3}"))));
+        let [next_late, after_late] = row.late_s.map(|late| format_median(late, |late| format!("{late:+.3}")));
+        let [a, b, c] = row.whole_cm.1.map(|cm| format_median(cm, |cm| format!("{cm:.1}")));
         let _ = writeln!(
             out,
             "{:<28} {:>16} {:>16} {:>15} {:>22} {:>20} {:>9}",
@@ -69,11 +69,11 @@ pub fn text(rows: &[Judged]) -> String {
             format!("{:.0} ns", row.impact_ns),
         );
     }
-    out.push_str("\nMedians; in parentheses how many cases. The constants of `match` are fitted to the same film: --fit says how they do on halves.\n");
+    out.push_str("\nMedians; the number of cases in parentheses. The constants of `match` are fitted to the same film: --fit also fits each half and predicts the other.\n");
     out
 }
 
-/// The same for programs.
+/// Returns the report as CSV.
 pub fn csv(rows: &[Judged]) -> String {
     let mut out = String::from(
         "model,chains_of_four,next_rail_diamonds,chains_of_five,rail_after_diamonds,late_next_s,late_after_s,\
@@ -81,7 +81,7 @@ pub fn csv(rows: &[Judged]) -> String {
     );
     for row in rows {
         let (count, cm) = row.whole_cm;
-        let field = |value: f64| known(value).map_or_else(String::new, |value| value.to_string());
+        let field = |value: f64| finite(value).map_or_else(String::new, |value| value.to_string());
         let cm = cm.map(field);
         let systems: Vec<_> = row.systems.iter().map(|system| system.rms.to_string()).collect();
         let Judged { model, next_rail, rail_after, late_s, impact_ns, .. } = row;
@@ -102,7 +102,7 @@ pub fn csv(rows: &[Judged]) -> String {
     out
 }
 
-/// What a fit found, for people.
+/// Returns the result of a fit for people.
 pub fn fit_text(fitted: &Fitted, used: &str) -> String {
     let mut out =
         format!("{:?} rails, fitted to {used}: {} stretches of three to five rails\n", fitted.model, fitted.stretches);

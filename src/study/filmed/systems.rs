@@ -1,7 +1,7 @@
-//! Diamond systems: what players count on, against the simulation.
+//! Compares diamond systems, by which players compute their lines, with the simulation.
 //!
-//! Each system says where a cue ball that runs along a given line arrives. One natural stroke a system, the same for all
-//! its cases, is chosen so that the arrivals fit best: its side, its roll and its speed.
+//! Each system predicts where a cue ball on a given line arrives. One natural stroke per system (side, roll and speed), the
+//! same for all its cases, is chosen to fit the arrivals best.
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -23,14 +23,14 @@ pub struct System {
 
 #[derive(Clone, Debug, Deserialize)]
 struct Case {
-    /// Its numbers, where the source has them: start, first and third.
+    /// The numbers of start, first and third rail; `None` if the source does not have them.
     #[cfg(test)]
     start: Option<f64>,
     #[cfg(test)]
     first: Option<f64>,
     #[cfg(test)]
     third: Option<f64>,
-    /// From the diamond behind which the line begins to that through which it is aimed.
+    /// From the diamond behind the start of the line to the diamond of aim.
     cue_line: [[f64; 2]; 2],
     arrival_nose_x: Option<f64>,
     arrival_frame_x: Option<f64>,
@@ -42,16 +42,16 @@ struct Case {
 pub struct Natural {
     /// The system's name.
     pub id: String,
-    /// Cases.
+    /// Number of cases.
     pub cases: usize,
     /// The stroke.
     #[serde(flatten)]
     pub stroke: systems::Natural,
-    /// Root mean square of the arrivals' errors, diamonds.
+    /// Root mean square error of the arrivals, diamonds.
     pub rms: f64,
 }
 
-/// The bundled systems.
+/// Returns the bundled systems.
 pub fn bundled() -> Vec<System> {
     #[derive(Deserialize)]
     struct File {
@@ -61,7 +61,7 @@ pub fn bundled() -> Vec<System> {
 }
 
 impl System {
-    /// The natural stroke on `table`: the best of a net of sides, rolls and speeds.
+    /// Returns the best natural stroke on `table`, by a grid search over side, roll and speed that is refined five times.
     pub fn natural(&self, table: &Table) -> Natural {
         let mut best = (systems::Natural { side: 0.0, roll: 1.0, speed: 2.6 }, f64::INFINITY);
         let mut width = [0.8, 0.6, 1.2];
@@ -85,32 +85,33 @@ impl System {
         Natural { id: self.id.clone(), cases: self.cases.len(), stroke: best.0, rms: best.1 }
     }
 
-    /// Root mean square of the errors with one stroke, diamonds. A case that does not come to its rail counts as a diamond.
+    /// Returns the root mean square error of the arrivals with one stroke, diamonds. A case whose ball does not reach its rail
+    /// counts as one diamond.
     pub fn rms(&self, table: &Table, stroke: &systems::Natural) -> f64 {
-        let error = |case: &Case| case.error(self.counted()?, table, stroke);
+        let error = |case: &Case| case.error(self.coach_system()?, table, stroke);
         let squares = self.cases.iter().map(|case| error(case).unwrap_or(1.0).clamp(-1.0, 1.0).powi(2));
         (squares.sum::<f64>() / self.cases.len() as f64).sqrt()
     }
 
-    /// The system as the coach knows it.
-    fn counted(&self) -> Option<systems::System> {
+    /// Returns the coach's version of the system.
+    fn coach_system(&self) -> Option<systems::System> {
         systems::System::ALL.into_iter().find(|system| system.id() == self.id)
     }
 }
 
 impl Case {
-    /// How far beyond the system's arrival the ball comes, diamonds.
+    /// Returns how far the ball arrives beyond the system's arrival, diamonds; `None` if it does not arrive.
     fn error(&self, system: systems::System, table: &Table, stroke: &systems::Natural) -> Option<f64> {
         let [from, to] = self.cue_line.map(DVec2::from_array);
         let line = (to - from).normalize();
-        // The ball lies on the line, half a diamond inside the nose.
+        // The ball starts on the line, 0.4 diamonds inside the nose.
         let inside = |place: DVec2| place.x > 0.4 && place.x < 7.6 && place.y > 0.4 && place.y < 3.6;
         let start = (0..200).map(|step| from + 0.02 * f64::from(step) * line).find(|place| inside(*place))?;
         let arrival = system.played(table, Mirror::default(), &Line { from: start, way: line }, stroke)?;
         Some(arrival - self.arrival()?)
     }
 
-    /// Where the ball arrives by the system, in diamonds along the third cushion.
+    /// Returns the arrival by the system, in diamonds along the third cushion.
     fn arrival(&self) -> Option<f64> {
         self.arrival_nose_x.or(self.arrival_frame_x).or(self.arrival_frame_right_y)
     }
@@ -123,22 +124,23 @@ mod tests {
     #[test]
     fn every_number_of_the_file_agrees_to_a_tenth() {
         for system in bundled() {
-            let counted = system.counted().unwrap();
+            let coach_system = system.coach_system().unwrap();
             for case in &system.cases {
                 let [from, to] = case.cue_line.map(DVec2::from_array);
                 let line = Line::between(from, to);
-                let numbers = counted.numbers(&line).unwrap_or_else(|| panic!("{counted} {:?}", case.cue_line));
+                let numbers =
+                    coach_system.numbers(&line).unwrap_or_else(|| panic!("{coach_system} {:?}", case.cue_line));
                 for (ours, theirs) in
                     [(numbers.start, case.start), (numbers.first, case.first), (numbers.third, case.third)]
                 {
                     assert!(
                         theirs.is_none_or(|theirs| (ours - theirs).abs() <= 0.1),
-                        "{counted} {line:?}: {numbers:?}"
+                        "{coach_system} {line:?}: {numbers:?}"
                     );
                 }
-                let (arrival, wanted) = (counted.third_along(numbers.third).unwrap(), case.arrival().unwrap());
-                assert!((arrival - wanted).abs() <= 0.1, "{counted} {line:?}: {arrival} for {wanted}");
-                assert!((counted.third_number(arrival).unwrap() - numbers.third).abs() < 1e-9);
+                let (arrival, wanted) = (coach_system.third_along(numbers.third).unwrap(), case.arrival().unwrap());
+                assert!((arrival - wanted).abs() <= 0.1, "{coach_system} {line:?}: {arrival} for {wanted}");
+                assert!((coach_system.third_number(arrival).unwrap() - numbers.third).abs() < 1e-9);
             }
         }
         let sizes: Vec<_> = bundled().iter().map(|system| (system.id.clone(), system.cases.len())).collect();
@@ -148,9 +150,9 @@ mod tests {
     #[test]
     fn the_coach_plays_each_system_with_the_stroke_that_fits_it_best_on_the_match_table() {
         for (system, most) in bundled().iter().zip([0.11, 0.33, 0.15]) {
-            let counted = system.counted().unwrap();
-            let rms = system.rms(&Table::default(), &counted.natural());
-            assert!(rms <= most, "{counted}: {rms}");
+            let coach_system = system.coach_system().unwrap();
+            let rms = system.rms(&Table::default(), &coach_system.natural());
+            assert!(rms <= most, "{coach_system}: {rms}");
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Whole shots: the stroke is fitted to the cue ball's first two seconds, and the seconds after are predicted, with all that
-//! the ball meets.
+//! Predictions of whole shots: the stroke is fitted to the cue ball's first two seconds, and the following seconds are
+//! predicted with all impacts.
 
 use glam::DVec2;
 
@@ -14,29 +14,29 @@ use crate::{
     table::{Layout, PAIRS, Table},
 };
 
-/// How much of the cue ball's course is fitted, s.
+/// Duration of the fitted part of the cue ball's course, s.
 pub const FITTED: f64 = 2.0;
 
-/// Times after the stroke at which the prediction is judged, s.
+/// Times after the stroke at which the prediction is evaluated, s.
 pub const JUDGED: [f64; 3] = [3.0, 4.0, 5.0];
 
-/// How a whole shot came out.
+/// The prediction of a whole shot, compared with the film.
 #[derive(Clone, Debug)]
 pub struct Whole {
     /// Number of the shot in the match.
     pub shot: u32,
     /// The cue ball's motion just after the stroke.
     pub motion: Motion,
-    /// When it was struck, s of the film.
+    /// Time of the stroke, s of the film.
     pub start: f64,
-    /// Root mean square of what is left on the fitted part, m.
+    /// Root mean square residual on the fitted part, m.
     pub rms: f64,
-    /// Distance of the cue ball from where the film shows it, at the times of `JUDGED`, m.
+    /// Distances between the predicted and the filmed cue ball at the times of `JUDGED`, m.
     pub errors: [f64; 3],
 }
 
 impl FilmedShot {
-    /// Where the balls lay before the stroke; the noise of the film is taken off balls that it makes overlap.
+    /// Returns the positions of the balls before the stroke. Overlaps from the noise of the film are removed.
     pub fn layout(&self, table: &Table) -> Layout {
         let mut balls = [0, 1, 2].map(|ball: usize| self.balls[ball][0].place.clamp(-table.reach(), table.reach()));
         for (one, other) in PAIRS {
@@ -51,13 +51,13 @@ impl FilmedShot {
         Layout::new(balls)
     }
 
-    /// Whether the film goes on long enough to judge.
+    /// Whether the film is long enough for the evaluation.
     pub fn is_long_enough(&self) -> bool {
         self.balls[0].last().is_some_and(|last| last.time > self.start + JUDGED[2])
     }
 }
 
-/// Fits the stroke of a shot on `table` and predicts the rest.
+/// Fits the stroke of a shot on `table` and predicts the rest; `None` if the film has fewer than two samples for the fit.
 pub fn play(table: &Table, shot: &FilmedShot) -> Option<Whole> {
     let layout = shot.layout(table);
     let track = &shot.balls[0];
@@ -75,7 +75,7 @@ pub fn play(table: &Table, shot: &FilmedShot) -> Option<Whole> {
             let miss = *place - sample.place;
             out.extend([soften(miss.x), soften(miss.y)]);
         }
-        // Where the film says nothing, less slip and spin are likelier, and a level cue.
+        // A weak prior: small slip and spin and a level cue are likelier if the film does not determine them.
         let across = DVec2::new(ux, uy).dot(velocity.perp().normalize_or_zero());
         out.extend([2e-4 * ux, 2e-4 * uy, 2e-4 * side, 4e-3 * across, 0.1 * late]);
     };
@@ -83,7 +83,7 @@ pub fn play(table: &Table, shot: &FilmedShot) -> Option<Whole> {
     let speed = velocity.length();
     for roll in [-0.4, 0.1, 0.6, 1.1] {
         for share in [-0.9, -0.4, 0.0, 0.4, 0.9] {
-            // A ball that rolls has lost speed by the first samples less than one that slides.
+            // By the first samples, a rolling ball has lost less speed than a sliding one.
             let slip = (1.0 - roll) * velocity;
             let start = [1.02 * velocity.x, 1.02 * velocity.y, slip.x, slip.y, share * speed, 0.0];
             let found = fit(start, [1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-4], 25, &mut residuals);

@@ -1,26 +1,26 @@
-//! Forces that obey all laws at once: pushes that are complementary to the rates of opening, and frictions within their
-//! disks that are complementary to the slips they would let begin.
+//! Solves the complementarity problem of resting contact: normal forces complementary to the opening rates, and frictions
+//! within their disks complementary to the slips that they would allow to begin.
 //!
-//! Each law says that its force is the projection of itself less a multiple of its rate: on what is not negative, or on
-//! the disk. Newton's method on these equations (Alart and Curnier 1991) ends in a few steps where it starts near the
-//! solution; sweeps of the projections themselves bring it there.
+//! Each law states that its force is the projection of itself minus a multiple of its rate: onto the non-negative numbers, or
+//! onto the disk. Newton's method on these equations (Alart and Curnier 1991) converges in a few steps from near the solution;
+//! sweeps of the projections lead there.
 
 use super::{Real, linear::solve};
 
-/// Newton's steps in a row.
+/// Maximum number of successive Newton steps.
 const STEPS: usize = 24;
 
-/// Series of sweeps between them, each twice as long as the last.
+/// Number of series of sweeps between them, each twice as long as the previous.
 const ROUNDS: usize = 8;
 
-/// What the forces of one law must do.
+/// The condition on the forces of one law.
 #[derive(Clone, Copy, Debug)]
 pub enum Law<R> {
-    /// A push is not negative, nor is the rate of opening, and one of the two is zero.
+    /// A normal force: neither the force nor the opening rate is negative, and one of the two is zero.
     Push,
-    /// A friction that holds with up to so much per mass, m/s².
+    /// A friction that sticks up to this force per mass, m/s².
     Hold(R),
-    /// A contact's friction that holds with up to a share of the push at this index, or any friction.
+    /// A contact's friction that sticks up to a share of the normal force at this index; without limit if `None`.
     Grip(Option<R>, usize),
 }
 
@@ -35,7 +35,7 @@ pub struct Block<R> {
     pub law: Law<R>,
 }
 
-/// A problem: rates of change are `rates + matrix forces`.
+/// The problem: rates of change are `rates + matrix forces`.
 pub struct Problem<'a, R> {
     /// Rates of change per unit of each force.
     pub matrix: &'a [Vec<R>],
@@ -46,7 +46,7 @@ pub struct Problem<'a, R> {
 }
 
 impl<R: Real> Problem<'_, R> {
-    /// Forces that obey all laws; `None` if none are found.
+    /// Returns forces that obey all laws; `None` if none are found.
     pub fn solve(&self) -> Option<Vec<R>> {
         let mut forces = vec![R::zero(); self.rates.len()];
         for round in 0..ROUNDS {
@@ -64,7 +64,7 @@ impl<R: Real> Problem<'_, R> {
         self.matrix[row].iter().zip(forces).fold(self.rates[row], |sum, (entry, force)| sum + *entry * *force)
     }
 
-    /// A block's forces less a multiple of their rates, before the projection.
+    /// Returns a block's forces minus a multiple of their rates, before the projection, and that multiple.
     fn trial(&self, block: &Block<R>, forces: &[R]) -> ([R; 2], R) {
         let rows = block.at..block.at + block.axes;
         let stiff = rows.clone().fold(R::zero(), |largest, i| largest.max(self.matrix[i][i]));
@@ -76,7 +76,7 @@ impl<R: Real> Problem<'_, R> {
         (trial, step)
     }
 
-    /// Radius of a friction's disk; `None` for one without any.
+    /// Returns the radius of a friction's disk; `None` if there is no disk or no limit.
     fn radius(law: Law<R>, forces: &[R]) -> Option<R> {
         match law {
             Law::Push => None,
@@ -134,7 +134,7 @@ impl<R: Real> Problem<'_, R> {
         None
     }
 
-    /// Replaces a block's equation `change = projected - force`, which holds where the projection is to a fixed point.
+    /// Replaces a block's equation `change = projected - force`, which is right if the projection is a constant.
     fn linearize(&self, block: &Block<R>, forces: &[R], matrix: &mut [Vec<R>], side: &mut [R]) {
         let (trial, step) = self.trial(block, forces);
         let rows = block.at..block.at + block.axes;
@@ -149,7 +149,7 @@ impl<R: Real> Problem<'_, R> {
             return;
         }
         if is_inside {
-            // The projection changes nothing: the rates must vanish.
+            // The projection is the identity: the rates must vanish.
             for row in rows {
                 matrix[row].clone_from(&self.matrix[row]);
                 side[row] = -self.rate(row, forces);
@@ -184,7 +184,7 @@ mod tests {
         values.iter().map(|value| DoubleDouble::of(*value)).collect()
     }
 
-    /// A push of unit response and a friction of response 3.5 across it.
+    /// A normal force of unit response and a friction of response 3.5 across it.
     fn pushed(rates: &[f64], friction: f64) -> Vec<f64> {
         let matrix = [of(&[1.0, 0.0, 0.0]), of(&[0.0, 3.5, 0.0]), of(&[0.0, 0.0, 3.5])];
         let grip = Law::Grip(Some(DoubleDouble::of(friction)), 0);

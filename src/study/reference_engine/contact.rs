@@ -1,4 +1,4 @@
-//! A contact of two balls, or of a ball and a cushion: its geometry, its speeds and its laws.
+//! A contact between two balls, or between a ball and a cushion: its geometry, speeds and laws.
 
 use super::{Ball, Motion, Numbers, Real, Vector, table::normal};
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     table::{BALLS, PAIRS},
 };
 
-/// All balls at one moment.
+/// The states of all balls at one time.
 pub type Balls<R> = [Ball<R>; BALLS];
 
 /// Two bodies that can touch.
@@ -19,13 +19,13 @@ pub enum Contact {
 }
 
 impl Contact {
-    /// Every ball with every cushion, then all pairs of balls.
+    /// Returns all contacts: every ball with every cushion, then all pairs of balls.
     pub fn all() -> impl Iterator<Item = Self> {
         let rails = (0..BALLS).flat_map(|ball| Rail::ALL.into_iter().map(move |rail| Self::Rail(ball, rail)));
         rails.chain(PAIRS.into_iter().map(|(first, second)| Self::Balls(first, second)))
     }
 
-    /// The ball towards which the normal points, and the other one.
+    /// Returns the ball towards which the normal points, and the other ball if there is one.
     pub fn balls(self) -> (usize, Option<usize>) {
         match self {
             Self::Balls(first, second) => (first, Some(second)),
@@ -33,30 +33,30 @@ impl Contact {
         }
     }
 
-    /// Whether `ball` takes part.
+    /// Whether `ball` is part of the contact.
     pub fn has(self, ball: usize) -> bool {
         let (first, second) = self.balls();
         first == ball || second == Some(ball)
     }
 
-    /// Whether a ball takes part in both.
+    /// Whether the two contacts have a ball in common.
     pub fn shares_a_ball(self, other: Self) -> bool {
         (0..BALLS).any(|ball| self.has(ball) && other.has(ball))
     }
 
-    /// Whether a ball takes part that is not on the cloth.
+    /// Whether any of its balls is not on the cloth.
     pub fn is_aloft<R: Real>(self, balls: &Balls<R>) -> bool {
         let (first, second) = self.balls();
         let is_off = |ball: usize| matches!(balls[ball].motion, Motion::Flying | Motion::OffTable);
         is_off(first) || second.is_some_and(is_off)
     }
 
-    /// Whether all of its balls are among these.
+    /// Whether all of its balls are among `balls`.
     pub fn is_among(self, balls: [bool; BALLS]) -> bool {
         (0..BALLS).all(|ball| balls[ball] || !self.has(ball))
     }
 
-    /// The contact of an impact, if this is one.
+    /// Returns the contact of an impact event, `None` for other events.
     pub fn of_event(kind: EventKind) -> Option<Self> {
         match kind {
             EventKind::BallBall(first, second) => Some(Self::Balls(first, second)),
@@ -65,7 +65,7 @@ impl Contact {
         }
     }
 
-    /// The event of an impact.
+    /// Returns the event of an impact at this contact.
     pub fn event(self) -> EventKind {
         match self {
             Self::Balls(first, second) => EventKind::BallBall(first, second),
@@ -73,7 +73,7 @@ impl Contact {
         }
     }
 
-    /// Restitution of a slow impact.
+    /// Returns the restitution of slow impacts.
     pub fn restitution<R: Real>(self, numbers: &Numbers<R>) -> R {
         match self {
             Self::Balls(..) => numbers.ball_restitution,
@@ -81,7 +81,7 @@ impl Contact {
         }
     }
 
-    /// Coulomb's coefficient at rest; `None` where nothing slips.
+    /// Returns Coulomb's coefficient at rest; `None` if the contact never slips.
     pub fn friction<R: Real>(self, numbers: &Numbers<R>) -> Option<R> {
         match self {
             Self::Balls(..) => numbers.ball_friction,
@@ -89,7 +89,7 @@ impl Contact {
         }
     }
 
-    /// Unit vector towards the first ball.
+    /// Returns the unit normal, towards the first ball.
     pub fn normal<R: Real>(self, balls: &Balls<R>) -> Vector<R> {
         match self {
             Self::Balls(first, second) => (balls[first].position - balls[second].position).direction(),
@@ -97,42 +97,43 @@ impl Contact {
         }
     }
 
-    /// Distance of the two surfaces, m.
+    /// Returns the distance of the two surfaces, m.
     pub fn gap<R: Real>(self, numbers: &Numbers<R>, balls: &Balls<R>) -> R {
         match self {
             Self::Balls(first, second) => {
-                let (apart, diameter) = (balls[first].position - balls[second].position, R::of(2.0) * numbers.radius);
-                // The difference of the squares keeps the digits that the root would round.
-                (apart.dot(apart) - diameter * diameter) / (apart.length() + diameter)
+                let (difference, diameter) =
+                    (balls[first].position - balls[second].position, R::of(2.0) * numbers.radius);
+                // The difference of squares keeps digits that the square root would round off.
+                (difference.dot(difference) - diameter * diameter) / (difference.length() + diameter)
             }
             Self::Rail(ball, rail) => numbers.reach(rail) + balls[ball].position.dot(normal(rail)),
         }
     }
 
-    /// Velocity of the first ball as seen from the other body, m/s.
+    /// Returns the velocity of the first ball relative to the other body, m/s.
     pub fn relative<R: Real>(self, balls: &Balls<R>) -> Vector<R> {
         let (first, second) = self.balls();
         second.map_or(balls[first].velocity, |second| balls[first].velocity - balls[second].velocity)
     }
 
-    /// Rate at which the gap opens, m/s.
+    /// Returns the opening speed of the gap, m/s.
     pub fn opening<R: Real>(self, balls: &Balls<R>) -> R {
         self.relative(balls).dot(self.normal(balls))
     }
 
-    /// Sum of the spins, which turns both surfaces the same way, rad/s.
+    /// Returns the sum of the spins, which moves both surfaces the same way, rad/s.
     pub fn spin<R: Real>(self, balls: &Balls<R>) -> Vector<R> {
         let (first, second) = self.balls();
         second.map_or(balls[first].spin, |second| balls[first].spin + balls[second].spin)
     }
 
-    /// Slip of the two surfaces (thesis equation 21), m/s.
+    /// Returns the slip velocity of the two surfaces (thesis equation 21), m/s.
     pub fn slip<R: Real>(self, numbers: &Numbers<R>, balls: &Balls<R>) -> Vector<R> {
         let (n, relative) = (self.normal(balls), self.relative(balls));
         relative - n * relative.dot(n) + n.cross(self.spin(balls)) * numbers.radius
     }
 
-    /// Shifts the balls by what rounding has left of the gap, each of two by half.
+    /// Shifts the balls to close the remaining gap, which is rounding; each of two balls by half of it.
     pub fn close<R: Real>(self, numbers: &Numbers<R>, balls: &mut Balls<R>) {
         let shift = self.normal(balls) * self.gap(numbers, balls);
         match self {

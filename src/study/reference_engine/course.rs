@@ -1,16 +1,16 @@
-//! How all balls go on until something happens: free ones along parabolas, those in resting contact by their piece.
+//! The course of all balls until the next event: free balls on parabolas, balls in resting contact by their piece.
 
 use super::{Numbers, Real, contact::Balls, extrapolation::State, piece::Piece};
 use crate::table::BALLS;
 
-/// The balls now, and what they do next.
+/// The present state of the balls, and their course from here.
 #[derive(Clone, Debug)]
 pub struct Course<R> {
     /// The table.
     pub numbers: Numbers<R>,
     /// The balls.
     pub balls: Balls<R>,
-    /// The piece of those whose contacts press.
+    /// The piece of the balls with pressing contacts.
     pub piece: Option<Piece<R>>,
 }
 
@@ -19,19 +19,19 @@ impl<R: Real> Course<R> {
         self.piece.as_ref().is_none_or(|piece| !piece.has(ball))
     }
 
-    /// Balls that nothing presses, and how long their present motions last, s.
+    /// Returns the free balls, and the durations of their present motions, s.
     pub fn free_motions(&self) -> impl Iterator<Item = (usize, R)> {
         let free = (0..BALLS).filter(|ball| self.is_free(*ball));
         free.filter_map(|ball| Some((ball, self.balls[ball].lasts(&self.numbers)?)))
     }
 
-    /// All balls at a `tau` of their piece, and the time, s.
+    /// Returns all balls at a `tau` of their piece, and the time, s.
     pub fn at(&self, piece: &Piece<R>, tau: R) -> (Balls<R>, R) {
         let state = if tau > R::zero() { piece.at(tau) } else { return (self.balls, R::zero()) };
         (self.merged(&state).0, state.time)
     }
 
-    /// All balls `time` later, and the frictions' work over mass.
+    /// Returns all balls `time` later, and the work of friction per mass.
     pub fn after(&self, time: R) -> (Balls<R>, R) {
         let start = State { time: R::zero(), work: R::zero(), balls: self.balls };
         match &self.piece {

@@ -1,4 +1,4 @@
-//! The cue strike (thesis 2.2.1) in any precision; the angles' sines and cosines come from outside.
+//! The cue strike (thesis 2.2.1) in any precision; the caller provides sines and cosines of the angles.
 
 use super::{Ball, Numbers, Real, Vector, flight::press};
 
@@ -17,8 +17,8 @@ pub struct Stroke<R> {
     pub speed: R,
 }
 
-/// Sine and cosine of the direction in which the ball squirts: an angle with the tangent
-/// `5/2 a √(1-a²) / (1 + m/m_e + 5/2 (1-a²))` away from the tip's side (Alciatore, TP A.31).
+/// Returns sine and cosine of the ball's direction with squirt: it deviates away from the tip's side by an angle with the
+/// tangent `5/2 a √(1-a²) / (1 + m/m_e + 5/2 (1-a²))` (Alciatore, TP A.31).
 fn squirted<R: Real>(numbers: &Numbers<R>, a: R, (sine, cosine): (R, R)) -> (R, R) {
     let Some(ratio) = numbers.end_ratio else { return (sine, cosine) };
     let (one, rest) = (R::of(1.0), (R::of(1.0) - a * a).max(R::zero()));
@@ -28,8 +28,8 @@ fn squirted<R: Real>(numbers: &Numbers<R>, a: R, (sine, cosine): (R, R)) -> (R, 
     (turned_sine / length, turned_cosine / length)
 }
 
-/// Velocity and spin just after the stroke, by thesis equations (9), (15) and (16) divided by the ball's mass, along the
-/// direction in which the ball squirts. Where balls leave the cloth, it answers at the same moment.
+/// Returns velocity and spin just after the stroke, by thesis equations (9), (15) and (16) divided by the ball's mass, in the
+/// direction with squirt. If balls can leave the cloth, its reaction is included.
 pub fn strike<R: Real>(numbers: &Numbers<R>, stroke: &Stroke<R>) -> (Vector<R>, Vector<R>) {
     let Stroke { a, b, theta: (sin_theta, cos_theta), phi, speed } = *stroke;
     let (sin_phi, cos_phi) = squirted(numbers, a, phi);
@@ -40,7 +40,7 @@ pub fn strike<R: Real>(numbers: &Numbers<R>, stroke: &Stroke<R>) -> (Vector<R>, 
     let along = force * cos_theta;
     let pressed = if numbers.flight.is_some() { -force * sin_theta } else { R::zero() };
     let velocity = Vector::new(along * cos_phi, along * sin_phi, pressed);
-    // In the cue's own frame (16): across, along and up.
+    // In the cue's frame (16): across, along and up.
     let across = c * sin_theta - b * cos_theta;
     let (along, up) = (a * sin_theta, -a * cos_theta);
     let turning = Vector::new(across * sin_phi - along * cos_phi, -across * cos_phi - along * sin_phi, up);

@@ -1,7 +1,7 @@
-//! Numbers of about 32 digits: the unevaluated sum of two `f64`, by error-free sums and products (Dekker 1971; Hida, Li
-//! and Bailey 2001).
+//! Double-double arithmetic: numbers of about 32 digits as the unevaluated sum of two `f64`, by error-free sums and products
+//! (Dekker 1971; Hida, Li and Bailey 2001).
 //!
-//! Every operation's relative error is below 2^-102, as long as nothing comes near the largest or smallest `f64`.
+//! The relative error of every operation is below 2^-102, as long as no value is near the limits of the `f64` range.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -15,41 +15,41 @@ pub struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// Ratio of a circle's circumference to its diameter.
+    /// The circle constant π.
     pub const PI: Self = Self { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
     /// Natural logarithm of two.
     const LN_2: Self = Self { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
 
-    /// The sum of two `f64`, exactly, where `large` is zero or not the smaller of the two.
+    /// Returns the exact sum of two `f64`, if `large` is zero or not the smaller of the two in size.
     fn of_ordered(large: f64, small: f64) -> Self {
         let high = large + small;
         Self { high, low: small - (high - large) }
     }
 
-    /// The sum of any two `f64`, exactly.
+    /// Returns the exact sum of any two `f64`.
     pub fn of_sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let of_b = high - a;
         Self { high, low: (a - (high - of_b)) + (b - of_b) }
     }
 
-    /// The product of two `f64`, exactly: of halves that have at most 26 bits. A fused multiply-add would do it in one
-    /// operation, but is a slow function call on machines that are not compiled for it.
+    /// Returns the exact product of two `f64`, by splitting each into halves of at most 26 bits. A fused multiply-add would
+    /// need a single operation, but is a slow function call on machines that the program is not compiled for.
     pub fn of_product(a: f64, b: f64) -> Self {
         let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
         let high = a * b;
         Self { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
     }
 
-    /// Sine and cosine of an angle in radians, by their power series after turning back by right angles.
+    /// Returns sine and cosine of an angle in radians, by power series after reduction by multiples of a right angle.
     pub fn sin_cos(self) -> (Self, Self) {
         let right = Self::PI * Self::of(0.5);
         let turns = (self.high / right.high).round();
         let angle = self - right * Self::of(turns);
         let (mut sine, mut cosine) = (Self::zero(), Self::zero());
         let mut term = Self::of(1.0);
-        // The terms fall below 1e-34 for the largest angle, an eighth of a turn.
+        // The terms fall below 1e-34 for the largest reduced angle, an eighth of a turn.
         for n in 0..32 {
             match n % 4 {
                 0 => cosine = cosine + term,
@@ -67,7 +67,7 @@ impl DoubleDouble {
         }
     }
 
-    /// Hyperbolic sine and cosine by their power series, for arguments of up to a half.
+    /// Returns hyperbolic sine and cosine by power series, for arguments up to one half.
     fn hyperbolic(self) -> (Self, Self) {
         let (mut sine, mut cosine) = (Self::zero(), Self::zero());
         let mut term = Self::of(1.0);
@@ -129,7 +129,7 @@ impl Mul for DoubleDouble {
 impl Div for DoubleDouble {
     type Output = Self;
 
-    /// Long division, digit by digit of 53 bits.
+    /// Long division with digits of 53 bits.
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
         let rest = self - other * Self::of(first);
@@ -151,7 +151,7 @@ impl Real for DoubleDouble {
         self.high
     }
 
-    /// Newton's step from the `f64` root: it doubles the digits.
+    /// One Newton step from the `f64` root, which doubles the number of digits.
     fn sqrt(self) -> Self {
         if self.high <= 0.0 {
             return Self::zero();
@@ -161,7 +161,7 @@ impl Real for DoubleDouble {
         Self::of_ordered(root, rest.high / (2.0 * root))
     }
 
-    /// By the power series after division by a power of two.
+    /// Power series after reduction by a power of two.
     fn exp(self) -> Self {
         let powers = (self.high / std::f64::consts::LN_2).round();
         let rest = self - Self::LN_2 * Self::of(powers);
@@ -175,7 +175,7 @@ impl Real for DoubleDouble {
             let (sine, cosine) = self.hyperbolic();
             return sine / cosine;
         }
-        // Beyond 40 what is missing from one is rounding.
+        // Beyond 40, the difference from one is below rounding.
         let size = self.abs().min(Self::of(40.0));
         let small = (Self::of(-2.0) * size).exp();
         let tangent = (one - small) / (one + small);
@@ -187,7 +187,7 @@ impl Real for DoubleDouble {
 mod tests {
     use super::*;
 
-    /// Reads decimal digits behind a leading digit, in groups that are exact as `f64`.
+    /// Returns a number from its integer part and groups of 12 decimal digits, which are exact as `f64`.
     fn decimal(leading: f64, groups: [f64; 3]) -> DoubleDouble {
         let scale = DoubleDouble::of(1e12);
         groups.iter().rev().fold(DoubleDouble::zero(), |sum, group| (sum + DoubleDouble::of(*group)) / scale)

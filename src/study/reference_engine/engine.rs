@@ -1,4 +1,4 @@
-//! From event to event: all balls are moved to each event, and everything is predicted anew behind it.
+//! The event loop: all balls are moved to each event, and everything is predicted again after it.
 
 use glam::DVec2;
 
@@ -8,7 +8,7 @@ use super::{
     course::Course,
     flight,
     meeting::{meets, touch},
-    moment::happen,
+    moment::process_moment,
     piece::Piece,
 };
 use crate::{
@@ -16,34 +16,34 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// Steps from event to event after which a shot is given up: with 32 digits more than any has whose balls come to rest. With 16 or 8,
-/// balls that press each other may part and meet again without end.
-fn most_steps<R: Real>() -> usize {
+/// Returns the number of steps after which the engine gives up a shot. With 32 digits, no shot whose balls come to rest needs
+/// as many. With 16 or 8 digits, balls that press each other may separate and meet again forever.
+fn max_steps<R: Real>() -> usize {
     if R::ROUNDING < 1e-20 { 200_000 } else { 5_000 }
 }
 
-/// After so many slow pieces in a row what is slow is taken to creep.
-const MANY: usize = 300;
+/// After this many slow pieces in a row, slow slips are treated as creeping.
+const MAX_SLOW_PIECES: usize = 300;
 
-/// What became of a shot.
+/// The course and result of a shot.
 #[derive(Clone, Debug)]
 pub struct Shot<R> {
     /// The events and their times, s.
     pub events: Vec<(R, EventKind)>,
-    /// The balls at rest.
+    /// Final states of the balls.
     pub end: [Ball<R>; BALLS],
     /// Time of the last event, s.
     pub duration: R,
-    /// Whether a ball was pressed against a cushion or another ball while it moved.
+    /// Whether a moving ball was pressed against a cushion or another ball.
     pub pressed: bool,
-    /// Whether a ball in the air met something so slowly that it may have slid off in bounces.
+    /// Whether a ball in the air hit something so slowly that it may have slid off in bounces.
     pub slides: bool,
-    /// Kinetic and potential energy over mass at the start, and the part of it for which friction and impacts do not account.
+    /// Kinetic and potential energy per mass at the start, and the part of it that friction and impacts do not explain.
     pub energy: [R; 2],
 }
 
 impl<R: Real> Shot<R> {
-    /// Where the balls are at rest, rounded; those that left the table are on their spots.
+    /// Returns the final positions, rounded; a ball that left the table is on its spot.
     pub fn layout(&self, table: &Table) -> Layout {
         let places = self.end.map(|ball| DVec2::new(ball.position.x.to_f64(), ball.position.y.to_f64()));
         let off_table = self.end.map(|ball| ball.motion == Motion::OffTable);
@@ -51,25 +51,25 @@ impl<R: Real> Shot<R> {
     }
 }
 
-/// Why a shot cannot be judged by this engine: its table has a law that is missing here, or the equations are not solved. In
-/// double-double no shot is known of which the latter is true.
+/// Why this engine cannot judge a shot: the table has a law that it does not implement, or the equations are not solved. In
+/// double-double no shot is known for which the latter is true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unjudged {
-    /// No forces are found that obey all laws of resting contact.
+    /// The solver found no forces that obey all laws of resting contact.
     #[error("no forces are found that obey all laws of resting contact")]
     Unsolved,
-    /// A cushion's impacts are integrated, by a model that this engine has not.
+    /// A cushion's impacts are integrated over the impulse, which this engine does not implement.
     #[error("the model of the table's rails is integrated over the impulse, which the reference engine does not do")]
     IntegratedRail,
     /// The table is not level.
-    #[error("the table is not level, and the reference engine knows no slope")]
+    #[error("the table is not level, and the reference engine has no model of a slope")]
     Slope,
-    /// The events do not end.
+    /// The shot takes too many steps from event to event.
     #[error("more than {0} steps from event to event")]
     Endless(usize),
 }
 
-/// What comes next.
+/// The next event.
 #[derive(Clone, Copy)]
 enum Next {
     MotionEnds(usize),
@@ -81,7 +81,7 @@ enum Next {
 /// Plays a shot: ball 0 starts with the given velocity and spin.
 ///
 /// # Errors
-/// [`Unjudged`], where the table has other laws, or the equations are not solved.
+/// [`Unjudged`] if the table has other laws, or the equations are not solved.
 pub fn play<R: Real>(
     numbers: &Numbers<R>,
     positions: [Vector<R>; BALLS],
@@ -89,7 +89,7 @@ pub fn play<R: Real>(
     spin: Vector<R>,
     finder: Finder<R>,
 ) -> Result<Shot<R>, Unjudged> {
-    numbers.judged()?;
+    numbers.check_supported()?;
     let mut balls = positions.map(Ball::still);
     (balls[0].velocity, balls[0].spin) = (velocity, spin);
     flight::settle(numbers, &mut balls[0]);
@@ -101,8 +101,8 @@ pub fn play<R: Real>(
         events.push((now, EventKind::Jumps(0)));
     }
     let (mut resting, mut stride, mut slow) = ([false; BALLS], 1.0, 0);
-    for _ in 0..most_steps::<R>() {
-        let moment = happen(numbers, &mut balls, resting, slow > MANY)?;
+    for _ in 0..max_steps::<R>() {
+        let moment = process_moment(numbers, &mut balls, resting, slow > MAX_SLOW_PIECES)?;
         events.extend(moment.events.into_iter().map(|kind| (now, kind)));
         work = work + moment.work;
         let piece = moment.rest.map(|rest| Piece::new(numbers, &balls, rest, stride));
@@ -150,10 +150,10 @@ pub fn play<R: Real>(
             Next::Meets(contact) => touch(numbers, contact, &mut balls),
         }
     }
-    Err(Unjudged::Endless(most_steps::<R>()))
+    Err(Unjudged::Endless(max_steps::<R>()))
 }
 
-/// The next event and the time to it.
+/// Returns the next event and the time until it.
 fn predict<R: Real>(course: &Course<R>, finder: Finder<R>) -> Option<(R, Next)> {
     let piece = course.piece.iter().map(|piece| (piece.lasts(), Next::PieceEnds));
     let motions = course.free_motions().map(|(ball, time)| (time, Next::MotionEnds(ball)));

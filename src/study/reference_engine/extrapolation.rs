@@ -1,42 +1,44 @@
-//! Extrapolated midpoint steps (Gragg, Bulirsch and Stoer): they solve smooth equations of motion in any precision.
+//! Extrapolated midpoint steps (Gragg, Bulirsch and Stoer), which integrate smooth equations of motion in any precision.
 
 use super::{Ball, Real, contact::Balls};
 
-/// Columns of the extrapolation, the last of which has an error of the order of `(step/4)²⁸/28!`.
+/// Number of columns of the extrapolation; the error of the last is of the order of `(step/4)²⁸/28!`.
 pub const COLUMNS: usize = 14;
 
-/// Two columns that differ by less are the same, in units of rounding: the last one is better by some orders.
+/// Two columns agree if they differ by less than this, in units of rounding: the later one is more precise by some orders of
+/// magnitude.
 const SAME: f64 = 256.0;
 
-/// Most by which blur makes that more, and the power of rounding that bounds it where numbers have few digits.
+/// Limits of the factor by which `blur` widens this tolerance: an absolute one, and the power of rounding that replaces it for
+/// numbers with few digits.
 const BLURRED: f64 = 1e6;
 const BLURRED_POWER: f64 = -0.375;
 
-/// What is integrated, its changes since a start, or its rates of change.
+/// The integrated state, its changes since a start, or its derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct State<R> {
     /// Time since the start, s.
     pub time: R,
-    /// Work of friction over mass since the start.
+    /// Work of friction per mass since the start.
     pub work: R,
     /// The balls.
     pub balls: Balls<R>,
 }
 
 impl<R: Real> State<R> {
-    /// The same balls with all numbers zero.
+    /// Returns the same balls with all numbers zero.
     #[must_use]
     pub fn zero(&self) -> Self {
         self.with(self, |x, same| x - same)
     }
 
-    /// This state after changes.
+    /// Returns this state after changes.
     #[must_use]
     pub fn and(&self, changes: &Self) -> Self {
         self.with(changes, |x, change| x + change)
     }
 
-    /// Every number by a function of itself and of its fellow in another state.
+    /// Combines every number with the same number of another state.
     fn with(&self, other: &Self, combine: impl Fn(R, R) -> R + Copy) -> Self {
         let mut state = *self;
         state.time = combine(self.time, other.time);
@@ -69,12 +71,13 @@ impl<R: Real> State<R> {
     }
 }
 
-/// The state one step later, and how many columns it took: `None` where they do not agree in the end.
+/// Returns the state one step later, and the number of columns used; `None` instead of the number if the columns do not
+/// converge.
 ///
-/// Columns agree where they differ by rounding, or by rounding times `blur` times the change itself.
+/// Columns agree if they differ by rounding, or by rounding times `blur` times the change itself.
 ///
-/// Changes are integrated: what is large in the state itself would leave its rounding in them, and the extrapolation
-/// amplifies that.
+/// Changes since the start are integrated, not the state itself: large numbers in the state would leave their rounding in the
+/// changes, and the extrapolation would amplify it.
 pub fn extrapolate<R: Real>(
     start: &State<R>,
     step: R,
@@ -85,7 +88,7 @@ pub fn extrapolate<R: Real>(
     let start = &zero;
     let rates = |changes: &State<R>| rates(&origin.and(changes));
     let first = rates(start);
-    // row[k] extrapolates the last k + 1 step counts 2, 4, 6, … to none at all.
+    // row[k] extrapolates from the last k + 1 step counts of 2, 4, 6, …
     let mut row: Vec<State<R>> = Vec::with_capacity(COLUMNS);
     for column in 0..COLUMNS {
         let count = 2 * (column + 1);

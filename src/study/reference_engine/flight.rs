@@ -1,5 +1,5 @@
-//! Balls off the cloth: what it gives back to a ball that is pressed into it or comes down on it, and what a ball in the air does
-//! to what it meets. Every landing is an event, down to hops of rounding's size.
+//! Balls off the cloth: the reaction of the cloth to a ball that is pressed into it or lands on it, and impacts of balls in the
+//! air. Every landing is an event, down to hops of the size of rounding.
 
 use super::{
     Ball, Motion, Numbers, Real, Vector,
@@ -10,53 +10,55 @@ use super::{
 };
 use crate::simulation::{EventKind, Rail};
 
-/// What has come of a meeting in the air.
-pub struct Met<R> {
-    /// What is told of it.
+/// The result of an impact in the air.
+pub struct ImpactAloft<R> {
+    /// The resulting events.
     pub events: Vec<EventKind>,
-    /// The energy over mass that it takes.
+    /// The dissipated energy per mass.
     pub work: R,
-    /// Whether it was so slow that bounces like it need not be told one by one.
+    /// Whether the impact was so slow that similar bounces need not be reported one by one.
     pub is_slow: bool,
 }
 
-/// An impulse over mass at a ball's surface, and the turning that it makes.
+/// An impulse per mass at a ball's surface, and the resulting change of spin.
 struct Change<R> {
     linear: Vector<R>,
     angular: Vector<R>,
 }
 
 impl<R: Real> Change<R> {
-    /// Changes a ball, and returns the energy over mass that this takes: the impulse times the mean speed that it acts on.
+    /// Applies the change to a ball, and returns the dissipated energy per mass: the impulse times the mean speed of its point
+    /// of action.
     fn apply(&self, numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
         let before = *ball;
         ball.velocity = ball.velocity + self.linear;
         ball.spin = ball.spin + self.angular;
-        let inertia = R::of(1.0) / numbers.turnability;
+        let inertia = R::of(1.0) / numbers.mass_over_inertia;
         let along = self.linear.dot(before.velocity + ball.velocity);
         R::of(-0.5) * (along + inertia * self.angular.dot(before.spin + ball.spin))
     }
 }
 
-/// The cloth's answer to a ball on it that moves downwards, and the energy over mass that it takes.
+/// Applies the cloth's reaction to a ball on it that moves downwards, and returns the dissipated energy per mass.
 pub fn press<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
     let Some(flight) = numbers.flight.filter(|_| ball.velocity.z < R::zero()) else { return R::zero() };
     let push = (R::of(1.0) + flight.restitution) * -ball.velocity.z;
     let upwards = Change { linear: Vector::up() * push, angular: Vector::zero() }.apply(numbers, ball);
-    upwards + rubbed_by_cloth(numbers, push, ball)
+    upwards + apply_cloth_friction(numbers, push, ball)
 }
 
-/// The cloth's friction on a ball that is pressed into it by the impulse `push` over mass, and the energy over mass that it takes.
-fn rubbed_by_cloth<R: Real>(numbers: &Numbers<R>, push: R, ball: &mut Ball<R>) -> R {
+/// Applies the cloth's friction to a ball that is pressed into it by the impulse `push` per mass, and returns the dissipated
+/// energy per mass.
+fn apply_cloth_friction<R: Real>(numbers: &Numbers<R>, push: R, ball: &mut Ball<R>) -> R {
     let Some(flight) = numbers.flight else { return R::zero() };
     let slip = ball.slip(numbers);
     let linear = slip * -coulomb(Some(flight.friction), push, slip.length(), R::ratio(2.0, 7.0));
-    let angular = (Vector::up() * -numbers.radius).cross(linear) * numbers.turnability;
+    let angular = (Vector::up() * -numbers.radius).cross(linear) * numbers.mass_over_inertia;
     Change { linear, angular }.apply(numbers, ball)
 }
 
-/// What a ball does after a stroke or a blow: on the cloth it is pressed, and stays there if it is thrown up no faster than a
-/// ball bounces in the air. Returns the energy over mass that this takes.
+/// Chooses the motion of a ball after a stroke or an impact. On the cloth the ball is pressed into it, and stays there if it
+/// rebounds no faster than the slowest bounce in the air. Returns the dissipated energy per mass.
 pub fn settle<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
     let mut work = R::zero();
     if ball.position.z <= R::zero() {
@@ -65,20 +67,20 @@ pub fn settle<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
             work = work + stay(ball);
         }
     }
-    ball.set_off(numbers);
+    ball.choose_motion_after_impact(numbers);
     work
 }
 
-/// Keeps a ball on the cloth.
+/// Keeps a ball on the cloth, and returns the dissipated energy per mass.
 fn stay<R: Real>(ball: &mut Ball<R>) -> R {
     let work = R::of(0.5) * ball.velocity.z * ball.velocity.z;
     (ball.position.z, ball.velocity.z) = (R::zero(), R::zero());
     work
 }
 
-/// A ball comes down on the cloth: it hops again, or stays there. Returns what is told, and the energy over mass that it takes.
+/// Handles a landing: the ball hops again, or stays on the cloth. Returns the events and the dissipated energy per mass.
 pub fn land<R: Real>(numbers: &Numbers<R>, index: usize, ball: &mut Ball<R>) -> (Vec<EventKind>, R) {
-    // What rounding has left of the height.
+    // The remaining height is rounding.
     let lowered = numbers.gravity * ball.position.z;
     ball.position.z = R::zero();
     let work = lowered + press(numbers, ball);
@@ -86,7 +88,7 @@ pub fn land<R: Real>(numbers: &Numbers<R>, index: usize, ball: &mut Ball<R>) -> 
         return (Vec::new(), work);
     }
     let work = work + stay(ball);
-    ball.set_off(numbers);
+    ball.choose_motion_after_impact(numbers);
     let mut events = vec![EventKind::Lands(index)];
     match ball.motion {
         Motion::Rolling => events.push(EventKind::SlidingRolling(index)),
@@ -96,14 +98,14 @@ pub fn land<R: Real>(numbers: &Numbers<R>, index: usize, ball: &mut Ball<R>) -> 
     (events, work)
 }
 
-/// A ball leaves the table; returns the energy over mass that it takes along.
+/// Takes a ball that leaves the table out of play, and returns its energy per mass.
 pub fn leave<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
     let work = ball.energy(numbers);
     *ball = Ball { motion: Motion::OffTable, ..Ball::still(ball.position.flat()) };
     work
 }
 
-/// The way from the nose of `rail` to a ball's centre, m, across the rail.
+/// Returns the vector from the nose of `rail` to a ball's centre in the plane across the rail, m.
 pub fn from_nose<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail) -> Vector<R> {
     let (sine, cosine, _) = numbers.cushion(rail).nose();
     let n = normal(rail);
@@ -111,7 +113,7 @@ pub fn from_nose<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail) -> V
     n * inwards + Vector::up() * (ball.position.z - numbers.radius * sine)
 }
 
-/// When a ball in the air comes down on `rail` behind its nose, s.
+/// Returns the time at which a ball in the air lands on `rail` behind its nose, s.
 pub fn leaves<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail) -> Option<R> {
     if ball.motion != Motion::Flying {
         return None;
@@ -127,7 +129,7 @@ pub fn leaves<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail) -> Opti
     (time >= R::zero() && is_behind).then_some(time)
 }
 
-/// Rate at which the gap opens between two bodies of which a ball in the air is one, m/s.
+/// Returns the opening speed of the gap between two bodies, at least one of which is a ball in the air, m/s.
 pub fn opening_aloft<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &Balls<R>) -> R {
     match contact {
         Contact::Rail(ball, rail) => balls[ball].velocity.dot(from_nose(numbers, &balls[ball], rail).direction()),
@@ -135,8 +137,8 @@ pub fn opening_aloft<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &Ba
     }
 }
 
-/// Two bodies meet of which a ball in the air is one.
-pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Balls<R>) -> Met<R> {
+/// Collides two bodies, at least one of which is a ball in the air.
+pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Balls<R>) -> ImpactAloft<R> {
     let before = *balls;
     let (approach, mut work) = match contact {
         Contact::Rail(ball, rail) => {
@@ -148,15 +150,15 @@ pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Ball
         Contact::Balls(first, second) => {
             let (mut one, mut other) = (balls[first], balls[second]);
             let gap = contact.normal(balls) * contact.gap(numbers, balls);
-            // Only what is in the air is moved, the upper of two: the cloth stays where it is, and what is on it.
+            // Only a ball in the air is moved, the upper one of two: the cloth and balls on it stay in place.
             let is_upper = one.position.z > other.position.z;
             if is_upper || (one.motion == Motion::Flying && one.position.z == other.position.z) {
                 shift(&mut one, -gap);
             } else {
                 shift(&mut other, gap);
             }
-            let met =
-                held_meet(numbers, &mut one, &mut other).unwrap_or_else(|| balls_meet(numbers, &mut one, &mut other));
+            let met = supported_meet(numbers, &mut one, &mut other)
+                .unwrap_or_else(|| balls_meet(numbers, &mut one, &mut other));
             (balls[first], balls[second]) = (one, other);
             met
         }
@@ -172,11 +174,11 @@ pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Ball
         }
     }
     let slow = numbers.flight.map_or(R::zero(), |flight| flight.lifts);
-    Met { events, work, is_slow: approach <= slow }
+    ImpactAloft { events, work, is_slow: approach <= slow }
 }
 
-/// Takes what rounding has left of a gap out of the place of a ball in the air, which does not come down by that; one that is just being
-/// lifted is still on the cloth.
+/// Removes the remaining gap, which is rounding, from the position of a ball in the air, without landing it. A ball that is
+/// just being lifted stays at the height of the cloth.
 fn shift<R: Real>(ball: &mut Ball<R>, by: Vector<R>) {
     let height = ball.position.z.max(R::zero());
     ball.position = ball.position + by;
@@ -185,9 +187,9 @@ fn shift<R: Real>(ball: &mut Ball<R>, by: Vector<R>) {
     }
 }
 
-/// Relative velocity after an impact with restitution, which was `across - approach n`, but for its friction, which takes `rub`
-/// from the part across. No impact in the air opens more slowly than `slowest`: one that approaches no faster loses nothing,
-/// and what is missing then comes out of the part across.
+/// Returns the relative velocity after an impact with restitution. Before the impact it was `across - approach n`; friction has
+/// already changed the part across. No impact in the air opens more slowly than `slowest`: an impact that approaches no faster
+/// loses nothing, and the missing energy comes from the part across.
 fn opened<R: Real>(slowest: R, n: Vector<R>, opening: R, across: Vector<R>) -> Vector<R> {
     let missing = slowest * slowest - opening * opening;
     if missing <= R::zero() {
@@ -200,18 +202,18 @@ fn opened<R: Real>(slowest: R, n: Vector<R>, opening: R, across: Vector<R>) -> V
     across * ((had - missing) / had).sqrt() + n * slowest
 }
 
-/// The speed with which an impact in the air opens, but for what [`opened`] adds.
+/// Returns the opening speed of an impact in the air, before the correction by [`opened`], and the slowest bounce.
 fn opening<R: Real>(numbers: &Numbers<R>, restitution: R, approach: R) -> (R, R) {
     let slowest = numbers.flight.map_or(R::zero(), |flight| flight.slowest);
     ((restitution * approach).max(approach.min(slowest)), slowest)
 }
 
-/// Two balls meet in space; returns the speed of the approach, and the energy over mass that it takes.
+/// Collides two balls in space. Returns the approach speed and the dissipated energy per mass.
 fn balls_meet<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second: &mut Ball<R>) -> (R, R) {
     let (half, two) = (R::of(0.5), R::of(2.0));
     let mut n = (first.position - second.position).direction();
     if n.flat() == Vector::zero() {
-        // Nothing says to which side a ball leaves the top of another: the law is the simulator's.
+        // The direction in which a ball leaves the top of another is undetermined: the convention is that of the simulator.
         n.x = R::of(f64::EPSILON);
     }
     let relative = first.velocity - second.velocity;
@@ -224,16 +226,16 @@ fn balls_meet<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second: &mut B
     let rub = slip * -coulomb(numbers.ball_friction_at(size), push, size, R::ratio(1.0, 7.0));
     let after = opened(slowest, n, opening, across + rub * two);
     let linear = (after - relative) * half;
-    let angular = (n * -numbers.radius).cross(rub) * numbers.turnability;
+    let angular = (n * -numbers.radius).cross(rub) * numbers.mass_over_inertia;
     let one = Change { linear, angular }.apply(numbers, first);
     let other = Change { linear: -linear, angular }.apply(numbers, second);
     (approach, one + other)
 }
 
-/// A ball in the air meets one on the cloth so softly that it stays there: the cloth holds that one from below, so that it gives way
-/// along the table only, and what the balls and then the cloth give back is the upper ball's. Returns what [`balls_meet`] does;
-/// `None` where the lower ball is thrown up again, or the two part by themselves.
-fn held_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut Ball<R>) -> Option<(R, R)> {
+/// Collides a ball in the air with one on the cloth so softly that the lower ball stays there. The cloth supports the lower
+/// ball, so that it yields only horizontally, and the upper ball gets the rebound of both the balls and the cloth. Returns the
+/// same as [`balls_meet`]; `None` if the lower ball is thrown up, or if the two separate anyway.
+fn supported_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut Ball<R>) -> Option<(R, R)> {
     let flight = numbers.flight?;
     let (mut first, mut second) = (*one, *other);
     let (approach, _) = balls_meet(numbers, &mut first, &mut second);
@@ -265,18 +267,24 @@ fn held_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut Ball<
     let relative = upper.velocity - lower.velocity;
     let slip = relative - n * relative.dot(n) + n.cross(upper.spin + lower.spin) * numbers.radius;
     let rub = slip * -coulomb(numbers.ball_friction_at(slip.length()), push, slip.length(), R::ratio(1.0, 7.0));
-    let angular = (n * -numbers.radius).cross(rub) * numbers.turnability;
+    let angular = (n * -numbers.radius).cross(rub) * numbers.mass_over_inertia;
     work = work
         + Change { linear: rub, angular }.apply(numbers, upper)
         + Change { linear: -rub.flat(), angular }.apply(numbers, lower)
-        + rubbed_by_cloth(numbers, (push * n.z + rub.z).max(R::zero()), lower);
-    work = work + part_slowly(flight.slowest, numbers, n, upper, lower);
+        + apply_cloth_friction(numbers, (push * n.z + rub.z).max(R::zero()), lower);
+    work = work + separate_slowly(flight.slowest, numbers, n, upper, lower);
     Some((approach, work))
 }
 
-/// Two balls, of which the cloth holds the lower one, part along `n` no more slowly than `slowest`. The energy for it comes out of their
-/// sliding along each other, which neither opens nor closes them. Returns the energy over mass that this takes.
-fn part_slowly<R: Real>(slowest: R, numbers: &Numbers<R>, n: Vector<R>, upper: &mut Ball<R>, lower: &mut Ball<R>) -> R {
+/// Separates two balls, the lower one supported by the cloth, along `n` with at least the speed `slowest`. The energy comes
+/// from their sliding along each other, which neither opens nor closes the gap. Returns the dissipated energy per mass.
+fn separate_slowly<R: Real>(
+    slowest: R,
+    numbers: &Numbers<R>,
+    n: Vector<R>,
+    upper: &mut Ball<R>,
+    lower: &mut Ball<R>,
+) -> R {
     let relative = upper.velocity - lower.velocity;
     let opening = relative.dot(n);
     let across = relative - n * opening;
@@ -285,7 +293,7 @@ fn part_slowly<R: Real>(slowest: R, numbers: &Numbers<R>, n: Vector<R>, upper: &
         return R::zero();
     }
     let along = across.direction();
-    // Inverse effective masses against parting and against sliding.
+    // Inverse effective masses against separation and against sliding.
     let parts = R::of(1.0) + n.flat().dot(n.flat());
     let shared = n.z * along.z / parts;
     let (one, other) = (along + n * shared, along.flat() + n.flat() * shared);
@@ -302,8 +310,8 @@ fn part_slowly<R: Real>(slowest: R, numbers: &Numbers<R>, n: Vector<R>, upper: &
     on_upper.apply(numbers, upper) + on_lower.apply(numbers, lower)
 }
 
-/// A ball meets a nose, from which `n` points to its centre; returns the speed of the approach, and the energy over mass that it
-/// takes.
+/// Collides a ball with a nose, from which `n` points to its centre. Returns the approach speed and the dissipated energy per
+/// mass.
 fn nose_meets<R: Real>(numbers: &Numbers<R>, rail: Rail, n: Vector<R>, ball: &mut Ball<R>) -> (R, R) {
     let cushion = numbers.cushion(rail);
     let approach = -ball.velocity.dot(n);
@@ -313,6 +321,6 @@ fn nose_meets<R: Real>(numbers: &Numbers<R>, rail: Rail, n: Vector<R>, ball: &mu
     let push = cushion.friction * (approach + opening);
     let rub = slip * -nose_friction(cushion.nose().2, push, slip.length());
     let linear = opened(slowest, n, opening, across + rub) - ball.velocity;
-    let angular = (n * -numbers.radius).cross(rub) * numbers.turnability;
+    let angular = (n * -numbers.radius).cross(rub) * numbers.mass_over_inertia;
     (approach, Change { linear, angular }.apply(numbers, ball))
 }

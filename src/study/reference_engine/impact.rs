@@ -1,16 +1,16 @@
-//! Collisions (thesis 2.2.2 and 2.2.3, and cushions at the height of their nose). Each returns the energy over mass that it
-//! takes, worked out from the impulses.
+//! Collisions (thesis 2.2.2 and 2.2.3, and cushions with contact at the height of the nose). Each function returns the
+//! dissipated energy per mass, computed from the impulses.
 
 use super::{
     Ball, Numbers, Real, Vector,
     rails::{Cushion, Meeting},
 };
 
-/// How often a ball may meet a nose again at once, and the share of its approach that may be left.
-const AGAIN: u32 = 400;
-const LEFT: f64 = 1e-28;
+/// Maximum number of immediately repeated impacts on a nose, and the remaining share of the approach speed at which they end.
+const MAX_REPEATS: u32 = 400;
+const END_OF_APPROACH: f64 = 1e-28;
 
-/// Two balls collide.
+/// Collides two balls.
 pub fn balls_collide<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second: &mut Ball<R>) -> R {
     let one = R::of(1.0);
     let n = (first.position - second.position).direction();
@@ -26,10 +26,10 @@ pub fn balls_collide<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second:
     let turn = n.cross(slip) * (R::of(2.5) * share / numbers.radius);
     first.spin = first.spin + turn;
     second.spin = second.spin + turn;
-    R::of(0.25) * (one - restitution * restitution) * approach * approach + rubbed(slip, share, R::of(0.5))
+    R::of(0.25) * (one - restitution * restitution) * approach * approach + friction_work(slip, share, R::of(0.5))
 }
 
-/// A ball hits a cushion, whose normal into the table is `n`.
+/// Collides a ball with a cushion whose normal into the table is `n`.
 pub fn rail_collides<R: Real>(numbers: &Numbers<R>, cushion: &Cushion<R>, n: Vector<R>, ball: &mut Ball<R>) -> R {
     let one = R::of(1.0);
     let approach = -ball.velocity.dot(n);
@@ -39,10 +39,10 @@ pub fn rail_collides<R: Real>(numbers: &Numbers<R>, cushion: &Cushion<R>, n: Vec
             nose_collides(numbers, cushion.friction, restitution, n, [sine, cosine], most, ball)
         };
         let (mut taken, mut climb) = meet(restitution, ball);
-        // As long as the cloth holds a ball that the nose has not thrown back, they meet again at once.
-        for _ in 0..AGAIN {
+        // While the cloth holds down a ball that the nose has not thrown back, the impact repeats immediately.
+        for _ in 0..MAX_REPEATS {
             let left = -ball.velocity.dot(n);
-            if left <= approach * R::of(LEFT) || climb > R::zero() {
+            if left <= approach * R::of(END_OF_APPROACH) || climb > R::zero() {
                 break;
             }
             let (more, up) = meet(cushion.restitution_at(left), ball);
@@ -55,11 +55,12 @@ pub fn rail_collides<R: Real>(numbers: &Numbers<R>, cushion: &Cushion<R>, n: Vec
     let share = coulomb(Some(cushion.friction), push, slip.length(), R::ratio(2.0, 7.0));
     ball.velocity = ball.velocity + n * push - slip.flat() * share;
     ball.spin = ball.spin + n.cross(slip) * (R::of(2.5) * share / numbers.radius);
-    R::of(0.5) * (one - restitution * restitution) * approach * approach + rubbed(slip, share, R::of(0.25))
+    R::of(0.5) * (one - restitution * restitution) * approach * approach + friction_work(slip, share, R::of(0.25))
 }
 
-/// The impulse acts along the line from the nose to the ball's centre, and friction across it. What presses the ball down the
-/// cloth takes up; what lifts it lets it climb the nose, where it is fast enough and balls leave the cloth. Returns the impulse upwards, too.
+/// Collides a ball with a nose. The normal impulse acts along the line from the nose to the ball's centre, and friction across
+/// it. The cloth absorbs a downward impulse. An upward impulse lifts the ball if it is fast enough and balls can leave the
+/// cloth. Also returns the upward impulse.
 fn nose_collides<R: Real>(
     numbers: &Numbers<R>,
     friction: R,
@@ -83,14 +84,15 @@ fn nose_collides<R: Real>(
     ball.velocity = ball.velocity + impulse;
     let turn = to_nose.cross(rub);
     ball.spin = ball.spin + turn * (R::of(2.5) / numbers.radius);
-    // Impulses times the mean speeds that they act on.
+    // Impulses times the mean speeds of their points of action.
     let mean = R::of(-0.5);
     let taken =
         mean * (impulse.dot(before.velocity + ball.velocity) + numbers.radius * turn.dot(before.spin + ball.spin));
     (taken, up)
 }
 
-/// Tangential impulse over slip on a nose, given `μP/m`: Coulomb's, or one that passes smoothly into sticking.
+/// Returns the tangential impulse over the slip on a nose, given `μP/m`: Coulomb's law, or a law with a smooth transition to
+/// sticking.
 pub fn nose_friction<R: Real>(most: Option<R>, push: R, slip: R) -> R {
     match most {
         None => coulomb(Some(R::of(1.0)), push, slip, R::ratio(2.0, 7.0)),
@@ -99,7 +101,7 @@ pub fn nose_friction<R: Real>(most: Option<R>, push: R, slip: R) -> R {
     }
 }
 
-/// Tangential impulse over slip: Coulomb's, or what stops the slip if that is less.
+/// Returns the tangential impulse over the slip: Coulomb's, or the share that stops the slip if that is less.
 pub fn coulomb<R: Real>(friction: Option<R>, push: R, slip: R, stops: R) -> R {
     match friction {
         Some(friction) if friction * push < stops * slip => friction * push / slip,
@@ -107,9 +109,9 @@ pub fn coulomb<R: Real>(friction: Option<R>, push: R, slip: R, stops: R) -> R {
     }
 }
 
-/// Work of the friction: impulse times the mean slip, which falls by 7 (two balls: half that for one) times the impulse
-/// along the table, by 5 upwards since no ball leaves the cloth.
-fn rubbed<R: Real>(slip: Vector<R>, share: R, bodies: R) -> R {
+/// Returns the work of friction: impulse times mean slip. Along the table the slip decreases by 7 times the impulse (two balls:
+/// half of that for one), upwards by 5 times, because no ball leaves the cloth.
+fn friction_work<R: Real>(slip: Vector<R>, share: R, bodies: R) -> R {
     let along = slip.flat().dot(slip.flat()) * (R::of(1.0) - R::of(7.0) * bodies * share);
     let upwards = slip.z * slip.z * (R::of(1.0) - R::of(5.0) * bodies * share);
     share * (along + upwards)

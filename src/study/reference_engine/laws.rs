@@ -1,7 +1,7 @@
-//! Which laws are in force for balls in resting contact: what slips, what rolls, what turns.
+//! The laws in force for balls in resting contact: what slips, rolls or spins.
 //!
-//! What slips, moves or turns meets a friction of known size and direction. What does not is held still by a friction up
-//! to that size. A contact pushes as hard as it needs to stay closed.
+//! Slipping, rolling and spinning meet a friction of known size and direction. Without slip, roll or spin, the body is held at rest
+//! by a friction of up to that size. The normal force of a contact is as large as needed to keep it closed.
 
 use super::{
     Motion, Numbers, Real,
@@ -10,24 +10,24 @@ use super::{
 };
 use crate::table::BALLS;
 
-/// Which laws are in force.
+/// The laws in force.
 #[derive(Clone, Debug)]
 pub struct Laws<R> {
     /// The contacts, and whether each slips.
     pub contacts: Vec<(Contact, bool)>,
-    /// What each ball in contact does on the cloth.
+    /// The motion on the cloth of each ball in contact; `None` for other balls.
     pub cloth: [Option<Motion>; BALLS],
-    /// Sign of `w_z`, zero where it is held.
-    turning: [R; BALLS],
+    /// Sign of `w_z`, zero if the ball does not spin.
+    spin_signs: [R; BALLS],
 }
 
 impl<R: Real> Laws<R> {
-    /// The laws of `contacts` that are closed and neither open nor close.
+    /// Returns the laws of `contacts` that are closed and neither open nor close.
     pub fn of(numbers: &Numbers<R>, balls: &Balls<R>, contacts: &[Contact]) -> Self {
         Self::if_none(numbers, balls, contacts, settled())
     }
 
-    /// The same if slips and speeds up to `none`, m/s, are zero.
+    /// Returns the same if slips and speeds up to `none`, m/s, count as zero.
     pub fn if_none(numbers: &Numbers<R>, balls: &Balls<R>, contacts: &[Contact], none: R) -> Self {
         let slips =
             |contact: &Contact| contact.friction(numbers).is_some() && contact.slip(numbers, balls).length() > none;
@@ -35,7 +35,7 @@ impl<R: Real> Laws<R> {
         Self {
             contacts: contacts.iter().map(|contact| (*contact, slips(contact))).collect(),
             cloth: std::array::from_fn(|ball| in_contact(ball).then(|| balls[ball].on_cloth(numbers, none))),
-            turning: balls.map(|ball| {
+            spin_signs: balls.map(|ball| {
                 let speed = numbers.radius * ball.spin.z;
                 let sign = R::of(if speed > R::zero() { 1.0 } else { -1.0 });
                 if speed.abs() > none { sign } else { R::zero() }
@@ -43,7 +43,7 @@ impl<R: Real> Laws<R> {
         }
     }
 
-    /// The directions that a law has and that end with a speed: its slip's, or that of a ball which rolls.
+    /// Returns the speeds whose directions enter a law and that can end: slips, and the speeds of rolling balls.
     pub fn ending_speeds(&self, numbers: &Numbers<R>, balls: &Balls<R>) -> impl Iterator<Item = R> {
         let on_cloth = self.cloth.iter().zip(balls).filter_map(|(motion, ball)| match (*motion)? {
             Motion::Sliding => Some(ball.slip(numbers).length()),
@@ -54,23 +54,23 @@ impl<R: Real> Laws<R> {
         on_cloth.chain(slipping.map(|(contact, _)| contact.slip(numbers, balls).length()))
     }
 
-    /// The same as if there were no cloth.
+    /// Returns the same laws without the cloth.
     #[must_use]
     pub fn without_cloth(self) -> Self {
         Self { cloth: [None; BALLS], ..self }
     }
 
-    /// Sign of a ball's `w_z`, zero where it is held.
-    pub fn turning(&self, ball: usize) -> R {
-        self.turning[ball]
+    /// Returns the sign of a ball's `w_z`, zero if it does not spin.
+    pub fn spin_sign(&self, ball: usize) -> R {
+        self.spin_signs[ball]
     }
 
-    /// Whether a ball in contact does not turn on the spot.
-    pub fn turning_ended(&self, ball: usize) -> bool {
-        self.cloth[ball].is_some() && self.turning[ball] == R::zero()
+    /// Whether a ball in contact has no side spin.
+    pub fn spin_ended(&self, ball: usize) -> bool {
+        self.cloth[ball].is_some() && self.spin_signs[ball] == R::zero()
     }
 
-    /// The largest slip or speed that counts as none.
+    /// Returns the largest slip or speed that counts as zero.
     pub fn largest_held(&self, numbers: &Numbers<R>, balls: &Balls<R>) -> R {
         let on_cloth = self.cloth.iter().zip(balls).filter_map(|(motion, ball)| match (*motion)? {
             Motion::Sliding | Motion::Flying | Motion::OffTable => None,
@@ -81,10 +81,10 @@ impl<R: Real> Laws<R> {
         on_cloth.chain(held.map(|(contact, _)| contact.slip(numbers, balls).length())).fold(R::zero(), R::max)
     }
 
-    /// How far every ball that turns is from the moment when it stops to, as a speed.
-    pub fn turns(&self, numbers: &Numbers<R>, balls: &Balls<R>) -> impl Iterator<Item = R> {
-        let turning = self.turning.iter().zip(balls).zip(&self.cloth);
-        let counts = turning.filter(|((sign, _), cloth)| **sign != R::zero() && cloth.is_some());
+    /// Returns the remaining side spin of every spinning ball in contact, as the speed of its equator, negative after its end.
+    pub fn spin_speeds(&self, numbers: &Numbers<R>, balls: &Balls<R>) -> impl Iterator<Item = R> {
+        let spinning = self.spin_signs.iter().zip(balls).zip(&self.cloth);
+        let counts = spinning.filter(|((sign, _), cloth)| **sign != R::zero() && cloth.is_some());
         counts.map(|((sign, ball), _)| numbers.radius * ball.spin.z * *sign)
     }
 }

@@ -1,9 +1,9 @@
-//! Linear equations, of which some may say the same as others.
+//! Solves systems of linear equations that may be rank deficient.
 
 use super::Real;
 
-/// Solves `matrix x = side` by Gauss' elimination with full pivoting. Unknowns that the equations leave open are zero;
-/// whether equations contradict each other is for the caller to see.
+/// Solves `matrix x = side` by Gaussian elimination with full pivoting. Undetermined unknowns are zero. The caller has to check
+/// whether the equations contradict each other.
 pub fn solve<R: Real>(mut matrix: Vec<Vec<R>>, mut side: Vec<R>) -> Vec<R> {
     let count = side.len();
     let mut order: Vec<usize> = (0..count).collect();

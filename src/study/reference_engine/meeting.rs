@@ -1,19 +1,19 @@
-//! When two bodies meet, if nothing else happens first.
+//! Predicts when two bodies meet if no other event comes first.
 //!
-//! A gap that is closed already opens again or rests; only what closes it afresh is a meeting.
+//! An already closed gap opens again or stays closed; only a gap that closes again is a meeting.
 
 use super::{
     Ball, Finder, Motion, Numbers, Real, Vector,
     contact::{Balls, Contact},
     course::Course,
     flight::from_nose,
-    roots::falls,
+    roots::falling_root,
     table::normal,
     tolerance::{closed, slack, touching},
 };
 use crate::simulation::Rail;
 
-/// When a contact closes within `horizon`, s.
+/// Returns the time at which a contact closes within `horizon`, s.
 pub fn meets<R: Real>(course: &Course<R>, contact: Contact, horizon: R, finder: Finder<R>) -> Option<R> {
     let Course { numbers, balls, piece } = course;
     let (first, second) = contact.balls();
@@ -47,7 +47,7 @@ fn rail_or_integrated_meets<R: Real>(
     let Course { numbers, balls, piece } = course;
     let gap = contact.gap(numbers, balls);
     let relative = contact.relative(balls);
-    // Most bodies are too far apart to meet so soon: to look closely costs most of a shot's time.
+    // Most bodies are too far apart to meet within the horizon. This early exit saves most of a shot's computing time.
     let fall = if contact.is_aloft(balls) { numbers.gravity } else { R::zero() };
     let pull = R::of(if is_integrated { 10.0 } else { 2.0 }) * numbers.slide + fall;
     if gap > horizon * (relative.length() + pull * horizon) {
@@ -59,13 +59,13 @@ fn rail_or_integrated_meets<R: Real>(
     }
     if is_integrated {
         let presses = piece.as_ref()?.presses(contact);
-        return if presses { None } else { seen_to_close(course, contact, horizon) };
+        return if presses { None } else { integrated_gap_closes(course, contact, horizon) };
     }
     let pull = balls[contact.balls().0].acceleration(numbers).dot(contact.normal(balls));
     quadratic_closes(gap, opening, R::of(0.5) * pull)
 }
 
-/// First time at which `gap + speed t + pull t²` falls through zero.
+/// Returns the first time at which `gap + speed t + pull t²` falls through zero.
 fn quadratic_closes<R: Real>(gap: R, speed: R, pull: R) -> Option<R> {
     let (zero, two) = (R::zero(), R::of(2.0));
     if gap <= touching() {
@@ -75,12 +75,12 @@ fn quadratic_closes<R: Real>(gap: R, speed: R, pull: R) -> Option<R> {
     if discriminant < zero || (speed >= zero && pull >= zero) {
         return None;
     }
-    // Either form of the same root, whichever does not cancel.
+    // Uses the form of the root that does not cancel.
     let root = discriminant.sqrt();
     Some(if speed < zero { two * gap / (root - speed) } else { (speed + root) / (-two * pull) })
 }
 
-/// When a ball in the air meets the nose of `rail` from the table's side.
+/// Returns the time at which a ball in the air meets the nose of `rail` from the table's side.
 fn nose_meets<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail, horizon: R, finder: Finder<R>) -> Option<R> {
     let (n, way) = (normal::<R>(rail), from_nose(numbers, ball, rail));
     let along = n.cross(Vector::up());
@@ -90,12 +90,12 @@ fn nose_meets<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail, horizon
     (way.dot(n) + velocity.dot(n) * time > R::zero()).then_some(time)
 }
 
-/// When two points come as near as `reach`, m, whose distance is `d + v t + k t²`.
+/// Returns the time at which two points with the distance vector `d + v t + k t²` come as close as `reach`, m.
 fn points_meet<R: Real>(reach: R, [d, v, k]: [Vector<R>; 3], horizon: R, finder: Finder<R>) -> Option<R> {
     let (zero, two) = (R::zero(), R::of(2.0));
     let apart = d.dot(d) - reach * reach;
     let gap = apart / (d.length() + reach);
-    // Most are too far apart to meet so soon: to solve for their roots costs most of a shot's time.
+    // Most are too far apart to meet within the horizon. This early exit saves most of a shot's computing time.
     if gap > horizon * (v.length() + k.length() * horizon) {
         return None;
     }
@@ -107,21 +107,21 @@ fn points_meet<R: Real>(reach: R, [d, v, k]: [Vector<R>; 3], horizon: R, finder:
     if gap > touching() {
         return finder(&c, horizon);
     }
-    // The root at zero of what touches is the contact that is over: it is divided out. Nothing presses, so what neither opens
-    // nor closes it is rounding.
+    // The root at zero of touching bodies belongs to the past contact and is divided out. Nothing presses, so openings and
+    // closings below the tolerance are rounding.
     if opening > closed() {
         return finder(&[c[1], c[2], c[3], c[4], zero], horizon);
     }
     if c[2] > reach * slack() { finder(&[c[2], c[3], c[4], zero, zero], horizon) } else { None }
 }
 
-/// The same for a gap without closed form, over a time so short that it has at most one extremum.
-fn seen_to_close<R: Real>(course: &Course<R>, contact: Contact, horizon: R) -> Option<R> {
+/// Returns the same for a gap without closed form, over a time so short that the gap has at most one extremum.
+fn integrated_gap_closes<R: Real>(course: &Course<R>, contact: Contact, horizon: R) -> Option<R> {
     let zero = R::zero();
     let piece = course.piece.as_ref()?;
     let numbers = &course.numbers;
     let end = piece.tau_at(horizon);
-    // Gap, rate of opening and time; a gap that is closed at the start is so until it is clearly less.
+    // Gap, opening speed and time. A gap that is closed at the start stays closed until it is clearly smaller.
     let first_gap = contact.gap(numbers, &course.balls);
     let level = if first_gap <= touching() { first_gap - touching() } else { zero };
     let at = |tau: R| {
@@ -131,35 +131,35 @@ fn seen_to_close<R: Real>(course: &Course<R>, contact: Contact, horizon: R) -> O
     let first_opening = contact.opening(&course.balls);
     let (last_gap, last_opening, _) = at(end);
     let gap_until = |low: R, high: R| {
-        let tau = falls(|tau| at(tau).0, low, high, zero);
+        let tau = falling_root(|tau| at(tau).0, low, high, zero);
         at(tau).2
     };
     if level < zero && first_opening > closed() && last_opening < zero {
-        // It opens and closes again, perhaps at once: the gap's top lies between.
-        let top = falls(|tau| at(tau).1, zero, end, zero);
+        // The gap opens and closes again, perhaps at once: its maximum lies between.
+        let top = falling_root(|tau| at(tau).1, zero, end, zero);
         let of_contact = |tau: R| at(tau).0 + level - first_gap;
         if of_contact(top) <= touching() {
-            // Too low for its height to be seen, and so short that it falls as it rises.
+            // The maximum is too low to resolve, and so brief that the closing takes as long as the opening.
             return Some(R::of(2.0) * at(top).2).filter(|time| *time <= horizon);
         }
-        return (of_contact(end) < zero).then(|| at(falls(of_contact, top, end, zero)).2);
+        return (of_contact(end) < zero).then(|| at(falling_root(of_contact, top, end, zero)).2);
     }
     if level < zero && first_opening <= closed() {
-        // It rests without pressing: to drift more slowly than what counts as closed is no meeting.
+        // The contact rests without pressing. A drift slower than the tolerance of a closed contact is no meeting.
         let closes = R::of(2.0) * closed();
-        return (last_opening < -closes).then(|| at(falls(|tau| at(tau).1 + closes, zero, end, zero)).2);
+        return (last_opening < -closes).then(|| at(falling_root(|tau| at(tau).1 + closes, zero, end, zero)).2);
     }
     if last_gap < zero {
         return Some(gap_until(zero, end));
     }
     if first_opening < zero && last_opening > zero {
-        let nearest = falls(|tau| -at(tau).1, zero, end, zero);
+        let nearest = falling_root(|tau| -at(tau).1, zero, end, zero);
         return (at(nearest).0 < zero).then(|| gap_until(zero, nearest));
     }
     None
 }
 
-/// Moves balls that meet to where their gap is exactly closed.
+/// Moves meeting balls so that their gap is exactly closed.
 pub fn touch<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Balls<R>) {
     let is_rail = matches!(contact, Contact::Rail(..));
     if is_rail || contact.gap(numbers, balls).abs() <= R::of(1e3) * touching() {

@@ -1,14 +1,16 @@
-//! The reference engine: event-driven, in any precision, with any root finder: written straight from the equations, with no
-//! savings at all, and apart from `physics` and `simulation`, so that a slip in one is not in the other.
+//! The reference engine: an event-driven simulation in any precision and with any root finder. It is written directly from the
+//! equations, without optimizations, and independently of `physics` and `simulation`, so that an error in one is not repeated
+//! in the other.
 //!
-//! With 32 digits it computes the truth, by which everything else is measured. What is shared: the names of events and cushions, and the
-//! one law that is chosen and not derived, the speed at which balls begin to bounce where no forces hold them together.
+//! With 32 digits it computes the truth against which everything else is measured. Both engines share the names of events and
+//! cushions, and the one law that is chosen rather than derived: the speed at which balls begin to bounce if no forces hold
+//! them together.
 //!
-//! Free balls go along parabolas from event to event (`motion`, `meeting`), those in the air from landing to landing
-//! (`flight`). Contacts that close at one moment collide together (`rounds`); tables give the laws of their parts (`table`,
-//! `rails`, `impact`). Bounces that shrink without end become a resting contact (`moment`), whose forces follow from the
-//! laws by complementarity (`rest`, `laws`, `system`, `complementarity`) and are integrated from one change of the laws to
-//! the next (`piece`, `extrapolation`).
+//! Free balls move on parabolas from event to event (`motion`, `meeting`), balls in the air from landing to landing (`flight`).
+//! Contacts that close at the same time are solved together (`rounds`); the table defines the laws of its parts (`table`,
+//! `rails`, `impact`). Bounces that shrink without end become a resting contact (`moment`). Its forces follow from the laws by
+//! complementarity (`rest`, `laws`, `system`, `complementarity`) and are integrated from one change of the laws to the next
+//! (`piece`, `extrapolation`).
 
 mod complementarity;
 mod contact;
@@ -43,7 +45,7 @@ pub use contact::Contact;
 pub use cue::{Stroke, strike};
 pub use double_double::DoubleDouble;
 pub use engine::{Shot, Unjudged, play};
-pub use flight::{Met, collide as collide_aloft, opening_aloft, settle};
+pub use flight::{ImpactAloft, collide as collide_aloft, opening_aloft, settle};
 pub use impact::{balls_collide, rail_collides};
 pub use motion::{Ball, Motion};
 pub use rails::{Cushion, Meeting};

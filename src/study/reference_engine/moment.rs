@@ -1,4 +1,4 @@
-//! What happens to the balls at one moment: impacts, the end of a chatter, and the beginning and end of resting contacts.
+//! Processes all changes at one time: impacts, the end of a chatter, and the beginning and end of resting contacts.
 
 use super::{
     Motion, Numbers, Real, Unjudged,
@@ -9,25 +9,25 @@ use super::{
 };
 use crate::{simulation::EventKind, table::BALLS};
 
-/// What has happened.
+/// The result of the changes at one time.
 #[derive(Clone, Debug)]
 pub struct Moment<R> {
-    /// What is told of it.
+    /// The resulting events.
     pub events: Vec<EventKind>,
-    /// The contacts that press from now on.
+    /// The pressing contacts from this time on.
     pub rest: Option<Rest<R>>,
-    /// The energy over mass that it takes.
+    /// The dissipated energy per mass.
     pub work: R,
 }
 
-/// Lets it happen to `balls`, some of which have been resting until now, and perhaps so long that something may creep.
+/// Processes `balls`, of which those in `resting` were in resting contact before; `creeping` allows slow slips to creep.
 ///
-/// Bounces that shrink in geometric progression end in a resting contact. The last impact of such a chatter is done
-/// without restitution; that is tried once the rebound is slow enough, and kept where the contact presses then.
+/// Bounces that shrink in geometric progression end in a resting contact. The last impact of such a chatter has no restitution.
+/// This is tried once the rebound is slow enough, and accepted if the contact then presses.
 ///
 /// # Errors
-/// [`Unjudged::Unsolved`], where no forces are found that obey all laws.
-pub fn happen<R: Real>(
+/// [`Unjudged::Unsolved`] if no forces are found that obey all laws.
+pub fn process_moment<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
     resting: [bool; BALLS],
@@ -40,7 +40,7 @@ pub fn happen<R: Real>(
         let (met, taken) = collide(numbers, balls, &ending)?;
         for (index, ball) in balls.iter_mut().enumerate() {
             if met.iter().any(|contact| contact.has(index)) {
-                ball.set_off(numbers);
+                ball.choose_motion_after_impact(numbers);
             }
         }
         let is_slow = |contact: &&Contact| {
@@ -68,7 +68,7 @@ pub fn happen<R: Real>(
         for (index, ball) in balls.iter_mut().enumerate().filter(|(index, _)| resting[*index]) {
             if rest.as_ref().is_none_or(|rest| rest.laws.cloth[index].is_none()) && before[index].motion == ball.motion
             {
-                ball.go_on(numbers, settled());
+                ball.choose_motion(numbers, settled());
             }
             match (before[index].motion, ball.motion) {
                 _ if !met.is_empty() => {}

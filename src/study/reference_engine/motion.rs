@@ -2,7 +2,7 @@
 
 use super::{Numbers, Real, Vector};
 
-/// Which equation of motion holds.
+/// The equation of motion in force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
     /// At rest, perhaps spinning on the spot.
@@ -13,23 +13,23 @@ pub enum Motion {
     Sliding,
     /// In the air, or hopping.
     Flying,
-    /// It has left the table.
+    /// Has left the table.
     OffTable,
 }
 
-/// A stretch of constant deceleration of a rolling ball, which keeps its direction.
+/// A speed band of constant deceleration of a rolling ball, which keeps its direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Band<R> {
-    /// m/s².
+    /// Deceleration, m/s².
     deceleration: R,
-    /// Speed at which it changes, m/s; zero for rest.
+    /// Speed at which the band ends, m/s; zero for rest.
     end: R,
 }
 
-/// A ball at one moment.
+/// The state of a ball.
 #[derive(Clone, Copy, Debug)]
 pub struct Ball<R> {
-    /// Centre, m; `z` is its height over where it is when the ball lies on the cloth.
+    /// Centre, m; `z` is its height above that of a ball on the cloth.
     pub position: Vector<R>,
     /// Velocity, m/s.
     pub velocity: Vector<R>,
@@ -37,18 +37,18 @@ pub struct Ball<R> {
     pub spin: Vector<R>,
     /// The equation of motion in force.
     pub motion: Motion,
-    /// The band in which a ball that nothing presses rolls, as soon as that is known.
+    /// The deceleration band of a free rolling ball, once it is chosen.
     pub band: Option<Band<R>>,
 }
 
 impl<R: Real> Ball<R> {
-    /// A ball that lies still.
+    /// Returns a ball at rest.
     pub fn still(position: Vector<R>) -> Self {
         let zero = Vector::zero();
         Self { position, velocity: zero, spin: zero, motion: Motion::Stationary, band: None }
     }
 
-    /// Chooses the band of a ball that begins to roll where nothing presses it; one that is `pressed` has none.
+    /// Chooses the band of a free ball that begins to roll; a ball that is `pressed` has none.
     pub fn choose_band(&mut self, numbers: &Numbers<R>, pressed: bool) {
         if pressed || self.motion != Motion::Rolling {
             self.band = None;
@@ -58,28 +58,28 @@ impl<R: Real> Ball<R> {
         }
     }
 
-    /// Deceleration of a ball that rolls, m/s², and the speed down to which it holds.
+    /// Returns the deceleration of a rolling ball, m/s², and the speed at which its band ends.
     fn rolls(&self, numbers: &Numbers<R>) -> (R, R) {
         self.band.map_or_else(|| numbers.band(self.velocity.length()), |Band { deceleration, end }| (deceleration, end))
     }
 
-    /// Whether the ball rolls on in another band when this one ends.
+    /// Whether the ball continues to roll in another band after this one.
     pub fn rolls_on(&self) -> bool {
         self.motion == Motion::Rolling && self.band.is_some_and(|band| band.end > R::zero())
     }
 
-    /// Slip of the lowest point on the cloth: `v + R z×w` (thesis equation 1).
+    /// Returns the slip velocity at the cloth: `v + R z×w` (thesis equation 1).
     pub fn slip(&self, numbers: &Numbers<R>) -> Vector<R> {
         (self.velocity + Vector::up().cross(self.spin) * numbers.radius).flat()
     }
 
-    /// Kinetic and potential energy over mass: `v²/2 + R²w²/5 + gz`.
+    /// Returns kinetic and potential energy per mass: `v²/2 + R²w²/5 + gz`.
     pub fn energy(&self, numbers: &Numbers<R>) -> R {
         let around = numbers.radius * numbers.radius * self.spin.dot(self.spin);
         R::of(0.5) * self.velocity.dot(self.velocity) + around / R::of(5.0) + numbers.gravity * self.position.z
     }
 
-    /// Acceleration of a ball that nothing presses.
+    /// Returns the acceleration of a free ball.
     pub fn acceleration(&self, numbers: &Numbers<R>) -> Vector<R> {
         match self.motion {
             Motion::Sliding => self.slip(numbers).direction() * -numbers.slide,
@@ -89,8 +89,7 @@ impl<R: Real> Ball<R> {
         }
     }
 
-    /// How long the motion of a ball that nothing presses lasts (thesis equations 25 and 26); that of one in the air until it
-    /// comes down.
+    /// Returns the duration of a free ball's motion (thesis equations 25 and 26); for a flying ball, the time until it lands.
     pub fn lasts(&self, numbers: &Numbers<R>) -> Option<R> {
         match self.motion {
             Motion::Sliding => Some(R::ratio(2.0, 7.0) * self.slip(numbers).length() / numbers.slide),
@@ -101,7 +100,7 @@ impl<R: Real> Ball<R> {
             Motion::Flying => {
                 let (height, climb) = (self.position.z.max(R::zero()), self.velocity.z);
                 let landing = (climb * climb + R::of(2.0) * numbers.gravity * height).sqrt();
-                // Either form of the same root, whichever does not cancel.
+                // Uses the form of the root that does not cancel.
                 Some(if climb > R::zero() {
                     (climb + landing) / numbers.gravity
                 } else if landing > R::zero() {
@@ -114,7 +113,7 @@ impl<R: Real> Ball<R> {
         }
     }
 
-    /// What it does on the cloth, if slips and speeds up to `none`, m/s, are zero.
+    /// Returns the motion on the cloth, if slips and speeds up to `none`, m/s, count as zero.
     pub fn on_cloth(&self, numbers: &Numbers<R>, none: R) -> Motion {
         if self.slip(numbers).length() > none {
             Motion::Sliding
@@ -125,15 +124,15 @@ impl<R: Real> Ball<R> {
         }
     }
 
-    /// Chooses the motion after an impact: slips of rounding's size are none.
-    pub fn set_off(&mut self, numbers: &Numbers<R>) {
+    /// Chooses the motion after an impact; slips of the size of rounding count as zero.
+    pub fn choose_motion_after_impact(&mut self, numbers: &Numbers<R>) {
         let speeds = self.velocity.length() + numbers.radius * self.spin.flat().length();
-        self.go_on(numbers, R::of(16.0 * R::ROUNDING) * speeds);
+        self.choose_motion(numbers, R::of(16.0 * R::ROUNDING) * speeds);
     }
 
-    /// Chooses the motion, and makes what has ended end exactly: slips and speeds up to `none`, m/s. A ball that is above the
-    /// cloth or moves upwards flies.
-    pub fn go_on(&mut self, numbers: &Numbers<R>, none: R) {
+    /// Chooses the motion, and sets slips and speeds up to `none`, m/s, to exactly zero. A ball that is above the cloth or
+    /// moves upwards flies.
+    pub fn choose_motion(&mut self, numbers: &Numbers<R>, none: R) {
         self.band = None;
         if self.motion == Motion::OffTable {
             return;
@@ -150,7 +149,7 @@ impl<R: Real> Ball<R> {
         }
     }
 
-    /// The ball `time` later, if nothing presses it (thesis equations 2, 3, 6 and 8), and the friction's work over mass.
+    /// Returns the free ball `time` later (thesis equations 2, 3, 6 and 8), and the work of friction per mass.
     pub fn after(&self, numbers: &Numbers<R>, time: R) -> (Self, R) {
         let acceleration = self.acceleration(numbers);
         let mut ball = *self;
@@ -171,11 +170,11 @@ impl<R: Real> Ball<R> {
                 work = resistance * (ball.position - self.position).length();
             }
             Motion::Stationary => {}
-            // The spin stays as it is in the air.
+            // The spin is constant in the air.
             Motion::Flying | Motion::OffTable => return (ball, work),
         }
         let size = self.spin.z.abs();
-        let lost = (numbers.twist * time).min(size);
+        let lost = (numbers.spin_deceleration * time).min(size);
         ball.spin.z = if self.spin.z < R::zero() { lost - size } else { size - lost };
         let turned = lost * (size - half * lost);
         work = work + R::ratio(2.0, 5.0) * numbers.radius * numbers.radius * turned;
@@ -184,7 +183,7 @@ impl<R: Real> Ball<R> {
 }
 
 impl Motion {
-    /// The motion that follows when this one has lasted its full time; what has ended is made to end exactly.
+    /// Returns the motion after the full duration of this one, and sets the speed or slip that has ended to exactly zero.
     #[must_use]
     pub fn successor<R: Real>(self, ball: &mut Ball<R>, numbers: &Numbers<R>) -> Self {
         if self == Self::Rolling {

@@ -1,48 +1,48 @@
 //! A piece of the course of balls in resting contact, during which the same laws are in force.
 //!
-//! The equations are singular where a slip ends, since its direction does. With a time `tau` of which
-//! `dt = dtau / (1/s1 + 1/s2 + …)` over all speeds `s` that can end they are smooth throughout, and each speed that ends
-//! does so like an exponential.
+//! The equations are singular at the end of a slip, because its direction is. In a new time variable `tau` with
+//! `dt = dtau / (1/s1 + 1/s2 + …)` over all speeds `s` that can end, they are smooth everywhere, and each speed that ends
+//! decays exponentially.
 
 use super::{
     Numbers, Real,
     contact::{Balls, Contact},
     extrapolation::{COLUMNS, State, extrapolate},
     rest::Rest,
-    roots::falls,
+    roots::falling_root,
     rows::movement,
     system::System,
     tolerance::{creeping, settled, slack},
 };
 
-/// Longest piece, s: how finely its neighbours are looked at.
+/// Longest piece, s: the resolution at which contacts with other bodies are checked.
 const LONGEST: f64 = 4e-3;
 
-/// A piece that lasts for more than so many of its own times is slow.
+/// A piece that lasts longer than this, in units of its natural time, is slow.
 const SLOW: f64 = 1e3;
 
-/// Halvings of a step that is too long to be extrapolated.
+/// Maximum number of halvings of a step that is too long for the extrapolation.
 const MOST_HALVINGS: usize = 200;
 
-/// A piece of the course of all balls whose contacts press.
+/// A piece of the course of all balls with pressing contacts.
 #[derive(Clone, Debug)]
 pub struct Piece<R> {
     numbers: Numbers<R>,
     rest: Rest<R>,
-    /// By how much each law may be broken: a little, and what rounding has left at the start.
+    /// Tolerance of each law: a small one, plus the violation by rounding at the start.
     allowed: Vec<R>,
     start: State<R>,
     tau: R,
     end: State<R>,
-    /// Length of the next piece that is worth trying, in units of the time in which speeds change by themselves.
+    /// Suggested length of the next piece, in units of the natural time in which speeds change.
     pub stride: f64,
 }
 
 impl<R: Real> Piece<R> {
-    /// The course of `balls` to where a law breaks, or just some way.
+    /// Integrates the course of `balls` until a law breaks, or over a limited time.
     pub fn new(numbers: &Numbers<R>, balls: &Balls<R>, rest: Rest<R>, stride: f64) -> Self {
         let start = State { time: R::zero(), work: R::zero(), balls: *balls };
-        let allowed = System::new(numbers, balls, &rest.laws).room(&rest.forces).into_iter();
+        let allowed = System::new(numbers, balls, &rest.laws).margins(&rest.forces).into_iter();
         let allowed = allowed.map(|room| R::of(16.0) * slack() - R::of(2.0) * room.min(R::zero())).collect();
         let mut piece = Self { numbers: *numbers, rest, allowed, start, tau: R::zero(), end: start, stride };
         piece.advance();
@@ -53,13 +53,13 @@ impl<R: Real> Piece<R> {
         let natural = self.first_guess();
         let longest = R::of(LONGEST) / self.rates(&self.start).time;
         let slowest = self.rest.laws.ending_speeds(&self.numbers, &self.start.balls).fold(R::of(1.0), R::min);
-        // Of a slip that is small, the direction is known to few digits, and so is what its friction does.
+        // The direction of a small slip has few significant digits, and so has the effect of its friction.
         let blur = R::of(1.0) / slowest;
         let mut tau = (natural * R::of(self.stride)).min(longest);
         for _ in 0..MOST_HALVINGS {
             let (end, columns) = extrapolate(&self.start, tau, blur, |state| self.rates(state));
             (self.tau, self.end) = (tau, end);
-            // Where slips are hardly known, columns may agree on a time that runs backwards: no step is as long as that.
+            // If slips are hardly resolved, columns may agree on a time that runs backwards: such a step is too long.
             if let Some(columns) = columns.filter(|_| end.time > R::zero()) {
                 let growth = [1.0, 1.0, 1.5, 1.5, 2.0].get(COLUMNS - columns).unwrap_or(&4.0);
                 self.stride = ((tau / natural).to_f64() * growth).max(0.125);
@@ -67,14 +67,14 @@ impl<R: Real> Piece<R> {
             }
             tau = tau * R::of(0.5);
         }
-        if self.room(&self.end) < R::zero() {
-            let tau = falls(|tau| self.room(&self.at(tau)), R::zero(), self.tau, slack());
+        if self.margin(&self.end) < R::zero() {
+            let tau = falling_root(|tau| self.margin(&self.at(tau)), R::zero(), self.tau, slack());
             (self.end, self.tau) = (self.at(tau), tau);
             self.stride = self.stride.min(1.0);
         }
     }
 
-    /// The `tau` in which speeds change by themselves.
+    /// Returns the natural `tau` in which speeds change.
     fn first_guess(&self) -> R {
         let (system, forces) = self.forces(&self.start.balls);
         let changes = system.accelerations(&self.numbers, &forces);
@@ -87,31 +87,31 @@ impl<R: Real> Piece<R> {
 
     fn forces(&self, balls: &Balls<R>) -> (System<R>, Vec<R>) {
         let system = System::new(&self.numbers, balls, &self.rest.laws);
-        let lawful = if self.rest.creeps { system.lawful(&self.numbers) } else { None };
+        let lawful = if self.rest.creeps { system.solve_forces(&self.numbers) } else { None };
         let forces = lawful.unwrap_or_else(|| system.balance(&self.numbers, &self.rest.forces));
         (system, forces)
     }
 
-    /// What is left until a law breaks; negative behind it.
-    fn room(&self, state: &State<R>) -> R {
+    /// Returns the margin until a law breaks; negative after that.
+    fn margin(&self, state: &State<R>) -> R {
         if self.rest.creeps {
             let held = self.rest.laws.largest_held(&self.numbers, &state.balls);
             return R::of(2.0) * creeping::<R>() - held;
         }
         let (system, forces) = self.forces(&state.balls);
-        let rooms = system.room(&forces).into_iter().zip(&self.allowed).map(|(room, allowed)| room + *allowed);
+        let rooms = system.margins(&forces).into_iter().zip(&self.allowed).map(|(room, allowed)| room + *allowed);
         let mut room = rooms.fold(R::of(1.0), R::min);
         if room < R::zero() && system.holds(&self.numbers) {
-            // Frictions share a load in more than one way, and another one breaks no law.
+            // Frictions can share a load in several ways, and another way breaks no law.
             room = slack();
         }
-        // A turning that ends does so as exactly as a slip.
+        // The end of a side spin is located as exactly as that of a slip.
         let scale = slack::<R>() / settled();
-        let turns = self.rest.laws.turns(&self.numbers, &state.balls).map(|speed| speed * scale);
+        let turns = self.rest.laws.spin_speeds(&self.numbers, &state.balls).map(|speed| speed * scale);
         turns.fold(room, R::min)
     }
 
-    /// Derivatives with respect to `tau`.
+    /// Returns the derivatives with respect to `tau`.
     fn rates(&self, state: &State<R>) -> State<R> {
         let (system, forces) = self.forces(&state.balls);
         let inverse = self.rest.laws.ending_speeds(&self.numbers, &state.balls);
@@ -128,7 +128,7 @@ impl<R: Real> Piece<R> {
         rates
     }
 
-    /// Whether a ball takes part.
+    /// Whether a ball is part of the piece.
     pub fn has(&self, ball: usize) -> bool {
         self.rest.laws.cloth[ball].is_some()
     }
@@ -138,22 +138,22 @@ impl<R: Real> Piece<R> {
         self.rest.presses(contact)
     }
 
-    /// Whether a slip takes much longer to grow or fade than by itself.
+    /// Whether a slip grows or decays much more slowly than in its natural time.
     pub fn is_slow(&self) -> bool {
         self.stride > SLOW
     }
 
-    /// Length of the piece, s.
+    /// Returns the duration of the piece, s.
     pub fn lasts(&self) -> R {
         self.end.time
     }
 
-    /// The state at a `tau` within the piece.
+    /// Returns the state at a `tau` within the piece.
     pub fn at(&self, tau: R) -> State<R> {
         if tau == self.tau { self.end } else { extrapolate(&self.start, tau, R::zero(), |state| self.rates(state)).0 }
     }
 
-    /// The `tau` of a time, s: Newton's steps, since `dt/dtau` is known.
+    /// Returns the `tau` of a time, s, by Newton steps, as `dt/dtau` is known.
     pub fn tau_at(&self, time: R) -> R {
         if time == self.end.time {
             return self.tau;

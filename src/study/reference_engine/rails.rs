@@ -1,4 +1,4 @@
-//! What the cushions are in the engine's own precision: one law a rail, and restitution that falls with speed.
+//! The cushions in the precision of the engine: one law per rail, and restitution that decreases with speed.
 
 use super::Real;
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     table::{Fade, RailModel, Table},
 };
 
-/// A restitution that falls with the speed of the impact.
+/// A restitution that decreases with the speed of the impact.
 #[derive(Clone, Copy, Debug)]
 pub struct Falling<R> {
     from: R,
@@ -15,53 +15,52 @@ pub struct Falling<R> {
 }
 
 impl<R: Real> Falling<R> {
-    /// The numbers of a table's `fade`.
+    /// Returns the parameters of a table's `fade`.
     pub fn of(fade: Fade) -> Self {
         Self { from: R::of(fade.from), slope: R::of(fade.slope), least: R::of(fade.least) }
     }
 
-    /// What is left of the restitution `slow` at a normal speed, m/s.
+    /// Returns the restitution at a normal speed, m/s, if it is `slow` at low speed.
     pub fn at(&self, slow: R, speed: R) -> R {
         let beyond = speed - self.from;
         if beyond <= R::zero() { slow } else { (slow - self.slope * beyond).max(self.least.min(slow)) }
     }
 }
 
-/// How a cushion meets a ball.
+/// The contact model of a cushion.
 #[derive(Clone, Copy, Debug)]
 pub enum Meeting<R> {
-    /// At the height of the ball's centre.
+    /// Contact at the height of the ball's centre.
     Equator,
-    /// At the nose's height: sine and cosine of the angle up to it as seen from the ball's centre; the most of the slip that
-    /// a smooth friction takes, `None` for Coulomb's law up to no slip.
+    /// Contact at the height of the nose.
     Nose {
-        /// `(h - R) / R`.
+        /// Sine of the angle up to the nose, seen from the ball's centre: `(h - R) / R`.
         sine: R,
-        /// Its cosine.
+        /// Cosine of the same angle.
         cosine: R,
-        /// `2 kappa / 7`.
+        /// Largest share of the slip that a smooth friction takes, `2 kappa / 7`; `None` for Coulomb's law up to sticking.
         most: Option<R>,
     },
-    /// By a model that this engine has not: the impulse is integrated.
+    /// A model that integrates over the impulse, which this engine does not implement.
     Integrated,
 }
 
 /// One cushion.
 #[derive(Clone, Copy, Debug)]
 pub struct Cushion<R> {
-    /// Restitution of a slow impact.
+    /// Restitution of slow impacts.
     pub restitution: R,
     /// Coulomb's coefficient.
     pub friction: R,
-    /// How it meets a ball.
+    /// The contact model.
     pub meeting: Meeting<R>,
-    /// How its restitution falls.
+    /// Decrease of the restitution with speed, `None` if it is constant.
     pub falling: Option<Falling<R>>,
 }
 
 impl<R: Real> Cushion<R> {
-    /// Sine and cosine of the angle up to the nose as seen from the centre of a ball on the cloth, and the most of the slip that
-    /// a smooth friction takes.
+    /// Returns sine and cosine of the angle up to the nose, seen from the centre of a ball on the cloth, and the largest share
+    /// of the slip that a smooth friction takes.
     pub fn nose(&self) -> (R, R, Option<R>) {
         match self.meeting {
             Meeting::Nose { sine, cosine, most } => (sine, cosine, most),
@@ -69,12 +68,12 @@ impl<R: Real> Cushion<R> {
         }
     }
 
-    /// Restitution at a normal speed, m/s.
+    /// Returns the restitution at a normal speed, m/s.
     pub fn restitution_at(&self, speed: R) -> R {
         self.falling.map_or(self.restitution, |falling| falling.at(self.restitution, speed))
     }
 
-    /// A rail of `table`, whose `f64` are taken as exact.
+    /// Returns the cushion of a rail of `table`, whose `f64` count as exact.
     pub fn of(table: &Table, rail: Rail) -> Self {
         let (own, all, one) = (table.rail.own(rail), &table.rail, R::of(1.0));
         let height = own.height.or(all.height).unwrap_or(table.radius);

@@ -1,12 +1,12 @@
-//! The numbers that the reference engine computes with: what it needs of them, for `f32` and `f64`.
+//! The number types of the reference engine: the required operations, and their implementations for `f32` and `f64`.
 
 use std::{
     fmt::Debug,
     ops::{Add, Div, Mul, Neg, Sub},
 };
 
-/// A real number to some precision. The engine needs no more than the four operations, the root, a comparison and, for the
-/// frictions of some tables, the exponential.
+/// A real number of some precision. The engine needs the four operations, the square root, comparisons and, for the friction of
+/// some tables, the exponential and the hyperbolic tangent.
 pub trait Real:
     Copy
     + Debug
@@ -17,51 +17,51 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Relative error of one operation.
+    /// Relative rounding error of one operation.
     const ROUNDING: f64;
 
-    /// The nearest number to `value`.
+    /// Returns the nearest number to `value`.
     fn of(value: f64) -> Self;
 
-    /// The nearest `f64`.
+    /// Returns the nearest `f64`.
     fn to_f64(self) -> f64;
 
-    /// The square root of a number that is not negative.
+    /// Returns the square root of a non-negative number.
     #[must_use]
     fn sqrt(self) -> Self;
 
-    /// `e` to this power.
+    /// Returns `e` to this power.
     #[must_use]
     fn exp(self) -> Self;
 
-    /// The hyperbolic tangent.
+    /// Returns the hyperbolic tangent.
     #[must_use]
     fn tanh(self) -> Self;
 
-    /// Zero.
+    /// Returns zero.
     fn zero() -> Self {
         Self::of(0.0)
     }
 
-    /// The size without the sign.
+    /// Returns the absolute value.
     #[must_use]
     fn abs(self) -> Self {
         if self < Self::zero() { -self } else { self }
     }
 
-    /// The smaller of two.
+    /// Returns the smaller of two numbers.
     #[must_use]
     fn min(self, other: Self) -> Self {
         if other < self { other } else { self }
     }
 
-    /// The larger of two.
+    /// Returns the larger of two numbers.
     #[must_use]
     fn max(self, other: Self) -> Self {
         if other > self { other } else { self }
     }
 
-    /// A fraction whose numerator and denominator are exact.
+    /// Returns a quotient of two exact numbers.
     fn ratio(numerator: f64, denominator: f64) -> Self {
         Self::of(numerator) / Self::of(denominator)
     }

@@ -1,4 +1,4 @@
-//! Which closed contacts press at one moment, and which of the balls' slips end or begin there.
+//! Determines which closed contacts press at one time, and which slips of the balls end or begin there.
 
 use super::{
     Numbers, Real, Unjudged,
@@ -12,20 +12,21 @@ use super::{
 };
 use crate::table::BALLS;
 
-/// Slips that can begin one after the other at one moment, with room to spare.
+/// Maximum number of slips that begin one after the other at one time, with a margin.
 const MOST_CHANGES: usize = 32;
 
-/// A slip that begins has this speed, in units of what counts as none.
+/// Initial speed of a slip, in units of the speed that counts as zero.
 const BEGINNING: f64 = 4.0;
 
-/// Balls whose contacts press.
+/// The balls with pressing contacts.
 #[derive(Clone, Debug)]
 pub struct Rest<R> {
     /// The laws in force.
     pub laws: Laws<R>,
-    /// The forces of unknown size.
+    /// Sizes of the unknown forces.
     pub forces: Vec<R>,
-    /// Whether something creeps: what begins to slip follows its drive, and the forces are to be found anew all along.
+    /// Whether something creeps: a slip that begins follows its driving force, and the forces must be solved again at every
+    /// evaluation.
     pub creeps: bool,
 }
 
@@ -36,10 +37,10 @@ impl<R: Real> Rest<R> {
     }
 }
 
-/// Finds the contacts that press, `None` if none does, and the energy over mass that friction takes in no time at all.
+/// Finds the pressing contacts, `None` if there are none, and the energy per mass that friction dissipates instantly.
 ///
 /// # Errors
-/// [`Unjudged::Unsolved`], where no forces are found that obey all laws.
+/// [`Unjudged::Unsolved`] if no forces are found that obey all laws.
 pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Option<Rest<R>>, R), Unjudged> {
     let mut work = R::zero();
     for _ in 0..MOST_CHANGES {
@@ -58,12 +59,12 @@ pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Opti
         }
         let laws = Laws::of(numbers, balls, &pressing);
         let system = System::new(numbers, balls, &laws);
-        let forces = system.lawful(numbers).ok_or(Unjudged::Unsolved)?;
+        let forces = system.solve_forces(numbers).ok_or(Unjudged::Unsolved)?;
         let (speeds, begins) = wanted_speeds(numbers, &system, &forces);
         work = work + system.set_speeds(numbers, balls, &speeds);
         if !begins {
             close(numbers, balls, &pressing);
-            let ended = |ball: usize| laws.turning_ended(ball);
+            let ended = |ball: usize| laws.spin_ended(ball);
             (0..BALLS).filter(|ball| ended(*ball)).for_each(|ball| balls[ball].spin.z = R::zero());
             for (ball, motion) in balls.iter_mut().zip(laws.cloth) {
                 ball.motion = motion.unwrap_or(ball.motion);
@@ -71,32 +72,32 @@ pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Opti
             return Ok((Some(Rest { laws, forces, creeps: false }), work));
         }
     }
-    // Slips that hinder each other's beginning begin together.
+    // Slips that prevent each other from beginning begin together.
     creep(numbers, balls).map(|(rest, _)| (Some(rest), work)).ok_or(Unjudged::Unsolved)
 }
 
-/// The contacts that press while something may creep, if forces are found, and whether something does.
+/// Returns the pressing contacts if slips may creep, and whether one does; `None` if no forces are found.
 ///
-/// A slip that begins almost without a drive grows so slowly that the equations are stiff: the direction of its friction
-/// settles many thousand times faster. It is then the direction in which the slip would begin from nothing.
+/// A slip with almost no driving force grows so slowly that the equations are stiff: the direction of its friction settles many
+/// thousand times faster. This direction is then the one in which the slip would begin from rest.
 pub fn creep<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Option<(Rest<R>, bool)> {
     let none = tolerance::creeping();
     let pressing = pressing(numbers, balls, &closed(numbers, balls), none).ok()?;
     let laws = Laws::if_none(numbers, balls, &pressing, none);
     let system = System::new(numbers, balls, &laws);
-    let forces = system.lawful(numbers)?;
+    let forces = system.solve_forces(numbers)?;
     let creeps = wanted_speeds(numbers, &system, &forces).1;
     Some((Rest { laws, forces, creeps: true }, creeps))
 }
 
-/// The contacts that are closed and neither open nor close.
+/// Returns the contacts that are closed and neither open nor close.
 fn closed<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Vec<Contact> {
     let mut contacts = touching_contacts(numbers, balls);
     contacts.retain(|contact| contact.opening(balls).abs() <= tolerance::closed());
     contacts
 }
 
-/// The contacts among `closed` that press, if slips and speeds up to `none`, m/s, are zero.
+/// Returns the contacts among `closed` that press, if slips and speeds up to `none`, m/s, count as zero.
 fn pressing<R: Real>(
     numbers: &Numbers<R>,
     balls: &Balls<R>,
@@ -107,16 +108,17 @@ fn pressing<R: Real>(
         return Ok(Vec::new());
     }
     let system = System::new(numbers, balls, &Laws::if_none(numbers, balls, closed, none));
-    let forces = system.lawful(numbers).ok_or(Unjudged::Unsolved)?;
+    let forces = system.solve_forces(numbers).ok_or(Unjudged::Unsolved)?;
     let pushes = system.blocks.iter().filter(|block| matches!(block.law, Law::Push)).map(|block| forces[block.at]);
     let pressing = closed.iter().zip(pushes).filter(|(_, push)| *push > slack()).map(|(contact, _)| *contact);
     Ok(pressing.collect())
 }
 
-/// Makes the contacts that never slip open with the speed of a first bounce, and tells whether there are any.
+/// Makes the contacts that never slip open with the speed of a first bounce, and returns whether there are any.
 ///
-/// Friction without limit leaves states in which no forces obey all laws (Painlevé's paradox): what would hold the slip
-/// makes the contact open, and once it is open, and nothing holds, it closes. It begins to bounce then, each time higher.
+/// With unlimited friction there are states in which no forces obey all laws (Painlevé's paradox): the force that would prevent
+/// the slip makes the contact open, and the open contact, without forces, closes. The contact then begins to bounce, higher
+/// each time.
 fn bounce<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, closed: &[Contact]) -> bool {
     let mut bounces = false;
     for contact in closed.iter().filter(|contact| contact.friction(numbers).is_none()) {
@@ -132,7 +134,7 @@ fn bounce<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, closed: &[Contact
     bounces
 }
 
-/// Contacts that never slip stop slipping as soon as they press, as in a collision: the cloth has no time to take part.
+/// Stops the slip of contacts that never slip once they press, as in a collision: the cloth has no time to act.
 fn stick<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, pressing: &[Contact]) -> Option<R> {
     let slips =
         |contact: &Contact| contact.friction(numbers).is_none() && contact.slip(numbers, balls).length() > settled();
@@ -144,13 +146,14 @@ fn stick<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, pressing: &[Contac
     let work = system.set_speeds(numbers, balls, &vec![R::zero(); system.len()]);
     for (index, ball) in balls.iter_mut().enumerate() {
         if pressing.iter().any(|contact| contact.has(index)) {
-            ball.go_on(numbers, settled());
+            ball.choose_motion(numbers, settled());
         }
     }
     Some(work)
 }
 
-/// Zero for what is held, and for what begins to slip a first little speed; tells whether there is any.
+/// Returns the wanted speeds: zero for what sticks, and a small initial speed for each slip that begins. Also returns whether
+/// any slip begins.
 fn wanted_speeds<R: Real>(numbers: &Numbers<R>, system: &System<R>, forces: &[R]) -> (Vec<R>, bool) {
     let rates = system.rates(numbers, forces);
     let mut wanted = vec![R::zero(); rates.len()];
@@ -168,7 +171,7 @@ fn wanted_speeds<R: Real>(numbers: &Numbers<R>, system: &System<R>, forces: &[R]
     (wanted, begins)
 }
 
-/// Takes the rounding out of the gaps. An overlap with which a shot began is left as it is.
+/// Removes rounding from the gaps. An overlap present at the start of the shot is left unchanged.
 fn close<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, pressing: &[Contact]) {
     for contact in pressing {
         if contact.gap(numbers, balls).abs() <= R::of(1e3) * touching() {

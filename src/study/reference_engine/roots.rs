@@ -1,13 +1,13 @@
-//! Three ways to find when a gap closes: the first time at which a polynomial of degree four falls below zero.
+//! Three root finders for the time at which a gap closes: the first time at which a polynomial of degree four becomes negative.
 
 use super::Real;
 
-/// Given the coefficients, lowest first, of a polynomial that is not negative at zero: where in `(0, end]` it first falls
-/// through zero.
+/// A root finder. Takes the coefficients, lowest first, of a polynomial that is not negative at zero, and the end of the
+/// interval. Returns the first falling root in `(0, end]`.
 pub type Finder<R> = fn(&[R; 5], R) -> Option<R>;
 
-/// Between its extrema a polynomial is monotone, and these are the roots of its derivative, found in the same way: no
-/// root can be missed. In any precision.
+/// Finds the root between extrema. A polynomial is monotone between its extrema, which are the roots of its derivative and
+/// found in the same way, so no root can be missed. Works in any precision.
 pub fn by_extrema<R: Real>(gap: &[R; 5], end: R) -> Option<R> {
     let slope = derivative(gap);
     let mut low = R::zero();
@@ -20,7 +20,7 @@ pub fn by_extrema<R: Real>(gap: &[R; 5], end: R) -> Option<R> {
     None
 }
 
-/// All roots in `(0, end)` at which the polynomial changes sign, in ascending order.
+/// Returns all roots in `(0, end)` at which the polynomial changes sign, in ascending order.
 fn sign_changes<R: Real>(polynomial: &[R], end: R) -> Vec<R> {
     if polynomial.len() < 2 {
         return Vec::new();
@@ -48,13 +48,13 @@ fn derivative<R: Real>(polynomial: &[R]) -> Vec<R> {
     polynomial.iter().enumerate().skip(1).map(|(power, c)| R::of(power as f64) * *c).collect()
 }
 
-/// Root of a function that falls through zero between `low` and `high`: Newton's step where it stays between the last
-/// points on either side, bisection elsewhere.
+/// Returns the root of a function that falls through zero between `low` and `high`: by a Newton step if it stays within the
+/// bracket, else by bisection.
 pub fn bracketed<R: Real>(value: impl Fn(R) -> R, slope: impl Fn(R) -> R, mut low: R, mut high: R) -> R {
     let half = R::of(0.5);
     let rounding = R::of(R::ROUNDING);
     let mut t = half * (low + high);
-    // A bound for functions of rounding's size; bisection alone would take some 110 rounds in double-double.
+    // A bound for functions of the size of rounding; bisection alone would take some 110 iterations in double-double.
     for round in 0..200 {
         let height = value(t);
         if height < R::zero() {
@@ -72,10 +72,10 @@ pub fn bracketed<R: Real>(value: impl Fn(R) -> R, slope: impl Fn(R) -> R, mut lo
     t
 }
 
-/// Where a function without a known slope falls through zero between `low`, not negative, and `high`, just behind it:
-/// false position after Anderson and Björck (1973). Every fourth step halves the range, or its decades. It is done where
-/// the value behind is not below `-enough`.
-pub fn falls<R: Real>(value: impl Fn(R) -> R, mut low: R, mut high: R, enough: R) -> R {
+/// Returns where a function without a known derivative falls through zero between `low`, where it is not negative, and `high`,
+/// where it is: by false position after Anderson and Björck (1973). The result is on the side of `high`. Every fourth step
+/// halves the range, or its decades. The search stops once the value at `high` is not below `-enough`.
+pub fn falling_root<R: Real>(value: impl Fn(R) -> R, mut low: R, mut high: R, enough: R) -> R {
     let (zero, half, one) = (R::zero(), R::of(0.5), R::of(1.0));
     let narrow = R::of(4.0 * R::ROUNDING);
     let (mut low_value, mut high_value) = (value(low), value(high));
@@ -93,7 +93,7 @@ pub fn falls<R: Real>(value: impl Fn(R) -> R, mut low: R, mut high: R, enough: R
             break;
         }
         let height = value(middle);
-        // The side that stays is made to count less, the more the other has moved.
+        // The weight of the side that stays is reduced, the more the other side has moved.
         let lessened = |replaced: R| {
             let left = one - height / replaced;
             if left > zero { left } else { half }
@@ -111,13 +111,13 @@ pub fn falls<R: Real>(value: impl Fn(R) -> R, mut low: R, mut high: R, enough: R
     high
 }
 
-/// Algorithm 1010 (Orellana and De Michele 2020), by the crate `kurbo`.
+/// Finds the root by Algorithm 1010 (Orellana and De Michele 2020), from the crate `kurbo`.
 pub fn algorithm_1010(gap: &[f64; 5], end: f64) -> Option<f64> {
     let [c0, c1, c2, c3, c4] = *gap;
     first_fall(gap, &kurbo::common::solve_quartic(c0, c1, c2, c3, c4), end)
 }
 
-/// Ferrari's closed form, as textbooks have it and with nothing done against cancellation.
+/// Finds the root by Ferrari's closed form as in textbooks, without any measure against cancellation.
 pub fn closed_form(gap: &[f64; 5], end: f64) -> Option<f64> {
     let [c0, c1, c2, c3, c4] = *gap;
     if c4 == 0.0 {
@@ -128,7 +128,7 @@ pub fn closed_form(gap: &[f64; 5], end: f64) -> Option<f64> {
     let p = b - 0.375 * a * a;
     let q = c - 0.5 * a * b + 0.125 * a * a * a;
     let r = d - 0.25 * a * c + 0.0625 * a * a * b - 3.0 / 256.0 * a.powi(4);
-    // A positive root m of the resolvent 8m³ + 8pm² + (2p² - 8r)m - q² makes both sides squares.
+    // A positive root m of the resolvent 8m³ + 8pm² + (2p² - 8r)m - q² makes both sides perfect squares.
     let m = largest_cubic_root(p, 0.25 * p * p - r, -0.125 * q * q);
     let mut roots = Vec::with_capacity(4);
     if m > 0.0 {
@@ -152,7 +152,7 @@ pub fn closed_form(gap: &[f64; 5], end: f64) -> Option<f64> {
     first_fall(gap, &roots, end)
 }
 
-/// Largest real root of `m³ + a m² + b m + c`, by Cardano's and Viète's formulas.
+/// Returns the largest real root of `m³ + a m² + b m + c`, by Cardano's and Viète's formulas.
 fn largest_cubic_root(a: f64, b: f64, c: f64) -> f64 {
     let p = b - a * a / 3.0;
     let q = 2.0 / 27.0 * a * a * a - a * b / 3.0 + c;
@@ -166,7 +166,7 @@ fn largest_cubic_root(a: f64, b: f64, c: f64) -> f64 {
     root - a / 3.0
 }
 
-/// The first of `roots` in `(0, end]` at which the gap falls.
+/// Returns the first of `roots` in `(0, end]` at which the gap decreases.
 fn first_fall(gap: &[f64; 5], roots: &[f64], end: f64) -> Option<f64> {
     let slope = derivative(gap);
     roots.iter().copied().filter(|&t| t > 0.0 && t <= end && value(&slope, t) < 0.0).min_by(f64::total_cmp)

@@ -1,8 +1,8 @@
-//! Impacts at one moment, in rounds: contacts that close in the same moment are solved together.
+//! Simultaneous impacts, in rounds: contacts that close at the same time are solved together.
 //!
-//! The pushes of a round are complementary to the speeds after it (Moreau 1988), `0 <= v+ + e v- ⊥ P >= 0`; the
-//! frictions follow from the slips before it. What then closes makes the next round, so that an impact passes through a
-//! row of balls as a chain, and no order of numbering matters.
+//! The normal impulses of a round are complementary to the speeds after it (Moreau 1988), `0 <= v+ + e v- ⊥ P >= 0`; the
+//! frictions follow from the slips before it. Contacts that close as a result form the next round. An impact thus passes
+//! through a row of balls as a chain, and the result does not depend on the numbering.
 
 use super::{
     Numbers, Real, Unjudged, Vector,
@@ -15,20 +15,20 @@ use super::{
 };
 use crate::table::BALLS;
 
-/// Rounds after which what touches takes one inelastic impact.
+/// Number of rounds after which all touching contacts get one inelastic impact.
 const MOST_ROUNDS: usize = 32;
 
-/// All contacts on the cloth whose gaps are closed.
+/// Returns all contacts on the cloth with closed gaps.
 pub fn touching_contacts<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Vec<Contact> {
     let closed = |contact: &Contact| !contact.is_aloft(balls) && contact.gap(numbers, balls) <= touching();
     Contact::all().filter(closed).collect()
 }
 
-/// Lets everything collide that touches and closes; the contacts in `inelastic` have no restitution. Returns who met
-/// whom, and the energy over mass that it takes.
+/// Collides all touching contacts that close; the contacts in `inelastic` have no restitution. Returns the contacts with an
+/// impact, and the dissipated energy per mass.
 ///
 /// # Errors
-/// [`Unjudged::Unsolved`], where no pushes are found.
+/// [`Unjudged::Unsolved`] if no impulses are found.
 pub fn collide<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
@@ -58,12 +58,12 @@ pub fn collide<R: Real>(
     Ok((met, work))
 }
 
-/// The `contacts` collide that close at one moment: those that share balls together, any other by the table's own law, also one that is
-/// left alone where others are relieved; the contacts in `inelastic` have no restitution. Adds those who push each other to the ones that
-/// have met, and returns the energy over mass that it takes.
+/// Collides `contacts` that close at the same time. Contacts that share balls are solved together; any other contact, also one
+/// that remains alone after others are relieved, follows the table's own law. The contacts in `inelastic` have no restitution.
+/// Adds the contacts with an impulse to `met`, and returns the dissipated energy per mass.
 ///
 /// # Errors
-/// [`Unjudged::Unsolved`], where no pushes are found.
+/// [`Unjudged::Unsolved`] if no impulses are found.
 pub fn at_once<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
@@ -77,7 +77,7 @@ pub fn at_once<R: Real>(
     let mut left = contacts.to_vec();
     while !left.is_empty() {
         let mut joined = vec![left.remove(0)];
-        // Three balls are reached in two rounds.
+        // Two passes connect all three balls.
         for _ in 1..BALLS {
             let (sharing, others): (Vec<_>, Vec<_>) =
                 left.into_iter().partition(|contact| joined.iter().any(|other| contact.shares_a_ball(*other)));
@@ -103,7 +103,7 @@ pub fn at_once<R: Real>(
     Ok(work)
 }
 
-/// A single impact, by the table's own law. Returns the energy over mass that it takes.
+/// Computes a single impact by the table's own law. Returns the dissipated energy per mass.
 pub fn alone<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, contact: Contact) -> R {
     match contact {
         Contact::Rail(ball, rail) => {
@@ -118,8 +118,8 @@ pub fn alone<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, contact: Conta
     }
 }
 
-/// Impacts that share balls at one moment, with these normal impulses, at the height of the balls' centres and with the friction of slow
-/// ones. Adds those who push each other to the ones that have met, and returns the energy over mass that is taken.
+/// Applies simultaneous impacts that share balls, with these normal impulses, at the height of the balls' centres and with the
+/// friction of slow impacts. Adds the contacts with an impulse to `met`, and returns the dissipated energy per mass.
 fn one_round<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
@@ -164,7 +164,7 @@ fn one_round<R: Real>(
     work
 }
 
-/// The normal impulses over mass of a round, none where others relieve a contact of its own.
+/// Returns the normal impulses per mass of a round; zero for a contact that others relieve.
 fn pushes<R: Real>(
     numbers: &Numbers<R>,
     balls: &Balls<R>,
@@ -182,14 +182,14 @@ fn pushes<R: Real>(
     Problem { matrix: &matrix, rates: &rates, blocks: &blocks }.solve().ok_or(Unjudged::Unsolved)
 }
 
-/// The largest share, up to one, of a change that adds no energy.
+/// Returns the largest share, up to one, of a change that adds no energy.
 fn lossy_share<R: Real>(numbers: &Numbers<R>, movement: &Movement<R>, change: &Movement<R>) -> R {
     let inertia = R::ratio(2.0, 5.0) * numbers.radius * numbers.radius;
     let product = |one: &Movement<R>, other: &Movement<R>| {
         one.iter().zip(other).fold(R::zero(), |sum, ((v, w), (v2, w2))| sum + v.dot(*v2) + inertia * w.dot(*w2))
     };
     let (gain, own) = (product(movement, change), product(change, change));
-    // The energy grows by `share gain + share² own/2`.
+    // The energy increases by `share gain + share² own/2`.
     if gain + R::of(0.5) * own <= R::zero() { R::of(1.0) } else { (R::of(-2.0) * gain / own).max(R::zero()) }
 }
 

@@ -1,7 +1,7 @@
-//! Rows of the balls' equations: a speed that a law is about, and the force that acts along it.
+//! Rows of the balls' equations: a speed that a law constrains, and the force that acts along it.
 //!
-//! One set of numbers tells both. The speed is `linear·v + lever·w`, summed over the balls; a force of size `f` per ball
-//! mass accelerates a ball by `f linear` and turns it by `f lever 5/(2R²)`.
+//! One set of coefficients describes both. The speed is `linear·v + lever·w`, summed over the balls. A force of size `f` per
+//! ball mass accelerates a ball by `f linear` and its rotation by `f lever 5/(2R²)`.
 
 use super::{
     Numbers, Real, Vector,
@@ -12,12 +12,12 @@ use crate::table::BALLS;
 /// Velocity and spin of every ball, or their rates of change.
 pub type Movement<R> = [(Vector<R>, Vector<R>); BALLS];
 
-/// Velocities and spins of `balls`.
+/// Returns the velocities and spins of `balls`.
 pub fn movement<R: Real>(balls: &Balls<R>) -> Movement<R> {
     balls.map(|ball| (ball.velocity, ball.spin))
 }
 
-/// A row: `None` for a ball that takes no part.
+/// A row of coefficients: `None` for a ball that is not involved.
 #[derive(Clone, Copy, Debug)]
 pub struct Row<R> {
     parts: [Option<(Vector<R>, Vector<R>)>; BALLS],
@@ -34,13 +34,13 @@ impl<R: Real> Row<R> {
         let (first, second) = contact.balls();
         let mut row = Self::of_ball(first, linear, lever);
         if let Some(second) = second {
-            // It is pushed the other way, at the other side: both turn alike.
+            // The second ball is pushed the opposite way at its opposite side, so both rotate alike.
             row.parts[second] = Some((-linear, lever));
         }
         row
     }
 
-    /// The opening of a contact with normal `n`.
+    /// The opening speed of a contact with normal `n`.
     pub fn opening(contact: Contact, n: Vector<R>) -> Self {
         Self::of_contact(contact, n, Vector::zero())
     }
@@ -60,12 +60,12 @@ impl<R: Real> Row<R> {
         Self::of_ball(ball, direction, Vector::zero())
     }
 
-    /// The turning of a ball on the spot, as the speed of its equator.
+    /// The side spin of a ball, as the speed of its equator.
     pub fn turning(numbers: &Numbers<R>, ball: usize) -> Self {
         Self::of_ball(ball, Vector::zero(), Vector::up() * numbers.radius)
     }
 
-    /// This row and `size` times another.
+    /// Returns this row plus `size` times another.
     #[must_use]
     pub fn and(mut self, size: R, other: &Self) -> Self {
         for (part, other) in self.parts.iter_mut().zip(other.parts) {
@@ -78,7 +78,7 @@ impl<R: Real> Row<R> {
         self
     }
 
-    /// The speed, or its rate of change.
+    /// Returns the speed, or its rate of change for a movement of accelerations.
     pub fn speed(&self, movement: &Movement<R>) -> R {
         let parts = self.parts.iter().zip(movement);
         parts.fold(R::zero(), |sum, (part, (v, w))| match part {
@@ -87,22 +87,22 @@ impl<R: Real> Row<R> {
         })
     }
 
-    /// The speed that a unit of force along `force` makes.
+    /// Returns the acceleration per unit of force along `force`.
     pub fn response(&self, numbers: &Numbers<R>, force: &Self) -> R {
         self.parts.iter().zip(&force.parts).fold(R::zero(), |sum, parts| match parts {
             (Some((linear, lever)), Some((push, turn))) => {
-                sum + linear.dot(*push) + lever.dot(*turn) * numbers.turnability
+                sum + linear.dot(*push) + lever.dot(*turn) * numbers.mass_over_inertia
             }
             _ => sum,
         })
     }
 
-    /// Adds what a force of this size does.
+    /// Adds the effect of a force of this size.
     pub fn push(&self, numbers: &Numbers<R>, size: R, movement: &mut Movement<R>) {
-        let twist = numbers.turnability * size;
+        let angular = numbers.mass_over_inertia * size;
         for (part, (v, w)) in self.parts.iter().zip(movement) {
             if let Some((linear, lever)) = part {
-                (*v, *w) = (*v + *linear * size, *w + *lever * twist);
+                (*v, *w) = (*v + *linear * size, *w + *lever * angular);
             }
         }
     }

@@ -1,5 +1,4 @@
-//! The equations of balls in resting contact at one moment: which forces act, which of them are yet unknown, and what
-//! each of those must do.
+//! The equations of balls in resting contact at one time: the known forces, the unknown forces, and the law of each unknown.
 
 use super::{
     Motion, Numbers, Real, Vector,
@@ -12,38 +11,38 @@ use super::{
 };
 use crate::table::BALLS;
 
-/// A force of unknown size: what it does, and the rate of change that its law is about.
+/// A force of unknown size: its effect, and the rate of change that its law constrains.
 #[derive(Clone, Copy, Debug)]
 struct Unknown<R> {
     rate: Row<R>,
     force: Row<R>,
-    /// Rate of change that is there without any force, m/s².
+    /// Rate of change without any force, m/s².
     bias: R,
 }
 
-/// The equations of balls in contact at one moment.
+/// The equations of balls in contact at one time.
 #[derive(Clone, Debug)]
 pub struct System<R> {
     unknowns: Vec<Unknown<R>>,
     /// The laws of the unknowns.
     pub blocks: Vec<Block<R>>,
     known: Movement<R>,
-    /// Power over mass of the known frictions, and of the contacts' per unit of their push.
+    /// Power per mass of the known frictions, and of the contacts' frictions per unit of normal force.
     power: (R, Vec<(usize, R)>),
 }
 
 impl<R: Real> System<R> {
-    /// The equations of `balls` under `laws`.
+    /// Sets up the equations of `balls` under `laws`.
     pub fn new(numbers: &Numbers<R>, balls: &Balls<R>, laws: &Laws<R>) -> Self {
         let zero = R::zero();
         let known = [(Vector::zero(), Vector::zero()); BALLS];
         let mut system = Self { unknowns: Vec::new(), blocks: Vec::new(), known, power: (zero, Vec::new()) };
         for &(contact, slips) in &laws.contacts {
-            system.touch(numbers, balls, contact, slips);
+            system.add_contact(numbers, balls, contact, slips);
         }
         for (ball, motion) in laws.cloth.iter().enumerate() {
             if let Some(motion) = motion {
-                system.lie(numbers, balls, ball, *motion, laws.turning(ball));
+                system.add_cloth(numbers, balls, ball, *motion, laws.spin_sign(ball));
             }
         }
         system
@@ -54,18 +53,18 @@ impl<R: Real> System<R> {
         self.unknowns.extend(rows.iter().map(|&(row, bias)| Unknown { rate: row, force: row, bias }));
     }
 
-    /// A friction of known size against a speed.
-    fn rub(&mut self, numbers: &Numbers<R>, row: &Row<R>, size: R, speed: R) {
+    /// Adds a friction of known size against a speed.
+    fn add_friction(&mut self, numbers: &Numbers<R>, row: &Row<R>, size: R, speed: R) {
         row.push(numbers, -size, &mut self.known);
         self.power.0 = self.power.0 + size * speed;
     }
 
-    fn touch(&mut self, numbers: &Numbers<R>, balls: &Balls<R>, contact: Contact, slips: bool) {
+    fn add_contact(&mut self, numbers: &Numbers<R>, balls: &Balls<R>, contact: Contact, slips: bool) {
         let n = contact.normal(balls);
         let t = Vector::up().cross(n);
         let push = self.unknowns.len();
         let friction = contact.friction(numbers);
-        // Two balls that pass each other turn the normal, by this many radians a second.
+        // The normal of two balls that pass each other rotates by this many radians a second.
         let turn = match contact {
             Contact::Balls(first, second) => {
                 contact.relative(balls).dot(t) / (balls[first].position - balls[second].position).length()
@@ -79,7 +78,7 @@ impl<R: Real> System<R> {
             self.unknowns[push].force = self.unknowns[push].force.and(-friction, &along);
             self.power.1.push((push, friction * slip.length()));
         } else {
-            // The turned normal alone would change the slip `R n×w`.
+            // The rotation of the normal alone would change the slip `R n×w`.
             let lifting = -numbers.radius * turn * contact.spin(balls).dot(n);
             let along = Row::slip(numbers, contact, n, t);
             let upwards = Row::slip(numbers, contact, n, Vector::up());
@@ -87,13 +86,13 @@ impl<R: Real> System<R> {
         }
     }
 
-    fn lie(&mut self, numbers: &Numbers<R>, balls: &Balls<R>, ball: usize, motion: Motion, turning: R) {
+    fn add_cloth(&mut self, numbers: &Numbers<R>, balls: &Balls<R>, ball: usize, motion: Motion, spin_sign: R) {
         let (zero, one) = (R::zero(), R::of(1.0));
         let axes = [Vector::new(one, zero, zero), Vector::new(zero, one, zero)];
         let state = &balls[ball];
         if motion == Motion::Sliding {
             let slip = state.slip(numbers);
-            self.rub(numbers, &Row::cloth(numbers, ball, slip.direction()), numbers.slide, slip.length());
+            self.add_friction(numbers, &Row::cloth(numbers, ball, slip.direction()), numbers.slide, slip.length());
         } else {
             self.unknown(Law::Hold(numbers.slide), &axes.map(|axis| (Row::cloth(numbers, ball, axis), zero)));
         }
@@ -101,58 +100,58 @@ impl<R: Real> System<R> {
             let velocity = state.velocity;
             let speed = velocity.length();
             let resistance = R::ratio(7.0, 5.0) * numbers.band(speed).0;
-            self.rub(numbers, &Row::centre(ball, velocity.direction()), resistance, speed);
+            self.add_friction(numbers, &Row::centre(ball, velocity.direction()), resistance, speed);
         } else if motion == Motion::Stationary {
             self.unknown(Law::Hold(numbers.roll), &axes.map(|axis| (Row::centre(ball, axis), zero)));
         }
         let row = Row::turning(numbers, ball);
-        let spinning = R::ratio(2.0, 5.0) * numbers.radius * numbers.twist;
-        if turning == zero {
+        let spinning = R::ratio(2.0, 5.0) * numbers.radius * numbers.spin_deceleration;
+        if spin_sign == zero {
             self.unknown(Law::Hold(spinning), &[(row, zero)]);
         } else {
             let speed = numbers.radius * state.spin.z;
-            row.push(numbers, -spinning * turning, &mut self.known);
-            self.power.0 = self.power.0 + spinning * turning * speed;
+            row.push(numbers, -spinning * spin_sign, &mut self.known);
+            self.power.0 = self.power.0 + spinning * spin_sign * speed;
         }
     }
 
-    /// Number of unknowns.
+    /// Returns the number of unknowns.
     pub fn len(&self) -> usize {
         self.unknowns.len()
     }
 
-    /// The rates of change that a unit of each force makes: a row for every rate.
+    /// Returns the rates of change per unit of each force: a row for every rate.
     pub fn matrix(&self, numbers: &Numbers<R>) -> Vec<Vec<R>> {
         let row = |of: &Unknown<R>| self.unknowns.iter().map(|by| of.rate.response(numbers, &by.force)).collect();
         self.unknowns.iter().map(row).collect()
     }
 
-    /// The rates of change under forces of these sizes.
+    /// Returns the rates of change under forces of these sizes.
     pub fn rates(&self, numbers: &Numbers<R>, forces: &[R]) -> Vec<R> {
         let accelerations = self.accelerations(numbers, forces);
         self.unknowns.iter().map(|unknown| unknown.rate.speed(&accelerations) + unknown.bias).collect()
     }
 
-    /// The forces near `guess` under which nothing opens and nothing that is held slips.
+    /// Returns the forces near `guess` under which no contact opens and nothing that sticks slips.
     pub fn balance(&self, numbers: &Numbers<R>, guess: &[R]) -> Vec<R> {
         let missing = self.rates(numbers, guess).into_iter().map(|rate| -rate).collect();
         let changes = solve(self.matrix(numbers), missing);
         guess.iter().zip(changes).map(|(guess, change)| *guess + change).collect()
     }
 
-    /// Forces that obey all laws, if any are found.
-    pub fn lawful(&self, numbers: &Numbers<R>) -> Option<Vec<R>> {
+    /// Returns forces that obey all laws, `None` if none are found.
+    pub fn solve_forces(&self, numbers: &Numbers<R>) -> Option<Vec<R>> {
         let rates = self.rates(numbers, &vec![R::zero(); self.len()]);
         Problem { matrix: &self.matrix(numbers), rates: &rates, blocks: &self.blocks }.solve()
     }
 
-    /// Whether forces that obey all laws keep every contact closed and all that is held from slipping.
+    /// Whether forces that obey all laws keep every contact closed and everything that sticks from slipping.
     pub fn holds(&self, numbers: &Numbers<R>) -> bool {
-        self.lawful(numbers)
+        self.solve_forces(numbers)
             .is_some_and(|forces| self.rates(numbers, &forces).into_iter().all(|rate| rate.abs() <= slack()))
     }
 
-    /// Accelerations under forces of these sizes.
+    /// Returns the accelerations under forces of these sizes.
     pub fn accelerations(&self, numbers: &Numbers<R>, forces: &[R]) -> Movement<R> {
         let mut accelerations = self.known;
         for (unknown, force) in self.unknowns.iter().zip(forces) {
@@ -161,9 +160,10 @@ impl<R: Real> System<R> {
         accelerations
     }
 
-    /// What is left until each law breaks: the push itself, or what a friction can hold beyond what it does, m/s².
-    pub fn room(&self, forces: &[R]) -> Vec<R> {
-        let room = |block: &Block<R>| {
+    /// Returns the margin until each law breaks: the normal force itself, or the difference between the friction limit and the
+    /// friction, m/s².
+    pub fn margins(&self, forces: &[R]) -> Vec<R> {
+        let margin = |block: &Block<R>| {
             let own = &forces[block.at..block.at + block.axes];
             let size = own.iter().fold(R::zero(), |sum, force| sum + *force * *force).sqrt();
             match block.law {
@@ -173,16 +173,16 @@ impl<R: Real> System<R> {
                 Law::Grip(None, _) => R::of(1.0),
             }
         };
-        self.blocks.iter().map(room).collect()
+        self.blocks.iter().map(margin).collect()
     }
 
-    /// Power over mass of all frictions, m²/s³.
+    /// Returns the power per mass of all frictions, m²/s³.
     pub fn power(&self, forces: &[R]) -> R {
         self.power.1.iter().fold(self.power.0, |sum, (push, share)| sum + forces[*push] * *share)
     }
 
-    /// Gives the speeds that the laws are about these values, by impulses of the unknown forces; returns the energy over
-    /// mass that it takes.
+    /// Sets the speeds that the laws constrain to `wanted`, by impulses of the unknown forces. Returns the dissipated energy
+    /// per mass.
     pub fn set_speeds(&self, numbers: &Numbers<R>, balls: &mut Balls<R>, wanted: &[R]) -> R {
         let before = movement(balls);
         let missing = self.unknowns.iter().zip(wanted).map(|(unknown, wanted)| *wanted - unknown.rate.speed(&before));

@@ -1,4 +1,4 @@
-//! A table's numbers in the engine's own precision.
+//! The parameters of a table in the precision of the engine.
 
 use super::{
     Real, Unjudged, Vector,
@@ -6,32 +6,32 @@ use super::{
 };
 use crate::{physics::FIRST_BOUNCE, simulation::Rail, table::Table};
 
-/// No bounce in the air is slower than this, nor does a slower stroke lift a ball, in units of `√(g R)`.
+/// Slowest bounce in the air, and slowest speed at which a stroke lifts a ball, in units of `√(g R)`.
 const SLOWEST_IN_AIR: f64 = 4e-3;
 
-/// A rail lifts a ball that would climb faster than this, in units of `√(g R)`.
+/// A rail lifts a ball if its upward speed would exceed this, in units of `√(g R)`.
 const LIFTS: f64 = 2e-2;
 
-/// What decides how balls leave the cloth and come down on it.
+/// Parameters of how balls leave the cloth and land on it.
 #[derive(Clone, Copy, Debug)]
 pub struct Flight<R> {
     /// Restitution `e_c` of the cloth.
     pub restitution: R,
-    /// Its friction `mu_c` with a ball that is pressed into it.
+    /// Friction `mu_c` of the cloth with a ball that is pressed into it.
     pub friction: R,
-    /// Slowest bounce in the air, and the speed above which the cloth throws a ball up, m/s.
+    /// Slowest bounce in the air, and the speed above which the cloth throws up a ball, m/s.
     pub slowest: R,
-    /// Speed above which a rail throws a ball up, m/s.
+    /// Speed above which a rail throws up a ball, m/s.
     pub lifts: R,
 }
 
-/// What the equations need of a table, in SI units.
+/// The table parameters of the equations, in SI units.
 #[derive(Clone, Copy, Debug)]
 pub struct Numbers<R> {
     /// Ball radius `R`.
     pub radius: R,
     /// Mass over moment of inertia, `5/(2R²)`, 1/m².
-    pub turnability: R,
+    pub mass_over_inertia: R,
     /// Largest |x| of a ball's centre, `L/2 - R`.
     pub half_length: R,
     /// Largest |y| of a ball's centre, `l/2 - R`.
@@ -40,48 +40,48 @@ pub struct Numbers<R> {
     pub slide: R,
     /// `mu_r g`, m/s².
     pub roll: R,
-    /// Growth of a rolling ball's deceleration with its speed, 1/s.
+    /// Increase of a rolling ball's deceleration per speed, 1/s.
     pub roll_growth: R,
-    /// Decay of `w_z`: `5 mu_sp g / 2R`, rad/s².
-    pub twist: R,
+    /// Deceleration of `w_z`: `5 mu_sp g / 2R`, rad/s².
+    pub spin_deceleration: R,
     /// Restitution between balls.
     pub ball_restitution: R,
-    /// How that falls with the speed of the impact.
+    /// Decrease of this restitution with the speed of the impact, `None` if it is constant.
     pub ball_falling: Option<Falling<R>>,
-    /// Friction between balls, `None` for a contact that never slips.
+    /// Friction between balls, `None` for contacts that never slip.
     pub ball_friction: Option<R>,
-    /// Friction of an impact of two balls by its slip: least, what slow slip adds, and how fast that fades, s/m.
+    /// Slip-dependent friction of ball-ball impacts: minimum, increase at slow slip, and decay rate of the increase, s/m.
     pub ball_slip_friction: Option<[R; 3]>,
     /// The cushions in the order of [`Rail::ALL`].
     pub cushions: [Cushion<R>; 4],
-    /// Speed at which balls that never slip begin to bounce, m/s.
+    /// Speed at which contacts of balls that never slip begin to bounce, m/s.
     pub first_bounce: R,
     /// Ball mass over cue mass.
     pub mass_ratio: R,
-    /// Ball mass over the mass of the cue's end, `None` for a cue that nothing turns aside.
+    /// Ball mass over the effective end mass of the cue, `None` for a cue without squirt.
     pub end_ratio: Option<R>,
     /// Whether the table is level.
     is_level: bool,
     /// Gravitational acceleration, m/s².
     pub gravity: R,
-    /// How balls leave the cloth, `None` where they stay on it.
+    /// How balls leave the cloth, `None` if they stay on it.
     pub flight: Option<Flight<R>>,
 }
 
 impl<R: Real> Numbers<R> {
-    /// The numbers of `table`, whose `f64` are taken as exact.
+    /// Returns the parameters of `table`, whose `f64` count as exact.
     pub fn of(table: &Table) -> Self {
         let (radius, gravity, half) = (R::of(table.radius), R::of(table.gravity), R::of(0.5));
         let mass = R::of(table.ball_mass);
         Self {
             radius,
-            turnability: R::of(2.5) / (radius * radius),
+            mass_over_inertia: R::of(2.5) / (radius * radius),
             half_length: half * R::of(table.length) - radius,
             half_width: half * R::of(table.width) - radius,
             slide: R::of(table.sliding_friction) * gravity,
             roll: R::of(table.rolling_friction) * gravity,
             roll_growth: R::of(table.rolling_growth),
-            twist: R::of(2.5) * R::of(table.spinning_friction) * gravity / radius,
+            spin_deceleration: R::of(2.5) * R::of(table.spinning_friction) * gravity / radius,
             ball_restitution: R::of(table.ball_restitution),
             ball_falling: table.ball_fade.map(Falling::of),
             ball_friction: table.ball_friction.map(R::of),
@@ -101,24 +101,26 @@ impl<R: Real> Numbers<R> {
         }
     }
 
-    /// The same without restitution: the end of endless bounces, at the height of the balls' centres.
+    /// Returns the same table without restitution, with impacts at the height of the balls' centres: the limit of endless
+    /// bounces.
     #[must_use]
     pub fn inelastic(&self) -> Self {
         self.with_restitution(R::zero())
     }
 
-    /// The same with this restitution in every impact, however fast, and cushions that meet balls at the height of their centres.
+    /// Returns the same table with this restitution in every impact, at any speed, and cushions that balls meet at the height
+    /// of their centres.
     #[must_use]
     pub fn with_restitution(&self, restitution: R) -> Self {
         let with = |cushion: Cushion<R>| Cushion { restitution, falling: None, meeting: Meeting::Equator, ..cushion };
         Self { ball_restitution: restitution, ball_falling: None, cushions: self.cushions.map(with), ..*self }
     }
 
-    /// Whether the table has laws that this engine lacks.
+    /// Checks that this engine has all laws of the table.
     ///
     /// # Errors
-    /// Which one.
-    pub fn judged(&self) -> Result<(), Unjudged> {
+    /// [`Unjudged`], which names the missing law.
+    pub fn check_supported(&self) -> Result<(), Unjudged> {
         if self.cushions.iter().any(|cushion| matches!(cushion.meeting, Meeting::Integrated)) {
             Err(Unjudged::IntegratedRail)
         } else if self.is_level {
@@ -128,23 +130,23 @@ impl<R: Real> Numbers<R> {
         }
     }
 
-    /// Restitution of two balls at a normal speed, m/s.
+    /// Returns the restitution of two balls at a normal speed, m/s.
     pub fn ball_restitution_at(&self, speed: R) -> R {
         self.ball_falling.map_or(self.ball_restitution, |falling| falling.at(self.ball_restitution, speed))
     }
 
-    /// Friction of an impact of two balls at a slip, m/s.
+    /// Returns the friction of an impact of two balls at a slip, m/s; `None` for contacts that never slip.
     pub fn ball_friction_at(&self, slip: R) -> Option<R> {
         let by_slip = self.ball_slip_friction.map(|[least, rise, fade]| least + rise * (-fade * slip).exp());
         by_slip.or(self.ball_friction)
     }
 
-    /// A rail's cushion.
+    /// Returns the cushion of a rail.
     pub fn cushion(&self, rail: Rail) -> &Cushion<R> {
         &self.cushions[rail as usize]
     }
 
-    /// How far a ball's centre can go towards `rail`.
+    /// Returns how far a ball's centre can move towards `rail` from the table's centre, m.
     pub fn reach(&self, rail: Rail) -> R {
         match rail {
             Rail::Left | Rail::Right => self.half_length,
@@ -152,10 +154,11 @@ impl<R: Real> Numbers<R> {
         }
     }
 
-    /// Deceleration of a ball that begins to roll with `speed`, m/s², and the speed down to which it holds.
+    /// Returns the deceleration of a ball that begins to roll with `speed`, m/s², and the speed at which this band of constant
+    /// deceleration ends.
     ///
-    /// The law is that of `physics::rolling`: the last band begins where `c1 v` is 0.059 `c0`, any other takes the share
-    /// `a / (a + 4.3 c1 v)` of its first speed.
+    /// The bands are those of `physics::rolling`: the last band starts where `c1 v` is 0.059 `c0`, any other covers the share
+    /// `a / (a + 4.3 c1 v)` of its initial speed.
     pub fn band(&self, speed: R) -> (R, R) {
         let (least, growth) = (R::ratio(5.0, 7.0) * self.roll, self.roll_growth);
         if growth <= R::zero() {
@@ -175,7 +178,7 @@ impl<R: Real> Numbers<R> {
     }
 }
 
-/// Unit vector from a cushion into the table.
+/// Returns the unit vector from a cushion into the table.
 pub fn normal<R: Real>(rail: Rail) -> Vector<R> {
     let (zero, one) = (R::zero(), R::of(1.0));
     match rail {

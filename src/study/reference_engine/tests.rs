@@ -1,4 +1,4 @@
-//! The engine as a whole, where balls rest against each other or against cushions.
+//! Tests of the whole engine, with balls that rest against each other or against cushions.
 
 mod flight;
 
@@ -23,7 +23,7 @@ fn thesis() -> Table {
     Table::preset("thesis").unwrap()
 }
 
-/// Plays a shot whose balls are numbered by `order` and whose y axis is turned over if `mirrored`.
+/// Plays a shot with balls numbered by `order`, and with the y axis mirrored if `mirrored`.
 fn played(table: &Table, shot: &StudyShot, order: [usize; BALLS], mirrored: bool) -> Shot<D> {
     let sign = if mirrored { -1.0 } else { 1.0 };
     let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
@@ -32,7 +32,7 @@ fn played(table: &Table, shot: &StudyShot, order: [usize; BALLS], mirrored: bool
     play(&Numbers::of(table), places, vector(v.x, sign * v.y, 0.0), spin, by_extrema).unwrap()
 }
 
-/// Shots on `thesis` in which something rests, ball–ball contacts among them.
+/// Shots on `thesis` with resting contacts, ball–ball contacts among them.
 fn resting_shots() -> impl Iterator<Item = (StudyShot, Shot<D>)> {
     let shots = random_shots(&thesis(), 60, 3, Steepest::USUAL).into_iter();
     shots.map(|shot| (shot, played(&thesis(), &shot, [0, 1, 2], false))).filter(|(_, played)| played.pressed)
@@ -61,10 +61,10 @@ fn a_mirror_and_other_numbers_change_nothing() {
         for (ball, other) in [0, 2, 1].into_iter().enumerate() {
             let end = played_first.end[ball].position;
             let image = mirrored.end[ball].position;
-            let apart = distance(end, Vector::new(image.x, -image.y, image.z));
-            assert!(apart < 1e-20, "mirrored {apart:e}: {}", shot.command_line("thesis"));
-            let apart = distance(end, renumbered.end[other].position);
-            assert!(apart < 1e-20, "renumbered {apart:e}: {}", shot.command_line("thesis"));
+            let error = distance(end, Vector::new(image.x, -image.y, image.z));
+            assert!(error < 1e-20, "mirrored {error:e}: {}", shot.command_line("thesis"));
+            let error = distance(end, renumbered.end[other].position);
+            assert!(error < 1e-20, "renumbered {error:e}: {}", shot.command_line("thesis"));
         }
     }
 }
@@ -75,10 +75,10 @@ fn two_smooth_balls_that_push_each_other_go_on_at_their_common_speed() {
     let numbers = Numbers::<D>::of(&table);
     let diameter = 2.0 * table.radius;
     let places = [vector(0.0, 0.0, 0.0), vector(diameter, 0.0, 0.0), vector(-1.0, 0.4, 0.0)];
-    // Much topspin: the cloth drives the first ball just as it brakes the second, until that one rolls.
+    // Much topspin: the cloth drives the first ball exactly as much as it brakes the second, until the second rolls.
     let shot = play(&numbers, places, vector(1.0, 0.0, 0.0), vector(0.0, 150.0, 0.0), by_extrema).unwrap();
     let rolls = shot.events.iter().find(|(_, kind)| *kind == EventKind::SlidingRolling(1)).unwrap().0;
-    // At the constant speed 1/2, the slip ends by the turning alone.
+    // At the constant speed 1/2, the slip ends through the rotation alone.
     let known = D::of(0.5) / (D::of(2.5) * numbers.slide);
     assert!((rolls - known).to_f64().abs() < 1e-22, "{}", (rolls - known).to_f64());
     assert!(shot.pressed && shot.energy[1].to_f64().abs() < 1e-23, "{:e}", shot.energy[1].to_f64());
@@ -134,7 +134,7 @@ fn in_single_precision_it_ends_as_well() {
     }
 }
 
-/// Tables that have each model of a part by itself, beside `match`, which has them all but one.
+/// Tables with each model of a part by itself, and `match`, which has all models but one.
 fn models() -> Vec<Table> {
     let textbook = || Table::preset("textbook").unwrap();
     let rails = |rail: Rails| Table { rail, ..textbook() };

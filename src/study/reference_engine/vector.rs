@@ -1,10 +1,10 @@
-//! Vectors with three components, of any number type.
+//! Three-dimensional vectors of any number type.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::Real;
 
-/// A vector; places and velocities have `z = 0`.
+/// A vector. Positions and velocities of balls on the cloth have `z = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vector<R> {
     /// Along the table's length.
@@ -16,27 +16,27 @@ pub struct Vector<R> {
 }
 
 impl<R: Real> Vector<R> {
-    /// A vector from its components.
+    /// Creates a vector from its components.
     pub fn new(x: R, y: R, z: R) -> Self {
         Self { x, y, z }
     }
 
-    /// No vector at all.
+    /// Returns the zero vector.
     pub fn zero() -> Self {
         Self::new(R::zero(), R::zero(), R::zero())
     }
 
-    /// The unit vector upwards.
+    /// Returns the upward unit vector.
     pub fn up() -> Self {
         Self::new(R::zero(), R::zero(), R::of(1.0))
     }
 
-    /// Scalar product.
+    /// Returns the scalar product.
     pub fn dot(self, other: Self) -> R {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    /// Vector product.
+    /// Returns the vector product.
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self::new(
@@ -46,24 +46,24 @@ impl<R: Real> Vector<R> {
         )
     }
 
-    /// Length.
+    /// Returns the length.
     pub fn length(self) -> R {
         self.dot(self).sqrt()
     }
 
-    /// The part in the table's plane.
+    /// Returns the horizontal part.
     #[must_use]
     pub fn flat(self) -> Self {
         Self::new(self.x, self.y, R::zero())
     }
 
-    /// Every component by a function of itself and of its fellow in another vector.
+    /// Combines each component with the same component of another vector.
     #[must_use]
     pub fn with(self, other: Self, combine: impl Fn(R, R) -> R) -> Self {
         Self::new(combine(self.x, other.x), combine(self.y, other.y), combine(self.z, other.z))
     }
 
-    /// The direction, or zero where there is none.
+    /// Returns the unit vector in this direction, or zero for the zero vector.
     #[must_use]
     pub fn direction(self) -> Self {
         let length = self.length();

@@ -1,4 +1,4 @@
-//! Training for a figure's curve: mean reward, mean Q and loss over every interval of shots.
+//! Trains an agent and records its learning curve: mean reward, mean Q and loss over every interval of shots.
 
 use candle_core::Error;
 use rand::{RngExt, SeedableRng};
@@ -17,27 +17,28 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Shots over which a point of a curve is the mean (4.4.2: intervals of 10,000 episodes).
+/// Number of shots averaged in a point of a curve (4.4.2: intervals of 10,000 episodes).
 pub const INTERVAL: u64 = 10_000;
 
-/// Layouts on which an agent is examined once it has learnt: other ones than training measures itself on, which choose settings.
+/// Number of layouts of an agent's final evaluation. They differ from the layouts for evaluation during training, which serve
+/// to choose settings.
 pub const EXAMINED: usize = 10_000;
 
 /// Means over an interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {
-    /// Shots played until its end.
+    /// Shots played by the end of the interval.
     pub shots: u64,
     /// Mean reward, exploration included.
     pub mean_reward: f64,
-    /// Mean value that the agent gives its own choices.
+    /// Mean Q-value of the agent's own actions.
     pub mean_q: f64,
-    /// Mean squared error of the values.
+    /// Critic loss: mean squared error of the Q-values.
     pub loss: f64,
 }
 
 impl Point {
-    /// What a figure shows of it.
+    /// Returns the measure that a figure shows.
     pub const fn of(&self, measure: Measure) -> f64 {
         match measure {
             Measure::MeanReward => self.mean_reward,
@@ -47,43 +48,44 @@ impl Point {
     }
 }
 
-/// What came of a training.
+/// The result of a training.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
     /// A point for every interval.
     pub points: Vec<Point>,
     /// Mean reward on held-out layouts, one shot each, without exploration.
     pub held_out: Option<f64>,
-    /// Why the training broke down, if it did: then the curve ends early.
+    /// Why the training broke down, in which case the curve ends early; `None` if it did not.
     pub broke_down: Option<String>,
 }
 
-/// What to train: figures of the same training share its curve.
+/// Setup of a training; figures with equal setups share its curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Training {
     /// The agent's name.
     pub agent: &'static str,
-    /// What is rewarded.
+    /// The reward function.
     pub reward: Reward,
     /// The agent's settings, whatever the figure calls them.
     pub settings: Value,
     /// Shots to play.
     pub shots: u64,
-    /// Seed of everything random.
+    /// Seed of all random numbers.
     pub seed: u64,
 }
 
 impl Training {
-    /// The training of a figure.
+    /// Creates the training of one curve of a figure.
     pub fn of(figure: &Figure, reading: Reading, shots: u64, seed: u64) -> Self {
         let shots = reading.shots(shots);
         Self { agent: figure.agent, reward: figure.reward, settings: reading.settings(shots), shots, seed }
     }
 
-    /// Trains. `played` is told of shots as they are played, and says whether to go on; without that there is no curve.
+    /// Runs the training. `played` receives the number of shots after each iteration and returns whether to continue; `None` if
+    /// it stops the training.
     ///
     /// # Errors
-    /// Where the agent cannot start.
+    /// Fails if the agent cannot start.
     pub fn run(&self, table: &Table, played: &dyn Fn(u64) -> bool) -> Result<Option<Curve>, StartError> {
         let agent = AgentKind::named(self.agent).map_err(StartError::settings)?;
         let plan = TrainingPlan { reward: self.reward, seed: self.seed, shots: self.shots };
@@ -94,7 +96,7 @@ impl Training {
                 Ok(Some(point)) => curve.points.push(point),
                 Ok(None) => return Ok(None),
                 Err(error) => {
-                    // The first line says what; candle adds where.
+                    // The first line names the error; candle appends a backtrace.
                     curve.broke_down = error.to_string().lines().next().map(str::to_owned);
                     return Ok(Some(curve));
                 }
@@ -105,24 +107,24 @@ impl Training {
     }
 }
 
-/// The next interval; nothing where it was broken off.
+/// Trains for the next interval; `None` if `played` stopped it.
 fn interval(learner: &mut dyn Learner, played: &dyn Fn(u64) -> bool) -> Result<Option<Point>, Error> {
     let (start, mut sums) = (learner.shots(), Accumulator::default());
     while learner.shots() < start + INTERVAL && !learner.is_finished() {
         let (shots, updates_before) = (learner.shots(), learner.progress().updates);
-        let turn = learner.iterate()?;
-        let (shots, made) = (learner.shots() - shots, learner.progress().updates - updates_before);
+        let iteration = learner.iterate()?;
+        let (shots, updates) = (learner.shots() - shots, learner.progress().updates - updates_before);
         if !played(shots) {
             return Ok(None);
         }
-        // A curve shows what is not finite, too.
-        let _ = sums.add(&turn, shots, made);
+        // Values that are not finite are kept in the curve.
+        let _ = sums.add(&iteration, shots, updates);
     }
     let Iteration { mean_reward, q_value, critic_loss, .. } = sums.take();
     Ok(Some(Point { shots: learner.shots(), mean_reward, mean_q: q_value, loss: critic_loss }))
 }
 
-/// Mean reward of random play on the layouts on which agents are examined: any direction, any speed.
+/// Returns the mean reward of random play, with uniform direction and speed, on the layouts of the final evaluation.
 pub fn random_play(table: &Table, reward: Reward, seed: u64) -> f64 {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut shot = |layout: &Layout| {

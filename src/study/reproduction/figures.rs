@@ -1,4 +1,4 @@
-//! The thesis' figures of learning curves, and what has to be trained for each.
+//! The thesis' figures of learning curves, and the trainings that each needs.
 
 use plotters::style::RGBColor;
 use serde_json::{Value, json};
@@ -9,19 +9,19 @@ use crate::{
     study::chart::{AZURE, CRIMSON, FOREST, INK, VIOLET},
 };
 
-/// What a figure shows over the shots.
+/// The measure that a figure shows over the shots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Mean reward of the shots played, exploration included.
     MeanReward,
-    /// Mean value that the agent gives its own choices.
+    /// Mean Q-value of the agent's own actions.
     MeanQ,
-    /// Mean squared error of the values.
+    /// Critic loss: mean squared error of the Q-values.
     Loss,
 }
 
 impl Measure {
-    /// Label of the axis.
+    /// Returns the label of the y axis.
     pub const fn label(self) -> &'static str {
         match self {
             Self::MeanReward => "mean reward",
@@ -36,21 +36,21 @@ impl Measure {
 pub struct Figure {
     /// Number of the figure in the thesis, or a name.
     pub name: &'static str,
-    /// What it shows.
+    /// Title of the figure.
     pub title: &'static str,
     /// The agent.
     pub agent: &'static str,
-    /// What is rewarded.
+    /// The reward function.
     pub reward: Reward,
-    /// What is shown.
+    /// The measure on the y axis.
     pub measure: Measure,
-    /// Shots to play unless asked otherwise.
+    /// Default number of shots.
     pub shots: u64,
-    /// Where the thesis' curve ends, where it says so.
+    /// Final value of the thesis' curve; `None` if the thesis does not state it.
     pub thesis: Option<f64>,
     /// Its curves.
     pub readings: &'static [Reading],
-    /// Seeds with which each curve is drawn, counted from the one that is asked for.
+    /// Range of seeds of each curve, relative to the seed of the session.
     pub seeds: [u64; 2],
 }
 
@@ -65,7 +65,7 @@ const fn figure(
     Figure { name, title, agent, reward, measure, shots, thesis, readings: &READINGS, seeds: [0, 1] }
 }
 
-/// All figures, in the thesis' order; then DDPG with r1 and other noise, and the thesis' future work.
+/// All figures in the thesis' order, followed by DDPG with r1 and different noise, and the thesis' future work.
 pub const FIGURES: [Figure; 12] = {
     use Measure::{Loss, MeanQ, MeanReward};
     const DDPG: &str = "thesis-ddpg";
@@ -94,7 +94,7 @@ pub const FIGURES: [Figure; 12] = {
         },
         Figure {
             readings: &FUTURE_WORK,
-            // Seeds 1 to 3 took part in choosing the settings.
+            // Seeds 1 to 3 were used to choose the settings.
             seeds: [3, 8],
             ..figure(("future-work", "DDPG, r3, with lessons"), DDPG, Reward::R3, MeanReward, 400_000, Some(0.05))
         },
@@ -102,21 +102,21 @@ pub const FIGURES: [Figure; 12] = {
 };
 
 impl Figure {
-    /// Every curve: what it reads, and its seed, counted from the one that is asked for.
+    /// Returns the reading and the seed of every curve; the seed is relative to the seed of the session.
     pub fn curves(&self) -> impl Iterator<Item = (&'static Reading, u64)> + use<> {
         let [first, end] = self.seeds;
         self.readings.iter().flat_map(move |reading| (first..end).map(move |seed| (reading, seed)))
     }
 
-    /// The figure called `name`.
+    /// Returns the figure called `name`.
     ///
     /// # Errors
-    /// [`UnknownFigure`], which lists them.
+    /// [`UnknownFigure`], which lists all names.
     pub fn named(name: &str) -> Result<Self, UnknownFigure> {
         FIGURES.into_iter().find(|figure| figure.name == name).ok_or_else(|| UnknownFigure(name.to_owned()))
     }
 
-    /// Beginning of the names of its files.
+    /// Returns the prefix of the figure's file names.
     pub fn file_name(&self) -> String {
         if self.name.starts_with(|first: char| first.is_ascii_digit()) {
             format!("figure-{}", self.name)
@@ -126,33 +126,33 @@ impl Figure {
     }
 }
 
-/// A figure's name that is not known.
+/// An unknown figure name.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("there is no figure \"{0}\"; use {list}", list = FIGURES.map(|figure| figure.name).join(", "))]
 pub struct UnknownFigure(String);
 
-/// What a curve has that the thesis' agent has not.
+/// The change of a curve's agent compared with the thesis' agent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
-    /// Nothing.
+    /// No change.
     None,
-    /// White noise of a standard deviation of 0.1, constant.
+    /// White exploration noise with a constant standard deviation of 0.1.
     StrongNoise,
-    /// The same, falling to a twentieth.
+    /// The same noise, decaying to a twentieth.
     FallingNoise,
-    /// Layouts seen in relative coordinates.
+    /// The agent sees layouts in relative coordinates.
     Relative,
-    /// The same, and shots that make the point beside its own (thesis 6.1.1 and 6.1.2).
+    /// The same, and learning from shots that score a point in addition to the agent's own shots (thesis 6.1.1 and 6.1.2).
     Lessons {
-        /// Share of a batch that is shots seen in hindsight.
+        /// Share of hindsight transitions in a batch.
         hindsight: f64,
-        /// Share of a batch that is demonstrations.
+        /// Share of demonstrations in a batch.
         demonstrations: f64,
     },
 }
 
 impl Change {
-    /// Its settings for a training of so many shots.
+    /// Returns the settings of the change for a training of `shots` shots.
     fn settings(self, shots: u64) -> Value {
         let noise = json!({ "theta": 0.15, "sigma": 1.0, "dt": 0.01 });
         match self {
@@ -178,16 +178,16 @@ impl Change {
     }
 }
 
-/// A reading of the thesis' word "episode", of which it says no more, or another change to its agent.
+/// A reading of the word "episode", which the thesis does not define, or another change to its agent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// Its name in the legend and in the table.
     pub name: &'static str,
     /// Colour of its curve.
     pub color: RGBColor,
-    /// When an episode is over.
+    /// When an episode ends.
     pub episode: Episode,
-    /// What else is other than in the thesis.
+    /// Any other change to the thesis' agent.
     pub change: Change,
 }
 
@@ -199,8 +199,8 @@ const fn changed(name: &'static str, color: RGBColor, change: Change) -> Reading
     Reading { name, color, episode: Episode::OneShot, change }
 }
 
-/// Noise on DDPG's actions: 0.03, as the thesis' source leaves it with one shot an episode, 0.1, and 0.1 falling; the first once more in
-/// relative coordinates.
+/// Noise on DDPG's actions: 0.03, which the thesis' source uses when an episode is one shot, 0.1, and 0.1 decaying; then 0.03
+/// again in relative coordinates.
 const NOISES: [Reading; 4] = [
     changed("0.03", CRIMSON, Change::None),
     changed("0.1", AZURE, Change::StrongNoise),
@@ -208,7 +208,7 @@ const NOISES: [Reading; 4] = [
     changed("0.03 in relative coordinates", VIOLET, Change::Relative),
 ];
 
-/// The thesis' future work: neither, nor the relative coordinates that the others have; neither; each alone; both.
+/// The thesis' future work: the thesis' agent, without the relative coordinates of the others; neither extension; each alone; both.
 const FUTURE_WORK: [Reading; 5] = [
     changed("the thesis' agent", INK, Change::None),
     changed("neither", CRIMSON, Change::Relative),
@@ -217,7 +217,7 @@ const FUTURE_WORK: [Reading; 5] = [
     changed("both", VIOLET, Change::Lessons { hindsight: 0.5, demonstrations: 0.5 }),
 ];
 
-/// One shot each; a game of twenty shots; a game until a miss, of at most twenty shots.
+/// One shot; a game of 20 shots; a game until the first miss, of at most 20 shots.
 pub const READINGS: [Reading; 3] = [
     reading("one shot", CRIMSON, Episode::OneShot),
     reading("20 shots", AZURE, Episode::Shots(20)),
@@ -225,8 +225,8 @@ pub const READINGS: [Reading; 3] = [
 ];
 
 impl Reading {
-    /// Shots to play where one-shot episodes play `shots`: games a quarter, for their shots are played until all balls
-    /// stand still, which takes up to ten times as long.
+    /// Returns the number of shots for a reading if one-shot episodes play `shots`. Games play a quarter: their shots are
+    /// simulated until all balls are at rest, which takes up to ten times as long.
     pub const fn shots(&self, shots: u64) -> u64 {
         match self.episode {
             Episode::OneShot => shots,
@@ -234,7 +234,7 @@ impl Reading {
         }
     }
 
-    /// Settings of an agent that reads it so and plays so many shots; everything else is as the agent's defaults.
+    /// Returns the agent's settings for this reading and number of shots; all others keep the agent's defaults.
     pub fn settings(&self, shots: u64) -> Value {
         let mut settings = self.change.settings(shots);
         settings["episode"] = json!(self.episode);
@@ -247,7 +247,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_figure_has_a_name_and_an_agent_that_takes_every_reading() {
+    fn every_figure_has_a_name_and_an_agent_that_accepts_every_reading() {
         use crate::{learning::learner, table::Table};
         for figure in FIGURES {
             assert_eq!(Figure::named(figure.name), Ok(figure));

@@ -1,4 +1,4 @@
-//! The thesis' learning curves (its figures 21 to 30), trained again.
+//! Reproduction of the thesis' learning curves (its figures 21 to 30) by training the agents again.
 
 mod curves;
 mod figures;

@@ -1,4 +1,4 @@
-//! A figure as SVG: curves over the shots.
+//! Draws a figure as SVG: curves over the number of shots.
 
 use std::io;
 
@@ -8,12 +8,12 @@ use crate::study::chart::{Axis, Chart, GREY, Mark, Panel, RUST, Series, Spot};
 /// Width and height in pixels, without the legend.
 const SIZE: [u32; 2] = [1280, 640];
 
-/// The figure with its curves, one for every reading and seed, beside the reward of random play and what the thesis says.
+/// Draws the figure with a curve for every reading and seed, next to the reward of random play and the thesis' value.
 ///
 /// # Errors
-/// If it cannot be drawn.
+/// Fails if the figure cannot be drawn.
 pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> io::Result<String> {
-    // A training that broke down leaves values without bounds: they do not decide what is shown.
+    // The values of a training that broke down grow without bound, so they do not set the range of the axis.
     let sound = curves.iter().filter(|curve| curve.broke_down.is_none());
     let values: Vec<f64> = sound.flat_map(|curve| &curve.points).map(|point| point.of(figure.measure)).collect();
     let most_shots = curves.iter().flat_map(|curve| &curve.points).map(|point| point.shots).max().unwrap_or(1);

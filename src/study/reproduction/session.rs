@@ -1,5 +1,5 @@
-//! Several figures at once: every training is done once, on as many threads as asked for, and each figure is handed
-//! over as soon as its curves are there.
+//! Reproduces several figures: runs every training once, on several threads, and outputs each figure as soon as its curves are
+//! complete.
 
 use std::{
     fmt::Write,
@@ -12,18 +12,18 @@ use super::{
 };
 use crate::{learning::learner::StartError, platform::parallel, statistics::mean_and_deviation, table::Table};
 
-/// What is to be drawn, and from how long a practice.
+/// The figures to reproduce, and how to train for them.
 #[derive(Clone, Debug)]
 pub struct Session {
     /// The figures.
     pub figures: Vec<Figure>,
-    /// Shots to play instead of each figure's own number.
+    /// Number of shots of every training; `None` for each figure's own number.
     pub shots: Option<u64>,
-    /// Seed of every training.
+    /// Base seed of all trainings.
     pub seed: u64,
-    /// Trainings at a time. The curves do not depend on it.
+    /// Number of parallel trainings. The curves do not depend on it.
     pub threads: usize,
-    /// Where they play.
+    /// The table of all trainings.
     pub table: Table,
 }
 
@@ -32,35 +32,35 @@ pub struct Session {
 pub struct Drawn {
     /// The figure.
     pub figure: Figure,
-    /// The seed that was asked for.
+    /// The base seed of the session.
     pub seed: u64,
-    /// A curve for each of [`Figure::curves`].
+    /// The curves, in the order of [`Figure::curves`].
     pub curves: Vec<Curve>,
     /// Mean reward of random play.
     pub random: f64,
 }
 
 impl Drawn {
-    /// Every curve with what it reads and its seed.
+    /// Returns every curve with its reading and its seed.
     fn curves(&self) -> impl Iterator<Item = (&'static Reading, u64, &Curve)> {
         let named = self.figure.curves().zip(&self.curves);
         named.map(|((reading, more), curve)| (reading, self.seed.wrapping_add(more), curve))
     }
 }
 
-/// Why figures could not be drawn.
+/// Why the figures could not be reproduced.
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
-    /// An agent does not start.
+    /// An agent cannot start.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// A figure cannot be handed over.
+    /// A figure cannot be written.
     #[error(transparent)]
     Output(#[from] std::io::Error),
 }
 
 impl Session {
-    /// Every training, each once.
+    /// Returns all distinct trainings.
     fn trainings(&self) -> Vec<Training> {
         let mut trainings: Vec<Training> = Vec::new();
         for figure in &self.figures {
@@ -78,16 +78,16 @@ impl Session {
         figure.curves().map(move |(reading, more)| Training::of(&figure, *reading, shots, seed.wrapping_add(more)))
     }
 
-    /// Shots of all trainings.
+    /// Returns the number of shots of all trainings together.
     pub fn shots(&self) -> u64 {
         self.trainings().iter().map(|training| training.shots).sum()
     }
 
-    /// Trains everything and hands over each figure once it is complete. `played` is told of shots and says whether to
-    /// go on.
+    /// Runs all trainings and passes each figure to `hand_over` once it is complete. `played` receives the number of shots
+    /// after each iteration and returns whether to continue.
     ///
     /// # Errors
-    /// Where an agent cannot start, or whatever `hand_over` reports.
+    /// Fails if an agent cannot start, or with any error of `hand_over`.
     pub fn run(
         &self,
         played: &(dyn Fn(u64) -> bool + Sync),
@@ -114,7 +114,7 @@ impl Session {
         .map(|_| ())
     }
 
-    /// Takes those figures off the list whose curves are all there.
+    /// Removes the figures whose curves are all available from `left`, and returns them.
     fn complete(
         &self,
         trainings: &[Training],
@@ -134,7 +134,7 @@ impl Session {
     }
 }
 
-/// All points of a figure's curves as CSV.
+/// Returns all points of a figure's curves as CSV.
 pub fn csv(drawn: &Drawn) -> String {
     let mut text = "curve,seed,shots,mean_reward,mean_q,loss\n".to_owned();
     for (reading, seed, curve) in drawn.curves() {
@@ -146,15 +146,15 @@ pub fn csv(drawn: &Drawn) -> String {
     text
 }
 
-/// One line for each curve of a figure of rewards: where it ended, and what the agent then earns without exploration; and for
-/// curves of several seeds what these come to.
+/// Returns a line for each curve: its final value and, for figures of rewards, the agent's mean reward without exploration.
+/// Readings with several seeds get another line with mean and standard deviation.
 pub fn summary(drawn: &Drawn) -> Vec<String> {
     let Drawn { figure, random, .. } = drawn;
     let held_out = |curve: &Curve| curve.held_out.filter(|_| figure.measure == Measure::MeanReward);
     let of_curve = |(reading, seed, curve): (&Reading, u64, &Curve)| {
         let last = curve.points.last().map_or(f64::NAN, |point| point.of(figure.measure));
         let (title, name, measure) = (figure.title, reading.name, figure.measure.label());
-        let mut line = format!("{title}, {name}, seed {seed}: {measure} {last:.3} at last");
+        let mut line = format!("{title}, {name}, seed {seed}: final {measure} {last:.3}");
         if let Some(reward) = held_out(curve) {
             let _ = write!(line, ", {reward:.3} without exploration, random play {random:.3}");
         }
@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn figures_share_a_training_whatever_they_call_it() {
-        // Three curves each, and the one of one shot is that of noise 0.03 with seed 1.
+        // Three curves each; the one-shot curve is that of noise 0.03 with seed 1.
         assert_eq!(session(&["23", "24"]).trainings().len(), 3);
         assert_eq!(session(&["23", "noise"]).trainings().len(), 3 + 12 - 1);
     }
@@ -199,9 +199,9 @@ mod tests {
         let curve = |seed: u32| Curve { held_out: Some(0.01 * f64::from(seed)), ..Curve::default() };
         let curves = session.trainings().iter().map(|training| curve(training.seed as u32)).collect();
         let drawn = Drawn { figure: session.figures[0], seed: 1, curves, random: 0.007 };
-        let said = summary(&drawn);
-        assert!(said[0].contains("the thesis' agent, seed 4") && said[0].contains("0.040 without"), "{said:?}");
-        let last = said.last().unwrap();
+        let lines = summary(&drawn);
+        assert!(lines[0].contains("the thesis' agent, seed 4") && lines[0].contains("0.040 without"), "{lines:?}");
+        let last = lines.last().unwrap();
         assert!(last.contains("both, 5 seeds: mean 0.060 without exploration, standard deviation 0.016"), "{last}");
     }
 }

@@ -1,5 +1,4 @@
-//! Adversarial shots: balls that touch, almost touch, stand at cushions, in corners and in line, and strokes that make the
-//! most of it.
+//! Adversarial shots: balls that touch or almost touch, at cushions, in corners and in line, with strokes that make them hard.
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
@@ -12,7 +11,7 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// A shot that leans to everything that is hard.
+/// Draws a shot biased towards hard cases.
 pub fn shot<R: Rng>(table: &Table, rng: &mut R) -> Shot {
     let layout = layout(table, rng);
     Shot { layout, cue: stroke(table, &layout, rng) }
@@ -24,7 +23,7 @@ fn layout(table: &Table, rng: &mut impl Rng) -> Layout {
         for ball in 0..BALLS {
             balls[ball] = hard_place(table, &balls[..ball], rng);
         }
-        // Any of them may be the one that is struck.
+        // Any of them may be the cue ball.
         let first = rng.random_range(0..BALLS);
         balls.swap(0, first);
         let layout = Layout::new(balls);
@@ -34,8 +33,8 @@ fn layout(table: &Table, rng: &mut impl Rng) -> Layout {
     }
 }
 
-/// Exactly nothing, or anything from 1e-16 to 1e-6 m; now and then an overlap that is still accepted, also where two of them add up: a
-/// ball that stands behind a cushion's nose is put on it, and further into its neighbour.
+/// Draws a gap: exactly zero, or 1e-16 to 1e-6 m; sometimes an overlap that is still accepted, also if two overlaps add up: a
+/// ball that starts inside a cushion is moved onto its nose, and thereby further into its neighbour.
 fn gap(rng: &mut impl Rng) -> f64 {
     match rng.random_range(0..8) {
         0..3 => 0.0,
@@ -54,7 +53,7 @@ fn hard_place(table: &Table, others: &[DVec2], rng: &mut impl Rng) -> DVec2 {
         (0, _) => DVec2::new(anywhere.x, signs.y * (reach.y - gap(rng))),
         (1, _) => DVec2::new(signs.x * (reach.x - gap(rng)), anywhere.y),
         (2, _) => signs * (reach - DVec2::new(gap(rng), gap(rng))),
-        // Against another ball, in any direction or one that is exact in binary.
+        // Against another ball, in any direction or in one that is exact in binary.
         (3..6, [.., other]) => {
             let angle = if rng.random_bool(0.5) {
                 rng.random_range(0.0..TAU)
@@ -85,7 +84,7 @@ fn hard_place(table: &Table, others: &[DVec2], rng: &mut impl Rng) -> DVec2 {
 fn stroke(table: &Table, layout: &Layout, rng: &mut impl Rng) -> CueDegrees {
     let cue = draw::stroke(rng);
     let tiny = draw::one_of(rng, &[-1.0, 1.0]) * draw::log_uniform(rng, 1e-16, 1e-9);
-    // Struck level at 2/5 of the radius above the centre, a ball rolls at once.
+    // A ball struck with a level cue at 2/5 of the radius above the centre rolls at once.
     let (a, b, theta_deg) = match rng.random_range(0..8) {
         0 => (0.0, 0.0, 0.0),
         1 => (0.0, 0.4, 0.0),
@@ -103,7 +102,7 @@ fn stroke(table: &Table, layout: &Layout, rng: &mut impl Rng) -> CueDegrees {
     CueDegrees { a, b, theta_deg, phi_deg, speed: cue.speed }
 }
 
-/// Degrees towards another ball: full, grazing its edge to any depth, or just missing it.
+/// Draws a direction towards another ball, degrees: full, grazing its edge at any depth, or just missing it.
 fn aim(table: &Table, layout: &Layout, rng: &mut impl Rng) -> f64 {
     let to = layout.balls[rng.random_range(1..BALLS)] - layout.balls[0];
     let edge = (2.0 * table.radius / to.length()).min(1.0).asin();

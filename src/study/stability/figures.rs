@@ -1,10 +1,10 @@
-//! What the checks measure of a shot or of many, and which of it is a violation.
+//! The errors that the checks measure on one shot or on many, and their limits.
 
 use serde::Serialize;
 
 use crate::table::Table;
 
-/// The largest of some error, and when in its shot it happened.
+/// The largest value of an error, and its time in the shot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Worst {
     /// Size of the error, in the unit of its figure.
@@ -20,8 +20,8 @@ impl Default for Worst {
 }
 
 impl Worst {
-    /// Takes note of an error. NaN counts as the largest of all; of equal ones the earliest is kept, in whatever order they
-    /// come.
+    /// Records an error. NaN counts as the largest value. Of equal values the earliest is stored, whatever the order of the
+    /// calls.
     pub fn note(&mut self, value: f64, time: f64) {
         let earlier = value == self.value && time < self.time;
         if value.is_nan() && !self.value.is_nan() || value > self.value || earlier {
@@ -33,40 +33,40 @@ impl Worst {
 /// The largest errors of one shot or of many.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Figures {
-    /// Shots that were checked.
+    /// Number of checked shots.
     pub shots: u64,
-    /// How deep two balls overlap, m. It is less than zero where they stay apart.
+    /// Overlap of two balls, m; negative if they stay apart.
     pub overlap: Worst,
-    /// How far a ball's centre is beyond its reach, m.
+    /// Distance of a ball's centre beyond its reach, m.
     pub outside: Worst,
-    /// Energy gained at an event or on the way to the next, in units of what rounding explains.
+    /// Energy gained at an event or between events, relative to the gain that rounding explains.
     pub energy: Worst,
-    /// The same in m²/s², energy per mass of a ball.
+    /// The same in m²/s² (energy per ball mass).
     pub gained: Worst,
-    /// Energy lost that no friction and no impact takes, or that one should have taken and did not, at an event, on the way
-    /// to the next, or in the whole shot, in units of what rounding and the tolerances explain.
+    /// Unexplained energy at an event, between events or in the whole shot, relative to rounding and tolerances: a loss without
+    /// a friction or impact that dissipates it, or a dissipation without a loss.
     pub unexplained: Worst,
     /// The same in m²/s².
     pub missing: Worst,
-    /// How far a ball is displaced from one piece of its course to the next, m.
+    /// Displacement of a ball between two pieces of its course, m.
     pub jump: Worst,
-    /// How far apart balls, or ball and cushion, are that are told to collide, m.
+    /// Gap between two balls, or between ball and cushion, at a reported collision, m.
     pub apart: Worst,
-    /// How far time runs backwards, s.
+    /// Time by which the course runs backwards, s.
     pub backwards: Worst,
-    /// Shots in which some number was not finite.
+    /// Number of shots with a number that is not finite.
     pub not_finite: u64,
-    /// Shots that were broken off, or whose balls still moved at the end.
+    /// Number of shots that were aborted, or whose balls still moved at the end.
     pub unfinished: u64,
-    /// Most events of a shot.
+    /// Largest number of events of a shot.
     pub events: usize,
-    /// Most pieces of course of a shot.
+    /// Largest number of pieces of the courses of a shot.
     pub steps: usize,
-    /// Longest time that the simulation of a shot took, s: of a slow one the least of several attempts.
+    /// Longest computing time of a shot, s; for slow shots the minimum of several attempts.
     pub seconds: f64,
 }
 
-/// What a shot may not do.
+/// A violation of an invariant.
 #[derive(Clone, Debug, PartialEq, Serialize, thiserror::Error)]
 #[serde(rename_all = "kebab-case", tag = "kind", content = "value")]
 pub enum Violation {
@@ -82,52 +82,52 @@ pub enum Violation {
     /// Energy is gained.
     #[error("energy grows by {value:.1} times what rounding explains at {time} s", value = .0.value, time = .0.time)]
     Energy(Worst),
-    /// Energy is lost that nothing takes, or not lost where something takes it.
-    #[error("energy is off by {value:.3e} times what is explained at {time} s", value = .0.value, time = .0.time)]
+    /// Energy is lost without an explanation, or not lost although something dissipates it.
+    #[error("energy is off by {value:.3e} times the tolerance at {time} s", value = .0.value, time = .0.time)]
     Unexplained(Worst),
-    /// A ball is put somewhere else.
+    /// A ball jumps to another position.
     #[error("a ball jumps by {value:.3e} m at {time} s", value = .0.value, time = .0.time)]
     Jump(Worst),
-    /// A collision of what does not touch.
+    /// A collision of bodies that do not touch.
     #[error("a collision over a gap of {value:.3e} m at {time} s", value = .0.value, time = .0.time)]
     Apart(Worst),
     /// Events out of order.
-    #[error("time runs back by {value:.3e} s at {time} s", value = .0.value, time = .0.time)]
+    #[error("time runs backwards by {value:.3e} s at {time} s", value = .0.value, time = .0.time)]
     Backwards(Worst),
-    /// The shot did not end by itself.
+    /// The shot was aborted, or balls still moved at its end.
     #[error("the shot does not end")]
     Unfinished,
-    /// The shot takes too long to simulate.
+    /// The shot takes too much computing time.
     #[error("the shot takes {ms:.0} ms", ms = 1e3 * .0)]
     Slow(f64),
     /// The shot needs more events than any real one.
     #[error("the shot needs {0} events")]
     Events(usize),
-    /// What its case asks of it besides does not hold.
+    /// The additional check of its case failed.
     #[error("{0}")]
     Wrong(String),
 }
 
-/// The largest errors that are none.
+/// The largest acceptable errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Overlaps, distances outside, jumps and gaps in collisions, m.
+    /// Overlaps, distances outside, jumps and gaps at collisions, m.
     pub distance: f64,
-    /// Events of a shot.
+    /// Number of events of a shot.
     pub events: usize,
-    /// Time that the simulation of a shot may take, s.
+    /// Computing time of a shot, s.
     pub seconds: f64,
 }
 
 impl Limits {
-    /// The goal on tables as people play on: a billionth of a metre, five hundred events, 50 ms.
+    /// The goal on tables of usual size: 1e-9 m, 500 events, 50 ms.
     pub const STRICT: Self = Self { distance: 1e-9, events: 500, seconds: 0.05 };
 
-    /// For tables on which a shot has more events by nature.
+    /// For tables on which shots inherently have more events.
     pub const ANY_EVENTS: Self = Self { events: usize::MAX, ..Self::STRICT };
 
-    /// These limits on a table: on one that is longer than those people play on, distances may be larger in proportion, as
-    /// the rounding of places is.
+    /// Returns these limits for a table. On a table longer than usual, the limit of distances grows in proportion, as the
+    /// rounding of positions does.
     #[must_use]
     pub fn on(self, table: &Table) -> Self {
         Self { distance: self.distance * (table.length / LONGEST_USUAL).max(1.0), ..self }
@@ -138,7 +138,7 @@ impl Limits {
 const LONGEST_USUAL: f64 = 2.84;
 
 impl Figures {
-    /// Adds the figures of other shots.
+    /// Merges the figures of other shots.
     pub fn merge(&mut self, other: &Self) {
         self.shots += other.shots;
         for (mine, theirs) in [
@@ -161,7 +161,7 @@ impl Figures {
         self.seconds = self.seconds.max(other.seconds);
     }
 
-    /// What is beyond `limits`, worst things first.
+    /// Returns the violations of `limits`, the most serious first.
     pub fn violations(&self, limits: &Limits) -> Vec<Violation> {
         let beyond = |worst: Worst, limit: f64| worst.value.is_nan() || worst.value > limit;
         let candidates = [

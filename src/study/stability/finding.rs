@@ -1,35 +1,35 @@
-//! A shot that does something that it should not: what a sweep finds.
+//! A finding of a sweep: a shot that violates an invariant.
 
 use serde::Serialize;
 
 use super::{Figures, Shot, Violation};
 use crate::table::{PRESETS, Table};
 
-/// A shot that does something that it should not; as JSON a question that `carom simulate --batch` reads, where the table is a bundled one.
+/// A shot with violations. Its JSON is a question that `carom simulate --batch` reads if the table is a bundled one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
     /// The table's name.
     pub preset: String,
-    /// The table itself, where none is bundled by this name.
+    /// The table itself, `None` if it is bundled under this name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<Table>,
     /// The shot.
     #[serde(flatten)]
     pub shot: Shot,
-    /// What is wrong, in words.
+    /// Description of the violations.
     pub what: String,
-    /// Its violations.
+    /// The violations.
     pub violations: Vec<Violation>,
-    /// Events that it needs.
+    /// Number of events.
     pub events: usize,
-    /// Pieces of course that it needs.
+    /// Number of pieces of the balls' courses.
     pub steps: usize,
-    /// Time that it took, ms: where that was too much, the least of several attempts if they were affordable.
+    /// Computing time, ms; for slow shots the minimum of several attempts if these were affordable.
     pub ms: f64,
 }
 
 impl Finding {
-    /// A shot that breaks something.
+    /// Creates a finding.
     pub fn new(table: &Table, shot: &Shot, measured: &Figures, violations: Vec<Violation>) -> Self {
         let words: Vec<String> = violations.iter().map(ToString::to_string).collect();
         Self {

@@ -1,4 +1,4 @@
-//! What must hold in every shot: its numbers, its times, its places and its energy.
+//! The invariants of every shot: finite numbers, ordered times, valid positions and conserved energy.
 
 use glam::DVec2;
 
@@ -12,7 +12,7 @@ use super::{
     trace::{Piece, Trace},
 };
 
-/// Plays `shot` and measures everything that must hold.
+/// Plays `shot` and measures all invariants.
 pub fn examine(table: &Table, shot: &Shot, trace: &mut Trace) -> Figures {
     trace.play(table, shot);
     measure(table, shot, trace)
@@ -32,7 +32,7 @@ fn measure(table: &Table, shot: &Shot, trace: &Trace) -> Figures {
         figures.not_finite = 1;
         return figures;
     }
-    order(trace, &mut figures);
+    check_order(trace, &mut figures);
     places::measure(table, shot, trace, &mut figures);
     audit(table, trace, &mut figures);
     figures
@@ -52,8 +52,8 @@ fn is_finite(trace: &Trace) -> bool {
         && trace.end.balls.iter().all(|ball| ball.position.is_finite() && ball.spin.is_finite())
 }
 
-/// Events and pieces follow each other in time.
-fn order(trace: &Trace, figures: &mut Figures) {
+/// Checks that events and pieces are ordered in time.
+fn check_order(trace: &Trace, figures: &mut Figures) {
     for pair in trace.events.windows(2) {
         figures.backwards.note(pair[0].time - pair[1].time, pair[1].time);
     }
@@ -74,7 +74,7 @@ mod tests {
         table::Layout,
     };
 
-    /// A shot that meets a ball and cushions, and what the checks say after it has been tampered with.
+    /// Returns the violations of a shot that hits a ball and cushions, after tampering.
     fn violations(tamper: impl Fn(&mut Trace)) -> Vec<Violation> {
         let table = Table::preset("textbook").unwrap();
         let layout = Layout::new([DVec2::new(-0.5, 0.01), DVec2::ZERO, DVec2::new(1.0, 0.5)]);
@@ -85,7 +85,7 @@ mod tests {
         measure(&table, &shot, &trace).violations(&Limits::STRICT)
     }
 
-    /// Where sliding becomes rolling, the cue ball gains a billionth of its spin.
+    /// At the transition to rolling, the cue ball gains a billionth of its spin.
     fn spin_faster(trace: &mut Trace) {
         let rolling = |piece: &&mut Piece| piece.segment.motion == Motion::Rolling;
         trace.pieces[0].iter_mut().rfind(rolling).unwrap().segment.spin *= 1.0 + 1e-9;

@@ -1,4 +1,4 @@
-//! Stability: what must hold in every shot, and shots made to break it.
+//! Stability study: invariants of every shot, and shots made to break them.
 
 pub mod adversarial;
 mod audit;

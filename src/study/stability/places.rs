@@ -1,7 +1,7 @@
-//! Where balls may be, checked on their whole courses and not on samples of them.
+//! Checks the positions of balls on their whole courses, not at samples.
 //!
-//! Between two changes, and between two landings, a ball's centre follows a polynomial of the time, and so does the square of the
-//! distance of two balls: its least value on the interval is bounded by its Bernstein coefficients ([`super::polynomial`]).
+//! Between two changes or two landings, a ball's centre follows a polynomial in time, and so does the squared distance of two
+//! balls. Its minimum on the interval is bounded by its Bernstein coefficients ([`super::polynomial`]).
 
 use glam::DVec3;
 
@@ -17,19 +17,19 @@ use crate::{
     table::{BALLS, PAIRS, Table},
 };
 
-/// To which the least distance is worked out, m: a thousandth of what counts.
+/// Precision of the smallest distance, m: a thousandth of the limit.
 const PRECISION: f64 = 1e-12;
 
-/// Landings of one course that are looked at: after so many the hops of the liveliest cloth are lower than an atom.
-const MOST_LANDINGS: u32 = 4000;
+/// Maximum number of checked landings of one course: after as many, the hops on the liveliest cloth are lower than an atom.
+const MAX_LANDINGS: u32 = 4000;
 
-/// A part of a course that is one polynomial.
+/// A part of a course with one polynomial.
 struct Stretch {
     begin: f64,
     end: f64,
-    /// Coefficients of the place about the beginning, m.
+    /// Coefficients of the position about the beginning, m.
     place: [DVec3; 6],
-    /// How many of them are not zero.
+    /// Number of non-zero coefficients.
     terms: usize,
     motion: Motion,
 }
@@ -40,7 +40,7 @@ impl Stretch {
         self.place.iter().rev().fold(DVec3::ZERO, |sum, c| sum * t + *c)
     }
 
-    /// Coefficients about another time.
+    /// Returns the coefficients about another time.
     fn about(&self, time: f64) -> [DVec3; 6] {
         let (mut c, shift) = (self.place, time - self.begin);
         if shift != 0.0 {
@@ -66,7 +66,7 @@ fn stretches(table: &Table, pieces: &[Piece]) -> Vec<Stretch> {
             found.push(Stretch { begin: segment.start, end: *end, place, terms, motion });
             continue;
         };
-        for landings in 0..MOST_LANDINGS {
+        for landings in 0..MAX_LANDINGS {
             let arc = hops.arc(landings);
             let begin = segment.start + arc.begin;
             if begin >= *end {
@@ -81,32 +81,33 @@ fn stretches(table: &Table, pieces: &[Piece]) -> Vec<Stretch> {
     found
 }
 
-/// Measures where the balls of a shot are: jumps, and how far they get into each other and into cushions.
+/// Measures jumps of the balls of a shot, and their overlaps with each other and with cushions.
 pub(super) fn measure(table: &Table, shot: &Shot, trace: &Trace, figures: &mut Figures) {
     let cushions = Cushions::of(table);
     let balls: [Vec<Stretch>; BALLS] = std::array::from_fn(|ball| stretches(table, &trace.pieces[ball]));
     for (ball, stretches) in balls.iter().enumerate() {
         let mut last = shot.layout.balls[ball].extend(0.0);
         for stretch in stretches {
-            // A ball that has left the table is where it did, seen from above.
+            // A ball that has left the table is at the point where it left, seen from above.
             let off = stretch.motion == Motion::OffTable;
             let begins = if off { stretch.place[0].with_z(last.z) } else { stretch.place[0] };
             figures.jump.note(last.distance(begins), stretch.begin);
             last = stretch.at(stretch.end);
-            outside(&cushions, &trace.constants, stretch, figures);
+            measure_outside(&cushions, &trace.constants, stretch, figures);
         }
         if trace.kept_until == f64::INFINITY {
             figures.jump.note(last.truncate().distance(trace.end.balls[ball].position), trace.end.time);
         }
     }
     for (first, second) in PAIRS {
-        overlaps(&trace.constants, &balls[first], &balls[second], figures);
+        measure_overlaps(&trace.constants, &balls[first], &balls[second], figures);
     }
-    contacts(&cushions, trace, &balls, figures);
+    measure_contact_gaps(&cushions, trace, &balls, figures);
 }
 
-/// How far a stretch leads into a cushion: on the cloth beyond the ball's reach, in the air nearer to the nose than a radius.
-fn outside(cushions: &Cushions, constants: &Constants, stretch: &Stretch, figures: &mut Figures) {
+/// Measures how far a stretch penetrates a cushion: on the cloth beyond the ball's reach, in the air closer to the nose than a
+/// radius.
+fn measure_outside(cushions: &Cushions, constants: &Constants, stretch: &Stretch, figures: &mut Figures) {
     if stretch.motion == Motion::OffTable {
         return;
     }
@@ -117,15 +118,15 @@ fn outside(cushions: &Cushions, constants: &Constants, stretch: &Stretch, figure
         inwards[0] += n.abs().dot(constants.reach);
         let lasts = stretch.end - stretch.begin;
         if stretch.motion != Motion::Flying {
-            // Most stretches are too far from a cushion to get there.
-            if inwards[0] > farthest(&inwards.map(f64::abs), stretch.terms, lasts) {
+            // Most stretches are too far from a cushion to reach it.
+            if inwards[0] > max_displacement(&inwards.map(f64::abs), stretch.terms, lasts) {
                 continue;
             }
             let found = least(&inwards[..stretch.terms], lasts, PRECISION);
             figures.outside.note(-found.value, stretch.begin + found.at);
             continue;
         }
-        // From the nose to the centre: how far in, how far up.
+        // From the nose to the ball's centre: inwards and upwards.
         let [x, v, _, ..] = inwards;
         let [z, w, k, ..] = stretch.place.map(|c| c.z);
         let (x, z) = (x + cosine, z - sine);
@@ -143,13 +144,13 @@ fn outside(cushions: &Cushions, constants: &Constants, stretch: &Stretch, figure
     }
 }
 
-/// How far a course whose coefficients have these sizes can lead within `time`.
-fn farthest(sizes: &[f64; 6], terms: usize, time: f64) -> f64 {
+/// Upper bound of the displacement within `time` on a course whose coefficients have these magnitudes.
+fn max_displacement(sizes: &[f64; 6], terms: usize, time: f64) -> f64 {
     sizes[1..terms].iter().rev().fold(0.0, |sum, size| (sum + size) * time)
 }
 
-/// How deep two balls overlap on their courses, which share every moment.
-fn overlaps(constants: &Constants, first: &[Stretch], second: &[Stretch], figures: &mut Figures) {
+/// Measures the overlap of two balls on their courses, which cover the same times.
+fn measure_overlaps(constants: &Constants, first: &[Stretch], second: &[Stretch], figures: &mut Figures) {
     let diameter = 2.0 * constants.radius;
     let (mut i, mut j) = (0, 0);
     while let (Some(one), Some(other)) = (first.get(i), second.get(j)) {
@@ -161,14 +162,14 @@ fn overlaps(constants: &Constants, first: &[Stretch], second: &[Stretch], figure
             let d: [DVec3; 6] = std::array::from_fn(|power| c1[power] - c2[power]);
             let time = until - from;
             let terms = one.terms.max(other.terms);
-            if d[0].length() - diameter <= farthest(&d.map(DVec3::length), terms, time) {
+            if d[0].length() - diameter <= max_displacement(&d.map(DVec3::length), terms, time) {
                 let mut gap = [0.0; MAX_DEGREE + 1];
                 for (i, a) in d[..terms].iter().enumerate() {
                     for (j, b) in d[..terms].iter().enumerate() {
                         gap[i + j] += a.dot(*b);
                     }
                 }
-                // (|d| - 2R)(|d| + 2R), whose first factor is the gap and whose rounding stays small.
+                // (|d| - 2R)(|d| + 2R): the first factor is the gap, so that rounding stays small.
                 gap[0] = (d[0].length() - diameter) * (d[0].length() + diameter);
                 let found = least(&gap[..2 * terms - 1], time, 2.0 * diameter * PRECISION);
                 let depth = -found.value / (diameter + (found.value + diameter * diameter).max(0.0).sqrt());
@@ -184,8 +185,8 @@ fn overlaps(constants: &Constants, first: &[Stretch], second: &[Stretch], figure
     }
 }
 
-/// What is told to collide touches.
-fn contacts(cushions: &Cushions, trace: &Trace, balls: &[Vec<Stretch>; BALLS], figures: &mut Figures) {
+/// Measures the gaps between reported collision partners.
+fn measure_contact_gaps(cushions: &Cushions, trace: &Trace, balls: &[Vec<Stretch>; BALLS], figures: &mut Figures) {
     let constants = &trace.constants;
     let place = |ball: usize, time: f64| {
         let list = &balls[ball];

@@ -1,24 +1,24 @@
-//! The least value of a polynomial on an interval, with a proof: its Bernstein coefficients bound it from below.
+//! Finds the minimum of a polynomial on an interval, with a proof: its Bernstein coefficients are a lower bound.
 
 /// Highest degree: the squared distance of two balls in resting contact, whose courses have degree five.
 pub const MAX_DEGREE: usize = 10;
 
-/// Halvings after which an interval is not divided any more: a shot's longest interval, 100 s, is then 1e-10 s.
+/// Maximum number of halvings of an interval: a shot's longest interval, 100 s, is then divided to 1e-10 s.
 const MAX_HALVINGS: u32 = 40;
 
-/// Where and how low a polynomial gets.
+/// The minimum of a polynomial.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Least {
-    /// The least value found.
+    /// The smallest value found.
     pub value: f64,
-    /// Where, in the polynomial's own variable.
+    /// Its position, in the polynomial's variable.
     pub at: f64,
 }
 
-/// The least value on `[0, end]` of the polynomial with these coefficients, lowest first.
+/// Returns the minimum on `[0, end]` of the polynomial with these coefficients, lowest first.
 ///
-/// If it is below zero it is right to `precision`; whether it is below `-precision` is certain in either case. Values above
-/// zero are only as good as the first look, since nobody asks for them.
+/// A negative minimum is accurate to `precision`, and whether the minimum is below `-precision` is certain. Positive minima are
+/// only as good as the first subdivision, because no caller needs them.
 pub fn least(coefficients: &[f64], end: f64, precision: f64) -> Least {
     let degree = coefficients.len() - 1;
     let mut bernstein = [0.0; MAX_DEGREE + 1];
@@ -55,7 +55,7 @@ fn divide(
     if bound >= found.value.min(0.0) - precision || halvings == 0 {
         return;
     }
-    // De Casteljau's construction at the middle gives both halves.
+    // De Casteljau's algorithm at the middle gives both halves.
     let (mut left, mut right) = (*bernstein, *bernstein);
     for level in 1..=degree {
         left[level - 1] = right[0];

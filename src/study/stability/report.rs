@@ -1,4 +1,4 @@
-//! The stability table: one row a case, and how it is printed.
+//! The stability table, with one row per case, and its output.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{Case, Figures, Finding, Progress, Swept, cases};
 use crate::printing::ProgressLine;
 
-/// How many shots to play, on each of a case's tables.
+/// Number of shots to play on each table of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
     /// Random shots.
@@ -16,18 +16,18 @@ pub struct Plan {
     pub adversarial: u64,
     /// Shots of each stiff or extreme case.
     pub each_case: u64,
-    /// Seed of everything.
+    /// Base seed of all shots.
     pub seed: u64,
 }
 
 impl Plan {
-    /// What the report is made of.
+    /// The plan of the report.
     pub const REPORT: Self = Self { random: 100_000, adversarial: 10_000, each_case: 1_000, seed: 1 };
 
-    /// A tenth of it.
+    /// A tenth of the report.
     pub const QUICK: Self = Self { random: 10_000, adversarial: 1_000, each_case: 100, seed: 1 };
 
-    /// Shots of this case.
+    /// Returns the number of shots of a case.
     pub const fn shots(&self, case: &Case) -> u64 {
         match case.size {
             super::Size::Random => self.random,
@@ -37,39 +37,39 @@ impl Plan {
     }
 }
 
-/// One row.
+/// One row of the table.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What is hard about it.
+    /// Name of the case.
     pub name: &'static str,
-    /// What is checked besides the invariants.
+    /// What is checked in addition to the invariants.
     pub checked: &'static str,
-    /// The worst that was measured.
+    /// The largest errors.
     pub figures: Figures,
-    /// Shots that fail.
+    /// Number of failed shots.
     pub failed: u64,
-    /// What is wrong with the first of them.
+    /// First violation of the first failed shot.
     pub example: Option<String>,
-    /// That shot, on its table.
+    /// The first failed shot, with its table.
     pub finding: Option<Finding>,
-    /// Whether all shots were played. They always are; readers of the JSON may ask.
+    /// Whether all shots were played: always true; part of the JSON format.
     pub complete: bool,
 }
 
 impl Row {
-    /// Plays a case; `watch` hears how far it is.
+    /// Plays a case; `watch` receives the progress.
     pub fn of(case: &Case, plan: &Plan, watch: impl FnMut(Progress) + Send) -> Self {
         let Swept { figures, findings: failed, first } = case.run(plan.shots(case), plan.seed, watch);
         let example = first.as_ref().and_then(|finding| finding.violations.first()).map(ToString::to_string);
         Self { name: case.name, checked: case.holds, figures, failed, example, finding: first, complete: true }
     }
 
-    /// Whether nothing failed.
+    /// Whether no shot failed.
     pub const fn passed(&self) -> bool {
         self.failed == 0
     }
 
-    /// The largest of all errors in places, m.
+    /// Returns the largest of all position errors, m.
     pub fn distance(&self) -> f64 {
         let Figures { overlap, outside, jump, apart, .. } = self.figures;
         // Balls that stay apart have no error.
@@ -83,7 +83,7 @@ impl Row {
         }
     }
 
-    /// The row in the table for a terminal.
+    /// Returns the row for the table on a terminal.
     pub fn line(&self) -> String {
         line(&self.cells())
     }
@@ -103,7 +103,7 @@ impl Row {
     }
 }
 
-/// How many times what is allowed; NaN stays to be seen.
+/// Formats a multiple of the allowed value; NaN stays visible.
 fn multiple(value: f64) -> String {
     if value > 1e4 { format!("{value:.1e}") } else { format!("{:.2}", if value < 0.0 { 0.0 } else { value }) }
 }
@@ -111,7 +111,7 @@ fn multiple(value: f64) -> String {
 /// Columns of the table.
 const COLUMNS: usize = 9;
 
-/// Width of a column of numbers: that of ten million shots.
+/// Width of a column of numbers, enough for ten million shots.
 const NUMBER: usize = 8;
 
 const HEADS: [&str; COLUMNS] = [
@@ -126,7 +126,7 @@ const HEADS: [&str; COLUMNS] = [
     "verdict",
 ];
 
-/// All rows, in order, each as soon as it is played, with a line that tells how far it is.
+/// Plays the rows in order and returns each as soon as it is complete, with a progress line.
 pub fn rows(plan: &Plan) -> impl Iterator<Item = Row> {
     cases().into_iter().map(|case| {
         let mut line = ProgressLine::default();
@@ -136,20 +136,20 @@ pub fn rows(plan: &Plan) -> impl Iterator<Item = Row> {
     })
 }
 
-/// The heads of the same table for a terminal, where there is little room.
+/// Headings of the table on a terminal, which has little room.
 const SHORT_HEADS: [&str; COLUMNS] =
     ["case", "shots", "apart, m", "gained", "missing", "m²/s²", "events", "ms", "verdict"];
 
-/// The heads of the table for a terminal, and what they mean.
+/// Returns the headings of the table on a terminal, and their meaning.
 pub fn heads() -> String {
     format!(
-        "apart: worst overlap, escape, jump or gap; gained: energy, over rounding; missing: energy that nothing explains, over the tolerance, \
-         and in m²/s²; events: most of a shot; ms: the longest shot\n\n{}",
+        "apart: worst overlap, escape, jump or gap; gained: energy gain / rounding; missing: unexplained energy / tolerance \
+         and in m²/s²; events: most of a shot; ms: slowest shot\n\n{}",
         line(&SHORT_HEADS.map(str::to_owned))
     )
 }
 
-/// One line of that table: words stand left, numbers right.
+/// Formats one line of that table: text left-aligned, numbers right-aligned.
 fn line(cells: &[String; COLUMNS]) -> String {
     let longest = cases().iter().map(|case| case.name.chars().count()).max().unwrap_or(0);
     let mut line = String::new();
@@ -164,9 +164,9 @@ fn line(cells: &[String; COLUMNS]) -> String {
     line
 }
 
-/// The table in Markdown, with what each row checks.
+/// Returns the table in Markdown, with what each row checks.
 pub fn markdown(rows: &[Row]) -> String {
-    let mut text = format!("| {} | what must hold besides the invariants |\n", HEADS.join(" | "));
+    let mut text = format!("| {} | what must hold in addition to the invariants |\n", HEADS.join(" | "));
     text.push_str("|---|---:|---:|---:|---:|---:|---:|---:|---|---|\n");
     for row in rows {
         // Writing to a string cannot fail.
@@ -175,41 +175,41 @@ pub fn markdown(rows: &[Row]) -> String {
     text
 }
 
-/// What the page says about energy.
+/// The page's section on energy.
 const AUDIT: &str = "\
-Energy is audited both ways. It never grows, at an event or on the way, beyond rounding (32 ε of the energy, and frictions times the rounding of time). And whatever is lost has been taken by a friction or an impact, which take no less:
+Energy is audited in both directions. It never grows, at an event or between events, beyond rounding (32 ε of the energy, and frictions times the rounding of time). And every loss is explained by a friction or an impact, which dissipate no less:
 
-| what takes energy | by which law | what it may be off by |
+| what dissipates energy | law | tolerance |
 |---|---|---|
 | sliding, rolling and spinning | their closed forms | rounding |
-| a single impact | the formulas of restitution and Coulomb's friction, worked out apart from the engine | rounding |
-| several impacts at once, or on balls that rest against something | the change is the work of impulses in closed contacts that push and rub no more than Coulomb allows | errors of 1e-10 m/s, also times the slip; on balls that rest or touch also the friction of an impulse of 2e-8 √(g R), the speed at which chatters of several contacts end; impulses that the change hardly tells apart, as those of balls all but in a row, are known to the rounding of velocities over what it tells |
-| a ball pressed against one cushion | its equations, integrated | errors of 1e-10 m/s, of 1e-10 m and of a hundred-thousandth of the work |
-| other resting contacts | the accelerations of the recorded course, as far as contacts push | the same, and a thousandth of the accelerations or, where the course obeys the laws at the ends of a piece but less well between them, the share that no forces explain, a hundredth at most |
-| a ball at the edge of sliding, its slip below 2e-5 √(g R) | it may resist rolling in part if that explains its course and the cloth holds it as well as it can | where more than a hundredth of its accelerations stays unexplained, that friction may have another direction than the slip |
+| a single impact | the formulas of restitution and Coulomb's friction, implemented independently of the engine | rounding |
+| several simultaneous impacts, or impacts on balls that rest against something | the change is the work of impulses in closed contacts, which only push and rub no more than Coulomb allows | errors of 1e-10 m/s, also times the slip; for balls that rest or touch also the friction of an impulse of 2e-8 √(g R), the speed at which chatters of several contacts end; impulses that the change hardly determines, as those of balls almost in a row, are known to the rounding of velocities over their independent part of the change |
+| a ball pressed against one cushion | its equations, integrated | errors of 1e-10 m/s, of 1e-10 m and of 1e-5 of the work |
+| other resting contacts | the accelerations of the recorded course, if the contacts push | the same, and 1e-3 of the accelerations or, if the course obeys the laws at the ends of a piece but less well between them, the share that no forces explain, at most 1e-2 |
+| a ball at the edge of sliding, its slip below 2e-5 √(g R) | its rolling resistance may be partial if that explains its course and the cloth's friction is at its limit | if more than 1e-2 of its accelerations stays unexplained, that friction may have another direction than the slip |
 | a chatter that becomes a resting contact | the energy of its bounces, if the contact lasts as long as they would | |
-| balls that never slip | they lose their slip where they begin to press each other, and where an impact makes them slip while they do, as in an impact | what parts those that no forces hold together, 8e-10 √(g R) |
-| impacts slower than 1e-3 √(g R) | they may lose nothing along their normal, in shots that have taken so much work that nothing is let rest any more | |
-| what is stopped | speeds below 1e-7 m/s | 1e-14 m²/s² a ball, and what the impulses in closed contacts that stop them rub |
-| what touches and does not collide | nothing | errors of 1e-10 m/s, of 1e-10 m and of a hundred-thousandth of the work |
-| a landing; heights count, too | the cloth's restitution and friction, worked out hop by hop | rounding |
-| an impact where balls fly | the formulas of the reference engine: in the air one impact after another, on the cloth together where they happen at once | the overlap of the two bodies over a ball's diameter, by which the direction is uncertain |
-| a ball that leaves the table | it takes its energy along | |
+| balls that never slip | their slip ends when they begin to press each other, or when an impact makes them slip while they press, as in an impact | the energy that separates balls which no forces hold together, at 8e-10 √(g R) |
+| impacts slower than 1e-3 √(g R) | they may lose nothing along their normal, in shots past the work limit after which no contact may rest | |
+| motion that is stopped | speeds below 1e-7 m/s | 1e-14 m²/s² a ball, and the friction of the impulses in closed contacts that stop it |
+| bodies that touch without a collision | nothing | errors of 1e-10 m/s, of 1e-10 m and of 1e-5 of the work |
+| a landing, potential energy included | the cloth's restitution and friction, computed hop by hop | rounding |
+| an impact of balls in the air | the formulas of the reference engine: one impact after another in the air, simultaneous impacts on the cloth together | the overlap of the two bodies over a ball's diameter, which makes the direction uncertain |
+| a ball that leaves the table | its whole energy | |
 
-The columns below give the largest that was left in an event, on the way to the next or in a whole shot, in multiples of what is explained and in m²/s² (energy over a ball's mass).";
+The columns below contain the largest residual at an event, between events or in a whole shot, as a multiple of the tolerance and in m²/s² (energy over a ball's mass).";
 
-/// A page of Markdown around the table.
+/// Returns the Markdown page with the table.
 pub fn page(plan: &Plan, rows: &[Row]) -> String {
     let Plan { random, adversarial, each_case, seed } = plan;
     let held = rows.iter().filter(|row| row.passed()).count();
     format!(
         "# Stability on stiff and extreme cases\n\n\
         Made by `carom accuracy --stability` with seed {seed}: {random} random shots, {adversarial} adversarial ones and {each_case} of \
-        each case, on each of a row's tables. {held} of {} rows hold.\n\n\
-        Every shot is checked on its whole course, not at samples: all numbers finite, no ball outside or overlapping another by \
-        more than 1e-9 m between events either (on tables longer than 2.84 m in proportion to their length), no jump between the \
-        pieces of a course, no collision over a gap, time never back, at most 500 events where the row does not say otherwise, an \
-        end, and at most 50 ms of computing. A row that fails says in how many shots, and what happens in the first.\n\n\
+        each case, on each table of a row. {held} of {} rows hold.\n\n\
+        Every shot is checked on its whole course, not at samples: all numbers finite, no ball outside the table or overlapping another by \
+        more than 1e-9 m, between events either (in proportion to the length on tables longer than 2.84 m), no jump between the \
+        pieces of a course, no collision across a gap, no time that runs backwards, at most 500 events unless the row says otherwise, an \
+        end, and at most 50 ms of computing. A failed row states the number of failed shots and the violation in the first.\n\n\
         {AUDIT}\n\n{}",
         rows.len(),
         markdown(rows)

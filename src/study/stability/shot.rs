@@ -1,4 +1,4 @@
-//! A shot as the studies keep it: with the very numbers that a person would write, so that a failure can be repeated.
+//! A shot in the units in which a person would write it, so that a failure can be reproduced exactly.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,8 +7,8 @@ use crate::{physics::CueDegrees, table::Layout};
 /// A layout and a stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shot {
-    /// Where the balls lie.
+    /// Initial positions of the balls.
     pub layout: Layout,
-    /// How the cue ball is struck.
+    /// The stroke.
     pub cue: CueDegrees,
 }

@@ -1,4 +1,4 @@
-//! Many shots on all cores: the same shots and the same findings on every run, whatever the number of threads.
+//! Plays and checks many shots on all cores. The shots and findings are the same on every run, for any number of threads.
 
 use std::{
     fmt,
@@ -14,19 +14,19 @@ use crate::{
     table::Table,
 };
 
-/// Shots that are drawn from one seed: a unit of work for a thread.
+/// Number of shots drawn from one seed: the unit of work of a thread.
 const CHUNK: u64 = 100;
 
-/// How often a shot that is too slow is played again, since it may have been the machine: the least time counts.
+/// Number of repetitions of a slow shot, as the machine may be the cause: the minimum time counts.
 const REPETITIONS: usize = 3;
 
-/// Shots slower than this are not played again, s.
+/// Shots slower than this are not repeated, s.
 const TOO_SLOW_TO_REPEAT: f64 = 0.5;
 
 /// Draws one shot.
 pub type Generator = fn(&Table, &mut Xoshiro256PlusPlus) -> Shot;
 
-/// What must hold of a shot besides the invariants; the error says what is wrong.
+/// A check in addition to the invariants; the error describes the violation.
 pub type Check = fn(&Table, &Shot, &Trace) -> Result<(), String>;
 
 /// Shots to play and check.
@@ -34,24 +34,24 @@ pub type Check = fn(&Table, &Shot, &Trace) -> Result<(), String>;
 pub struct Sweep {
     /// The table.
     pub table: Table,
-    /// What draws the shots.
+    /// The generator of the shots.
     pub generator: Generator,
-    /// What must hold besides, if anything.
+    /// An additional check, if any.
     pub check: Option<Check>,
-    /// How many.
+    /// Number of shots.
     pub shots: u64,
-    /// Seed of all of them.
+    /// Seed of all shots.
     pub seed: u64,
-    /// What counts as a violation on a table as people play on.
+    /// Limits of the invariants on a table of usual size.
     pub limits: Limits,
 }
 
-/// How far a sweep is.
+/// Progress of a sweep.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
     /// Shots done.
     pub done: u64,
-    /// Shots in all.
+    /// Total number of shots.
     pub of: u64,
     /// Findings so far.
     pub findings: u64,
@@ -63,19 +63,19 @@ impl fmt::Display for Progress {
     }
 }
 
-/// What came of many shots.
+/// Result of a sweep.
 #[derive(Clone, Debug, Default)]
 pub struct Swept {
-    /// The worst that was measured.
+    /// The largest errors.
     pub figures: Figures,
-    /// Shots that break something.
+    /// Number of shots with violations.
     pub findings: u64,
-    /// The first of them, in the order in which they are drawn.
+    /// The first of them, in the order of drawing.
     pub first: Option<Finding>,
 }
 
 impl Swept {
-    /// Adds what came of the shots that follow.
+    /// Adds the result of later shots.
     #[must_use]
     pub fn and(mut self, later: Self) -> Self {
         self.figures.merge(&later.figures);
@@ -84,7 +84,7 @@ impl Swept {
 }
 
 impl Sweep {
-    /// Plays and checks all shots on all cores. `watch` hears of the progress now and then.
+    /// Plays and checks all shots on all cores. `watch` receives the progress from time to time.
     pub fn run(&self, watch: impl FnMut(Progress) + Send) -> Swept {
         let chunks: Vec<u64> = (0..self.shots.div_ceil(CHUNK)).collect();
         let watched = Mutex::new((Progress { done: 0, of: self.shots, findings: 0 }, watch));
@@ -99,7 +99,7 @@ impl Sweep {
         swept.into_iter().fold(Swept::default(), Swept::and)
     }
 
-    /// Plays and checks the shots that are drawn from one seed.
+    /// Plays and checks the shots drawn from one seed.
     fn chunk(&self, chunk: u64) -> Swept {
         let (mut trace, mut swept) = (Trace::new(&self.table), Swept::default());
         let limits = self.limits.on(&self.table);
@@ -108,7 +108,7 @@ impl Sweep {
         for _ in begin..self.shots.min(begin + CHUNK) {
             let shot = (self.generator)(&self.table, &mut rng);
             let mut measured = examine(&self.table, &shot, &mut trace);
-            // A shot that has been broken off has failed already.
+            // An aborted shot has failed already.
             let check = self.check.filter(|_| trace.finished);
             let also = check.map_or(Ok(()), |check| check(&self.table, &shot, &trace));
             for _ in 0..REPETITIONS {
@@ -158,8 +158,8 @@ mod tests {
         let picky = Sweep { check: Some(|_, _, _| Err("not to my taste".to_owned())), ..sweep() };
         let mut last = None;
         let Swept { figures, findings, first } = picky.run(|progress| last = Some(progress));
-        let Progress { done, of, findings: told } = last.unwrap();
-        assert_eq!([figures.shots, findings, done, of, told], [1050; 5]);
+        let Progress { done, of, findings: reported } = last.unwrap();
+        assert_eq!([figures.shots, findings, done, of, reported], [1050; 5]);
         let first = first.unwrap();
         assert_eq!(first.shot, random::shot(&picky.table, &mut Xoshiro256PlusPlus::seed_from_u64(picky.seed)));
         assert_eq!(first.what, "not to my taste");

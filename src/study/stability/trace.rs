@@ -1,4 +1,4 @@
-//! The observer that keeps a shot's whole course for the checks, and breaks a shot off that does not end.
+//! An observer that records a shot's whole course for the checks, and aborts a shot that does not end.
 
 use std::{ops::ControlFlow, time::Instant};
 
@@ -11,56 +11,56 @@ use crate::{
 
 use super::Shot;
 
-/// Events after which a shot is broken off. It is no limit of the engine: nothing but a loop without progress comes near.
+/// Number of events after which a shot is aborted. It is no limit of the engine: only a loop without progress comes near it.
 const BREAK_AFTER_EVENTS: usize = 2_000_000;
 
-/// Events, and pieces of one ball's course, that are kept; the rest of a shot that needs more are counted.
-const KEPT: usize = 20_000;
+/// Maximum number of stored events, and of stored pieces of one ball's course. The rest of a longer shot is only counted.
+const MAX_STORED: usize = 20_000;
 
-/// A shot is broken off after this long, s.
+/// Computing time after which a shot is aborted, s.
 const BREAK_AFTER_SECONDS: f64 = 10.0;
 
-/// A piece of a ball's course with the time at which it ended, s.
+/// A piece of a ball's course and its end.
 #[derive(Clone, Debug)]
 pub struct Piece {
-    /// The course.
+    /// The segment of the course.
     pub segment: Segment,
-    /// When it ended, s.
+    /// Time of its end, s.
     pub end: f64,
 }
 
-/// One shot's course. It is used again for the next shot, so that a sweep does not allocate.
+/// The course of one shot. It is reused for the next shot, so that a sweep does not allocate.
 #[derive(Debug)]
 pub struct Trace {
-    /// The table's numbers.
+    /// The table's constants.
     pub constants: Constants,
-    /// Where the balls stood.
+    /// Initial positions of the balls.
     pub layout: Layout,
-    /// What the stroke gave the cue ball.
+    /// Impulse of the stroke on the cue ball.
     pub impulse: Impulse,
-    /// Events in order, until [`Trace::kept_until`].
+    /// Events in order until [`Trace::kept_until`], bounces of resting contacts included.
     pub events: Vec<Event>,
-    /// The pieces of every ball's course that last longer than nothing, in order.
+    /// The pieces of every ball's course with a positive duration, in order.
     pub pieces: [Vec<Piece>; BALLS],
-    /// Time until which everything is kept, s: infinity but for shots with far too many events.
+    /// Time until which everything is stored, s: infinity except for shots with far too many events.
     pub kept_until: f64,
-    /// How many events there were.
+    /// Number of events.
     pub event_count: usize,
-    /// Steps of resting contacts and bounces of chatters.
+    /// Number of steps of resting contacts and of bounces of chatters.
     pub contact_steps: usize,
-    /// How many pieces there were, those of no length too.
+    /// Number of pieces, those without duration included.
     pub steps: usize,
-    /// How the shot ended.
+    /// The final state.
     pub end: End,
-    /// Whether all balls came to rest; otherwise the shot was broken off.
+    /// Whether all balls came to rest; otherwise the shot was aborted.
     pub finished: bool,
-    /// Time that the simulation took, s: the thread's own, where that is to be had.
+    /// Computing time of the simulation, s: CPU time of the thread if available.
     pub seconds: f64,
     started: Instant,
 }
 
 impl Trace {
-    /// An empty trace for shots on `table`.
+    /// Creates an empty trace for shots on `table`.
     pub fn new(table: &Table) -> Self {
         let still = crate::physics::BallState::at_rest(glam::DVec2::ZERO);
         Self {
@@ -80,13 +80,13 @@ impl Trace {
         }
     }
 
-    /// Plays `shot`, which is taken as it is, and keeps its course.
+    /// Plays `shot` without validation, and records its course.
     pub fn play(&mut self, table: &Table, shot: &Shot) {
         let impulse = strike(table, &shot.cue.into());
         self.record(&shot.layout, &impulse, |trace| simulate(table, &shot.layout, &impulse, trace));
     }
 
-    /// Keeps the course of a shot from `layout` that begins with `impulse` and that `play` plays.
+    /// Records the course of a shot that starts from `layout` with `impulse` and is simulated by `play`.
     pub fn record(&mut self, layout: &Layout, impulse: &Impulse, play: impl FnOnce(&mut Self) -> End) {
         self.events.clear();
         self.pieces.iter_mut().for_each(Vec::clear);
@@ -97,14 +97,14 @@ impl Trace {
         (self.end, self.seconds) = timed(|| play(self));
     }
 
-    /// Whether a ball has been in the air.
+    /// Whether any ball was in the air.
     pub fn has_flights(&self) -> bool {
         self.pieces.iter().flatten().any(|piece| piece.segment.motion == Motion::Flying)
     }
 
-    /// Keeps no more once there are `count` of something.
+    /// Stops recording once `count` items of a kind are stored.
     fn fill(&mut self, count: usize) {
-        if count >= KEPT && self.kept_until == f64::INFINITY {
+        if count >= MAX_STORED && self.kept_until == f64::INFINITY {
             let ends = self.pieces.iter().map(|pieces| pieces.last().map_or(0.0, |piece| piece.end));
             self.kept_until = ends.fold(f64::INFINITY, f64::min);
         }
@@ -122,7 +122,7 @@ impl Observer for Trace {
             self.events.push(event);
         }
         self.fill(self.events.len());
-        // The clock is read rarely: it would cost as much as the physics.
+        // The clock is read rarely, because reading it costs as much as the physics.
         let too_long =
             self.event_count.is_multiple_of(1024) && self.started.elapsed().as_secs_f64() > BREAK_AFTER_SECONDS;
         if too_long || self.event_count >= BREAK_AFTER_EVENTS {
@@ -133,7 +133,7 @@ impl Observer for Trace {
     }
 
     fn bounce(&mut self, bounce: Event) {
-        // It is no event of the shot, but an impact of its course.
+        // A bounce is no event of the shot, but an impact of its course.
         if self.kept_until == f64::INFINITY {
             self.events.push(bounce);
         }
@@ -153,7 +153,7 @@ impl Observer for Trace {
 
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
         self.steps += 1;
-        // NaN must not slip through as a piece of no length.
+        // NaN must not pass as a piece without duration.
         if end != segment.start && self.kept_until == f64::INFINITY {
             self.pieces[ball].push(Piece { segment: segment.clone(), end });
             self.fill(self.pieces[ball].len());

@@ -1,4 +1,4 @@
-//! Balls in the air in fixed steps: each parabola, landing and impact is seen at the end of a step, too.
+//! Flights with fixed time steps. Each parabola, landing and impact is detected at the end of a step, as on the cloth.
 
 use std::ops::ControlFlow;
 
@@ -10,17 +10,17 @@ use crate::{
     simulation::{Course, Event, EventKind, Hops, Nose, Rail, Segment},
 };
 
-/// Landings that are located within one step before what is left of the hops is given up.
+/// Maximum number of landings located within one step; the rest of the hops is dropped.
 const LOCATED: i32 = 60;
 
-/// A ball that is thrown up no faster than this stays on the cloth, m/s: its hop would be over before the step is, or, where
-/// landings are located, so would be so many of them.
+/// Returns the rebound speed, m/s, below which a ball stays on the cloth: that of a hop that lasts one step or, if landings are
+/// located, what is left of it after [`LOCATED`] more landings.
 pub(super) fn last_hop(cloth: &Cloth, method: Steps) -> f64 {
     let seen = 0.5 * cloth.gravity * method.dt;
     if method.locate { seen * cloth.restitution.powi(LOCATED) } else { seen }
 }
 
-/// A ball in the air, `time` later.
+/// Returns the state of a ball in the air `time` later.
 pub(super) fn falling(state: &SpatialState, gravity: f64, time: f64) -> SpatialState {
     let fallen = gravity * time * DVec3::Z;
     SpatialState {
@@ -35,33 +35,34 @@ impl Stepper<'_> {
         self.balls[index].segment.motion == Motion::Flying
     }
 
-    /// The way from a ball in the air to the nose of `rail`, m.
-    fn way_to_nose(&self, state: &SpatialState, rail: Rail) -> DVec3 {
+    /// Returns the vector from a ball in the air to the nose of `rail`, m.
+    fn vector_to_nose(&self, state: &SpatialState, rail: Rail) -> DVec3 {
         Nose::of(self.law.cushions.at(rail), self.constants.radius).way_from(&self.constants, rail, state.position)
     }
 
-    /// The same; straight at the rail for one that is deep within it.
+    /// Returns the same vector, or the horizontal vector towards the rail for a ball that is deep within it.
     pub(super) fn to_nose(&self, state: &SpatialState, rail: Rail) -> DVec3 {
-        let way = self.way_to_nose(state, rail);
+        let way = self.vector_to_nose(state, rail);
         let n = rail.normal();
         if way.truncate().dot(n) < 0.0 { way } else { -self.constants.radius * n.extend(0.0) }
     }
 
-    /// Whether the centre of a ball in the air is over the rail behind its nose. One that is lower has gone through it.
+    /// Whether the centre of a ball in the air is over the rail behind its nose. A ball below that height has passed through
+    /// the cushion.
     pub(super) fn is_over(&self, state: &SpatialState, rail: Rail) -> bool {
-        let way = self.way_to_nose(state, rail);
+        let way = self.vector_to_nose(state, rail);
         way.truncate().dot(rail.normal()) >= 0.0 && way.z < 0.0
     }
 
-    /// How far a ball in the air is from the nose, or behind it from the top of the rail, m.
+    /// Returns the distance of a ball in the air to the nose or, behind it, to the top of the rail, m.
     pub(super) fn nose_gap(&self, state: &SpatialState, rail: Rail) -> f64 {
         let radius = self.constants.radius;
-        let way = self.way_to_nose(state, rail);
+        let way = self.vector_to_nose(state, rail);
         let is_passed = way.truncate().dot(rail.normal()) >= 0.0;
         if is_passed { -way.z - radius } else { way.length() - radius }
     }
 
-    /// Starts the cue ball.
+    /// Starts the cue ball with the state after the stroke.
     pub(super) fn start(&mut self, state: SpatialState) -> ControlFlow<()> {
         if state.velocity.z <= self.constants.tolerance.slowest_in_air {
             self.balls[0] = Ball::launched(&self.constants, self.now, state.seen_from_above());
@@ -71,7 +72,7 @@ impl Stepper<'_> {
         self.observer.event(Event { time: self.now, kind: EventKind::Jumps(0) })
     }
 
-    /// Sends a ball off after a blow, into the air if it is thrown up fast enough.
+    /// Launches a ball after an impact, into the air if its upward speed is high enough.
     pub(super) fn send_off(&mut self, index: usize, mut state: SpatialState) -> ControlFlow<()> {
         let was_aloft = self.is_aloft(index);
         let time = self.now;
@@ -111,8 +112,9 @@ impl Stepper<'_> {
             Ball { state, segment: Segment { course: Some(Box::new(Course::Hops(hops))), ..segment }, ends };
     }
 
-    /// A ball comes down on the cloth: it hops again, or stays there. It is found below the cloth, and came there with the speed that
-    /// its energy tells; the speed that it has by now would make hops higher again that are as short as a step.
+    /// Handles a landing: the ball hops again, or stays on the cloth. The ball is detected below the cloth. Its landing speed
+    /// follows from energy conservation: the present speed is too high, and would make hops that are as short as a step higher
+    /// again.
     pub(super) fn land(&mut self, index: usize) -> ControlFlow<()> {
         let Some(cloth) = self.cloth else { return ControlFlow::Continue(()) };
         let mut state = self.balls[index].state;
@@ -135,7 +137,7 @@ impl Stepper<'_> {
         }
     }
 
-    /// Two balls meet of which one at least is in the air.
+    /// Handles a collision of two balls of which at least one is in the air.
     pub(super) fn collide_in_space(&mut self, first: usize, second: usize) -> ControlFlow<()> {
         let (mut one, mut other) = (self.balls[first].state, self.balls[second].state);
         let slowest = self.constants.tolerance.slowest_in_air;
@@ -146,7 +148,7 @@ impl Stepper<'_> {
         self.send_off(second, other)
     }
 
-    /// A ball in the air meets a nose.
+    /// Handles the impact of a ball in the air on a nose.
     pub(super) fn rebound_in_space(&mut self, index: usize, rail: Rail) -> ControlFlow<()> {
         let mut state = self.balls[index].state;
         let d = self.to_nose(&state, rail).normalize();
@@ -156,12 +158,12 @@ impl Stepper<'_> {
         self.send_off(index, state)
     }
 
-    /// A ball leaves the table.
+    /// Takes a ball that has left the table out of play.
     pub(super) fn leave(&mut self, index: usize) {
-        let place = self.balls[index].state.seen_from_above().position;
+        let position = self.balls[index].state.seen_from_above().position;
         self.close(index);
-        let segment = Segment { start: self.now, motion: Motion::OffTable, ..Segment::at_rest(place) };
-        let state = SpatialState { position: place.extend(0.0), velocity: DVec3::ZERO, spin: DVec3::ZERO };
+        let segment = Segment { start: self.now, motion: Motion::OffTable, ..Segment::at_rest(position) };
+        let state = SpatialState { position: position.extend(0.0), velocity: DVec3::ZERO, spin: DVec3::ZERO };
         self.balls[index] = Ball { state, segment, ends: f64::INFINITY };
     }
 }

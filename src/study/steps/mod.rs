@@ -1,6 +1,6 @@
-//! The intuitive method (thesis 3.1): all balls move by a fixed time step, and what has happened meanwhile is seen at its
-//! end. It is here to be compared with the engine: its events come late, balls overlap or pass through each other
-//! (thesis Figures 10 and 11), and it shows by how much.
+//! Simulation with fixed time steps: the intuitive method (thesis 3.1). All balls advance by one step, and events are detected
+//! at its end. It is a baseline for the engine: its events are late, balls overlap or pass through each other (thesis Figures
+//! 10 and 11), and it measures by how much.
 
 mod aloft;
 
@@ -16,52 +16,54 @@ use crate::{
     table::{BALLS, Layout, PAIRS, Table},
 };
 
-/// Events that are located within one step; what is left of a chatter is seen at the step's end.
-const MOST_LOCATED: usize = 64;
+/// Maximum number of events located within one step; the rest of a chatter is detected at the end of the step.
+const MAX_LOCATED: usize = 64;
 
-/// How to step.
+/// Parameters of the stepping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steps {
     /// The time step, s.
     pub dt: f64,
-    /// Whether an event that is seen at the end of a step is located within it. What is over by the end is still missed.
+    /// Whether an event that is detected at the end of a step is located within it. Events that are over before the end are
+    /// missed either way.
     pub locate: bool,
 }
 
-/// A time step that cannot be used.
+/// A time step outside the accepted range.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("dt = {} s is no usable time step; accepted is {} to 1 s", number(*.0), number(Steps::SHORTEST))]
 pub struct StepError(f64);
 
-/// What the steps have made of a shot.
+/// The result of a stepped shot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Stepped {
-    /// How it ended.
+    /// The final state of the balls.
     #[serde(skip)]
     pub end: End,
     /// Number of steps.
     pub steps: u64,
     /// Deepest overlap of two balls, or of a ball and a cushion, m.
     pub deepest_overlap: f64,
-    /// Whether all balls came to rest. Long steps can keep a ball jittering for ever.
+    /// Whether all balls came to rest. Long steps can keep a ball jittering forever.
     pub at_rest: bool,
 }
 
 impl Steps {
-    /// The shortest time step, s: a shot is given a second and more, of which millions of such steps are some seconds of computing.
+    /// The shortest time step, s. The time limit of a shot is a second or more: millions of such steps, which take some seconds
+    /// to compute.
     const SHORTEST: f64 = 3e-7;
 
-    /// Steps of `dt` seconds.
+    /// Creates steps of `dt` seconds.
     ///
     /// # Errors
-    /// [`StepError`] where `dt` is not from 3e-7 to 1.
+    /// [`StepError`] if `dt` is not from 3e-7 to 1.
     pub fn new(dt: f64, locate: bool) -> Result<Self, StepError> {
         if (Self::SHORTEST..=1.0).contains(&dt) { Ok(Self { dt, locate }) } else { Err(StepError(dt)) }
     }
 
-    /// The shortest time step, s, with which a shot takes no more than so many steps.
+    /// Returns the shortest time step, s, with which a shot takes at most `most` steps.
     pub fn finest(table: &Table, impulse: &Impulse, most: f64) -> f64 {
-        longest(table, impulse) / most
+        time_limit(table, impulse) / most
     }
 
     /// Plays a shot as [`simulate`](crate::simulation::simulate) does, step by step.
@@ -70,11 +72,11 @@ impl Steps {
         let velocity = impulse.velocity.extend(impulse.lift);
         let state = SpatialState { velocity, spin: impulse.spin, ..stepper.balls[0].state };
         let mut flow = stepper.start(state);
-        let limit = longest(table, impulse);
+        let limit = time_limit(table, impulse);
         let mut steps = 0_u64;
         while flow.is_continue() && !stepper.at_rest() && steps as f64 * self.dt < limit {
             steps += 1;
-            // A product does not gather rounding as a sum of steps would.
+            // A product does not accumulate rounding errors, as a sum of steps would.
             flow = stepper.step(steps as f64 * self.dt, self);
         }
         let at_rest = stepper.at_rest();
@@ -83,8 +85,8 @@ impl Steps {
     }
 }
 
-/// Longest time that a shot can take, s: no ball of this energy can roll longer, and what still moves then is jitter.
-fn longest(table: &Table, impulse: &Impulse) -> f64 {
+/// Upper bound of the duration of a shot, s. No ball of this energy can roll longer; any motion left then is jitter.
+fn time_limit(table: &Table, impulse: &Impulse) -> f64 {
     let velocity = impulse.velocity.extend(impulse.lift);
     let state = SpatialState { velocity, spin: impulse.spin, position: glam::DVec3::ZERO };
     let speed = (2.0 * state.specific_energy(table.radius, table.gravity)).sqrt();
@@ -92,7 +94,7 @@ fn longest(table: &Table, impulse: &Impulse) -> f64 {
     1.0 + hops + speed / rolling_deceleration(table)
 }
 
-/// A ball and the segment that its present motion belongs to.
+/// A ball and the segment of its present motion.
 #[derive(Clone)]
 struct Ball {
     state: SpatialState,
@@ -111,12 +113,12 @@ impl Ball {
         !matches!(self.segment.motion, Motion::Stationary | Motion::OffTable)
     }
 
-    /// Whether time changes anything about it: it may spin where it stands.
+    /// Whether the state of the ball changes with time: a ball at rest may still spin.
     fn turns(&self) -> bool {
         self.moves() || self.state.spin.z != 0.0
     }
 
-    /// The state `time` later, with velocity and acceleration as they are now.
+    /// Returns the state `time` later, extrapolated with the present velocity and acceleration.
     fn after(&self, constants: &Constants, time: f64) -> SpatialState {
         if let Some(hops) = self.segment.hops() {
             return aloft::falling(&self.state, hops.cloth.gravity, time);
@@ -129,9 +131,9 @@ impl Ball {
 struct Stepper<'a> {
     constants: Constants,
     law: ImpactLaw,
-    /// The cloth, where balls can leave it.
+    /// The cloth, if balls can leave it.
     cloth: Option<Cloth>,
-    /// A ball that comes down and is thrown up no faster than this stays on the cloth, m/s.
+    /// A ball that lands and rebounds no faster than this stays on the cloth, m/s.
     last_hop: f64,
     observer: &'a mut dyn Observer,
     balls: [Ball; BALLS],
@@ -166,17 +168,17 @@ impl<'a> Stepper<'a> {
         !self.balls.iter().any(Ball::moves)
     }
 
-    /// One step to time `end`.
+    /// Advances one step, to time `end`.
     fn step(&mut self, end: f64, method: Steps) -> ControlFlow<()> {
         if method.locate {
-            for _ in 0..MOST_LOCATED {
+            for _ in 0..MAX_LOCATED {
                 let Some((time, kind)) = self.first_within(end - self.now) else { break };
                 self.advance(self.now + time);
-                self.happen(kind)?;
+                self.apply_event(kind)?;
             }
         }
         self.advance(end);
-        self.see_what_happened()
+        self.detect_events()
     }
 
     fn advance(&mut self, to: f64) {
@@ -186,11 +188,11 @@ impl<'a> Stepper<'a> {
         self.now = to;
     }
 
-    /// Everything that is found at the end of a step, in a fixed order: which came first is not known.
-    fn see_what_happened(&mut self) -> ControlFlow<()> {
+    /// Handles all events detected at the end of a step, in a fixed order, because their true order is not known.
+    fn detect_events(&mut self) -> ControlFlow<()> {
         for index in 0..BALLS {
             if self.balls[index].moves() && self.balls[index].ends <= self.now {
-                self.happen(self.end_of_motion(index))?;
+                self.apply_event(self.end_of_motion(index))?;
             }
         }
         for index in 0..BALLS {
@@ -201,8 +203,8 @@ impl<'a> Stepper<'a> {
                     if matches!(kind, EventKind::BallRail(..)) {
                         self.deepest_overlap = self.deepest_overlap.max(-self.rail_gap(index, &ball.state, rail));
                     }
-                    if self.nears_rail(index, &ball.state, rail) {
-                        self.happen(kind)?;
+                    if self.approaches_rail(index, &ball.state, rail) {
+                        self.apply_event(kind)?;
                     }
                 }
             }
@@ -211,10 +213,10 @@ impl<'a> Stepper<'a> {
             let (a, b) = (&self.balls[first], &self.balls[second]);
             let apart = a.state.position - b.state.position;
             let reach = 2.0 * self.constants.radius;
-            if self.can_meet(first, second) && apart.length_squared() < reach * reach {
+            if self.can_collide(first, second) && apart.length_squared() < reach * reach {
                 self.deepest_overlap = self.deepest_overlap.max(reach - apart.length());
                 if apart.dot(a.state.velocity - b.state.velocity) < 0.0 {
-                    self.happen(EventKind::BallBall(first, second))?;
+                    self.apply_event(EventKind::BallBall(first, second))?;
                 }
             }
         }
@@ -229,13 +231,13 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    /// Whether two balls can meet: one of them moves, and both are on the table.
-    fn can_meet(&self, first: usize, second: usize) -> bool {
+    /// Whether two balls can collide: one of them moves, and both are on the table.
+    fn can_collide(&self, first: usize, second: usize) -> bool {
         let balls = [&self.balls[first], &self.balls[second]];
         balls.iter().any(|ball| ball.moves()) && balls.iter().all(|ball| ball.segment.motion != Motion::OffTable)
     }
 
-    /// How far a ball is from what a rail does to it, m.
+    /// Returns the distance of a ball to a cushion, m.
     fn rail_gap(&self, index: usize, state: &SpatialState, rail: Rail) -> f64 {
         if self.balls[index].segment.motion == Motion::Flying {
             return self.nose_gap(state, rail);
@@ -244,14 +246,14 @@ impl<'a> Stepper<'a> {
         n.abs().dot(self.constants.reach) + state.position.truncate().dot(n)
     }
 
-    /// What happens to a ball whose gap to a rail has closed.
+    /// Returns the event of a ball whose gap to a cushion has closed.
     fn rail_event(&self, index: usize, state: &SpatialState, rail: Rail) -> EventKind {
         let leaves = self.balls[index].segment.motion == Motion::Flying && self.is_over(state, rail);
         if leaves { EventKind::LeavesTable(index) } else { EventKind::BallRail(index, rail) }
     }
 
-    /// Whether a ball moves towards a rail, or comes down behind its nose.
-    fn nears_rail(&self, index: usize, state: &SpatialState, rail: Rail) -> bool {
+    /// Whether a ball moves towards a cushion, or comes down behind its nose.
+    fn approaches_rail(&self, index: usize, state: &SpatialState, rail: Rail) -> bool {
         if self.balls[index].segment.motion == Motion::Flying {
             return self.is_over(state, rail) || state.velocity.dot(self.to_nose(state, rail)) > 0.0;
         }
@@ -262,7 +264,7 @@ impl<'a> Stepper<'a> {
         first.position.distance(second.position) - 2.0 * self.constants.radius
     }
 
-    /// The first event that shows at the end of the next `span` seconds, and when within them it happens.
+    /// Returns the first event that is detected at the end of the next `span` seconds, and its time within the span.
     fn first_within(&self, span: f64) -> Option<(f64, EventKind)> {
         let mut first: Option<(f64, EventKind)> = None;
         let mut offer = |time: f64, kind| {
@@ -279,14 +281,14 @@ impl<'a> Stepper<'a> {
                 let gap = |time| self.rail_gap(index, &after(index, time), rail);
                 if let Some(time) = closing(gap, span) {
                     let there = after(index, time);
-                    if self.nears_rail(index, &there, rail) {
+                    if self.approaches_rail(index, &there, rail) {
                         offer(time, self.rail_event(index, &there, rail));
                     }
                 }
             }
         }
         for (one, other) in PAIRS {
-            if self.can_meet(one, other) {
+            if self.can_collide(one, other) {
                 let gap = |time| self.pair_gap(&after(one, time), &after(other, time));
                 let approach = |time| {
                     let (a, b) = (after(one, time), after(other, time));
@@ -300,8 +302,8 @@ impl<'a> Stepper<'a> {
         first
     }
 
-    /// Lets an event happen at the present moment.
-    fn happen(&mut self, kind: EventKind) -> ControlFlow<()> {
+    /// Applies an event at the present time.
+    fn apply_event(&mut self, kind: EventKind) -> ControlFlow<()> {
         let c = self.constants;
         if let EventKind::RollingStationary(index) = kind
             && self.rolls_on(index)
@@ -335,7 +337,7 @@ impl<'a> Stepper<'a> {
                 }
                 self.launch(index, state);
             }
-            // It rolls with the velocity that it has by now, late or not.
+            // The ball rolls with its present velocity, even if the event is late.
             EventKind::SlidingRolling(index) => self.roll(index),
             EventKind::RollingStationary(index) => {
                 let BallState { position, spin, .. } = self.balls[index].state.seen_from_above();
@@ -348,13 +350,13 @@ impl<'a> Stepper<'a> {
         self.observer.event(Event { time: self.now, kind })
     }
 
-    /// Whether a ball that has come to the end of its motion rolls on in the next band of its deceleration.
+    /// Whether a ball at the end of its segment continues to roll in the next deceleration band.
     fn rolls_on(&self, index: usize) -> bool {
         let segment = &self.balls[index].segment;
         segment.motion == Motion::Rolling && !segment.rolls_to_rest(&self.constants)
     }
 
-    /// Lets a ball roll with the velocity that it has.
+    /// Makes a ball roll with its present velocity.
     fn roll(&mut self, index: usize) {
         let mut state = self.balls[index].state.seen_from_above();
         state.spin = rolling_spin(self.constants.radius, state.velocity).extend(state.spin.z);
@@ -379,7 +381,7 @@ impl<'a> Stepper<'a> {
     }
 }
 
-/// Where in `(0, span)` a gap closes that is found closed at the end: by bisection, to the last bit.
+/// Returns the time in `(0, span)` at which a gap closes, if it is closed at the end: by bisection, to the last bit.
 fn closing(gap: impl Fn(f64) -> f64, span: f64) -> Option<f64> {
     if gap(span) >= 0.0 {
         return None;

@@ -1,4 +1,4 @@
-//! What fixed steps miss, and that smaller ones miss less.
+//! Errors of fixed time steps, and their convergence with smaller steps.
 
 use super::*;
 use crate::{
@@ -43,7 +43,7 @@ fn events_located_within_the_step_are_as_exact_as_the_engine() {
 
 #[test]
 fn a_fast_ball_passes_through_another_between_two_steps() {
-    // 2 m/s at 0.1 s a step: 0.2 m from one place to the next, and a ball of 0.06 m between them.
+    // 2 m/s at 0.1 s a step: the ball moves 0.2 m in a step, past a ball of 0.06 m.
     let kinds = |dt| {
         let (recording, _) = play(dt, false, "0,0,0,0,3");
         recording.events().iter().any(|event| event.kind == EventKind::BallBall(0, 2))
@@ -66,14 +66,15 @@ fn every_step_ends_whatever_its_length() {
     }
 }
 
-/// How far steps are from the engine, m, in a shot of which a ball jumps, meets another in the air and hops.
+/// Distance between the final positions of steps and engine, m, in a shot in which a ball jumps, hits another in the air and
+/// hops.
 fn error_of_a_jump(dt: f64, locate: bool) -> f64 {
     let table = Table { flight: Some(crate::table::Flight::default()), ..Table::default() };
     let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(-0.28, 0.01), DVec2::new(0.9, 0.5)]);
     let cue = CueInputs::parse("0.1,0,40,0,3.5").unwrap();
     let exact = Recording::new(&table, &layout, &cue).unwrap();
-    let (stepped, told) = record(Steps::new(dt, locate).unwrap(), &table, &layout, &cue);
-    assert!(told.at_rest);
+    let (stepped, outcome) = record(Steps::new(dt, locate).unwrap(), &table, &layout, &cue);
+    assert!(outcome.at_rest);
     if locate {
         let kinds = |shot: &Recording| shot.events().iter().map(|event| event.kind).collect::<Vec<_>>();
         assert_eq!(kinds(&exact), kinds(&stepped));

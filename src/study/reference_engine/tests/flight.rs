@@ -1,4 +1,4 @@
-//! Balls in the air: against the simulator, and by what they must keep.
+//! Flights, compared with the simulator and with conservation laws.
 
 use super::super::*;
 use crate::{
@@ -12,7 +12,7 @@ use crate::{
 
 type D = DoubleDouble;
 
-/// Each model of a rail, with a cloth that gives back half, nothing, and nearly all.
+/// Each model of the rails, with a cloth of restitution one half, zero, and nearly one.
 fn tables() -> [Table; 5] {
     let rails = Rails { height: Some(0.0365), ..Rails::default() };
     let table = |preset: &str, model, restitution| Table {

@@ -1,10 +1,11 @@
-//! What is lost at landings, by formulas apart from the engine's, and at impacts one after another, by those of the reference engine.
+//! Energy losses at landings, by formulas independent of the engine, and at successive impacts, by those of the reference
+//! engine.
 
 use glam::DVec2;
 
 use super::{
-    doubt::{RESTING_SPEED, STOPPED_SPEED},
     moment::{Bounces, fastest_micro_collision},
+    uncertainty::{RESTING_SPEED, STOPPED_SPEED},
 };
 use crate::{
     physics::{SpatialState, slip},
@@ -15,20 +16,22 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Landings slower than this take less than rounding does, m/s: of a slip they take in proportion to their speed.
+/// Landings slower than this dissipate less than rounding, m/s: the loss from a slip is proportional to their speed.
 const LAST_LANDING: f64 = 1e-18;
 
-/// Share of a speed that rounding may take for one with which two bodies close.
+/// Share of a speed that may be a closing speed by rounding alone.
 const GRAZING: f64 = 16.0 * f64::EPSILON;
 
-/// Energy per mass of a ball, m²/s²: on the cloth just that of its motion along it and of its spin.
+/// Returns the energy per mass of a ball, m²/s². For a ball on the cloth it is exactly that of its horizontal motion and of its
+/// spin.
 pub fn energy(table: &Table, ball: &SpatialState) -> f64 {
     let climb = ball.velocity.z;
     ball.seen_from_above().specific_energy(table.radius) + (0.5 * climb * climb + table.gravity * ball.position.z)
 }
 
-/// What the cloth takes in the first `landings` landings of a flight that begins in the state `start`, m²/s²: of the upright motion all
-/// but the square of the restitution, and by friction `J u - 7/4 J²` of a slip `u` in each.
+/// Returns the energy that the cloth dissipates in the first `landings` landings of a flight from the state `start`, m²/s².
+/// Each landing dissipates the vertical energy except for the square of the restitution, and by friction `J u - 7/4 J²` of a
+/// slip `u`.
 pub fn landings_loss(table: &Table, start: &SpatialState, landings: u32) -> f64 {
     let Some(flight) = table.flight else { return 0.0 };
     let (e, friction) = (flight.restitution, flight.friction.unwrap_or(table.sliding_friction));
@@ -48,49 +51,50 @@ pub fn landings_loss(table: &Table, start: &SpatialState, landings: u32) -> f64 
     lost
 }
 
-/// What the impacts of a moment do.
+/// The result of simultaneous impacts.
 pub struct Impacts {
-    /// The energy that they take, m²/s².
+    /// The dissipated energy, m²/s².
     pub lost: f64,
-    /// How far balls overlap what they meet, or are taken out of it, m: the normals are known no better.
+    /// Overlap of balls with the bodies that they hit, or their displacement out of it, m: the accuracy of the normals.
     pub moved: f64,
-    /// The fastest of the bounces that are left out.
+    /// The fastest of the omitted bounces.
     pub bounces: Option<Bounces>,
 }
 
-/// What is assumed of a moment where the recorded course does not tell: rounding may have decided it.
+/// Assumptions about simultaneous impacts that the recorded course leaves open, because rounding may have decided them.
 #[derive(Clone, Copy, Debug)]
 pub struct Assumptions {
-    /// Whether what closes no faster than rounding counts as closing.
+    /// Whether a closing speed of the size of rounding counts as closing.
     pub grazes: bool,
-    /// What closes so fast at most does so by rounding, m/s.
+    /// Closing speeds up to this count as rounding, m/s.
     pub none: f64,
-    /// Which of the impacts on the cloth close at once with those before them, a bit for each.
+    /// Bit mask of the impacts on the cloth that close at the same time as those before them.
     pub joins: u32,
-    /// Whether balls that have been thrown up so slowly that they do not hop lie on the cloth already.
+    /// Whether balls that rebound too slowly to hop are on the cloth already.
     pub lies: bool,
-    /// Whether slow impacts on the cloth lose nothing, since the shot has taken too much work for anything to rest.
+    /// Whether slow impacts on the cloth lose nothing, because the shot is past the work limit after which no contact may rest.
     pub is_micro: bool,
 }
 
 impl Assumptions {
-    /// Nothing.
+    /// Rounding decides nothing, and all impacts on the cloth join those before them.
     pub const NOTHING: Self = Self { grazes: false, none: 0.0, joins: u32::MAX, lies: false, is_micro: false };
 }
 
-/// Whether an impact of a ball is told before its landing.
-fn meets_before_it_lands(told: &[Event], ball: usize) -> bool {
+/// Whether an impact of a ball is reported before its landing.
+fn meets_before_it_lands(reported: &[Event], ball: usize) -> bool {
     let meets = |event: &Event| match event.kind {
         EventKind::Lands(other) if other == ball => Some(false),
         EventKind::BallBall(first, second) if [first, second].contains(&ball) => Some(true),
         EventKind::BallRail(other, _) if other == ball => Some(true),
         _ => None,
     };
-    told.iter().find_map(meets).unwrap_or(false)
+    reported.iter().find_map(meets).unwrap_or(false)
 }
 
-/// Energy over mass of the slip between two balls on the cloth, m²/s²: if they never slip where they touch, it ends as soon as they rest
-/// against each other. Along the cloth that takes it from their motion and their spin, upright from their spin alone.
+/// Returns the energy per mass of the slip between two balls on the cloth, m²/s². If they never slip at their contact, the slip
+/// ends once they rest against each other. Its horizontal part comes from their motion and spin, its vertical part from their
+/// spin alone.
 fn slip_energy(table: &Table, contact: Contact, balls: &[Ball<f64>; BALLS]) -> f64 {
     let Contact::Balls(first, second) = contact else { return 0.0 };
     let [one, other] = [&balls[first], &balls[second]];
@@ -102,14 +106,15 @@ fn slip_energy(table: &Table, contact: Contact, balls: &[Ball<f64>; BALLS]) -> f
     along * along / 14.0 + upright * upright / 10.0
 }
 
-/// What the impacts do that are told of a `group` of balls: in the air one after another, on the cloth together where they close at
-/// once. `flew` are those balls that have been in the air until now, of which those that have come down are thrown up by the cloth first,
-/// or lie on it, and others land last if that is told; between two that rest from now on, or one and a cushion, there is no restitution.
+/// Computes the reported impacts of a `group` of balls: one after another in the air, together on the cloth if they close at
+/// the same time. `flew` are the balls that were in the air before. Those of them that have come down are first thrown up by
+/// the cloth, or are on it; others land last if a landing is reported. An impact has no restitution if its bodies rest against
+/// each other from now on.
 pub fn impacts(
     table: &Table,
     [before, after]: [&[SpatialState; BALLS]; 2],
     [flew, group, rested, rests]: [[bool; BALLS]; 4],
-    told: &[Event],
+    reported: &[Event],
     assumed: Assumptions,
 ) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
@@ -123,13 +128,13 @@ pub fn impacts(
         state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
         if group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= slowest {
             lost += settle(&numbers, &mut state);
-            if assumed.lies && meets_before_it_lands(told, ball) {
+            if assumed.lies && meets_before_it_lands(reported, ball) {
                 state.motion = Motion::Flying;
             }
         }
         state
     });
-    let contacts: Vec<Contact> = told
+    let contacts: Vec<Contact> = reported
         .iter()
         .filter_map(|event| Contact::of_event(event.kind))
         .filter(|contact| group[contact.balls().0])
@@ -146,7 +151,7 @@ pub fn impacts(
             gripping.push(*contact);
         }
     }
-    // Of the impacts of one contact it is the last after which it stays closed.
+    // The contact stays closed after the last of its impacts.
     let mut contacts = contacts
         .iter()
         .enumerate()
@@ -159,8 +164,8 @@ pub fn impacts(
     let rounding = |contact: &Contact, balls: &[Ball<f64>; BALLS]| {
         let (first, second) = contact.balls();
         let speed = |ball: usize| balls[ball].velocity.length();
-        let held = if contact.is_among(rested) { RESTING_SPEED } else { 0.0 };
-        held.max(assumed.none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
+        let resting_speed = if contact.is_among(rested) { RESTING_SPEED } else { 0.0 };
+        resting_speed.max(assumed.none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
     };
     while let Some((contact, stays, _)) = contacts.next() {
         if contact.is_aloft(&balls) {
@@ -189,14 +194,14 @@ pub fn impacts(
             }
             let is_slow = |contact: &Contact| -contact.opening(&balls) < fastest_micro_collision(table);
             let law = if assumed.is_micro && round.iter().all(is_slow) { &lossless } else { &numbers };
-            // Where no pushes are found, nothing is explained.
+            // If no impulses are found, nothing is explained.
             lost += collide_at_once(law, &mut balls, &round, &staying, &mut Vec::new()).unwrap_or(0.0);
         }
         for ball in balls.iter_mut().filter(|ball| ball.velocity.z > 0.0) {
             ball.motion = Motion::Flying;
         }
     }
-    for event in told {
+    for event in reported {
         if let EventKind::Lands(ball) = event.kind
             && group[ball]
             && balls[ball].motion == Motion::Flying

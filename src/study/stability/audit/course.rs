@@ -1,4 +1,4 @@
-//! One ball's course as the audit walks along it, piece by piece.
+//! A cursor over one ball's course, piece by piece.
 
 use super::{Motion, aloft::energy, moment::Bounces};
 use crate::{
@@ -8,25 +8,25 @@ use crate::{
     table::Table,
 };
 
-/// Where a ball's course has got to.
+/// The current position in a ball's course.
 #[derive(Clone, Copy)]
 pub struct Course<'a> {
     ball: usize,
     pieces: &'a [Piece],
-    /// How many pieces have begun; one more when the last has ended.
+    /// Number of pieces that have begun; one more when the last has ended.
     begun: usize,
-    /// State at the end of the last piece that has begun, or after the stroke.
+    /// State at the end of the current piece, or after the stroke.
     pub before: SpatialState,
-    /// Energy at that end, at that piece's start, and the largest that entered either, m²/s².
+    /// Energy at that end, at the start of that piece, and the largest involved energy of the last change, m²/s².
     pub energy: f64,
     pub first_energy: f64,
     pub largest: f64,
-    /// Bounces that a resting contact has replaced since a time, s.
+    /// The bounces that a resting contact replaces, and the time from which on, s.
     pub bounces: Option<(f64, Bounces)>,
 }
 
 impl<'a> Course<'a> {
-    /// A course that the stroke begins.
+    /// Creates the course of a ball, starting at the stroke.
     pub fn new(table: &Table, trace: &'a Trace, ball: usize) -> Self {
         let pieces = &trace.pieces[ball];
         let mut before = SpatialState::from(BallState::at_rest(trace.layout.balls[ball]));
@@ -40,7 +40,7 @@ impl<'a> Course<'a> {
         Self { ball, pieces, begun: 0, before, energy, first_energy: energy, largest: energy, bounces: None }
     }
 
-    /// When it changes next, s; infinity after its end.
+    /// Returns the time of the next change, s; infinity after the end.
     pub fn changes(&self) -> f64 {
         match (self.pieces.get(self.begun), self.pieces.last()) {
             (Some(piece), _) => piece.segment.start,
@@ -49,12 +49,12 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// The piece that holds now.
+    /// Returns the current piece.
     pub fn piece(&self) -> Option<&'a Piece> {
         self.pieces.get(self.begun.checked_sub(1)?)
     }
 
-    /// The present course if it is that of a resting contact.
+    /// Returns the segment of the current piece if the ball is in resting contact.
     pub fn resting(&self) -> Option<&'a Segment> {
         self.piece().map(|piece| &piece.segment).filter(|segment| segment.motion == Motion::Resting)
     }
@@ -70,13 +70,13 @@ impl<'a> Course<'a> {
         self.piece().map_or(is_at_end, |piece| piece.segment.motion == Motion::OffTable)
     }
 
-    /// Where the ball is at time `now`, s.
+    /// Returns the state of the ball at time `now`, s.
     pub fn state(&self, constants: &Constants, now: f64) -> SpatialState {
         self.piece().map_or(self.before, |piece| piece.segment.spatial_after(constants, now - piece.segment.start))
     }
 
-    /// Where the ball is `by` seconds after the end of its last piece, were that to go on: on which side of a landing that end lies
-    /// is rounding's choice.
+    /// Returns the state `by` seconds after the end of the current piece, extrapolated beyond it: rounding decides on which
+    /// side of a landing that end is.
     pub fn beside(&self, constants: &Constants, by: f64) -> SpatialState {
         self.piece().map_or(self.before, |piece| {
             piece.segment.spatial_after(constants, (piece.end - piece.segment.start + by).max(0.0))

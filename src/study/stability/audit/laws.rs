@@ -1,5 +1,5 @@
-//! What the laws of impact and of free motion take of the energy, by formulas written apart from the engine's: impacts by those of
-//! the reference engine.
+//! Energy that the laws of impact and of free motion dissipate, by formulas independent of the engine; impacts use those of the
+//! reference engine.
 
 use crate::{
     physics::{BallState, Motion},
@@ -7,8 +7,8 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// What an impact in one contact takes by the reference engine's formulas, m²/s² (thesis equations 17 to 23, and other models of a
-/// table's parts). `None` for Mathavan's rails, which that engine has not.
+/// Returns the energy that an impact at one contact dissipates by the formulas of the reference engine, m²/s² (thesis equations
+/// 17 to 23, and other models of a table's parts). `None` for Mathavan's rails, which that engine does not implement.
 pub fn impact_loss(numbers: &Numbers<f64>, contact: Contact, balls: &[Ball<f64>; BALLS]) -> Option<f64> {
     if contact.opening(balls) >= 0.0 {
         return Some(0.0);
@@ -23,14 +23,15 @@ pub fn impact_loss(numbers: &Numbers<f64>, contact: Contact, balls: &[Ball<f64>;
     }
 }
 
-/// The work of the cloth on a ball that moves freely for `time` seconds from `state` on, m²/s² (thesis equations 1 to 8).
+/// Returns the energy that the cloth dissipates on a ball that moves freely for `time` seconds from `state`, m²/s² (thesis
+/// equations 1 to 8).
 pub fn free_loss(table: &Table, state: &BallState, motion: Motion, time: f64) -> f64 {
-    // In the air nothing is lost, nor by what is out of play.
+    // Nothing is lost in the air, or out of play.
     if matches!(motion, Motion::Flying | Motion::OffTable) {
         return 0.0;
     }
     let (radius, g) = (table.radius, table.gravity);
-    // The work of a force over a speed that it brings down at some rate, as long as there is any.
+    // The work of a force against a speed that decreases at `rate`, until the speed is zero.
     let work = |force: f64, speed: f64, rate: f64| {
         let time = if rate * time < speed { time } else { speed / rate };
         force * time * (speed - 0.5 * rate * time)

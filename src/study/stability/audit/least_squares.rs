@@ -1,35 +1,36 @@
-//! Least squares with few unknowns, by Gram and Schmidt's method with the largest column first: what the unknowns are, or
-//! that they are not unique.
+//! Linear least squares with few unknowns, by the Gram-Schmidt method with column pivoting: returns the solution, or that it is
+//! not unique.
 
 use crate::table::BALLS;
 
-/// Numbers of a column: a ball's velocity and spin.
+/// Length of a column: velocity and spin of every ball.
 pub const SIZE: usize = 5 * BALLS;
 
 /// A column, or the right-hand side.
 pub type Column = [f64; SIZE];
 
-/// A column whose part independent of the others is shorter than this share of the longest has no factor of its own; what it explains
-/// counts all the same.
+/// If the independent part of a column is shorter than this share of the longest column, the factors are not determined; the
+/// part that the columns explain is used all the same.
 const DEPENDENT: f64 = 1e-9;
 
-/// A column whose independent part is shorter than this share explains nothing: on a table of ten metres the normal of two balls is known
-/// to so much, the rounding of their places over their distance. Larger: what balls all but in a row do to each other across the row has
-/// no cause. Smaller: rounding is one.
+/// If the independent part is shorter than this share, the column explains nothing: on a table of ten metres this is the
+/// uncertainty of the normal of two balls, the rounding of their positions over their distance. With a larger value, the
+/// transverse forces of balls almost in a row have no cause. With a smaller value, rounding explains them.
 const NONE: f64 = 2e-14;
 
-/// The best that some columns can do for a right-hand side.
+/// The best approximation of a right-hand side by columns.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// Factor of each column, in their order; `None` where there is more than one solution.
+    /// Factor of each column, in their order; `None` if the solution is not unique.
     pub factors: Option<Vec<f64>>,
-    /// What no factors explain.
+    /// The part that the columns do not explain.
     pub residual: Column,
-    /// The shortest independent part of a column: factors are known to the rounding of what they explain over this.
+    /// Length of the shortest independent part of a column: the accuracy of the factors is the rounding of the right-hand side
+    /// over this.
     pub shortest: f64,
 }
 
-/// Finds factors with which the sum of `columns` comes as near to `target` as can be.
+/// Finds the factors for which the sum of `columns` is closest to `target`.
 pub fn fit(columns: &[Column], target: &Column) -> Fit {
     let count = columns.len();
     let mut rest: Vec<Column> = columns.to_vec();
@@ -69,7 +70,7 @@ pub fn fit(columns: &[Column], target: &Column) -> Fit {
     Fit { factors: Some(factors), residual, shortest }
 }
 
-/// Takes the part along a unit vector out of another and returns its length; twice, which leaves rounding alone.
+/// Removes the component along a unit vector from another vector and returns it. Done twice, so that only rounding remains.
 fn project_out(unit: &Column, from: &mut Column) -> f64 {
     let mut sum = 0.0;
     for _ in 0..2 {
@@ -80,7 +81,7 @@ fn project_out(unit: &Column, from: &mut Column) -> f64 {
     sum
 }
 
-/// The scalar product.
+/// Returns the scalar product.
 pub fn dot(a: &Column, b: &Column) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -103,7 +104,7 @@ mod tests {
         assert!((found.residual[3] - 5.0).abs() < 1e-14 && found.residual[0].abs() < 1e-14);
     }
 
-    /// As where balls all but in a row push each other.
+    /// The case of balls almost in a row that push each other.
     #[test]
     fn columns_that_all_but_repeat_each_other_explain_what_they_differ_by() {
         let apart = |angle: f64| fit(&[column(&[1.0, 0.0]), column(&[1.0, angle])], &column(&[1.0, 0.5e-10]));

@@ -1,18 +1,18 @@
-//! The audit of work: every loss of energy has a friction or an impact that takes it, and takes no more.
+//! The energy audit: every loss of energy must be explained by a friction or an impact, which dissipate no more and no less.
 //!
-//! The energy of a shot falls along the stretches between two changes and at the changes themselves. For each of them the
-//! laws say what is taken, or between which bounds it lies; what the recorded course loses beside that is unexplained,
-//! whether it is too much or too little. Nor does anything gain energy.
+//! The energy of a shot decreases between changes and at the changes themselves. For each of both, the laws give the dissipated
+//! energy or its bounds. The difference between the recorded loss and these values is unexplained, whether it is positive or
+//! negative. In addition, no energy may be gained.
 
 mod aloft;
 mod course;
-mod doubt;
 mod laws;
 mod least_squares;
 mod moment;
 mod motion;
 mod on_cushion;
 mod pressed;
+mod uncertainty;
 
 use crate::{
     physics::{Motion, SpatialState},
@@ -27,31 +27,31 @@ use super::{
 };
 use aloft::Assumptions;
 use course::Course;
-use doubt::Doubt;
 use laws::free_loss;
-use moment::{Moment, Taken};
-use motion::{closed_contacts, plain};
+use moment::{Moment, Residual};
+use motion::{closed_contacts, reference_balls};
+use uncertainty::Uncertainty;
 
-/// Balls and cushions are in contact where their gap is less than this share of the table's length: what a billionth of a
-/// metre is on the shortest bundled table.
+/// Balls and cushions are in contact if their gap is less than this share of the table's length: 1e-9 m on the shortest bundled
+/// table.
 const CLOSED: f64 = 1e-9 / 2.54;
 
-/// The account of one shot.
+/// The energy balance of one shot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Account {
-    /// Energy at the stroke, m²/s².
+    /// Energy after the stroke, m²/s².
     pub start: f64,
-    /// Energy that is lost in the whole shot beyond what the laws take, m²/s²; negative where too little is lost.
+    /// Energy lost in the whole shot beyond the laws, m²/s²; negative if too little is lost.
     pub unexplained: f64,
-    /// How much of that rounding and the tolerances explain, m²/s².
+    /// Tolerance of this: what rounding and the uncertainties explain, m²/s².
     pub allowed: f64,
 }
 
-/// A moment is known to so much of itself: four roundings of its sum with the start of a course.
+/// Relative uncertainty of an event time: four roundings of its sum with the start of a course.
 const TIME_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// So many impacts of a moment are tried in all ways to have closed at once or one after another.
-const MOST_JOINING: usize = 8;
+/// Maximum number of simultaneous impacts for which all partitions into joint and successive impacts are tried.
+const MAX_JOINING: usize = 8;
 
 struct Audit<'a> {
     table: &'a Table,
@@ -61,32 +61,32 @@ struct Audit<'a> {
     account: Account,
     /// Gap below which a contact is closed, m.
     gap: f64,
-    /// How far a ball may be moved on to what it hits, m.
-    farthest: f64,
+    /// Greatest displacement of a ball onto the body that it hits, m.
+    max_displacement: f64,
 }
 
-/// The account of a shot that has been recorded on `table`.
+/// Returns the energy balance of a shot recorded on `table`.
 pub fn account(table: &Table, trace: &Trace) -> Account {
     audit(table, trace, &mut Figures::default())
 }
 
-/// Takes account of a shot and notes the largest gain and the largest unexplained loss of its parts and of the whole.
+/// Audits a shot, and records the largest gain and the largest unexplained loss of its parts and of the whole.
 pub(super) fn audit(table: &Table, trace: &Trace, figures: &mut Figures) -> Account {
     let courses = std::array::from_fn(|ball| Course::new(table, trace, ball));
     let start = courses.iter().map(|course: &Course| course.energy).sum();
     let account = Account { start, ..Account::default() };
-    let farthest = Limits::STRICT.on(table).distance;
+    let max_displacement = Limits::STRICT.on(table).distance;
     let numbers = &Numbers::of(table);
-    let mut audit = Audit { table, trace, numbers, courses, account, gap: CLOSED * table.length, farthest };
+    let mut audit = Audit { table, trace, numbers, courses, account, gap: CLOSED * table.length, max_displacement };
     let mut events = trace.events.as_slice();
     loop {
         let now = audit.next_change();
         if now == f64::INFINITY || now >= trace.kept_until {
             break;
         }
-        let told;
-        (told, events) = events.split_at(events.partition_point(|event| event.time <= now));
-        audit.moment(now, told, figures);
+        let reported;
+        (reported, events) = events.split_at(events.partition_point(|event| event.time <= now));
+        audit.moment(now, reported, figures);
         audit.pieces(now, figures);
     }
     let Account { unexplained, allowed, .. } = audit.account;
@@ -100,8 +100,8 @@ impl Audit<'_> {
         self.courses.iter().map(Course::changes).fold(f64::INFINITY, f64::min)
     }
 
-    /// Everything that changes at time `now`, s, group by group; then the changed balls' next pieces have begun.
-    fn moment(&mut self, now: f64, told: &[Event], figures: &mut Figures) {
+    /// Audits all changes at time `now`, s, group by group, and begins the next pieces of the changed balls.
+    fn moment(&mut self, now: f64, reported: &[Event], figures: &mut Figures) {
         let changed: [bool; BALLS] = std::array::from_fn(|ball| self.courses[ball].changes() == now);
         let rested = self.courses.map(|course| course.resting().is_some());
         let flew = self.courses.map(|course| course.flies());
@@ -119,10 +119,10 @@ impl Audit<'_> {
         let flies = self.courses.map(|course| course.flies());
         let is_off = self.courses.map(|course| course.is_off(self.trace));
         let [before, after] = [&in_space, &after_in_space].map(|balls| balls.map(|ball| ball.seen_from_above()));
-        let mut closed = closed_contacts(self.numbers, &plain(&after), self.gap);
+        let mut closed = closed_contacts(self.numbers, &reference_balls(&after), self.gap);
         let can_touch = std::array::from_fn(|ball| changed[ball] && !flies[ball] && !is_off[ball]);
         closed.retain(|contact| contact.is_among(can_touch));
-        let impacts = told.iter().filter_map(|event| Contact::of_event(event.kind)).collect();
+        let impacts = reported.iter().filter_map(|event| Contact::of_event(event.kind)).collect();
         let (table, numbers) = (self.table, self.numbers);
         let moment = Moment { table, numbers, before, after, rested, rests, impacts, closed };
         let mut seen = [false; BALLS];
@@ -133,12 +133,12 @@ impl Audit<'_> {
             let group = moment.group(ball, changed);
             let members = || (0..BALLS).filter(|&member| group[member]);
             members().for_each(|member| seen[member] = true);
-            if told.iter().any(|event| event.kind == EventKind::LeavesTable(ball)) {
-                // It takes its energy along.
+            if reported.iter().any(|event| event.kind == EventKind::LeavesTable(ball)) {
+                // The ball takes its energy along.
                 continue;
             }
             let moved = || members().map(|member| before[member].position.distance(after[member].position));
-            let mut doubt = Doubt {
+            let mut uncertainty = Uncertainty {
                 energy: members().map(|member| self.courses[member].largest).sum(),
                 time: now,
                 rests: members().any(|member| rested[member] || rests[member])
@@ -147,25 +147,29 @@ impl Audit<'_> {
                 is_struck: !moment.impacts.is_empty() || members().any(|member| rests[member] && !rested[member]),
                 impacts: moment.impacts.iter().filter(|contact| group[contact.balls().0]).count(),
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
-                moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.farthest) },
+                moved: if moment.impacts.is_empty() {
+                    0.0
+                } else {
+                    moved().fold(0.0, f64::max).min(self.max_displacement)
+                },
             };
             let energy = |balls: &[SpatialState; BALLS]| -> f64 {
                 members().map(|member| aloft::energy(self.table, &balls[member])).sum()
             };
             let lost = members().map(|member| before_energy[member]).sum::<f64>() - energy(&after_in_space);
             let flown = members().any(|member| flew[member] || flies[member]);
-            let on_cloth = if flown { None } else { Some(moment.taken(group)) };
-            let Taken { mut unexplained, bounces } = match on_cloth {
-                Some(taken) if taken.unexplained.abs() <= doubt.at_a_change(self.table) => taken,
+            let on_cloth = if flown { None } else { Some(moment.residual(group)) };
+            let Residual { mut unexplained, bounces } = match on_cloth {
+                Some(residual) if residual.unexplained.abs() <= uncertainty.at_a_change(self.table) => residual,
                 _ => {
                     let states = [&in_space, &after_in_space];
-                    let impacts = self.impacts((now, told), &earlier, states, [flew, group, rested, rests], lost);
-                    let taken = Taken { unexplained: lost - impacts.lost, bounces: impacts.bounces };
+                    let impacts = self.impacts((now, reported), &earlier, states, [flew, group, rested, rests], lost);
+                    let residual = Residual { unexplained: lost - impacts.lost, bounces: impacts.bounces };
                     match on_cloth {
-                        Some(other) if other.unexplained.abs() <= taken.unexplained.abs() => other,
+                        Some(other) if other.unexplained.abs() <= residual.unexplained.abs() => other,
                         _ => {
-                            doubt.moved = doubt.moved.max(impacts.moved.min(self.farthest));
-                            taken
+                            uncertainty.moved = uncertainty.moved.max(impacts.moved.min(self.max_displacement));
+                            residual
                         }
                     }
                 }
@@ -174,7 +178,7 @@ impl Audit<'_> {
             for member in members().filter(|&member| rested[member] && !rests[member]) {
                 if let Some((since, bounces)) = self.courses[member].bounces.take() {
                     let left = bounces.energy * (1.0 - (now - since) / bounces.lasts).max(0.0).powi(2);
-                    // What has not been bounced off by now comes back, at least; at most everything.
+                    // At least the energy of the bounces that are not over by now comes back, at most all of it.
                     unexplained = (unexplained + left).max((unexplained + bounces.energy).min(0.0));
                     returned += bounces.energy;
                 }
@@ -182,16 +186,17 @@ impl Audit<'_> {
             if let Some(bounces) = bounces {
                 self.courses[bounces.ball].bounces = Some((now, bounces));
             }
-            self.note(figures, lost + returned, unexplained, &doubt, doubt.at_a_change(self.table));
+            self.note(figures, lost + returned, unexplained, &uncertainty, uncertainty.at_a_change(self.table));
         }
     }
 
-    /// The told impacts of a group one after another, by the laws of the reference engine, in the way that comes nearest to what is
-    /// `lost`: whether rounding has left a height is told by the engine's answer; so is the side of a landing on which an impact lies, what
-    /// else rounding may decide, which contacts bounce no more, and whether nothing rests any more.
+    /// Computes the reported impacts of a group one after another, by the laws of the reference engine, in the variant that is
+    /// closest to `lost`. The variants cover everything that rounding may decide: the remaining height of a ball, which follows
+    /// from the engine's result; the side of a landing on which an impact is; which contacts no longer bounce; and whether any
+    /// contact may rest.
     fn impacts(
         &self,
-        (now, told): (f64, &[Event]),
+        (now, reported): (f64, &[Event]),
         earlier: &[Course; BALLS],
         [before, after]: [&[SpatialState; BALLS]; 2],
         [flew, group, rested, rests]: [[bool; BALLS]; 4],
@@ -203,17 +208,18 @@ impl Audit<'_> {
         };
         let at_impact: [SpatialState; BALLS] = std::array::from_fn(|ball| here(ball, &before[ball]));
         let explained = |balls: &[SpatialState; BALLS], rests: [bool; BALLS], assumed| {
-            let mut impacts = aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], told, assumed);
+            let mut impacts =
+                aloft::impacts(self.table, [balls, after], [flew, group, rested, rests], reported, assumed);
             impacts.lost += energy(&at_impact) - energy(balls);
             impacts
         };
         let mut nearest = explained(&at_impact, [false; BALLS], Assumptions::NOTHING);
-        // A ball that is moved on to what it hits turns the normals of its other contacts.
+        // Moving a ball onto the body that it hits rotates the normals of its other contacts.
         let moved = |ball: usize| before[ball].position.distance(after[ball].position) / (2.0 * self.table.radius);
         let turned = (0..BALLS).filter(|&ball| group[ball]).map(|ball| moved(ball) * before[ball].velocity.length());
         let none = self.trace.constants.tolerance.opening + turned.fold(0.0, f64::max);
-        let several = if told.len() > MOST_JOINING { 0 } else { told.len() };
-        // The first impact joins nothing.
+        let several = if reported.len() > MAX_JOINING { 0 } else { reported.len() };
+        // The first impact joins no other.
         let ways = (0..1_u32 << several).step_by(2).flat_map(|apart| {
             let joins = !apart;
             [(false, 0.0), (true, 0.0), (false, none)].into_iter().flat_map(move |(grazes, none)| {
@@ -240,8 +246,8 @@ impl Audit<'_> {
         nearest
     }
 
-    /// What happens on the pieces that begin at `now`, s: each by itself where a ball moves freely; balls that rest against
-    /// something and each other have common pieces.
+    /// Audits the pieces that begin at `now`, s: individually if a ball moves freely, together for balls that rest against
+    /// something or each other.
     fn pieces(&mut self, now: f64, figures: &mut Figures) {
         let mut resting: [Option<&Piece>; BALLS] = [None; BALLS];
         for (ball, place) in resting.iter_mut().enumerate() {
@@ -253,15 +259,15 @@ impl Audit<'_> {
             }
             let lost = course.first_energy - course.energy;
             let lasts = piece.end - now;
-            let taken = if let Some(hops) = piece.segment.hops() {
+            let dissipated = if let Some(hops) = piece.segment.hops() {
                 let start = piece.segment.spatial_after(&self.trace.constants, 0.0);
                 aloft::landings_loss(self.table, &start, hops.landings(lasts))
             } else {
                 let state = piece.segment.state_after(&self.trace.constants, 0.0);
                 free_loss(self.table, &state, piece.segment.motion, lasts)
             };
-            let doubt = Doubt { energy: course.first_energy, time: piece.end, ..Doubt::default() };
-            self.note(figures, lost, lost - taken, &doubt, doubt.on_the_way(self.table, taken));
+            let uncertainty = Uncertainty { energy: course.first_energy, time: piece.end, ..Uncertainty::default() };
+            self.note(figures, lost, lost - dissipated, &uncertainty, uncertainty.on_the_way(self.table, dissipated));
         }
         while let Some(first) = resting.iter().flatten().next() {
             let until = first.end;
@@ -271,9 +277,9 @@ impl Audit<'_> {
             let energy = members().map(|course| course.largest).sum();
             let courses = together.map(|piece| piece.map(|piece| &piece.segment));
             let work = pressed::work(self.table, self.numbers, &self.trace.constants, &courses, (now, until), self.gap);
-            let doubt = Doubt { energy, time: until, rests: true, ..Doubt::default() };
+            let uncertainty = Uncertainty { energy, time: until, rests: true, ..Uncertainty::default() };
             let unexplained = lost - lost.clamp(work.least, work.most);
-            self.note(figures, lost, unexplained, &doubt, doubt.on_the_way(self.table, work.least));
+            self.note(figures, lost, unexplained, &uncertainty, uncertainty.on_the_way(self.table, work.least));
             resting
                 .iter_mut()
                 .filter(|piece| piece.is_some_and(|piece| piece.end == until))
@@ -281,12 +287,12 @@ impl Audit<'_> {
         }
     }
 
-    fn note(&mut self, figures: &mut Figures, lost: f64, unexplained: f64, doubt: &Doubt, allowed: f64) {
-        figures.gained.note(-lost, doubt.time);
-        figures.energy.note(if lost < 0.0 { -lost / doubt.of_a_gain(self.table) } else { 0.0 }, doubt.time);
-        figures.missing.note(unexplained.abs(), doubt.time);
-        // What has no energy has no rounding either.
-        figures.unexplained.note(unexplained.abs() / allowed.max(f64::MIN_POSITIVE), doubt.time);
+    fn note(&mut self, figures: &mut Figures, lost: f64, unexplained: f64, uncertainty: &Uncertainty, allowed: f64) {
+        figures.gained.note(-lost, uncertainty.time);
+        figures.energy.note(if lost < 0.0 { -lost / uncertainty.of_a_gain(self.table) } else { 0.0 }, uncertainty.time);
+        figures.missing.note(unexplained.abs(), uncertainty.time);
+        // Without energy there is no rounding.
+        figures.unexplained.note(unexplained.abs() / allowed.max(f64::MIN_POSITIVE), uncertainty.time);
         self.account.unexplained += unexplained;
         self.account.allowed += allowed;
     }

@@ -1,8 +1,8 @@
-//! All velocities and spins as one vector, half of whose squared length is the energy, and the directions in which forces
-//! change it.
+//! Represents all velocities and spins as one vector, half of whose squared length is the energy, and the directions in which
+//! forces change it.
 //!
-//! With `c² = 2/5` a ball's part is `(v, c R w)`. A force per mass `f` along a direction `d` changes the vector by `f d`, and
-//! the speed that the force works against is the scalar product with `d`: power, impulse and energy need no masses.
+//! With `c² = 2/5`, the components of a ball are `(v, c R w)`. A force per mass `f` along a direction `d` changes the vector by
+//! `f d`. The speed that the force works against is the scalar product with `d`: power, impulse and energy need no masses.
 
 use super::least_squares::{Column, SIZE, dot};
 use crate::{
@@ -14,7 +14,7 @@ use crate::{
 /// `√(2/5)`.
 const LEVER: f64 = 0.632_455_532_033_675_9;
 
-/// Velocities and spins of all balls as one vector, m/s.
+/// Returns velocities and spins of all balls as one vector, m/s.
 pub fn motion(radius: f64, balls: &[BallState; BALLS]) -> Column {
     let mut vector = [0.0; SIZE];
     for (place, ball) in vector.chunks_exact_mut(5).zip(balls) {
@@ -24,20 +24,20 @@ pub fn motion(radius: f64, balls: &[BallState; BALLS]) -> Column {
     vector
 }
 
-/// Energy per mass of a ball, m²/s².
+/// Returns the energy per mass of a ball, m²/s².
 pub fn energy(motion: &Column) -> f64 {
     0.5 * dot(motion, motion)
 }
 
-/// The balls as the reference engine has them.
-pub fn plain(balls: &[BallState; BALLS]) -> [Ball<f64>; BALLS] {
+/// Converts the balls to those of the reference engine.
+pub fn reference_balls(balls: &[BallState; BALLS]) -> [Ball<f64>; BALLS] {
     balls.map(|BallState { position, velocity, spin }| {
         let [position, velocity] = [position, velocity].map(|v| Vector::new(v.x, v.y, 0.0));
         Ball { velocity, spin: Vector::new(spin.x, spin.y, spin.z), ..Ball::still(position) }
     })
 }
 
-/// The direction of a row: what a unit of its force does.
+/// Returns the direction of a row: the effect of a unit of its force.
 fn column(numbers: &Numbers<f64>, row: &Row<f64>) -> Column {
     let mut balls = [(Vector::zero(), Vector::zero()); BALLS];
     row.push(numbers, 1.0, &mut balls);
@@ -49,34 +49,34 @@ fn column(numbers: &Numbers<f64>, row: &Row<f64>) -> Column {
     vector
 }
 
-/// Along x and y.
+/// Returns the unit vectors along x and y.
 fn axes() -> [Vector<f64>; 2] {
     [Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0)]
 }
 
-/// The velocity of a ball's centre along x and y.
+/// Returns the directions of a ball's velocity along x and y.
 pub fn centre(numbers: &Numbers<f64>, ball: usize) -> [Column; 2] {
     axes().map(|axis| column(numbers, &Row::centre(ball, axis)))
 }
 
-/// The slip of a ball on the cloth along x and y (thesis equation 1).
+/// Returns the directions of a ball's slip on the cloth along x and y (thesis equation 1).
 pub fn on_cloth(numbers: &Numbers<f64>, ball: usize) -> [Column; 2] {
     axes().map(|axis| column(numbers, &Row::cloth(numbers, ball, axis)))
 }
 
-/// `R w_z`.
+/// Returns the direction of the side spin, `R w_z`.
 pub fn about_vertical(numbers: &Numbers<f64>, ball: usize) -> Column {
     column(numbers, &Row::turning(numbers, ball))
 }
 
-/// The opening speed of a contact where the balls are, and its slip along `t = z×n` and along z (thesis equation 21).
+/// Returns the directions of a contact's opening speed, and of its slip along `t = z×n` and along z (thesis equation 21).
 pub fn directions(numbers: &Numbers<f64>, contact: Contact, balls: &[Ball<f64>; BALLS]) -> [Column; 3] {
     let n = contact.normal(balls);
     let slip = |along| Row::slip(numbers, contact, n, along);
     [Row::opening(contact, n), slip(Vector::up().cross(n)), slip(Vector::up())].map(|row| column(numbers, &row))
 }
 
-/// All contacts whose gap is less than `gap`, m.
+/// Returns all contacts whose gap is less than `gap`, m.
 pub fn closed_contacts(numbers: &Numbers<f64>, balls: &[Ball<f64>; BALLS], gap: f64) -> Vec<Contact> {
     Contact::all().filter(|contact| contact.gap(numbers, balls) < gap).collect()
 }

@@ -1,30 +1,30 @@
-//! One ball pressed against one cushion, whose equations are known in full: what its frictions take, integrated from the
-//! recorded start of a stretch by the classical Runge-Kutta method, and nothing else of the recorded course.
+//! One ball pressed against one cushion, whose equations are completely known. Integrates the energy dissipated by its
+//! frictions with the classical Runge-Kutta method; from the recorded course it uses only the start of a stretch.
 
 use glam::{DVec2, DVec3};
 
 use crate::{physics::BallState, table::Table};
 
-/// A step may change a slip by about this share, which makes the relative error of a step `0.05⁵/120`: 3e-9.
+/// Approximate change of a slip in a step, as a share of the slip; the relative error of a step is then `0.05⁵/120`: 3e-9.
 const SHARE: f64 = 0.05;
 
-/// Shortest step, as a share of the stretch: slips that end on it, or stay as good as none, would ask for ever shorter ones. What a slip
-/// does so near to its end is a tenth of what the work may be wrong by.
+/// Shortest step, as a share of the stretch: slips that end on it, or stay almost zero, would need ever shorter steps. The
+/// effect of a slip so near to its end is a tenth of the accepted error of the work.
 const SHORTEST: f64 = 1e-6;
 
-/// The cushion and what acts there.
+/// The cushion and the laws in force there.
 pub struct OnCushion<'a> {
     pub table: &'a Table,
     /// Unit normal from the cushion into the table.
     pub normal: DVec2,
     /// Whether the ball slips at the cushion; otherwise it sticks there.
     pub slips: bool,
-    /// Which way it spins about the vertical all along, 1 or -1; if 0 the cloth keeps it from doing so.
-    pub turning: f64,
+    /// Sign of the side spin on the whole stretch, 1 or -1; 0 if the cloth holds it at zero.
+    pub spin_sign: f64,
 }
 
 impl OnCushion<'_> {
-    /// The energy that a ball which slips on the cloth loses in `time` seconds, m²/s².
+    /// Returns the energy that a ball which slips on the cloth loses in `time` seconds, m²/s².
     pub fn loss(&self, start: &BallState, time: f64) -> f64 {
         let table = self.table;
         let fastest = 3.5 * table.sliding_friction * table.gravity * (1.0 + table.rail_friction);
@@ -52,20 +52,20 @@ impl OnCushion<'_> {
         v + self.table.radius * DVec2::new(-w.y, w.x)
     }
 
-    /// The slip along the cushion, `t = z×n`, and along z.
+    /// Returns the slip along the cushion, `t = z×n`, and along z.
     fn rail_slip(&self, (v, w): (DVec2, DVec3)) -> DVec2 {
         let (radius, t) = (self.table.radius, self.normal.perp());
         DVec2::new(v.dot(t) - radius * w.z, radius * w.truncate().dot(t))
     }
 
-    /// Accelerations of the ball and of its spin.
+    /// Returns the acceleration of the ball and of its spin.
     fn rate(&self, now: (DVec2, DVec3)) -> (DVec2, DVec3) {
         let table = self.table;
-        let (n, t, twist) = (self.normal, self.normal.perp(), 2.5 / table.radius);
+        let (n, t, spin_per_force) = (self.normal, self.normal.perp(), 2.5 / table.radius);
         let cloth = -table.sliding_friction * table.gravity * self.cloth_slip(now).normalize_or_zero();
-        let spinning = -twist * table.spinning_friction * table.gravity * self.turning;
-        // The force at the lowest point turns the ball about a horizontal axis, that at the cushion about the others.
-        let turn = (twist * DVec2::new(cloth.y, -cloth.x)).extend(spinning);
+        let spinning = -spin_per_force * table.spinning_friction * table.gravity * self.spin_sign;
+        // The force at the lowest point rotates the ball about a horizontal axis, the force at the cushion about the others.
+        let turn = (spin_per_force * DVec2::new(cloth.y, -cloth.x)).extend(spinning);
         let push = (-cloth.dot(n)).max(0.0);
         let rub = if self.slips {
             -table.rail_friction * push * self.rail_slip(now).normalize_or_zero()
@@ -74,8 +74,8 @@ impl OnCushion<'_> {
             DVec2::new(-free.x / 3.5, -free.y / 2.5)
         };
         let linear = cloth + push * n + rub.x * t;
-        let mut angular = turn + twist * (rub.y * t).extend(-rub.x);
-        angular.z = if self.turning == 0.0 { 0.0 } else { angular.z };
+        let mut angular = turn + spin_per_force * (rub.y * t).extend(-rub.x);
+        angular.z = if self.spin_sign == 0.0 { 0.0 } else { angular.z };
         (linear, angular)
     }
 }

@@ -1,13 +1,13 @@
-//! What the frictions take from balls that are pressed against cushions or each other, from their recorded courses.
+//! Energy that the frictions dissipate on balls pressed against cushions or each other, from their recorded courses.
 //!
-//! The accelerations tell the normal forces, and with them and the slips every friction's power is known. Its integral is
-//! taken by five points of Gauss and Legendre on each stretch, exact to degree nine.
+//! The accelerations determine the normal forces, and these and the slips the power of every friction. Its integral is computed
+//! with five-point Gauss-Legendre quadrature on each stretch, exact to degree nine.
 
 use super::{
-    doubt::RESTING_SPEED,
     least_squares::{Column, Fit, SIZE, dot, fit},
-    motion::{about_vertical, centre, closed_contacts, directions, motion, on_cloth, plain},
+    motion::{about_vertical, centre, closed_contacts, directions, motion, on_cloth, reference_balls},
     on_cushion::OnCushion,
+    uncertainty::RESTING_SPEED,
 };
 use crate::{
     physics::BallState,
@@ -16,29 +16,30 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Slips and speeds below this at a stretch's start count as none, m/s: what sticks there sticks on the way. It is what the
-/// states are right to...
+/// Slips and speeds below this at a stretch's start count as zero, m/s: a contact that sticks there sticks on the whole
+/// stretch. It is the accuracy of the states...
 const NO_SLIP: f64 = RESTING_SPEED;
 
-/// ... unless it is faster than this at the end, m/s, where the course's interpolation may be off.
+/// ... unless the speed at the end exceeds this, m/s, where the interpolation of the course may be inaccurate.
 const DEPARTED: f64 = 1e-5;
 
-/// A rolling ball that slips by less than this, as a share of `√(g R)`, may be at the edge of both: 1e-5 m/s on tables of usual
+/// A rolling ball with a slip below this, as a share of `√(g R)`, may be at the edge of sliding: 1e-5 m/s on tables of usual
 /// size.
 const CREEPING: f64 = 2e-5;
 
-/// Accelerations of which no larger share is unexplained need no other explanation: with one resistance more, it is not unique.
+/// If the unexplained share of the accelerations is at most this, no other explanation is tried: with one more resistance it is
+/// not unique.
 const EXPLAINED: f64 = 1e-4;
 
-/// Share to which a friction that is at its edge is known where accelerations are read off a course.
+/// Relative accuracy of a friction at its limit, if the accelerations come from a recorded course.
 const EDGE: f64 = 0.05;
 
-/// Share to which the work is known where it is taken from the recorded courses: their spins are cubics between the ends
-/// of a piece, in which a slip may fall to a tenth. Where the course obeys the laws at its ends but less well between them, what no
-/// forces explain of its accelerations there tells the share, up to the second of these.
+/// Relative accuracy of the work from recorded courses: their spins are cubics between the ends of a piece, in which a slip may
+/// decrease to a tenth. If the course obeys the laws at its ends but less well between them, the accuracy is the share of the
+/// accelerations that no forces explain there, up to the second of these values.
 const INTERPOLATED: [f64; 2] = [1e-3, 1e-2];
 
-/// Places on `[-1, 1]` and weights of Gauss' and Legendre's rule.
+/// Nodes on `[-1, 1]` and weights of Gauss-Legendre quadrature.
 const POINTS: [(f64, f64); 5] = [
     (0.0, 0.568_888_888_888_888_9),
     (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
@@ -47,15 +48,15 @@ const POINTS: [(f64, f64); 5] = [
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
-/// Between which bounds the work of the frictions lies, m²/s²: they are one where the forces are unique.
+/// Bounds of the work of the frictions, m²/s²; they are equal if the forces are unique.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Work {
     pub least: f64,
     pub most: f64,
 }
 
-/// The work on the balls that have a resting course, from time `from` to `until`, s; contacts are closed where the gap at both ends is
-/// less than `gap`, m.
+/// Returns the work on the balls with a resting course, from time `from` to `until`, s. A contact is closed if its gap at both
+/// ends is less than `gap`, m.
 pub fn work(
     table: &Table,
     numbers: &Numbers<f64>,
@@ -74,8 +75,8 @@ pub fn work(
     let at_ends = [from, until].map(states);
     let ends = at_ends.map(|balls| motion(table.radius, &balls));
     let half = 0.5 * (until - from);
-    // Between the ends a polynomial may stray by as much as counts as a gap.
-    let at_ends = at_ends.map(|balls| plain(&balls));
+    // Between the ends a polynomial may deviate by as much as the gap of a closed contact.
+    let at_ends = at_ends.map(|balls| reference_balls(&balls));
     let [mut contacts, stay] = at_ends.map(|balls| closed_contacts(numbers, &balls, gap));
     contacts.retain(|contact| contact.is_among(members) && stay.contains(contact));
     let mut sum = Work::default();
@@ -90,7 +91,7 @@ pub fn work(
     if members == [false; BALLS] {
         return sum;
     }
-    // Two balls turn about each other: what their slip was at an end is told by the normal there.
+    // Two balls rotate about each other: the slip at an end depends on the normal there.
     let slip_at = |contact: &Contact, end: usize| {
         let [_, along_t, up] = directions(numbers, *contact, &at_ends[end]);
         size(&along(&[along_t, up], &ends[end]))
@@ -104,11 +105,17 @@ pub fn work(
             Some(course) => rate(course, now - course.start),
             None => BallState::at_rest(glam::DVec2::ZERO),
         });
-        let scene =
-            Scene { table, numbers, members, balls: plain(&states), speeds: motion(table.radius, &states), ends };
+        let scene = Scene {
+            table,
+            numbers,
+            members,
+            balls: reference_balls(&states),
+            speeds: motion(table.radius, &states),
+            ends,
+        };
         scene.power(&motion(table.radius, &rates), &contacts)
     };
-    // Polynomials meet the accelerations at the ends of a piece: forces that are wrong are wrong there, too.
+    // The polynomials match the accelerations at the ends of a piece: wrong forces are wrong there as well.
     let [known, doubtful] = INTERPOLATED;
     let farthest = if [-1.0, 1.0].iter().all(|end| power_at(*end).defect <= EXPLAINED) { doubtful } else { known };
     for (place, weight) in POINTS {
@@ -120,7 +127,8 @@ pub fn work(
     sum
 }
 
-/// The work on a ball that slips on the cloth and is pressed against one cushion and nothing else.
+/// Returns the work on a ball that slips on the cloth and is pressed against one cushion and nothing else; `None` for other
+/// balls.
 fn on_one_cushion(
     table: &Table,
     numbers: &Numbers<f64>,
@@ -132,13 +140,13 @@ fn on_one_cushion(
 ) -> Option<f64> {
     let mut own = contacts.iter().filter(|contact| contact.has(ball));
     let (Some(contact @ Contact::Rail(_, rail)), None) = (own.next(), own.next()) else { return None };
-    let [_, along, up] = directions(numbers, *contact, &plain(&[*state; BALLS]));
+    let [_, along, up] = directions(numbers, *contact, &reference_balls(&[*state; BALLS]));
     let (slides, rubs) = (slips(ends, &on_cloth(numbers, ball)), slips(ends, &[along, up]));
-    // Where a spin ends, rounding leaves the other sign; where it begins, it has none yet.
+    // At the end of a spin, rounding leaves the other sign; at its beginning, there is no sign yet.
     let spin = about_vertical(numbers, ball);
-    let turning = if slips(ends, &[spin]) { (dot(&spin, &ends[0]) + dot(&spin, &ends[1])).signum() } else { 0.0 };
-    let course = OnCushion { table, normal: rail.normal(), slips: rubs, turning };
-    (slides && (rubs || turning != 0.0)).then(|| course.loss(state, time))
+    let spin_sign = if slips(ends, &[spin]) { (dot(&spin, &ends[0]) + dot(&spin, &ends[1])).signum() } else { 0.0 };
+    let course = OnCushion { table, normal: rail.normal(), slips: rubs, spin_sign };
+    (slides && (rubs || spin_sign != 0.0)).then(|| course.loss(state, time))
 }
 
 /// Whether there is a speed along some directions, by its size at a stretch's start and end.
@@ -152,7 +160,7 @@ fn is_slip(start: f64, end: f64) -> bool {
     start > NO_SLIP || end > DEPARTED
 }
 
-/// The speeds along some directions.
+/// Returns the speeds along some directions.
 fn along(directions: &[Column], speeds: &Column) -> Vec<f64> {
     directions.iter().map(|direction| dot(direction, speeds)).collect()
 }
@@ -161,7 +169,7 @@ fn size(along: &[f64]) -> f64 {
     along.iter().map(|along| along * along).sum::<f64>().sqrt()
 }
 
-/// Accelerations as if they were velocities.
+/// Returns the rates of change of a state: velocity and accelerations.
 fn rate(course: &Segment, t: f64) -> BallState {
     let ([p3, p4, p5], [s1, s2, s3]) =
         course.curve().map_or_else(Default::default, |curve| (curve.position, curve.spin));
@@ -172,19 +180,20 @@ fn rate(course: &Segment, t: f64) -> BallState {
     }
 }
 
-/// Between which bounds the power of the frictions lies at one moment, m²/s³.
+/// Bounds of the power of the frictions at one time, m²/s³.
 struct Power {
     least: f64,
     most: f64,
     /// The share of the accelerations that no forces explain.
     defect: f64,
-    /// Whether every resistance to rolling is between none and all, and what is at the edge of sliding holds as well as it can.
+    /// Whether every rolling resistance is between zero and its limit, and the friction of every ball at the edge of sliding is
+    /// at its limit.
     is_possible: bool,
-    /// Whether there is one solution.
+    /// Whether the solution is unique.
     is_unique: bool,
 }
 
-/// The balls at one moment of a stretch.
+/// The balls at one time of a stretch.
 struct Scene<'a> {
     table: &'a Table,
     numbers: &'a Numbers<f64>,
@@ -196,10 +205,10 @@ struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// The speeds along some directions and their size, unless they vanish on the whole stretch.
+    /// Returns the speeds along some directions and their size; `None` if they vanish on the whole stretch.
     ///
-    /// A slip in one direction that has the same sign at both ends has it in between: where it fades, a cubic that fits both ends
-    /// may dip below zero, which would turn the friction round.
+    /// A slip in one direction with the same sign at both ends has this sign in between. When it decays, a cubic that fits both
+    /// ends may fall below zero, which would reverse the friction.
     fn slip(&self, directions: &[Column]) -> Option<(Vec<f64>, f64)> {
         let mut now = along(directions, &self.speeds);
         if let ([direction], [speed]) = (directions, now.as_mut_slice()) {
@@ -212,31 +221,33 @@ impl Scene<'_> {
         (speed > 0.0 && slips(&self.ends, directions)).then_some((now, speed))
     }
 
-    /// The power of all frictions. Of each contact it is known whether it slips.
+    /// Returns the power of all frictions, given for each contact whether it slips.
     fn power(&self, accelerations: &Column, contacts: &[(Contact, bool)]) -> Power {
-        let plain = self.explained(accelerations, contacts, [false; BALLS], false);
-        if plain.defect <= EXPLAINED {
-            return plain;
+        let without_edges = self.explained(accelerations, contacts, [false; BALLS], false);
+        if without_edges.defect <= EXPLAINED {
+            return without_edges;
         }
         let creeping: [bool; BALLS] = std::array::from_fn(|ball| self.members[ball] && self.creeps(ball));
-        // Some balls may be at the edge while others roll.
+        // Some balls may be at the edge of sliding while others roll.
         let at_edge = (1..1_usize << BALLS)
             .map(|some| -> [bool; BALLS] { std::array::from_fn(|ball| creeping[ball] && some >> ball & 1 == 1) })
             .filter(|balls| *balls != [false; BALLS]);
         let is_better = |at_edge: &Power| {
-            at_edge.is_possible && 2.0 * at_edge.defect < plain.defect && (at_edge.is_unique || !plain.is_unique)
+            at_edge.is_possible
+                && 2.0 * at_edge.defect < without_edges.defect
+                && (at_edge.is_unique || !without_edges.is_unique)
         };
-        // The friction of a slip that has hardly begun acts against the rate of the slip, which may have another direction. It is asked for
-        // only where no interpolation explains what is left.
-        let turns = if plain.defect > INTERPOLATED[1] { &[false, true][..] } else { &[false] };
+        // The friction of a slip that has hardly begun acts against the rate of the slip, which may have another direction.
+        // This is tried only if no interpolation explains the residual.
+        let turns = if without_edges.defect > INTERPOLATED[1] { &[false, true][..] } else { &[false] };
         let ways = turns.iter().flat_map(|turns| at_edge.clone().map(|balls| (balls, *turns)));
         ways.map(|(balls, turns)| self.explained(accelerations, contacts, balls, turns))
             .find(is_better)
-            .unwrap_or(plain)
+            .unwrap_or(without_edges)
     }
 
-    /// The same if all balls slide or roll, or if those that may be `at_edge` of both resist as much as keeps them there, and the cloth's
-    /// friction on them `turns`, whatever the slip.
+    /// Returns the power if all balls slide or roll, or if the balls `at_edge` of sliding have the rolling resistance that
+    /// keeps them there. With `turns`, the direction of the cloth's friction on these balls does not depend on the slip.
     fn explained(
         &self,
         accelerations: &Column,
@@ -246,24 +257,24 @@ impl Scene<'_> {
     ) -> Power {
         let g = self.table.gravity;
         let numbers = self.numbers;
-        let mut taken = 0.0;
-        // What the known frictions leave of the accelerations, and what unknown forces there are.
+        let mut dissipated = 0.0;
+        // The accelerations that the known frictions do not explain, and the unknown forces.
         let mut rest = *accelerations;
         let mut unknown: Vec<Column> = Vec::with_capacity(24);
-        // Whether something holds: its forces are unknown then.
+        // Returns whether the friction sticks, so that its forces are unknown.
         let mut cloth = |unknown: &mut Vec<Column>, directions: &[Column], force: f64| {
             let Some((along, speed)) = self.slip(directions) else {
                 unknown.extend_from_slice(directions);
                 return true;
             };
             add(&mut rest, force / speed, &sum(directions, &along));
-            taken += force * speed;
+            dissipated += force * speed;
             false
         };
         let sliding = self.table.sliding_friction * g;
-        // Places of frictions on balls at the edge of sliding, which do all that they can, and the slips there.
+        // Indices of the frictions at their limit on balls at the edge of sliding, and the slips there.
         let mut strained: Vec<(usize, Vec<f64>)> = Vec::new();
-        // Resistances to rolling that are between none and all.
+        // Rolling resistances between zero and their limit.
         let mut creeping: Vec<Resistance> = Vec::new();
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
             let holds = if at_edge[ball] && turns {
@@ -291,7 +302,7 @@ impl Scene<'_> {
         let mut pushes: Vec<Push> = contacts.iter().map(|contact| self.push(contact)).collect();
         let size = |column: &Column| dot(column, column).sqrt();
         loop {
-            // The normal forces come first, then the resistances to rolling.
+            // The normal forces come first, then the rolling resistances.
             let mut columns: Vec<Column> = pushes.iter().map(|push| push.column).collect();
             columns.extend(creeping.iter().map(|resistance| resistance.column));
             columns.extend(&unknown);
@@ -299,20 +310,19 @@ impl Scene<'_> {
             let Fit { factors, residual, .. } = fit(&columns, &rest);
             let defect = size(&residual) / size(accelerations).max(f64::MIN_POSITIVE);
             let Some(forces) = factors else {
-                // Forces that hold each other: none is larger than what all accelerations and the cloth under all balls
-                // ask for.
+                // Forces that balance each other: none is larger than all accelerations and the cloth under all balls require.
                 let largest = size(&rest) + BALLS as f64 * sliding;
                 let prices: f64 = pushes.iter().map(|push| push.price).sum();
                 let rolls: f64 = creeping.iter().map(|resistance| resistance.most * resistance.speed).sum();
-                let most = taken + largest * prices + rolls;
-                // They are not unique, but what they take is: nothing may drive the balls on.
+                let most = dissipated + largest * prices + rolls;
+                // The forces are not unique, but their dissipation is: nothing may drive the balls.
                 let done = std::array::from_fn(|place| rest[place] - residual[place]);
-                let all = taken - dot(&self.speeds, &done);
+                let all = dissipated - dot(&self.speeds, &done);
                 let crept: f64 = strained.iter().map(|(_, slip)| sliding * slip[0].hypot(slip[1])).sum();
-                let is_possible = (1.0 - EDGE) * taken <= all && all <= (1.0 + EDGE) * (most + crept);
-                return Power { least: taken, most, defect, is_possible, is_unique: false };
+                let is_possible = (1.0 - EDGE) * dissipated <= all && all <= (1.0 + EDGE) * (most + crept);
+                return Power { least: dissipated, most, defect, is_possible, is_unique: false };
             };
-            // What would have to pull does not touch.
+            // A contact that would have to pull is open.
             let pulls = (0..pushes.len()).min_by(|a, b| forces[*a].total_cmp(&forces[*b]));
             if let Some(index) = pulls.filter(|&index| forces[index] < 0.0) {
                 pushes.remove(index);
@@ -331,20 +341,20 @@ impl Scene<'_> {
                 strained.iter().map(|(at, slip)| -(holding[*at] * slip[0] + holding[at + 1] * slip[1])).sum();
             let rolls: f64 =
                 creeping.iter().zip(resistances).map(|(law, force)| force.clamp(0.0, law.most) * law.speed).sum();
-            let all = taken + rubbed + rolls + crept;
+            let all = dissipated + rubbed + rolls + crept;
             return Power { least: all, most: all, defect, is_possible, is_unique: true };
         }
     }
 
-    /// Whether a ball's slip on the cloth has hardly begun and may not get on: held by its friction and the resistance to rolling,
-    /// it would slip, and without the resistance, which ends with rolling, it would hold. At such an edge the resistance is as much
-    /// as keeps the ball there (Filippov).
+    /// Whether a ball's slip on the cloth has hardly begun and may not grow. With rolling resistance the friction would not
+    /// hold the ball, and it would slip. Without the resistance, which ends with rolling, the friction would hold it. At such
+    /// an edge the resistance has the value that keeps the ball there (Filippov).
     fn creeps(&self, ball: usize) -> bool {
         let most = CREEPING * (self.table.gravity * self.table.radius).sqrt();
         self.ends.iter().all(|end| size(&along(&on_cloth(self.numbers, ball), end)) <= most)
     }
 
-    /// What a unit of a contact's normal force does and takes.
+    /// Returns the effect and the dissipation of a unit of a contact's normal force.
     fn push(&self, (contact, slips): &(Contact, bool)) -> Push {
         let [mut column, along_t, up] = directions(self.numbers, *contact, &self.balls);
         let slip = along(&[along_t, up], &self.speeds);
@@ -359,26 +369,26 @@ impl Scene<'_> {
     }
 }
 
-/// A ball's resistance to rolling that is between none and all.
+/// A ball's rolling resistance, between zero and its limit.
 struct Resistance {
-    /// What a unit of it does.
+    /// Effect of a unit of it.
     column: Column,
-    /// How large it can be, m/s²: 5/7 of it slow down a ball that rolls.
+    /// Its limit, m/s²: 5/7 of it decelerate a ball that rolls.
     most: f64,
     /// The ball's speed, m/s.
     speed: f64,
 }
 
-/// A contact that pushes.
+/// A contact with a normal force.
 struct Push {
-    /// What a unit of its normal force does, and what its friction takes then.
+    /// Effect of a unit of its normal force, and the power of the friction that belongs to it.
     column: Column,
     price: f64,
-    /// Its friction where it holds.
+    /// The directions of its friction if it sticks.
     sticks: Vec<Column>,
 }
 
-/// Directions times speeds along them.
+/// Returns the sum of the directions times the speeds along them.
 fn sum(directions: &[Column], along: &[f64]) -> Column {
     let mut sum = [0.0; SIZE];
     directions.iter().zip(along).for_each(|(direction, along)| add(&mut sum, *along, direction));

@@ -1,4 +1,4 @@
-//! What the audit sees and what it lets pass.
+//! Violations that the audit detects, and shots that it accepts.
 
 use glam::DVec2;
 use rand::SeedableRng;
@@ -12,7 +12,7 @@ use crate::{
     table::{Flight, JUDGED, Layout, RailModel, Rails},
 };
 
-/// The largest that is unexplained in a shot, in multiples of what is explained, after somebody has tampered with it.
+/// Returns the largest unexplained energy in a shot after tampering, as a multiple of the tolerance.
 fn unexplained(table: &Table, shot: &Shot, tamper: impl FnOnce(&mut Trace)) -> f64 {
     let mut trace = Trace::new(table);
     trace.play(table, shot);
@@ -20,7 +20,7 @@ fn unexplained(table: &Table, shot: &Shot, tamper: impl FnOnce(&mut Trace)) -> f
     left_by(table, &trace)
 }
 
-/// The same of a shot that has been played, by the laws of a table.
+/// Returns the same for a shot that has been played, by the laws of a table.
 fn left_by(table: &Table, trace: &Trace) -> f64 {
     let mut figures = Figures::default();
     audit(table, trace, &mut figures);
@@ -31,7 +31,7 @@ fn case_called(name: &str) -> Case {
     cases().into_iter().find(|case| case.name == name).unwrap()
 }
 
-/// Over two cushions and a ball.
+/// A shot over two cushions and a ball.
 fn lively() -> (Table, Shot) {
     let layout = Layout::new([DVec2::new(-0.5, 0.01), DVec2::ZERO, DVec2::new(1.0, 0.5)]);
     (
@@ -55,7 +55,7 @@ fn pressed() -> (Table, Shot) {
     }
 }
 
-/// The ball's spin about the vertical ends on the way along a cushion.
+/// The side spin of a ball ends on its way along a cushion.
 #[test]
 fn a_spin_that_ends_against_a_cushion_is_explained() {
     let table = Table::preset("thesis").unwrap();
@@ -71,7 +71,7 @@ fn piece_of(trace: &mut Trace, motion: Motion, last: bool) -> &mut Piece {
     if last { all.next_back() } else { all.next() }.expect("the cue ball moves like that")
 }
 
-/// Ends a piece just before its speed is used up, and puts the ball to rest there.
+/// Ends a piece just before its speed reaches zero, and stops the ball there.
 fn stop_from(speed: f64, table: &Table, trace: &mut Trace) {
     let early = speed / crate::physics::rolling_deceleration(table);
     let now = {
@@ -126,7 +126,7 @@ fn an_impact_that_takes_too_much_is_seen_and_one_that_takes_too_little() {
     }
 }
 
-/// What a rail takes whose law the reference engine has not is not asked for.
+/// The audit does not check impacts on rails with a law that the reference engine does not implement.
 #[test]
 fn impacts_on_rails_of_another_law_are_not_judged() {
     let (table, shot) = lively();
@@ -159,7 +159,7 @@ fn a_resting_contact_that_takes_too_much_is_seen() {
     assert!(left > 10.0, "{left}");
 }
 
-/// Balls pressed between others and cushions, by the laws of one table and by those of others.
+/// Balls pressed between others and cushions, audited by the laws of their own table and of others.
 #[test]
 fn coupled_contacts_whose_frictions_are_not_those_of_the_table_are_seen() {
     let case = case_called("a ball pressed between ball and cushion");
@@ -185,7 +185,7 @@ fn coupled_contacts_whose_frictions_are_not_those_of_the_table_are_seen() {
     }
 }
 
-/// A raised stroke upon a ball near by, by the laws of one table and by those of another.
+/// A stroke with a raised cue at a ball near by, audited by the laws of its own table and of others.
 #[test]
 fn in_the_air_impacts_and_landings_that_take_what_their_laws_do_not_are_seen() {
     let flight = Flight { restitution: 0.5, friction: Some(0.2) };
@@ -208,8 +208,8 @@ fn in_the_air_impacts_and_landings_that_take_what_their_laws_do_not_are_seen() {
     }
 }
 
-/// A ball that hits a cushion with 1 mm/s and is left without any speed across it.
-fn dead_impact(table: &Table, rests: bool) -> Taken {
+/// A ball that hits a cushion with 1 mm/s and keeps no speed perpendicular to it.
+fn dead_impact(table: &Table, rests: bool) -> Residual {
     let mut before = [BallState::at_rest(DVec2::ZERO); BALLS];
     before[0].velocity = DVec2::new(0.0, -1e-3);
     let (contact, numbers) = (Contact::Rail(0, Rail::Bottom), &Numbers::of(table));
@@ -218,16 +218,16 @@ fn dead_impact(table: &Table, rests: bool) -> Taken {
     let rests = [rests, false, false];
     let moment =
         Moment { table, numbers, before, after, rested: [false; BALLS], rests, impacts, closed: vec![contact] };
-    moment.taken([true, false, false])
+    moment.residual([true, false, false])
 }
 
 #[test]
 fn an_impact_takes_everything_only_where_the_bounces_that_are_left_out_have_their_time() {
     let table = Table::preset("textbook").unwrap();
     let e = table.rail_restitution;
-    let Taken { unexplained, bounces } = dead_impact(&table, false);
+    let Residual { unexplained, bounces } = dead_impact(&table, false);
     assert!((unexplained - 0.5e-6 * e * e).abs() < 1e-15 && bounces.is_none());
-    let Taken { unexplained, bounces } = dead_impact(&table, true);
+    let Residual { unexplained, bounces } = dead_impact(&table, true);
     let bounces = bounces.unwrap();
     assert!(unexplained.abs() < 1e-15 && (bounces.energy - 0.5e-6 * e * e).abs() < 1e-15);
     assert!(bounces.lasts > 1e-3);

@@ -1,5 +1,5 @@
-//! Chatter of lively contacts: a ball whose spin presses it against a cushion or another ball, and whose bounces lose so
-//! little that hundreds would be needed before they are too small to matter.
+//! Chatter of lively contacts: a ball whose spin presses it against a cushion or another ball. Its bounces lose so little
+//! energy that hundreds are needed before they become negligible.
 
 use glam::DVec2;
 use rand::RngExt;
@@ -20,30 +20,31 @@ pub const CASES: &[Case] = &[
     Case::new("a ball spinning against another, e = 0.99", || lively(0.99), at_ball).checked(HOLDS, few_events),
 ];
 
-/// Events of one chatter, from the first meeting to the end of the contact that it becomes. After that the balls may meet again,
-/// and chatter anew.
+/// Maximum number of events of one chatter, from the first impact to the end of the resulting contact. After that the balls may
+/// meet again and start another chatter.
 const MOST_EVENTS: usize = 60;
 
-/// A flight that is so many times as long as the longest before begins another chatter.
+/// A flight longer than the longest before by this factor starts another chatter.
 const LONGER: f64 = 2.0;
 
-/// Chatters of a shot.
+/// Maximum number of chatters of a shot.
 const MOST_CHATTERS: usize = 12;
 
-const HOLDS: &str = "at most 60 events a chatter, however many its bounces, and 12 chatters; a flight twice as long as those before begins another";
+const HOLDS: &str = "at most 60 events a chatter, regardless of its bounces, and 12 chatters; a flight twice as long as those before begins another";
 
 fn lively(e: f64) -> Vec<Table> {
     variants(&format!("e = {e}"), |table| (table.ball_restitution, table.rail_restitution) = (e, e))
 }
 
-/// So steep that the spin by far outlasts the speed: the ball leaves, comes back, and is pressed for a long time.
+/// Draws a stroke so steep that the spin by far outlasts the speed: the ball leaves, comes back, and is pressed for a long
+/// time.
 fn masse(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> CueDegrees {
     let (a, b) = (rng.random_range(-0.1..0.1), rng.random_range(-0.3..0.3));
     let theta_deg = 90.0 - draw::log_uniform(rng, 0.02, 5.0);
     CueDegrees { a, b, theta_deg, phi_deg, speed: draw::log_uniform(rng, 0.3, 6.0) }
 }
 
-/// The third ball stands out of the way.
+/// Position of the third ball, out of the way.
 fn aside(table: &Table) -> DVec2 {
     0.9 * table.reach()
 }
@@ -67,8 +68,8 @@ fn at_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     Shot { layout, cue: masse(180.0 + turn.to_degrees(), rng) }
 }
 
-/// The events of each chatter, to the end of its contact or the first flight that is much longer than those before: those of a chatter
-/// are ever shorter.
+/// Splits the events into chatters. A chatter ends with its contact, or before the first flight that is much longer than those
+/// before: the flights of one chatter become ever shorter.
 fn chatters(events: &[Event]) -> Vec<&[Event]> {
     let (mut all, mut begin) = (Vec::new(), 0);
     let (mut last, mut longest) = (f64::NAN, 0.0_f64);
@@ -95,7 +96,7 @@ fn few_events(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
     let one = |chatter: &[Event]| {
         let begins = |event: &Event| event.kind == EventKind::ContactBegins(0);
         let (before, after) = chatter.split_at(chatter.iter().position(begins).unwrap_or(chatter.len()));
-        // The trace keeps bounces, too: impacts in the contact, which are no events.
+        // The trace also stores bounces: impacts within the contact, which are no events.
         before.len() + after.iter().filter(|event| !event.kind.is_contact()).count()
     };
     let chatters: Vec<usize> = chatters(&trace.events).into_iter().map(one).collect();

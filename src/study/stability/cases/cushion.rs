@@ -16,17 +16,17 @@ use crate::{
 
 pub const CASES: &[Case] = &[
     Case::new("object ball exactly on a cushion", presets, object_ball)
-        .checked("what is driven into the cushion comes back from it at once", returns),
+        .checked("a ball driven into the cushion rebounds at once", returns),
     Case::new("cue ball exactly on a cushion", presets, cue_ball)
-        .checked("struck into the cushion it comes back, away from it it leaves", leaves),
+        .checked("struck into the cushion it rebounds, struck away it leaves", leaves),
     Case::new("object ball exactly in a corner", presets, corner_ball)
-        .checked("both cushions are hit at the same moment", returns),
+        .checked("both cushions are hit at the same time", returns),
     Case::new("a shot exactly into a corner at 45°", presets, into_corner)
-        .checked("both cushions are hit at the same moment", hits_both),
+        .checked("both cushions are hit at the same time", hits_both),
 ];
 
-/// Times that differ by less are the same moment, s: a ball moves 1e-12 m meanwhile, the rounding of a table's length many
-/// times over.
+/// Times that differ by less count as simultaneous, s: a ball moves 1e-12 m meanwhile, many times the rounding of a table's
+/// length.
 const MOMENT: f64 = 1e-13;
 
 fn on_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (DVec2, Rail) {
@@ -36,7 +36,7 @@ fn on_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (DVec2, Rail) {
     (anywhere * (DVec2::ONE - n.abs()) - n * table.reach(), rail)
 }
 
-/// A shot that drives the ball at `target` `towards` some direction, if there is room for it.
+/// Returns a shot that drives the ball at `target` `towards` some direction; `None` if there is no room for it.
 fn driving(table: &Table, target: DVec2, towards: DVec2, rng: &mut Xoshiro256PlusPlus) -> Option<Shot> {
     let direction = DVec2::from_angle(rng.random_range(-0.5..0.5)).rotate(towards);
     let from = target - 2.0 * table.radius * towards - rng.random_range(0.0..0.6) * direction;
@@ -49,7 +49,7 @@ fn driving(table: &Table, target: DVec2, towards: DVec2, rng: &mut Xoshiro256Plu
 fn object_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     loop {
         let (target, rail) = on_cushion(table, rng);
-        // Into the cushion, from straight to nearly along it.
+        // Into the cushion, from perpendicular to nearly parallel.
         let towards = DVec2::from_angle(rng.random_range(-1.2..1.2)).rotate(-rail.normal());
         if let Some(shot) = driving(table, target, towards, rng) {
             return shot;
@@ -68,7 +68,7 @@ fn corner_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     }
 }
 
-/// The first time ball 1 is hit: every cushion that it touches and is driven into answers at that moment.
+/// Checks that ball 1, when first hit, rebounds simultaneously from every cushion that it touches and is driven into.
 fn returns(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
     let Some(first) = trace.events.iter().find(|event| matches!(event.kind, EventKind::BallBall(..))) else {
         return Ok(());
@@ -86,15 +86,15 @@ fn returns(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
     let pushed = (target - place).normalize();
     for rail in Rail::ALL {
         let n = rail.normal();
-        let stands_there = n.abs().dot(table.reach()) + target.dot(n) == 0.0;
+        let is_there = n.abs().dot(table.reach()) + target.dot(n) == 0.0;
         let answers = |e: &crate::simulation::Event| {
             e.kind == EventKind::BallRail(1, rail) && (e.time - first.time).abs() <= MOMENT
                 || e.kind == EventKind::ContactBegins(1) && (e.time - first.time).abs() <= MOMENT
         };
         // Friction between the balls turns the direction by 7° at most, since the ball has no side spin.
-        if stands_there && pushed.dot(n) < -0.3 && !trace.events.iter().any(answers) {
+        if is_there && pushed.dot(n) < -0.3 && !trace.events.iter().any(answers) {
             return Err(format!(
-                "ball 1 is driven into the {} cushion at {} s, which does not answer",
+                "ball 1 is driven into the {} cushion at {} s, but does not rebound",
                 rail.name(),
                 first.time
             ));
@@ -119,25 +119,25 @@ fn leaves(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
             continue;
         }
         let answers = trace.events.iter().any(|e| e.time == 0.0 && e.kind == EventKind::BallRail(0, rail));
-        // Below this speed it rests rather than bounces.
+        // Below this speed the ball comes to rest instead of bouncing.
         if speed < -1e-9 && !answers {
-            return Err(format!("struck into the {} cushion, which does not answer", rail.name()));
+            return Err(format!("struck into the {} cushion without an impact", rail.name()));
         }
         if speed > 0.0 && answers {
-            return Err(format!("struck away from the {} cushion, which answers", rail.name()));
+            return Err(format!("struck away from the {} cushion, but hits it", rail.name()));
         }
     }
     Ok(())
 }
 
-/// Along the diagonal of a corner, from a distance that is exact in binary.
+/// Draws a shot along the diagonal of a corner, from a distance that is exact in binary.
 fn into_corner(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let signs = draw::corner(rng);
     let distance = f64::from(rng.random_range(1..64)) / 256.0;
     let from = signs * (table.reach() - DVec2::splat(distance));
     let layout = loop {
         let layout = draw::with_others(table, &[from], rng);
-        // Nothing may stand in the way.
+        // No ball may be in the way.
         let clear = layout.balls[1..].iter().all(|ball| (signs * table.reach()).distance(*ball) > 0.6);
         if clear {
             break layout;
@@ -154,6 +154,6 @@ fn hits_both(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
         (Some(first), Some(second)) if (second.time - first.time).abs() <= MOMENT && first.kind != second.kind => {
             Ok(())
         }
-        (first, second) => Err(format!("the cushions are hit at different moments: {first:?}, {second:?}")),
+        (first, second) => Err(format!("the cushions are hit at different times: {first:?}, {second:?}")),
     }
 }

@@ -1,4 +1,4 @@
-//! Balls in the air at their hardest: grazes from above, landings on an edge or on a top, hops without end.
+//! Hard cases of flights: grazes from above, landings on an edge or on the top of a ball, endless hops.
 
 use glam::DVec2;
 use rand::RngExt;
@@ -14,7 +14,7 @@ use crate::{
 
 pub const CASES: &[Case] = &[
     Case::new("grazing a ball from above, relative depth 1e-12 to 1e-3", flying, graze)
-        .checked("hit or missed as the exact numbers say", hit_or_missed),
+        .checked("hit or missed as the exact numbers predict", hit_or_missed),
     Case::new("random shots with the cue raised by up to 60°", flying, raised).of_size(Size::Adversarial),
     Case::new("balls that touch or almost touch, the cue raised by up to 60°", flying_by_thesis, raised_at_touching)
         .of_size(Size::Adversarial),
@@ -37,7 +37,7 @@ fn flying() -> Vec<Table> {
     with("flying", 0.5)
 }
 
-/// Tables on which several impacts at once follow the thesis' laws, which the audit knows.
+/// Tables on which simultaneous impacts follow the thesis' laws, which the audit implements.
 fn flying_by_thesis() -> Vec<Table> {
     flying().into_iter().filter(|table| table.rail == Rails::default()).collect()
 }
@@ -46,7 +46,7 @@ fn lively() -> Vec<Table> {
     with("flying, e_c = 0.99", 0.99)
 }
 
-/// A stroke along x that makes the cue ball jump, with the velocity that it gives it.
+/// Draws a stroke along x that makes the cue ball jump. Returns it with the cue ball's horizontal velocity and vertical speed.
 fn jump(table: &Table, rng: &mut Xoshiro256PlusPlus, speeds: std::ops::Range<f64>) -> (CueDegrees, DVec2, f64) {
     let stroke = CueDegrees {
         b: rng.random_range(-0.2..0.2),
@@ -57,7 +57,8 @@ fn jump(table: &Table, rng: &mut Xoshiro256PlusPlus, speeds: std::ops::Range<f64
     (stroke, impulse.velocity, impulse.lift)
 }
 
-/// At the top of its flight the ball passes another beside and above it, at two radii but for a tiny depth.
+/// Draws a shot in which the ball, at the top of its flight, passes next to and above another ball, at a distance of two radii
+/// minus a tiny depth.
 fn graze(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     loop {
         let (stroke, velocity, lift) = jump(table, rng, 1.0..4.0);
@@ -82,9 +83,9 @@ fn graze(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 fn hit_or_missed(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
     let impulse = strike(table, &shot.cue.into());
     let (time, height) = (impulse.lift / table.gravity, 0.5 * impulse.lift * impulse.lift / table.gravity);
-    let way = shot.layout.balls[1] - shot.layout.balls[0] - time * impulse.velocity;
-    let depth = 1.0 - way.length().hypot(height) / (2.0 * table.radius);
-    // What else is in the way comes first.
+    let offset = shot.layout.balls[1] - shot.layout.balls[0] - time * impulse.velocity;
+    let depth = 1.0 - offset.length().hypot(height) / (2.0 * table.radius);
+    // Anything else in the way comes first.
     let first = trace.events.iter().find(|event| event.kind.is_contact());
     let hit = first.is_some_and(|event| event.kind == EventKind::BallBall(0, 1) && event.time < 2.0 * time);
     let met_other = first.is_some_and(|event| event.kind != EventKind::BallBall(0, 1) && event.time < 2.0 * time);
@@ -95,7 +96,7 @@ fn hit_or_missed(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String
     }
 }
 
-/// Coming down the ball meets the nose of the right cushion, at any height at which it can.
+/// Draws a shot in which the ball lands on the nose of the right cushion, at any possible height.
 fn on_the_nose(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let [sine, cosine] = Cushions::of(table).at(Rail::Right).nose();
     loop {
@@ -115,7 +116,7 @@ fn on_the_nose(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     }
 }
 
-/// Coming down the ball meets another exactly from above.
+/// Draws a shot in which the ball lands exactly on top of another.
 fn on_top(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     loop {
         let (stroke, velocity, lift) = jump(table, rng, 2.0..5.0);
@@ -132,7 +133,7 @@ fn on_top(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     }
 }
 
-/// A cue that people raise: seldom steeper.
+/// Greatest cue elevation, degrees: players seldom raise the cue further.
 const STEEPEST: f64 = 60.0;
 
 fn raised(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
@@ -152,7 +153,7 @@ fn hops(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     Shot { layout: Layout::random(table, rng), cue: stroke }
 }
 
-/// Along the diagonal of a corner, low enough to meet both noses at the same moment.
+/// Draws a shot along the diagonal of a corner, low enough to hit both noses at the same time.
 fn corner(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     loop {
         let way = rng.random_range(0.15..0.9) * table.reach().y;

@@ -1,4 +1,4 @@
-//! A ball that just touches another, or just misses it: whether it does is decided by numbers that are known exactly.
+//! A ball that just touches another, or just misses it. The outcome follows from exactly known numbers.
 
 use glam::DVec2;
 use rand::RngExt;
@@ -13,13 +13,13 @@ use crate::{
 };
 
 pub const CASES: &[Case] = &[Case::new("grazing contact, relative depth 1e-15 to 1e-3", presets, shot)
-    .checked("hit or missed as the exact numbers say", check)];
+    .checked("hit or missed as the exact numbers predict", check)];
 
-/// Depths below this share of the diameter are not told apart from none: the diameter's square and the distance's are rounded
-/// to half an ε each, and so is their difference's root.
+/// Depths below this share of the diameter are indistinguishable from zero: the squares of diameter and distance are each
+/// rounded to half an ε, and so is the root of their difference.
 const UNDECIDED: f64 = 4.0 * f64::EPSILON;
 
-/// The ball runs exactly along x, since neither its velocity nor its spin has another part.
+/// The ball moves exactly along x, because neither its velocity nor its spin has a sideways effect.
 fn shot(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let depth = draw::one_of(rng, &[-1.0, 1.0]) * draw::log_uniform(rng, 1e-15, 1e-3);
     let beside = 2.0 * table.radius * (1.0 - depth) * draw::one_of(rng, &[-1.0, 1.0]);
@@ -42,7 +42,7 @@ fn check(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
         trace.events.iter().find(|event| matches!(event.kind, EventKind::BallBall(..) | EventKind::BallRail(..))),
         Some(event) if event.kind == EventKind::BallBall(0, 1)
     );
-    // A ball with backspin may turn back before it gets there.
+    // A ball with backspin may return before it gets there.
     let passes =
         trace.pieces[0].iter().any(|piece| piece.segment.position_after(piece.end - piece.segment.start).x > 0.0);
     if depth > UNDECIDED && !hit && passes {

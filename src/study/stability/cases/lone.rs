@@ -1,4 +1,5 @@
-//! A ball that meets nothing, in closed form: written apart from the engine, straight from thesis equations (25) and (26).
+//! A ball without impacts, in closed form: implemented independently of the engine, directly from thesis equations (25) and
+//! (26).
 
 use glam::DVec2;
 
@@ -7,10 +8,10 @@ use crate::{
     table::Table,
 };
 
-/// Rounding of a place on the table, in ε: some ten operations on each of slide and roll.
+/// Rounding of a position on the table, in ε: some ten operations for sliding and rolling each.
 const OPERATIONS: f64 = 64.0;
 
-/// If the cue ball meets nothing, it must stop where the closed form says, to rounding; otherwise nothing is asked.
+/// Checks that a cue ball without impacts stops where the closed form predicts, to rounding; other shots pass.
 pub fn stops_where_the_closed_form_says(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
     let meets = |event: &crate::simulation::Event| event.kind.balls().1.is_some() || event.kind.rail().is_some();
     let rests = trace.pieces.iter().flatten().any(|piece| piece.segment.curve().is_some());
@@ -26,10 +27,15 @@ pub fn stops_where_the_closed_form_says(table: &Table, shot: &Shot, trace: &Trac
     let rolled = after * after.length() / (2.0 * 5.0 / 7.0 * table.rolling_friction * table.gravity);
     let expected = shot.layout.balls[0] + slid + rolled;
     let off = expected.distance(trace.end.balls[0].position);
-    // Half a ball's speeds cancel in the slip: what is left has their rounding, and works through the whole roll.
+    // The speeds of translation and rotation partly cancel in the slip: the difference has their rounding, which affects the
+    // whole roll.
     let fastest = v.length() + table.radius * w.truncate().length();
     let scale = shot.layout.balls[0].length()
         + fastest * (slide + 2.0 * after.length() / (table.rolling_friction * table.gravity));
     let allowed = OPERATIONS * f64::EPSILON * scale;
-    if off <= allowed { Ok(()) } else { Err(format!("stops {off:e} m off the closed form, {allowed:e} m is rounding")) }
+    if off <= allowed {
+        Ok(())
+    } else {
+        Err(format!("stops {off:e} m from the closed form; rounding explains {allowed:e} m"))
+    }
 }

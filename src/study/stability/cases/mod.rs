@@ -1,4 +1,4 @@
-//! The stiff and extreme cases: each draws many shots and knows what must hold of them besides the invariants.
+//! The stiff and extreme cases. Each draws many shots and may have an additional check.
 
 mod chatter;
 mod cushion;
@@ -20,34 +20,34 @@ use crate::table::{JUDGED, Table};
 /// One row of the stability table.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// What is hard about it.
+    /// What is hard about the case.
     pub name: &'static str,
-    /// What must hold besides the invariants.
+    /// What must hold in addition to the invariants.
     pub holds: &'static str,
-    /// The tables on which it is played.
+    /// The tables of the case.
     pub tables: fn() -> Vec<Table>,
     /// Draws a shot.
     pub shot: Generator,
-    /// Checks what must hold besides, if anything.
+    /// The additional check, if any.
     pub check: Option<Check>,
     /// Limits of the invariants.
     pub limits: Limits,
-    /// How many shots it gets.
+    /// The kind of the case, which determines its number of shots.
     pub size: Size,
 }
 
-/// Which number of a [`super::Plan`] tells how many shots a case gets.
+/// The field of [`super::Plan`] with the number of shots of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
-    /// That of the random shots.
+    /// The number of random shots.
     Random,
-    /// That of the adversarial shots.
+    /// The number of adversarial shots.
     Adversarial,
-    /// That of each stiff or extreme case.
+    /// The number for each stiff or extreme case.
     Case,
 }
 
-/// All cases, in the order of the report.
+/// Returns all cases, in the order of the report.
 pub fn all() -> Vec<Case> {
     [
         sweeps::CASES,
@@ -66,17 +66,17 @@ pub fn all() -> Vec<Case> {
 }
 
 impl Case {
-    /// A stiff or extreme case in which the invariants must hold.
+    /// Creates a stiff or extreme case in which the invariants must hold.
     const fn new(name: &'static str, tables: fn() -> Vec<Table>, shot: Generator) -> Self {
         Self { name, holds: "", tables, shot, check: None, limits: Limits::STRICT, size: Size::Case }
     }
 
-    /// With words for what holds besides.
+    /// Adds a description of what must hold in addition.
     const fn holding(self, holds: &'static str) -> Self {
         Self { holds, ..self }
     }
 
-    /// With something to check besides.
+    /// Adds a check and its description.
     const fn checked(self, holds: &'static str, check: Check) -> Self {
         Self { check: Some(check), ..self.holding(holds) }
     }
@@ -85,33 +85,33 @@ impl Case {
         Self { size, ..self }
     }
 
-    /// On tables where a shot has more events by nature.
+    /// Removes the limit of events, for tables on which shots inherently have more.
     const fn any_events(self) -> Self {
         Self { limits: Limits::ANY_EVENTS, ..self }
     }
 
-    /// Plays `shots` shots on each of its tables. `watch` is that of [`Sweep::run`].
+    /// Plays `shots` shots on each table of the case. `watch` is that of [`Sweep::run`].
     pub fn run(&self, shots: u64, seed: u64, mut watch: impl FnMut(Progress) + Send) -> Swept {
         let on = |table| Sweep { table, generator: self.shot, check: self.check, shots, seed, limits: self.limits };
         (self.tables)().into_iter().map(|table| on(table).run(&mut watch)).fold(Swept::default(), Swept::and)
     }
 }
 
-/// The bundled tables.
+/// Returns the bundled tables.
 fn presets() -> Vec<Table> {
     JUDGED.iter().filter_map(|name| Table::preset(name).ok()).collect()
 }
 
-/// The bundled tables, each as a [`variant`].
+/// Returns the bundled tables, each as a [`variant`].
 fn variants(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {
     JUDGED.iter().filter_map(|name| variant(name, what, &change)).collect()
 }
 
-/// A bundled table with other numbers, of which its name tells; none if they are refused.
+/// Returns a bundled table with changed values and a name that states the change; `None` if the values are rejected.
 fn variant(name: &str, what: &str, change: impl Fn(&mut Table)) -> Option<Table> {
     let mut table = Table::preset(name).ok()?;
     change(&mut table);
     table.name = format!("{name}, {what}");
-    // Through its file, which checks the values.
+    // Through its file format, which checks the values.
     Table::from_toml(&toml::to_string(&table).ok()?).ok()
 }

@@ -1,4 +1,4 @@
-//! Resting contacts in all their forms: on a cushion, on two, ball on ball, a ball between.
+//! Resting contacts in all forms: a ball on one or two cushions, on another ball, or between balls and cushions.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -20,22 +20,22 @@ pub const CASES: &[Case] = &[
     Case::new("a ball resting on another", lively_and_dead, on_ball),
     Case::new("a ball pressed between ball and cushion", lively_and_dead, between),
     Case::new("a ball resting on a smooth cushion", smooth, against_smooth_cushion)
-        .checked("leaves it when, and stops where, quadrature says, to 1e-9 s and m", rail_course::follows_quadrature),
+        .checked("stops when and where quadrature predicts, to 1e-9 s and m", rail_course::follows_quadrature),
 ];
 
-/// The bundled tables, and the thesis' with contacts that do not bounce at all.
+/// The bundled tables, and the thesis' table with contacts that do not bounce at all.
 fn lively_and_dead() -> Vec<Table> {
     let mut tables = presets();
     tables.extend(variant("thesis", "dead", |table| (table.ball_restitution, table.rail_restitution) = (0.0, 0.0)));
     tables
 }
 
-/// Cushions without friction and bounce, on which a pressed ball's course is known but for two integrals.
+/// Cushions without friction and restitution, on which the course of a pressed ball is known except for two integrals.
 fn smooth() -> Vec<Table> {
     variants("smooth and dead cushions", |table| (table.rail_restitution, table.rail_friction) = (0.0, 0.0))
 }
 
-/// Follow and some side: the slip at the cloth presses the ball on to what it has met.
+/// Draws a stroke with follow and some side: the slip at the cloth presses the ball against whatever it has hit.
 fn pressing(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> CueDegrees {
     CueDegrees {
         a: rng.random_range(-0.4..0.4),
@@ -96,7 +96,7 @@ fn between(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     }
 }
 
-/// From the very cushion into it, softly enough that no other ball or cushion is met as a rule.
+/// Draws a shot of a ball on a cushion into that cushion, so soft that it usually meets no other ball or cushion.
 fn against_smooth_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let rail = draw::one_of(rng, &Rail::ALL);
     let along = rng.random_range(-1.3..1.3_f64);

@@ -1,4 +1,4 @@
-//! Extreme strokes: next to no slip or spin, the slowest and the fastest, massé, the tip at the rim.
+//! Extreme strokes: almost no slip or spin, the slowest and the fastest, massé, the tip at the rim.
 
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -12,7 +12,7 @@ use crate::{
 
 const fn case(name: &'static str, shot: Generator) -> Case {
     Case::new(name, presets, shot)
-        .checked("a ball that meets nothing stops where the closed form says", lone::stops_where_the_closed_form_says)
+        .checked("a ball without impacts stops where the closed form predicts", lone::stops_where_the_closed_form_says)
 }
 
 pub const CASES: &[Case] = &[
@@ -23,11 +23,12 @@ pub const CASES: &[Case] = &[
     case("tip at the rim of the ball", rim),
 ];
 
-/// A random layout; half of the strokes so soft that the ball often meets nothing.
+/// Returns a shot with a random layout.
 fn with(table: &Table, rng: &mut Xoshiro256PlusPlus, stroke: CueDegrees) -> Shot {
     Shot { layout: Layout::random(table, rng), cue: stroke }
 }
 
+/// Draws a speed, half of the time so low that the ball often meets nothing.
 fn speed(rng: &mut Xoshiro256PlusPlus) -> f64 {
     if rng.random_bool(0.5) { rng.random_range(0.05..0.5) } else { rng.random_range(0.5..8.0) }
 }
@@ -36,7 +37,7 @@ fn tiny(rng: &mut Xoshiro256PlusPlus, low: f64, high: f64) -> f64 {
     draw::one_of(rng, &[-1.0, 1.0]) * draw::log_uniform(rng, low, high)
 }
 
-/// Struck level at 2/5 of the radius above the centre, a ball rolls at once.
+/// A ball struck with a level cue at 2/5 of the radius above the centre rolls at once.
 fn next_to_no_slip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let b = 0.4 * (1.0 + tiny(rng, 1e-16, 1e-6));
     let stroke = CueDegrees { b, ..CueDegrees::centre(rng.random_range(-180.0..180.0), speed(rng)) };

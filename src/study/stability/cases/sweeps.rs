@@ -1,4 +1,4 @@
-//! Shots of every kind, by the million.
+//! Large numbers of random and adversarial shots.
 
 use super::{Case, Size};
 use crate::{

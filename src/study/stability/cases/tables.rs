@@ -1,4 +1,4 @@
-//! Extreme tables: friction, restitution and size at the ends of what is accepted.
+//! Extreme tables: friction, restitution and size at the limits of the accepted range.
 
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -12,10 +12,10 @@ use crate::{
 
 pub const CASES: &[Case] = &[
     Case::new("next to no friction", next_to_no_friction, shot)
-        .holding("every shot ends; no friction on the cloth at all is refused")
+        .holding("every shot ends; a cloth without any friction is rejected")
         .any_events(),
     Case::new("friction of 10 and 1000 on the cloth, 0.99 in contacts", large_friction, shot)
-        .holding("friction of 1 and more in contacts, whose forces would not be unique, is refused"),
+        .holding("friction of 1 and more in contacts, whose forces would not be unique, is rejected"),
     Case::new("no restitution, e = 0", || restitution(0.0), shot),
     Case::new("restitution e = 0.3", || restitution(0.3), shot),
     Case::new("full restitution, e = 1", || restitution(1.0), shot).any_events(),
@@ -90,8 +90,8 @@ const OPERATIONS: f64 = 64.0;
 /// Below this speed a ball that touches something is brought to rest against it, m/s.
 const SETTLES: f64 = 1e-4;
 
-/// Whenever balls go on with other speeds and none of them begins or ends to rest or stops, the sum of their energies stays, but for
-/// bounces that are too slow to be followed.
+/// Checks that collisions conserve the sum of energies: at every change of speed without a ball that starts or ends resting or
+/// stops, except for bounces that are too slow to be followed.
 fn keeps_energy(table: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
     let least = 0.5 * trace.constants.tolerance.slowest_lossless_bounce.powi(2);
     for event in trace.events.iter().filter(|event| event.kind.balls().1.is_some() || event.kind.rail().is_some()) {
@@ -100,7 +100,7 @@ fn keeps_energy(table: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
         for (ball, pieces) in trace.pieces.iter().enumerate().take(BALLS) {
             let Some(next) = pieces.iter().position(|piece| piece.segment.start == event.time).filter(|next| *next > 0)
             else {
-                // The next piece of a ball that is struck may not be kept: pieces are when they end.
+                // The next piece of a ball that is hit may not be stored, because pieces are stored when they end.
                 settles |= [Some(first), second].contains(&Some(ball)) && trace.kept_until != f64::INFINITY;
                 continue;
             };

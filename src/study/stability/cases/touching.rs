@@ -16,18 +16,18 @@ use crate::{
 
 pub const CASES: &[Case] = &[
     Case::new("two balls exactly touching", presets, two)
-        .checked("momentum is kept and goes along the line of centres", passes_on),
-    Case::new("three balls exactly touching", presets, three).checked("momentum is kept", keeps_momentum),
+        .checked("momentum is conserved and passes along the line of centres", passes_on),
+    Case::new("three balls exactly touching", presets, three).checked("momentum is conserved", keeps_momentum),
     Case::new("three balls in line, touching or 1e-16 to 1e-6 m apart", presets, line)
-        .checked("momentum is kept", keeps_momentum),
+        .checked("momentum is conserved", keeps_momentum),
     Case::new("two balls 1e-16 to 1e-6 m apart", presets, gap)
-        .checked("they meet after just that distance", meets_after_the_gap),
+        .checked("they meet after exactly that distance", meets_after_the_gap),
 ];
 
 /// Rounding of sums of velocities, in ε of the fastest.
 const OPERATIONS: f64 = 64.0;
 
-/// Where all three balls of a small group are clear of the cushions.
+/// Draws a position at which a small group of three balls is clear of the cushions.
 fn middle(table: &Table, rng: &mut Xoshiro256PlusPlus) -> DVec2 {
     draw::place(table, rng) * 0.6
 }
@@ -79,7 +79,7 @@ fn gap(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     }
 }
 
-/// Velocities just after time zero, when all collisions at that time are over.
+/// Returns the velocities just after time zero, when all collisions at that time are over.
 fn after_the_stroke(trace: &Trace) -> [DVec2; BALLS] {
     std::array::from_fn(|ball| {
         let own = if ball == 0 { trace.impulse.velocity } else { DVec2::ZERO };
@@ -104,7 +104,7 @@ fn passes_on(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
     let speed = trace.impulse.velocity.length();
     let given = after_the_stroke(trace)[1].dot(along);
     let expected = 0.5 * (1.0 + table.ball_restitution) * approach.max(0.0);
-    // Where the balls hardly approach, rounding or the settling of a resting contact decides.
+    // If the balls hardly approach, rounding or the start of a resting contact decides.
     let certain = approach.abs() > 1e-2;
     if certain && (given - expected).abs() > OPERATIONS * f64::EPSILON * speed {
         return Err(format!("the other ball starts with {given} m/s along the line of centres, not {expected}"));
@@ -118,7 +118,7 @@ fn meets_after_the_gap(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), 
     if first.kind != EventKind::BallBall(0, 1) {
         return Err(format!("the first event is {first:?}"));
     }
-    // The gap is known to the rounding of the balls' places; friction slows the ball by less than that on the way.
+    // The gap is known to the rounding of the positions; friction slows the ball by less than that on this distance.
     let travelled = first.time * trace.impulse.velocity.length();
     let allowed = OPERATIONS * f64::EPSILON * table.length + 2e-5 * gap.abs();
     let off = (travelled - gap.max(0.0)).abs();
