@@ -1,4 +1,4 @@
-//! All keys of the program: what each page's tables say, as one kind of action, with the keys that all pages have.
+//! All key bindings of the program: the tables of all pages, converted to one action type, plus the keys that all pages share.
 
 use crossterm::event::{
     KeyCode::{Down, End, Enter, Esc, F, Home, PageDown, PageUp, Up},
@@ -18,95 +18,95 @@ use crate::terminal::{
 
 use Action as A;
 
-/// What a key does.
+/// Action of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
     /// Ends the program.
     Quit,
-    /// Stops the program until the shell continues it.
+    /// Suspends the program until the shell continues it.
     Suspend,
     /// Opens the help.
     OpenHelp,
-    /// Closes the page that lies over the screen.
+    /// Closes the overlay.
     CloseOverlay,
-    /// Scrolls it by lines, down where positive.
+    /// Scrolls the overlay by lines, down if positive.
     ScrollOverlay(i16),
     /// Opens the command palette.
     OpenPalette,
-    /// Closes it.
+    /// Closes the command palette.
     ClosePalette,
-    /// Does what is marked there.
+    /// Runs the selected command of the palette.
     ChooseCommand,
-    /// Moves its mark by lines, down where positive.
+    /// Moves the palette's selection by lines, down if positive.
     PaletteLine(isize),
     /// Draws the table with the next simpler set of characters.
     NextGlyphs,
-    /// Shows the next of the themes.
+    /// Switches to the next theme.
     NextTheme,
-    /// Opens a screen, where it was left.
+    /// Opens a screen in the state in which it was left.
     Open(PageId),
-    /// Answers what the page asks: yes, or what was typed; or no.
+    /// Answers the page's question: yes, or the typed text; or no.
     Answer(bool),
-    /// Shows what was refused or has failed so far.
+    /// Shows all refusals and failures so far.
     OpenMessages,
-    /// Shows what the words of players mean.
+    /// Opens the glossary of players' terms.
     OpenGlossary,
-    /// Begins a match against the coach, or goes on with it.
+    /// Starts a match against the coach, or continues an open one.
     OpenMatch,
-    /// Something on the coach's screen.
+    /// An action of the coach's screen.
     Coach(CoachAction),
-    /// Something on the training screen.
+    /// An action of the training screen.
     Training(TrainingAction),
-    /// Something on the drill screens.
+    /// An action of the drill screens.
     Drill(DrillAction),
-    /// Something on the settings' screen.
+    /// An action of the settings screen.
     Settings(SettingsAction),
-    /// Something on the calibration's page.
+    /// An action of the calibration screen.
     Calibration(CalibrationAction),
 }
 
-/// When a binding may be used; the app knows whether it holds, and why not.
+/// Condition under which a binding is enabled. The app evaluates it and gives the reason if it does not hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Condition {
-    /// Whatever is on the screen.
+    /// Always enabled.
     Always,
-    /// Where a shell can take the terminal back and go on with the program later.
+    /// A shell can take the terminal back and continue the program later.
     Shell,
-    /// While a page lies over the screen.
+    /// An overlay is open.
     Overlay,
-    /// Where there are other screens to go to.
+    /// There are other screens to open.
     Tabs,
-    /// As the coach's screen says.
+    /// A condition of the coach's screen.
     Coach(CoachCondition),
-    /// As the training screen says.
+    /// A condition of the training screen.
     Training(TrainingCondition),
-    /// As the drill screens say.
+    /// A condition of the drill screens.
     Drill(DrillCondition),
-    /// As the settings' screen says.
+    /// A condition of the settings screen.
     Settings(SettingsCondition),
-    /// As the calibration's page says.
+    /// A condition of the calibration screen.
     Calibration(CalibrationCondition),
 }
 
-/// One line of a page's table, as the app reads it.
+/// One row of a page's key table, converted to the app's types.
 #[derive(Debug)]
 pub struct Bound {
-    /// The keys, each with what it does, and the words for that.
+    /// The keys, each with its action and the words for it.
     pub keys: Vec<(Chord, Action, &'static str)>,
-    /// Its word in the hint line, and how many of the keys stand before it there.
+    /// The word in the hint line, and the number of keys shown before it there.
     pub hint: Option<(&'static str, usize)>,
-    /// What the help says.
+    /// Description in the help.
     pub description: &'static str,
-    /// When it may be used.
+    /// Condition under which it is enabled.
     pub when: Condition,
-    /// Its heading in the help.
+    /// Section of the help.
     pub section: Section,
-    /// Other words under which the command palette finds it.
+    /// Further search words for the command palette.
     pub also: &'static str,
 }
 
 impl Bound {
-    /// What its keys do, one thing after the other: the words for it, and its keys.
+    /// The distinct actions of the binding, in order, each with its words and keys.
     pub fn commands(&self) -> Vec<(Action, &'static str, Vec<Chord>)> {
         let mut commands: Vec<(Action, &'static str, Vec<Chord>)> = Vec::new();
         for (chord, action, words) in &self.keys {
@@ -119,7 +119,7 @@ impl Bound {
     }
 }
 
-/// Adds the lines of a page's table.
+/// Appends the rows of a page's table.
 fn take<B: Copy + PartialEq, W: Copy>(
     all: &mut Vec<Bound>,
     table: &[Binding<B, W>],
@@ -146,7 +146,7 @@ fn take<B: Copy + PartialEq, W: Copy>(
     }));
 }
 
-/// The keys of a page that lies over the screen, while one does.
+/// The keys of an overlay, enabled while one is open.
 #[rustfmt::skip]
 const OVERLAY: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Overlay, &[key(Esc, A::CloseOverlay), letter('?', A::CloseOverlay), letter('q', A::CloseOverlay),
@@ -168,21 +168,21 @@ const PALETTE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[key(Esc, A::ClosePalette), ctrl('p', A::ClosePalette)], Some(("close", 1)), "close the list"),
 ];
 
-/// A question of a page.
+/// The keys of a yes-or-no question.
 #[rustfmt::skip]
 const QUESTION: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[letter('y', A::Answer(true))], Some(("yes", 1)), "yes"),
     bind(Program, Condition::Always, &[letter('n', A::Answer(false)), key(Esc, A::Answer(false)), letter('q', A::Answer(false))], Some(("no", 1)), "no"),
 ];
 
-/// A question whose answer is typed.
+/// The keys of a question with a typed answer.
 #[rustfmt::skip]
 const TYPED: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[key(Enter, A::Answer(true))], Some(("take it", 1)), "take what is typed"),
     bind(Program, Condition::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "leave all as it is"),
 ];
 
-/// The keys that all screens have, where letters are typed too.
+/// The keys that all screens share, even where letters are typed.
 #[rustfmt::skip]
 const TABS: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Tabs, &[key(F(2), A::Open(PageId::Coach))], None, "the coach's table, as it was left"),
@@ -195,7 +195,7 @@ const TABS: &[Binding<Action, Condition>] = &[
         .known_as("game opponent play"),
 ];
 
-/// What opens the glossary.
+/// The key of the glossary.
 const GLOSSARY: Binding<Action, Condition> = bind(
     Program,
     Condition::Always,
@@ -205,7 +205,7 @@ const GLOSSARY: Binding<Action, Condition> = bind(
 )
 .known_as("words terms average tip clock fullness ticky plus natural running reverse lag");
 
-/// The keys that all screens have.
+/// The keys that all screens share.
 #[rustfmt::skip]
 const PROGRAM: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[letter('?', A::OpenHelp), key(F(1), A::OpenHelp)], Some(("help", 1)), "open this help"),
@@ -219,7 +219,7 @@ const PROGRAM: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[letter('q', A::Quit), ctrl('c', A::Quit)], Some(("quit", 1)), "quit"),
 ];
 
-/// Those of them that mean nothing else where letters are answers.
+/// The program keys that remain where letters are typed or are answers.
 #[rustfmt::skip]
 const LEAVE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[key(F(1), A::OpenHelp)], None, "open this help"),
@@ -229,7 +229,7 @@ const LEAVE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[ctrl('c', A::Quit)], None, "quit"),
 ];
 
-/// All keys at `place`. The first enabled binding with a key wins; the hint line shows as many as fit, in this order.
+/// All bindings in the context `place`. The first enabled binding of a key wins; the hint line shows as many as fit, in this order.
 pub fn bindings(place: KeyContext) -> Vec<Bound> {
     let mut all = Vec::new();
     let program = |all: &mut Vec<Bound>, table| take(all, table, |action| action, |when| when);
@@ -254,12 +254,12 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
     all
 }
 
-/// All keys at `place` but those of a page that lies over it, for lists of keys.
+/// All bindings in the context `place` except those of overlays, for lists of keys.
 pub fn listed(place: KeyContext) -> impl Iterator<Item = Bound> {
     bindings(place).into_iter().filter(|binding| binding.when != Condition::Overlay)
 }
 
-/// What keys do on each page, for lists of keys.
+/// The bindings of each page, for lists of keys.
 pub fn key_pages() -> Vec<KeyPage> {
     KeyContext::PAGES.iter().map(|(place, name)| KeyPage { name, entries: entries(*place) }).collect()
 }
@@ -275,14 +275,14 @@ fn entries(place: KeyContext) -> Vec<KeyEntry> {
     listed(place).flat_map(entries).collect()
 }
 
-/// The key that opens `screen` from everywhere.
+/// The key that opens `screen` from any page.
 pub fn chord_of_tab(screen: PageId) -> Option<Chord> {
     chord_of(TABS, &Action::Open(screen))
 }
 
-/// What `event` asks for at `place`: the first binding that may be used now, or else the reason why the last one may
-/// not, since the more particular ones come first.
-/// `None` where no binding has the key. `disabled_reason` says why a binding may not be used.
+/// Finds the action of `event` in the context `place`: that of the first enabled binding. If none is enabled, returns the reason of the
+/// last one, because the more specific bindings come first. `None` if no binding has the key. `disabled_reason` returns why a condition
+/// does not hold.
 pub fn find<'a>(
     event: &KeyEvent,
     place: KeyContext,
@@ -293,7 +293,7 @@ pub fn find<'a>(
         let Some((_, action, _)) = binding.keys.iter().find(|(chord, ..)| chord.matches(event)) else { continue };
         match disabled_reason(binding.when) {
             None => return Some(Ok(*action)),
-            // While nothing lies over the screen, its keys mean nothing.
+            // While no overlay is open, its keys are ignored.
             Some(_) if binding.when == Condition::Overlay => {}
             Some(reason) => refused = Some(Err(reason)),
         }
@@ -400,7 +400,7 @@ mod tests {
         let all = key_pages();
         let pages =
             |letter| commands_of(&all, Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
-        // Beside a stroke of one's own it goes back by the stroke's changes, then by the balls'.
+        // With the player's own stroke open, the key first undoes changes of the stroke, then those of the balls.
         assert_eq!(pages('u'), ["Coach", "Coach: your stroke", "Coach: your stroke", "Drills: exercise"]);
         assert_eq!(commands_of(&all, Chord::char('q')).len(), 1, "quitting");
         assert!(pages('%').is_empty());

@@ -1,4 +1,4 @@
-//! The side view of a jump: height over way, with the balls and noses that the ball passes.
+//! Side view of a jump: height against distance, with the balls and cushion noses that the ball passes.
 
 use glam::DVec2;
 use ratatui::{
@@ -20,20 +20,20 @@ use crate::{
     },
 };
 
-/// Columns left of the plot: a height, and the axis.
+/// Columns left of the plot: the height label and the axis.
 const LEFT: u16 = 7;
-/// Rows of a side view that is taken from the table: a title, four of the plot, and the axis.
+/// Rows of a side view placed below the table: a title, four rows of the plot, and the axis.
 const ROWS: u16 = 6;
 
-/// What ends a scale, in units of a power of ten.
+/// Ends of the height scale, in units of a power of ten.
 const ENDS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 15.0];
 
-/// What is drawn in the plot, from below, and how much of a cell's two colours each is worth.
+/// Weights of what shares a cell (see [`Ink`]), in drawing order from the back.
 const OBSTACLE_WEIGHT: u8 = 3;
 const COURSE_WEIGHT: u8 = 5;
 const BALL_WEIGHT: u8 = 32;
 
-/// Divides the room of a table, beside which panels begin at the row `panels`, into the table's and that of a side view below it.
+/// Splits the area of a table, next to which panels start at the row `panels`, into the table's area and that of a side view below it.
 pub fn side_view_below(table: Rect, panels: u16) -> (Rect, Rect) {
     let Rect { x, y, width, height } = table;
     let bottom = panels.max(y + ROWS).min(y + height.max(ROWS));
@@ -41,7 +41,7 @@ pub fn side_view_below(table: Rect, panels: u16) -> (Rect, Rect) {
     (Rect { height: side.y - y, ..table }, side)
 }
 
-/// Draws the jump, with the ball where it is at `time`, s. Both scales are their own: heights are drawn larger than ways.
+/// Draws the jump, with the ball at its position at `time`, s. Height and distance have different scales: heights are enlarged.
 pub fn draw_profile(profile: &Profile, time: Option<f64>, unit: LengthUnit, area: Rect, ui: &mut Ui) {
     Clear.render(area, ui.buffer);
     ui.buffer.set_style(area, ui.theme.text());
@@ -85,7 +85,7 @@ pub fn draw_profile(profile: &Profile, time: Option<f64>, unit: LengthUnit, area
         let middle = plot.x + (passed.way / scale.x * f64::from(plot.width)) as u16;
         let last = plot.right().saturating_sub(columns(&end) as u16 + 1 + width);
         let x = middle.saturating_sub(width / 2).max(plot.x);
-        // A name that has no room beside another is left out; the mark stays.
+        // If there is no room for a name, it is left out; its obstacle is still drawn.
         if x >= free && x <= last {
             ui.buffer.set_string(x, ground, words, style);
             free = x + width + 1;
@@ -107,7 +107,7 @@ fn obstacle_color(passed: &Passed, ui: &Ui) -> Color {
     }
 }
 
-/// Half of the width of an obstacle, m: a ball's own, as the height of its top tells.
+/// Half the width of an obstacle, m. A ball's top is one diameter high.
 fn half_width(passed: &Passed) -> f64 {
     match passed.what {
         Obstacle::Ball(_) => 0.5 * passed.top,
@@ -131,7 +131,7 @@ fn in_blocks(profile: &Profile, time: Option<f64>, plot: Rect, scale: DVec2, ui:
         let ((left, bottom), (right, top)) =
             (to_pixel(passed.way - half.x, 0.0), to_pixel(passed.way + half.x, passed.top));
         for (x, y) in (left..=right).flat_map(|x| (top..=bottom).map(move |y| (x, y))) {
-            // A nose is a line, a ball an oval, since the scales differ.
+            // A nose is a line. A ball is an ellipse, since the two scales differ.
             if half.x == 0.0 || ((to_metres(x, y) - middle) / half).length() <= 1.0 {
                 canvas.set(x, y, Ink { color: obstacle_color(passed, ui), weight: OBSTACLE_WEIGHT });
             }
@@ -196,7 +196,7 @@ mod tests {
         },
     };
 
-    /// The picture of a jump over yellow, row by row.
+    /// The rows of the picture of a jump over yellow, and its buffer.
     fn picture(time: Option<f64>, caps: Capabilities) -> (Vec<String>, Buffer) {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 -0.2,0 0.9,0.5", &table).unwrap();

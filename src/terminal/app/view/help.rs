@@ -1,5 +1,5 @@
-//! The pages that lie over a screen: every key with what it does, read from the table of keys, and a few words on what is
-//! drawn; all that was refused or has failed so far; or the glossary.
+//! Overlays over a screen: the help, generated from the key tables, with notes on what is drawn; the list of all refusals and failures so
+//! far; and the glossary.
 
 use ratatui::{
     layout::Rect,
@@ -20,7 +20,7 @@ use crate::{
 /// Columns of the keys.
 const KEYS: usize = 22;
 
-/// Each is a paragraph.
+/// Notes of each page; each entry is a paragraph.
 const COACH_NOTES: [&str; 6] = [
     "Places are measured from the middle of the table, x to the right, y up; diamonds from the lower left corner, 0 to 8 along \
      the long rails and 0 to 4 up the short ones, as the corners say. 1, 2, 3 on the rails are the cue ball's cushions. A kiss is \
@@ -110,7 +110,7 @@ fn notes(place: KeyContext) -> Vec<String> {
     notes.iter().map(ToString::to_string).collect()
 }
 
-/// Draws the page `what` from its line `top` on; gives the first row of what stands below it.
+/// Draws the overlay `what`, scrolled to line `top`. Returns the first row below its text.
 pub fn draw(app: &App, what: Overlay, top: u16, parts: &PageArea, ui: &mut Ui) -> u16 {
     let (page, lines) = (page(parts.screen), lines(app, what, parts.screen));
     let last = lines.len().saturating_sub(usize::from(page.height));
@@ -126,12 +126,12 @@ pub fn draw(app: &App, what: Overlay, top: u16, parts: &PageArea, ui: &mut Ui) -
     page.bottom()
 }
 
-/// The first line of the page when it is scrolled to its end.
+/// The topmost line when the overlay is scrolled to its end.
 pub fn end(app: &App, what: Overlay, area: Rect) -> u16 {
     lines(app, what, area).len().saturating_sub(usize::from(page(area).height)) as u16
 }
 
-/// The lines' part of the screen.
+/// The part of the screen that shows the lines.
 const fn page(area: Rect) -> Rect {
     Rect::new(area.x + 2, area.y + 2, area.width.saturating_sub(4), area.height.saturating_sub(4))
 }
@@ -145,7 +145,7 @@ fn lines(app: &App, what: Overlay, area: Rect) -> Vec<Line<'static>> {
     }
 }
 
-/// What was refused or has failed so far, the newest first.
+/// All refusals and failures so far, the newest first.
 fn messages(app: &App, width: usize) -> Vec<Line<'static>> {
     let (theme, caps) = (app.theme(), app.caps);
     let mut lines = vec![Line::styled("Messages, the newest first", theme.good()), Line::default()];
