@@ -1,4 +1,4 @@
-//! The table of settings: reading the file, its documentation and what is said of a wrong value all come from here.
+//! The table of all settings. Parsing, documentation and error messages are derived from it.
 
 use std::{path::Path, str::FromStr};
 
@@ -18,25 +18,25 @@ use crate::{
     },
 };
 
-/// One key of the file.
+/// One setting.
 pub struct Entry {
-    /// Its heading on the screen; those that have the same stand together.
+    /// Its heading on the screen; settings with the same heading are neighbours.
     pub group: &'static str,
-    /// Its name.
+    /// Its key in the file.
     pub key: &'static str,
     /// What it is for.
     pub about: &'static str,
-    /// What it accepts.
+    /// The accepted values.
     pub accepted: &'static str,
-    /// Values to step through, as TOML, all of which it accepts.
+    /// Values to step through, in TOML, all of them accepted.
     pub choices: fn() -> Vec<String>,
-    /// Its value as TOML.
+    /// Returns its value in TOML.
     pub get: fn(&Settings) -> String,
-    /// Takes a value; `None` if it is refused.
+    /// Sets its value; `None` if it is not accepted.
     pub set: fn(&mut Settings, &DeValue) -> Option<()>,
 }
 
-/// How many colours, by name.
+/// Colour depths by name.
 const DEPTHS: [(&str, Option<Depth>); 5] = [
     ("auto", None),
     ("true", Some(Depth::True)),
@@ -45,7 +45,7 @@ const DEPTHS: [(&str, Option<Depth>); 5] = [
     ("none", Some(Depth::Mono)),
 ];
 
-/// What the table is drawn with, by name.
+/// Character sets by name.
 const GLYPHS: [(&str, Option<Glyphs>); 5] = [
     ("auto", None),
     ("octant", Some(Glyphs::Octant)),
@@ -57,7 +57,7 @@ const GLYPHS: [(&str, Option<Glyphs>); 5] = [
 /// Thinking times to step through, ms.
 const THINKING: [u64; 10] = [100, 250, 500, 1000, 2000, 3000, 5000, 10_000, 30_000, 60_000];
 
-/// All keys, in the order of the file.
+/// All settings, in the order of the file.
 pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Looks",
@@ -207,18 +207,18 @@ pub const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// Puts a value that is accepted in the place of the one that is there.
+/// Stores a value if it is accepted.
 fn put<T>(place: &mut T, value: Option<T>) -> Option<()> {
     *place = value?;
     Some(())
 }
 
-/// Something that reads itself from its text.
+/// Parses a value from a string.
 fn parsed<T: FromStr>(value: &DeValue) -> Option<T> {
     value.as_str()?.parse().ok()
 }
 
-/// A bundled table, or the path of a file that is there, as far as this process may know.
+/// A bundled table, or the path of an existing file, as far as this process may read it.
 fn table(value: &DeValue) -> Option<String> {
     let is_there = |path: &Path| may_read(path).is_ok() && path.is_file();
     value.as_str().filter(|name| PRESETS.contains(name) || is_there(Path::new(name))).map(str::to_owned)
@@ -232,18 +232,18 @@ pub fn quoted(value: impl Into<String>) -> String {
     toml::Value::String(value.into()).to_string()
 }
 
-/// A number as TOML writes it: always with a point.
+/// A number in TOML, always with a decimal point.
 fn decimal(value: f64) -> String {
     toml::Value::Float(value).to_string()
 }
 
-/// A number, whole or not, in a range.
+/// An integer or a float within a range.
 fn number(value: &DeValue, least: f64, most: f64) -> Option<f64> {
     let text = value.as_integer().map(DeInteger::as_str).or_else(|| value.as_float().map(DeFloat::as_str))?;
     text.replace('_', "").parse().ok().filter(|number| (least..=most).contains(number))
 }
 
-/// One of some numbers.
+/// A number that must be one of `accepted`.
 fn one_of(value: &DeValue, accepted: &[f64]) -> Option<f64> {
     number(value, f64::MIN, f64::MAX).filter(|number| accepted.contains(number))
 }

@@ -1,59 +1,59 @@
-//! A jump from the side: how high the ball is over its way, and what it passes.
+//! Side view of a jump: the ball's height over the distance, and the obstacles that it passes.
 
 use crate::{
     simulation::{EventKind, Jump, Rail, Recording, TOLD_HEIGHT},
     table::{BALLS, Table},
 };
 
-/// Looks at the way; twice as many as the widest picture has sub-pixels.
+/// Number of samples of the flight; twice the sub-pixels of the widest picture.
 const LOOKS: u32 = 600;
-/// How much of the way after the last hop that is told is shown.
+/// Length of the shown path, relative to the end of the last visible hop.
 const AFTER: f64 = 1.04;
 
-/// Something that the ball flies over or against.
+/// An obstacle that the ball flies over or against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Obstacle {
     /// A ball.
     Ball(usize),
-    /// The nose of a cushion.
+    /// A cushion nose.
     Nose(Rail),
 }
 
-/// Where the ball passes something.
+/// An obstacle at the point where the ball passes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passed {
-    /// What.
+    /// The obstacle.
     pub what: Obstacle,
-    /// At which way, m.
+    /// Distance along the path, m.
     pub way: f64,
-    /// Height of its top over the cloth, m.
+    /// Height of its top above the cloth, m.
     pub top: f64,
 }
 
-/// A place of the flight.
+/// A sample of the flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// When, s.
+    /// Time, s.
     pub time: f64,
-    /// Way along the cloth since the ball left it, m.
+    /// Distance along the cloth since the ball left it, m.
     pub way: f64,
-    /// Height of the ball's lowest point over the cloth, m.
+    /// Height of the ball's lowest point above the cloth, m.
     pub height: f64,
 }
 
-/// A jump from the side.
+/// Side view of a jump.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     /// The jump.
     pub jump: Jump,
-    /// Its course, in order of time; never empty.
+    /// The samples in order of time; never empty.
     pub points: Vec<Point>,
-    /// What the ball passes, in order of the way.
+    /// The obstacles in order of distance.
     pub passed: Vec<Passed>,
 }
 
 impl Profile {
-    /// The highest jump of the cue ball; where it does not jump, that of another ball. `None` where none is told.
+    /// The highest jump of the cue ball, or of another ball if the cue ball does not jump. `None` if no jump is high enough to report.
     pub fn of(table: &Table, recording: &Recording) -> Option<Self> {
         let told = recording.jumps().into_iter().filter(Jump::is_told);
         let order = |jump: &Jump| (jump.ball == 0, jump.height);
@@ -71,24 +71,24 @@ impl Profile {
         Some(Self { jump, points, passed })
     }
 
-    /// How far the ball goes, m.
+    /// Length of the path, m.
     pub fn length(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.way)
     }
 
-    /// Where the ball is at `time`, s; `None` before and after.
+    /// The sample at `time`, s; `None` before and after the flight.
     pub fn at(&self, time: f64) -> Option<Point> {
         let after = self.points.partition_point(|point| point.time < time);
         self.points.get(after).copied().filter(|point| after > 0 || point.time == time)
     }
 
-    /// The height of the highest thing that is to be seen, m.
+    /// Height of the highest thing in the picture, m.
     pub fn top(&self) -> f64 {
         self.passed.iter().map(|passed| passed.top).fold(self.jump.height, f64::max)
     }
 }
 
-/// Places of the flight up to `end`, s, at even times.
+/// Samples of the flight up to `end`, s, equally spaced in time.
 fn points(recording: &Recording, jump: &Jump, end: f64) -> Vec<Point> {
     let (mut way, mut last) = (0.0, recording.state(jump.ball, jump.start).position);
     let times = (0..=LOOKS).map(|look| jump.start + (end - jump.start) * f64::from(look) / f64::from(LOOKS));
@@ -102,7 +102,7 @@ fn points(recording: &Recording, jump: &Jump, end: f64) -> Vec<Point> {
         .collect()
 }
 
-/// The balls over which or against which the ball flies, each where it is nearest.
+/// The balls that the ball flies over or against, each at the smallest distance.
 fn balls(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) -> Vec<Passed> {
     let others = (0..BALLS).filter(|&other| other != jump.ball);
     let nearest = |other: usize| {
@@ -111,7 +111,7 @@ fn balls(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
             places[jump.ball].distance(places[other])
         };
         let gaps = points.iter().map(|point| (gap(point), point));
-        // Where it meets the ball a look may come a little too soon or late.
+        // At a contact, the nearest sample may be slightly too early or too late.
         let (gap, point) = gaps.min_by(|one, two| one.0.total_cmp(&two.0))?;
         let is_passed = gap < 2.05 * table.radius;
         let top = recording.height(other, point.time) + 2.0 * table.radius;
@@ -120,7 +120,7 @@ fn balls(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
     others.filter_map(nearest).collect()
 }
 
-/// The noses that the ball meets or flies over.
+/// The noses that the ball hits or flies over.
 fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) -> Vec<Passed> {
     let top = |rail: Rail| table.rail.own(rail).height.or(table.rail.height).unwrap_or(table.radius);
     recording
@@ -143,7 +143,7 @@ fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
             _ => None,
         })
         .filter_map(|(rail, time)| {
-            // The last look may be rounded to before the end.
+            // Rounding may put the last sample just before the end.
             let point = points.iter().find(|point| point.time >= time).or(points.last())?;
             Some(Passed { what: Obstacle::Nose(rail), way: point.way, top: top(rail) })
         })

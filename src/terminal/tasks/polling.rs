@@ -1,4 +1,4 @@
-//! Polling on a thread, as long as its answers are wanted.
+//! Polling on a thread, until the poll is dropped.
 
 use std::{
     io,
@@ -13,24 +13,24 @@ use std::{
 
 use crate::terminal::tasks::event::Event;
 
-/// Looks without news after which they come less often: a run that has ended seldom changes.
+/// Number of polls without news after which polling slows down: a finished run seldom changes.
 const PATIENT_LOOKS: u32 = 30;
-/// Time between two looks then, at least.
+/// Smallest interval after slowing down.
 const PATIENT_INTERVAL: Duration = Duration::from_millis(500);
 
-/// A thread that looks for news; dropping it ends the thread.
+/// A polling thread; dropping the value ends it.
 #[derive(Debug)]
 pub struct Poll {
     stop: Arc<AtomicBool>,
-    /// Whether the last event waits for the screen still.
+    /// Whether the screen has not yet handled the last event.
     waiting: Arc<AtomicBool>,
 }
 
 impl Poll {
-    /// Calls `look` every `interval` and sends what it finds.
+    /// Calls `look` every `interval` and sends its events.
     ///
     /// # Errors
-    /// A thread that could not be started.
+    /// Fails if the thread cannot be started.
     pub fn start(
         name: &str,
         interval: Duration,
@@ -58,7 +58,7 @@ impl Poll {
         Ok(poll)
     }
 
-    /// The last event has arrived.
+    /// Confirms that the last event was handled.
     pub fn taken(&self) {
         self.waiting.store(false, Ordering::Release);
     }
@@ -87,7 +87,7 @@ mod tests {
         poll.taken();
         assert!(receiver.recv_timeout(patience).is_ok());
         drop(poll);
-        // The thread ends, and the channel with it.
+        // The thread ends and closes the channel.
         assert!(
             receiver
                 .recv_timeout(patience)

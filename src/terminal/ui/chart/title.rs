@@ -1,4 +1,4 @@
-//! A chart's first row: what it shows and how, what is wrong with the data, and the last value.
+//! The title row of a chart: its quantity and options, problems in the data, and the last value.
 
 use ratatui::{
     layout::Rect,
@@ -18,7 +18,7 @@ use crate::{
     },
 };
 
-/// What is left out first where the row is too short.
+/// Priority of a part; the lowest is dropped first if the row is too short.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Need {
     Note,
@@ -30,7 +30,7 @@ enum Need {
     Title,
 }
 
-/// Between two parts on the right.
+/// Gap between two parts at the right.
 const GAP: &str = "  ";
 
 /// A part of the row.
@@ -40,7 +40,7 @@ struct Part {
     style: Style,
 }
 
-/// Draws the row over a rule.
+/// Draws the title row over a rule.
 pub fn draw_chart_title(chart: &Chart, area: Rect, ui: &mut Ui) {
     let width = usize::from(area.width);
     let rule = ui.caps.pick("─", "-");
@@ -50,7 +50,7 @@ pub fn draw_chart_title(chart: &Chart, area: Rect, ui: &mut Ui) {
         let texts: usize = parts.iter().map(|part| Span::raw(&part.text).width()).sum();
         texts + gap * parts.len().saturating_sub(1)
     };
-    // The beginning of the rule, and a blank on either side of both texts.
+    // The start of the rule, and a blank at either side of both texts.
     while taken(&left, 0) + 3 + taken(&right, GAP.len()) + usize::from(!right.is_empty()) * 2 > width {
         let least = left.iter().chain(&right).map(|part| part.need).min();
         let Some(need) = least.filter(|need| *need < Need::Title) else { break };
@@ -117,7 +117,7 @@ fn right(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
     parts
 }
 
-/// The last value, or what stands in its place.
+/// The last value, or a symbol if it is not finite.
 fn value(point: &Point, theme: &Theme, caps: Capabilities) -> (String, Style) {
     let infinity = caps.pick("∞", "inf");
     match (point.finite, point.non_finite) {
@@ -128,7 +128,7 @@ fn value(point: &Point, theme: &Theme, caps: Capabilities) -> (String, Style) {
     }
 }
 
-/// The values that are not finite, if there are any.
+/// Counts of the non-finite values; empty if there are none.
 fn non_finite_words(non_finite: NonFinite, caps: Capabilities) -> String {
     let (infinity, times) = (caps.pick("∞", "inf"), caps.pick("×", "x"));
     let counts = [("NaN", "", non_finite.nan), ("", infinity, non_finite.above), ("-", infinity, non_finite.below)];
@@ -136,7 +136,7 @@ fn non_finite_words(non_finite: NonFinite, caps: Capabilities) -> String {
     named.map(|(sign, name, count)| format!("{sign}{name} {times}{count}")).collect::<Vec<_>>().join(" ")
 }
 
-/// The values in the range of shots that a logarithmic scale leaves out, if there are any.
+/// Count of the visible values that a logarithmic scale cannot show; empty if there are none.
 fn not_positive_words(curve: &Curve, chart: &Chart, caps: Capabilities) -> String {
     let visible = curve.points.iter().filter(|point| chart.log && chart.shows(point));
     let count: u64 = visible.filter_map(|point| point.finite).map(|span| span.not_positive).sum();
