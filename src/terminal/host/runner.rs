@@ -1,4 +1,4 @@
-//! The loop: waits for events, hands them to the app, and draws once when something has changed.
+//! The event loop: waits for events, passes them to the app, and draws a frame after changes.
 
 use std::{
     fs,
@@ -21,13 +21,13 @@ use crate::{
     },
 };
 
-/// Least time between two pictures; keys that come faster are drained and drawn together.
+/// Smallest interval between two frames; the effects of faster keys are drawn together.
 const LEAST_INTERVAL: Duration = Duration::from_millis(15);
 
-/// Least time between two times that the session is written down.
+/// Smallest interval between two saves of the session.
 const REMEMBERED: Duration = Duration::from_secs(2);
 
-/// Whether the loop goes on.
+/// Whether the loop continues.
 enum Next {
     GoOn,
     Quit,
@@ -38,9 +38,9 @@ enum Next {
 /// Runs the app on the terminal until the player quits.
 ///
 /// # Errors
-/// What the terminal answers.
+/// Any error of the terminal.
 pub fn run(app: App, places: Places) -> io::Result<()> {
-    // Without a log the program is as good.
+    // The program works without a log too.
     let _ = log::start(&places.log, std::env::var("CAROM_LOG").ok().as_deref());
     info!(version = FULL_VERSION, caps = ?app.caps, "the screen opens");
     let (to_screen, events) = events::open()?;
@@ -58,20 +58,20 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     let unkept = runner.keep_draft();
     info!(?end, "the screen closes");
     let left = runner.session.leave();
-    // The player sees the shell again; what was noted last is written all the same.
+    // The player sees the shell again while the last changes are written.
     runner.tasks.finish();
     if let Err(error) = unkept {
-        // A terminal that is gone reads nothing.
+        // A terminal that is gone shows nothing.
         let _ = writeln!(printing::stderr(), "the stroke that was typed in part is lost: {error}");
     }
     match end? {
-        // The parent is to see that a signal ended the program, even where the terminal is gone already.
+        // The parent process must see that a signal ended the program, even if the terminal is already gone.
         Some(signal) => platform::die(signal),
         None => left,
     }
 }
 
-/// Whether an event may be drawn with the next picture: news of runs, and every better shot of a coach that still thinks.
+/// Whether an event can wait for the next frame: news of runs, and better shots while the coach still thinks.
 const fn can_come_later(event: &Event) -> bool {
     matches!(
         event,
@@ -85,29 +85,29 @@ struct Runner {
     session: TerminalGuard,
     tasks: Tasks,
     places: Places,
-    /// When the app last ticked, or the program came back from being stopped.
+    /// Time of the last tick of the app, or of the return from being suspended.
     ticked: Instant,
-    /// Whether the terminal is taken again already when the signal comes that tells of it.
+    /// Whether the terminal has already been taken over again when the signal for it arrives.
     has_come_back: bool,
-    /// What was last remembered of the session, and when.
+    /// The session saved last, and the time of the save.
     remembered: (Option<SavedSession>, Instant),
-    /// Whether that could not be done.
+    /// Whether saving the session has failed.
     forgotten: bool,
-    /// What was last written into the log.
+    /// The last message written to the log.
     written: String,
-    /// The table as others see it, if they may.
+    /// Writer of the shared table.
     showing: Showing,
 }
 
 impl Runner {
-    /// The signal that ended the program, or `None` where the player did.
+    /// Runs the loop. Returns the signal that ended the program, or `None` if the player did.
     fn until_the_end(&mut self, events: &Receiver<Event>) -> io::Result<Option<i32>> {
         self.draw()?;
         let mut pace = Pace::new(Instant::now());
         loop {
             self.tasks.subscribe(self.app.subscriptions())?;
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
-            // A toast goes by itself: one picture more, and no other.
+            // A toast that disappears needs one more frame.
             let toast = self.app.toasts.left().map(|left| self.ticked + Duration::from_secs_f64(left));
             let writing = self.forgets().into_iter().chain(self.showing.due(&self.app));
             let first = match pace.wake(interval).into_iter().chain(toast).chain(writing).min() {
@@ -141,7 +141,7 @@ impl Runner {
             if can_wait && !pace.news(Instant::now(), self.app.frame_interval().is_some()) {
                 continue;
             }
-            // Before the picture: a slow link may hold that up.
+            // Before the frame, which a slow link may delay.
             self.remember(false);
             if let Err(sentence) = self.showing.write(&self.app) {
                 self.app.not_shown(sentence);
@@ -152,13 +152,13 @@ impl Runner {
         }
     }
 
-    /// When something is to be written down for the next session, if there is anything new.
+    /// Time of the next save of the session; `None` if nothing has changed.
     fn forgets(&self) -> Option<Instant> {
         let (before, when) = &self.remembered;
         (self.app.saved_session() != *before).then(|| *when + REMEMBERED)
     }
 
-    /// Writes down what the next session may go on from, at the end and now and then: a crash costs two seconds of it.
+    /// Saves the session at the end and at intervals, so that a crash loses at most two seconds of it.
     fn remember(&mut self, at_the_end: bool) {
         let (before, when) = &self.remembered;
         if !at_the_end && when.elapsed() < REMEMBERED {
@@ -170,7 +170,7 @@ impl Runner {
             return;
         }
         if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.places.last)) {
-            // Once: the next session will have nothing to go on from, and nothing more comes of saying it again.
+            // Report the failure once: repeating it would not help.
             if !std::mem::replace(&mut self.forgotten, true) {
                 let path = self.places.last.display();
                 self.app.failed(format!("{path}: {error}; the next start cannot go on from here"));
@@ -179,22 +179,22 @@ impl Runner {
         self.remembered = (last, Instant::now());
     }
 
-    /// Keeps what is typed in part for the next session, whatever ends this one, in place of what the last one left.
+    /// Saves the partly typed stroke for the next session, replacing that of the last one, however this session ends.
     fn keep_draft(&self) -> io::Result<()> {
         let path = &self.places.draft;
         let told = |error| io::Error::other(format!("{}: {error}", path.display()));
         match self.app.draft() {
             Some(draft) => draft.save(path).map_err(told),
-            // Another program may have done so.
+            // Another program may have removed the file.
             None if self.app.draft_at_start.is_some() && path.exists() => fs::remove_file(path).map_err(told),
             None => Ok(()),
         }
     }
 
-    /// Writes refusals and failures down that were shown.
+    /// Writes the refusals and failures that were shown to the log.
     fn write_down(&mut self) {
         for text in self.app.toasts.take_unwritten() {
-            // A key that is held is refused again and again.
+            // A key that is held down is refused repeatedly.
             if self.written == text {
                 continue;
             }
@@ -221,11 +221,11 @@ impl Runner {
             }
             Event::Input(TerminalEvent::Mouse(mouse)) => self.app.mouse(mouse),
             Event::Answer(answer) => self.app.receive(answer),
-            // A resize needs a picture, which follows anyway.
+            // A resize only needs a frame, which follows anyway.
             Event::Input(_) | Event::Signal(Signal::Resized) => None,
             Event::InputEnded => return Ok(Next::Quit),
             Event::Signal(Signal::Stop) => Some(Effect::Suspend),
-            // Somebody else may have had the terminal since.
+            // Another program may have used the terminal meanwhile.
             Event::Signal(Signal::Continued) if std::mem::take(&mut self.has_come_back) => None,
             Event::Signal(Signal::Continued) => {
                 self.session.leave()?;
@@ -267,7 +267,7 @@ impl Runner {
         Ok(Next::GoOn)
     }
 
-    /// Gives the terminal back and stops until the shell continues the program.
+    /// Restores the terminal and suspends the program until the shell continues it.
     fn suspend(&mut self) -> io::Result<()> {
         self.session.leave()?;
         platform::suspend()?;
@@ -275,7 +275,7 @@ impl Runner {
         self.come_back()
     }
 
-    /// Takes the terminal again. A shot that plays goes on from where it was: the time between does not count.
+    /// Takes over the terminal again. A running playback continues where it was: the time in between does not count.
     fn come_back(&mut self) -> io::Result<()> {
         self.ticked = Instant::now();
         self.session.enter()

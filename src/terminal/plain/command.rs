@@ -1,4 +1,4 @@
-//! What a player may say, a line each.
+//! Commands of the plain mode, one per line.
 
 use std::str::FromStr;
 
@@ -11,68 +11,68 @@ use crate::{
     table::{BALL_NAMES, CueBall, Side},
 };
 
-/// What a line asks for.
+/// A command.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Where the balls lie.
+    /// Describe the positions of the balls.
     Where,
-    /// All three balls at once, as on the command line.
+    /// Place all three balls, as on the command line.
     Balls(String),
-    /// This ball is the cue ball.
+    /// Choose the cue ball.
     CueBall(CueBall),
-    /// A ball, by its place among white, yellow and red, goes by so many millimetres to the right and up.
+    /// Move a ball, given by its index among white, yellow and red, by a displacement in metres to the right and up.
     Move(usize, DVec2),
-    /// Balls on their spots, the cue ball on this side.
+    /// Put the balls on their spots, the cue ball on this side.
     Opening(Side),
-    /// Balls anywhere.
+    /// Random position.
     Random,
-    /// What counts as a point.
+    /// Set the rule.
     Rule(Rule),
-    /// Who plays.
+    /// Set the player's skill.
     Skill(Skill),
-    /// The player of the skill that was kept plays.
+    /// Use the user's own skill.
     OwnSkill,
-    /// Whether the next point counts too.
+    /// Set whether the next point counts too.
     Plan(bool),
-    /// Whether it does now, and what the shot leaves.
+    /// Say whether the next point counts, and what the shot leaves.
     PlanNow,
-    /// What the cue ball shall meet first, in a word.
+    /// Set what the cue ball has to meet first, as a word.
     First(String),
-    /// A shot.
+    /// Ask the coach for a shot.
     Shot,
-    /// A stroke of the player's own, in these words.
+    /// Try a stroke of the player's own, described in words.
     Try(String),
-    /// The next of the other shots.
+    /// Describe the next of the other shots.
     Other,
-    /// How often each of the shots is made.
+    /// List the success rates of all shots.
     Chances,
-    /// Why the first shot leads.
+    /// Explain why the first shot is best.
     Why,
-    /// How far off it may be.
+    /// Describe how far off the shot may be.
     Margins,
-    /// Where the tip meets the ball, the speed and the direction, in numbers.
+    /// Describe the shot in numbers: tip contact, speed and direction.
     Numbers,
-    /// What a player counts on the diamonds for it.
+    /// Describe the diamond system for the shot.
     System,
-    /// What the words for a shot mean.
+    /// Explain the words used for shots.
     Words,
-    /// Which balls and cushions are met in it, or with `true` all that happens, and what comes of it.
+    /// Describe the shot's contacts (with `true`, all its events) and its outcome.
     Tell(bool),
-    /// Balls as it leaves them.
+    /// Continue with the balls as the shot leaves them.
     GoOn,
-    /// Which filmed shots there are.
+    /// List the filmed shots.
     Films,
-    /// The filmed shot of this number, beside its simulation.
+    /// Describe the filmed shot with this number and its simulation.
     Film(u32),
-    /// The last change of the balls back.
+    /// Undo the last change of the balls.
     Undo,
-    /// What may be said.
+    /// List the commands.
     Help,
-    /// The end.
+    /// Quit.
     Quit,
 }
 
-/// What may be said, and what it does.
+/// The commands and what they do.
 const HELP: &[(&str, &str)] = &[
     ("shot", "ask the coach for a shot; ask and an empty line do the same"),
     (
@@ -112,7 +112,7 @@ const HELP: &[(&str, &str)] = &[
     ("quit", "end; so do exit and the end of the input"),
 ];
 
-/// All of it, a line each.
+/// The list of commands, one per line.
 pub fn help() -> String {
     HELP.iter().map(|(line, about)| format!("{line}: {about}.")).collect::<Vec<_>>().join("\n")
 }
@@ -175,7 +175,7 @@ fn ball_named(name: &str) -> Result<usize, String> {
         .ok_or_else(|| format!("there is no ball \"{name}\"; there are {}", BALL_NAMES.join(", ")))
 }
 
-/// So many millimetres in a direction, m.
+/// Parses a displacement: a direction and a distance in millimetres; returns metres.
 fn step(direction: &str, distance: &str) -> Result<DVec2, String> {
     let unit = match direction {
         "left" => DVec2::NEG_X,

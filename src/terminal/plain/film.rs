@@ -1,4 +1,4 @@
-//! Filmed shots in sentences: which there are, and how far the simulated balls are from the filmed ones.
+//! Filmed shots in sentences: the list, and the distances between simulated and filmed balls.
 
 use crate::{
     coach::words::LengthUnit,
@@ -12,10 +12,10 @@ use crate::{
     },
 };
 
-/// Moments at which the distances are given, s after the stroke; the end comes after them.
+/// Times for which the distances are given, s after the stroke; the end follows.
 const TOLD: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
 
-/// Which filmed shots there are.
+/// Lists the filmed shots.
 pub fn list() -> String {
     let numbers = |points: bool| -> String {
         let found = listed().iter().filter(|listed| listed.is_point == points);
@@ -29,10 +29,10 @@ pub fn list() -> String {
     )
 }
 
-/// One of them, played beside the film.
+/// Describes a filmed shot and its simulation.
 ///
 /// # Errors
-/// Where there is none of this number.
+/// Fails if there is no shot with this number.
 pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
     let shot = listed().iter().find(|listed| listed.filmed.number == number);
     let shot = shot.ok_or_else(|| format!("There is no filmed shot {number}; film says which there are."))?;

@@ -1,4 +1,4 @@
-//! Somebody else's table in lines, as it changes: for screen readers, pipes and scripts.
+//! Another player's table in lines, as it changes, for screen readers, pipes and scripts.
 
 use std::{
     io::{self, Write},
@@ -22,17 +22,17 @@ use crate::{
     },
 };
 
-/// Time between two looks.
+/// Polling interval.
 const INTERVAL: Duration = Duration::from_millis(200);
 
-/// How long a table has to be as it is before it is told: balls on their way need no sentence each.
+/// How long a table must stay unchanged before it is described: moving balls need no sentence each.
 const QUIET: Duration = Duration::from_millis(600);
 
-/// Tells what is seen of the table in `folder`, which is that of `name`, until they show it no more or `stop` is set; with `json`
-/// every change as an object.
+/// Describes the table that the player `name` shares in `folder`, until they stop sharing it or `stop` is set. With `json`, writes every
+/// change as an object.
 ///
 /// # Errors
-/// Whatever writing reports.
+/// Any error of the output.
 pub fn follow_in_lines(
     name: &str,
     folder: &Path,
@@ -63,7 +63,7 @@ pub fn follow_in_lines(
                 writeln!(out, "{line}")?;
             }
         }
-        // Programs are told of tables alone.
+        // JSON output contains tables only.
         if is_damaged && !json {
             writeln!(out, "{}", damage_words(name))?;
         }
@@ -75,7 +75,7 @@ pub fn follow_in_lines(
     Ok(())
 }
 
-/// What was told last.
+/// What was described last.
 #[derive(Default)]
 struct Told {
     scene: String,
@@ -85,7 +85,7 @@ struct Told {
     plays: bool,
 }
 
-/// Somebody who tells what is new.
+/// Describes what has changed.
 struct Teller<'a> {
     name: &'a str,
     units: Units,

@@ -1,4 +1,5 @@
-//! The coach as a conversation: lines in, sentences out. For screen readers, dumb terminals and scripts.
+//! Plain mode: the coach as a conversation, with commands as input lines and sentences as output. For screen readers, dumb terminals and
+//! scripts.
 
 mod command;
 mod film;
@@ -33,55 +34,54 @@ use crate::{
     },
 };
 
-/// A shot that was found.
+/// A shot found by the coach or tried by the player.
 #[derive(Clone, Copy, Debug)]
 struct Found {
     cue: CueInputs,
     /// Whether it is the best attempt of a search that found no point.
     is_attempt: bool,
     rate: Option<SuccessRate>,
-    /// How often the point after it is made, where that is known.
+    /// Success rate of the next point, if known.
     next: Option<f64>,
 }
 
-/// A conversation on its way.
+/// State of a conversation.
 struct Conversation {
     coach: Coach,
     request: Request,
-    /// The player's own skill, where there is one, and where it comes from.
+    /// The player's own skill and its source, if there is one.
     own: Option<(Skill, &'static str)>,
     balls: History<(Layout, CueBall)>,
-    /// The shots that were found for the balls as they lie, and which of them is spoken of.
+    /// The shots found for the present balls, and the index of the one being discussed.
     shots: Vec<Found>,
     chosen: usize,
-    /// Why the first of them leads.
+    /// Why the first shot is best.
     why: Option<Why>,
     units: Units,
     rng: Xoshiro256PlusPlus,
 }
 
-/// What a conversation begins with.
+/// Initial state of a conversation.
 #[derive(Clone, Copy, Debug)]
 pub struct Beginning {
-    /// Where the balls lie.
+    /// Positions of the balls.
     pub layout: Layout,
-    /// The player's own skill, where one is kept; else an average in the settings is it.
+    /// The player's own skill, if saved; otherwise an average in the settings is used.
     pub own: Option<Skill>,
-    /// What decides about random layouts.
+    /// Seed for random layouts.
     pub seed: u64,
 }
 
-/// Attempts at a stroke of the player's own by which it is told how often it is made.
+/// Number of attempts that measure the success rate of a player's own stroke.
 const JUDGED: usize = 1000;
 
-/// What is said to a line: what it asked for, or why it is refused.
+/// Answer to a line: the text, or why the line is refused.
 type Answer = Result<String, String>;
 
-/// Talks until the input ends or the player quits; with a `prompt` before every answer that is awaited. Returns how many lines were
-/// refused.
+/// Runs the conversation until the input ends or the player quits, with a `prompt` before each line. Returns how many lines were refused.
 ///
 /// # Errors
-/// What reading or writing reports.
+/// Any error of reading or writing.
 pub fn converse(
     coach: Coach,
     Beginning { layout, own, seed }: Beginning,
@@ -116,7 +116,7 @@ pub fn converse(
     write!(output, "carom. Say help for what may be said.\n{}\n{prompt}", talk.places())?;
     output.flush()?;
     let mut refused = 0;
-    // What is no UTF-8 is no command either, and is answered so.
+    // Lines that are not UTF-8 are answered like any other unknown command.
     let mut line = Vec::new();
     loop {
         let command = match next_line(&mut input, &mut line)? {
@@ -262,9 +262,9 @@ impl Conversation {
         self.place(layout) + if asks { "\nThe first shot of a game has to meet red first." } else { "" }
     }
 
-    /// Puts the balls elsewhere.
+    /// Moves the balls to `layout`.
     fn place(&mut self, layout: Layout) -> String {
-        // What moves nothing is no step that could be taken back.
+        // If no ball moves, there is no step to undo.
         if layout == *self.layout() {
             return self.places();
         }
@@ -272,7 +272,7 @@ impl Conversation {
         self.forget(self.places())
     }
 
-    /// The shots were for something else.
+    /// Drops the shots, because they were for another situation.
     fn forget(&mut self, sentence: String) -> String {
         self.shots.clear();
         sentence
@@ -307,7 +307,7 @@ impl Conversation {
         Ok(format!("{}{next}\n{others}", self.describe()?))
     }
 
-    /// Tells of a stroke of the player's own, in these words.
+    /// Describes a stroke of the player's own, given in words.
     fn try_stroke(&mut self, words: &str) -> Answer {
         let before = self.shots.get(self.chosen).map(|shot| shot.cue);
         let read = SpokenStroke::read(words);
@@ -327,7 +327,7 @@ impl Conversation {
         Ok(format!("{}\n{}.", self.describe()?, verdict.words(self.cue_ball(), self.units.length)))
     }
 
-    /// The shot that is spoken of.
+    /// Describes the chosen shot.
     fn describe(&self) -> Answer {
         self.about_the_shot(|talk, shot| {
             let mut lines = Vec::new();

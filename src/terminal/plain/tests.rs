@@ -1,4 +1,4 @@
-//! The conversation as somebody holds it.
+//! Whole conversations.
 
 use super::*;
 use crate::coach::words::LengthUnit;
@@ -8,7 +8,7 @@ fn talk(lines: &str) -> String {
     talk_of(None, &Settings { think_ms: 1_000, ..Settings::default() }, lines)
 }
 
-/// With a player whose own skill this is, under these settings.
+/// A conversation with a player of this own skill, under these settings.
 fn talk_of(own: Option<Skill>, settings: &Settings, lines: &str) -> String {
     let table = Table::default();
     let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
@@ -82,8 +82,8 @@ fn the_system_of_a_shot_is_told_and_what_the_words_mean() {
     assert!(is_told || told == "No diamond system describes this shot.", "{said}");
 }
 
-/// Why a shot leads, and which system describes it, is worked out after the search: in less time than 2000 shots take on the
-/// same machine, half of a short search's.
+/// The reasons for a shot and its diamond system are computed after the search. They must take less time than 2000 shots on the same
+/// machine, which is half of a short search.
 #[test]
 #[ignore = "compares times: cargo test --profile quick --lib the_reasons -- --ignored"]
 fn the_reasons_take_no_longer_than_a_short_search() {
@@ -97,7 +97,7 @@ fn the_reasons_take_no_longer_than_a_short_search() {
         work();
         start.elapsed()
     };
-    // The least of three: what else runs on the machine only adds to a time.
+    // The minimum of three: other load on the machine only increases a time.
     let least = |work: &dyn Fn()| (0..3).map(|_| timed(work)).min().unwrap();
     let record = || Recording::new(&table, &layout, &advice.cue).unwrap();
     let shots = least(&|| (0..500).for_each(|_| drop(record())));

@@ -90,7 +90,7 @@ pub struct Proposal {
     pub shot: Arc<Shot>,
     /// The player's success rate, if known.
     pub made: Option<SuccessRate>,
-    /// The most likely reason for a miss, if known.
+    /// How often it would be missed if only one thing were uncertain, if known.
     pub risk: Option<Risk>,
     /// Probability of the next point, if known.
     pub next: Option<f64>,

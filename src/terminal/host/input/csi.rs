@@ -1,4 +1,4 @@
-//! Keys and reports that come as control sequences (ECMA-48 5.4; xterm's and kitty's lists of keys).
+//! Keys and reports sent as control sequences (ECMA-48 5.4; key lists of xterm and kitty).
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
@@ -7,7 +7,7 @@ use crate::terminal::host::input::{
     mouse,
 };
 
-/// What `ESC [ parameters last` says; `None` where it is unknown, or an answer to another program.
+/// Decodes `ESC [ parameters last`; `None` if it is unknown, or an answer to a query of another program.
 pub fn event(parameters: &[u8], last: u8) -> Option<Event> {
     let text = std::str::from_utf8(parameters).ok()?;
     if let Some(report) = text.strip_prefix('<') {
@@ -21,18 +21,18 @@ pub fn event(parameters: &[u8], last: u8) -> Option<Event> {
         b'I' if text.is_empty() => Some(Event::FocusGained),
         b'O' if text.is_empty() => Some(Event::FocusLost),
         b'Z' => modified(KeyCode::BackTab, numbers.next()).map(|event| with(event, KeyModifiers::SHIFT)),
-        // The cursor's place, which ends alike, has its row first.
+        // A report of the cursor position has the same final byte, but its first number is a row.
         b'R' if !matches!(first, "" | "1") => None,
         _ => letter(last).filter(|_| matches!(first, "" | "1")).and_then(|code| modified(code, numbers.next())),
     }
 }
 
-/// What `ESC O last` says.
+/// Decodes `ESC O last`.
 pub fn ss3(last: u8) -> Option<Event> {
     letter(last).map(key)
 }
 
-/// Keys that a letter stands for.
+/// Keys identified by a letter.
 const fn letter(last: u8) -> Option<KeyCode> {
     Some(match last {
         b'A' => KeyCode::Up,
@@ -46,7 +46,7 @@ const fn letter(last: u8) -> Option<KeyCode> {
     })
 }
 
-/// Keys that a number stands for, and xterm's `27 ; held ; character`.
+/// Keys identified by a number, and xterm's `27 ; modifiers ; character`.
 fn numbered<'a>(first: &str, mut rest: impl Iterator<Item = &'a str>) -> Option<Event> {
     let code = match first.parse::<u8>().ok()? {
         1 | 7 => KeyCode::Home,
@@ -69,7 +69,7 @@ fn numbered<'a>(first: &str, mut rest: impl Iterator<Item = &'a str>) -> Option<
     modified(code, rest.next())
 }
 
-/// A key by its character's number, as kitty and others name it.
+/// A key identified by the code point of its character, as in kitty's protocol.
 fn unicode(first: &str, second: Option<&str>) -> Option<Event> {
     let mut numbers = first.split(':').map(|number| number.parse().ok().and_then(char::from_u32));
     let character = numbers.next()??;
@@ -80,7 +80,7 @@ fn unicode(first: &str, second: Option<&str>) -> Option<Event> {
         '\t' if modifiers.contains(KeyModifiers::SHIFT) => KeyCode::BackTab,
         '\t' => KeyCode::Tab,
         '\u{7f}' | '\u{8}' => KeyCode::Backspace,
-        // Keys without a character have numbers from the private area.
+        // Keys without a character have code points from the private use area.
         character if character.is_control() || ('\u{e000}'..='\u{f8ff}').contains(&character) => return None,
         character => {
             let shifted = numbers.next().flatten().filter(|_| modifiers.contains(KeyModifiers::SHIFT));

@@ -1,11 +1,11 @@
-//! What must hold of the decoder, on whatever bytes.
+//! Properties of the decoder for arbitrary bytes.
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use proptest::prelude::*;
 
 use crate::terminal::host::input::Decoder;
 
-/// The events of bytes that come at once, with the silence behind them.
+/// The events of bytes that arrive together, followed by silence.
 fn decode(bytes: &[u8]) -> Vec<Event> {
     let (mut decoder, mut events) = (Decoder::default(), Vec::new());
     decoder.feed(bytes, &mut events);
@@ -152,7 +152,7 @@ proptest! {
     fn whatever_was_begun_ctrl_c_is_heard(bytes in pieces()) {
         let (mut decoder, mut events) = (Decoder::default(), Vec::new());
         decoder.feed(&bytes, &mut events);
-        // All is waited for that a person would notice; two tenths of a second are promised.
+        // The decoder may wait at most 0.1 s here; the program promises 0.2 s, which a person would hardly notice.
         decoder.feed(b"\x03", &mut events);
         let mut waited = std::time::Duration::ZERO;
         while let Some(patience) = decoder.patience() {
