@@ -119,12 +119,12 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
         .with_settings(settings)
         .with_notice(storage::notice(places))
         .with_notice(seat.warning().as_deref());
-    let app = with_what_was_left(app, places).with_complaints(&places.settings, complaints);
+    let app = with_saved_state(app, places).with_complaints(&places.settings, complaints);
     Ok(host::runner::run(app, seat.places)?)
 }
 
 /// Restores what the user's last session saved: its state, the calibration stroke that was typed in part, and the user's own skill.
-fn with_what_was_left(app: App, places: &Places) -> App {
+fn with_saved_state(app: App, places: &Places) -> App {
     // The drill screens report a file that cannot be read.
     let own = Store::new(places).own_skill().unwrap_or_default();
     let last = SavedSession::load_or_put_aside(&places.last);
@@ -207,6 +207,6 @@ pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalErro
         .with_detection(detect)
         .with_settings(&settings);
     // The coach can be opened from there, and then saves this session in place of the last one.
-    let app = with_what_was_left(app, &places).with_complaints(&Settings::path(), &complaints);
+    let app = with_saved_state(app, &places).with_complaints(&Settings::path(), &complaints);
     Ok(host::runner::run(app, places)?)
 }

@@ -12,7 +12,7 @@ use crate::{
 pub const LONGEST_FOR_GUESTS: u64 = 1000;
 
 /// Disk space that a session needs, bytes: a few files of some kilobytes.
-const LEAST_ROOM: u64 = 1 << 18;
+const MIN_FREE_SPACE: u64 = 1 << 18;
 
 /// The player, the location of their files, and what they may do.
 #[derive(Clone, Debug)]
@@ -67,7 +67,7 @@ impl Seat {
     pub fn warning(&self) -> Option<String> {
         let folder = &self.places.own;
         let state = storage::folder_state(folder);
-        let is_full = state.free.is_some_and(|free| free < LEAST_ROOM);
+        let is_full = state.free.is_some_and(|free| free < MIN_FREE_SPACE);
         let refusal = state.refusal.map(|error| error.to_string());
         let refusal = refusal.or_else(|| is_full.then(|| "the disk is full".to_owned()))?;
         Some(format!("nothing can be kept in {}: {refusal}", folder.display()))

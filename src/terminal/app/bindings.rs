@@ -120,7 +120,7 @@ impl Bound {
 }
 
 /// Appends the rows of a page's table.
-fn take<B: Copy + PartialEq, W: Copy>(
+fn append<B: Copy + PartialEq, W: Copy>(
     all: &mut Vec<Bound>,
     table: &[Binding<B, W>],
     action: fn(B) -> Action,
@@ -129,11 +129,11 @@ fn take<B: Copy + PartialEq, W: Copy>(
     all.extend(table.iter().map(|binding| {
         let mut actions: Vec<B> = Vec::new();
         let mut words = |of: B| {
-            let place = actions.iter().position(|known| *known == of).unwrap_or_else(|| {
+            let index = actions.iter().position(|known| *known == of).unwrap_or_else(|| {
                 actions.push(of);
                 actions.len() - 1
             });
-            binding.each.get(place).copied().unwrap_or(binding.description)
+            binding.each.get(index).copied().unwrap_or(binding.description)
         };
         Bound {
             keys: binding.keys.iter().map(|(chord, of)| (*chord, action(*of), words(*of))).collect(),
@@ -152,7 +152,7 @@ const OVERLAY: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Overlay, &[key(Esc, A::CloseOverlay), letter('?', A::CloseOverlay), letter('q', A::CloseOverlay),
         key(Enter, A::CloseOverlay)], Some(("close", 1)), "close this page"),
     bind(Program, Condition::Overlay, &[key(F(1), A::OpenHelp), key(F(6), A::OpenMessages), key(F(8), A::OpenGlossary)], None,
-        "the help, the messages or the glossary in its place; what has opened it closes it"),
+        "open the help, the messages or the glossary instead; the same key closes it"),
     bind(Program, Condition::Overlay, &[key(Down, A::ScrollOverlay(1)), key(Up, A::ScrollOverlay(-1)), letter('j', A::ScrollOverlay(1)),
         letter('k', A::ScrollOverlay(-1)), key(PageDown, A::ScrollOverlay(10)), key(PageUp, A::ScrollOverlay(-10)),
         key(End, A::ScrollOverlay(i16::MAX)), key(Home, A::ScrollOverlay(i16::MIN))], Some(("scroll", 2)), "scroll this page"),
@@ -229,24 +229,26 @@ const LEAVE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[ctrl('c', A::Quit)], None, "quit"),
 ];
 
-/// All bindings in the context `place`. The first enabled binding of a key wins; the hint line shows as many as fit, in this order.
-pub fn bindings(place: KeyContext) -> Vec<Bound> {
+/// All bindings in `context`. The first enabled binding of a key wins; the hint line shows as many as fit, in this order.
+pub fn bindings(context: KeyContext) -> Vec<Bound> {
     let mut all = Vec::new();
-    let program = |all: &mut Vec<Bound>, table| take(all, table, |action| action, |when| when);
-    let (overlay, leave) = match place {
-        _ if place.takes_letters() => (&[][..], LEAVE),
+    let program = |all: &mut Vec<Bound>, table| append(all, table, |action| action, |when| when);
+    let (overlay, leave) = match context {
+        _ if context.takes_letters() => (&[][..], LEAVE),
         _ => (OVERLAY, PROGRAM),
     };
     program(&mut all, overlay);
-    match place {
-        KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach),
-        KeyContext::OwnStroke => take(&mut all, coach::OWN_STROKE, A::Coach, Condition::Coach),
-        KeyContext::Follow => take(&mut all, coach::FOLLOW, A::Coach, Condition::Coach),
+    match context {
+        KeyContext::Coach => append(&mut all, coach::COACH, A::Coach, Condition::Coach),
+        KeyContext::OwnStroke => append(&mut all, coach::OWN_STROKE, A::Coach, Condition::Coach),
+        KeyContext::Follow => append(&mut all, coach::FOLLOW, A::Coach, Condition::Coach),
         KeyContext::Question { is_typed } => program(&mut all, if is_typed { TYPED } else { QUESTION }),
-        KeyContext::Training(place) => take(&mut all, place.bindings(), A::Training, Condition::Training),
-        KeyContext::Drill(place) => take(&mut all, place.bindings(), A::Drill, Condition::Drill),
-        KeyContext::Settings(place) => take(&mut all, place.bindings(), A::Settings, Condition::Settings),
-        KeyContext::Calibration(place) => take(&mut all, place.bindings(), A::Calibration, Condition::Calibration),
+        KeyContext::Training(context) => append(&mut all, context.bindings(), A::Training, Condition::Training),
+        KeyContext::Drill(context) => append(&mut all, context.bindings(), A::Drill, Condition::Drill),
+        KeyContext::Settings(context) => append(&mut all, context.bindings(), A::Settings, Condition::Settings),
+        KeyContext::Calibration(context) => {
+            append(&mut all, context.bindings(), A::Calibration, Condition::Calibration)
+        }
         KeyContext::CommandPalette => program(&mut all, PALETTE),
     }
     program(&mut all, TABS);
@@ -254,17 +256,17 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
     all
 }
 
-/// All bindings in the context `place` except those of overlays, for lists of keys.
-pub fn listed(place: KeyContext) -> impl Iterator<Item = Bound> {
-    bindings(place).into_iter().filter(|binding| binding.when != Condition::Overlay)
+/// All bindings in `context` except those of overlays, for lists of keys.
+pub fn listed(context: KeyContext) -> impl Iterator<Item = Bound> {
+    bindings(context).into_iter().filter(|binding| binding.when != Condition::Overlay)
 }
 
 /// The bindings of each page, for lists of keys.
 pub fn key_pages() -> Vec<KeyPage> {
-    KeyContext::PAGES.iter().map(|(place, name)| KeyPage { name, entries: entries(*place) }).collect()
+    KeyContext::PAGES.iter().map(|(context, name)| KeyPage { name, entries: entries(*context) }).collect()
 }
 
-fn entries(place: KeyContext) -> Vec<KeyEntry> {
+fn entries(context: KeyContext) -> Vec<KeyEntry> {
     let entries = |binding: Bound| {
         binding.commands().into_iter().map(move |(_, words, chords)| KeyEntry {
             chords,
@@ -272,7 +274,7 @@ fn entries(place: KeyContext) -> Vec<KeyEntry> {
             section: binding.section,
         })
     };
-    listed(place).flat_map(entries).collect()
+    listed(context).flat_map(entries).collect()
 }
 
 /// The key that opens `screen` from any page.
@@ -280,16 +282,16 @@ pub fn chord_of_tab(screen: PageId) -> Option<Chord> {
     chord_of(TABS, &Action::Open(screen))
 }
 
-/// Finds the action of `event` in the context `place`: that of the first enabled binding. If none is enabled, returns the reason of the
+/// Finds the action of `event` in `context`: that of the first enabled binding. If none is enabled, returns the reason of the
 /// last one, because the more specific bindings come first. `None` if no binding has the key. `disabled_reason` returns why a condition
 /// does not hold.
 pub fn find<'a>(
     event: &KeyEvent,
-    place: KeyContext,
+    context: KeyContext,
     disabled_reason: impl Fn(Condition) -> Option<&'a str>,
 ) -> Option<Result<Action, &'a str>> {
     let mut refused = None;
-    for binding in bindings(place) {
+    for binding in bindings(context) {
         let Some((_, action, _)) = binding.keys.iter().find(|(chord, ..)| chord.matches(event)) else { continue };
         match disabled_reason(binding.when) {
             None => return Some(Ok(*action)),
@@ -308,7 +310,7 @@ mod tests {
     use super::*;
     use crate::terminal::{CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::commands_of};
 
-    fn places() -> impl Iterator<Item = KeyContext> {
+    fn contexts() -> impl Iterator<Item = KeyContext> {
         let over = [
             KeyContext::CommandPalette,
             KeyContext::Question { is_typed: true },
@@ -322,13 +324,13 @@ mod tests {
 
     #[test]
     fn no_two_bindings_with_the_same_condition_share_a_key() {
-        for place in places() {
-            let all = bindings(place);
+        for context in contexts() {
+            let all = bindings(context);
             for (n, one) in all.iter().enumerate() {
                 for other in all[n + 1..].iter().filter(|other| other.when == one.when) {
                     for (chord, ..) in &one.keys {
                         let free = other.keys.iter().all(|(theirs, ..)| theirs != chord);
-                        assert!(free, "{place:?} {chord:?}: {}", other.description);
+                        assert!(free, "{context:?} {chord:?}: {}", other.description);
                     }
                 }
             }
@@ -347,11 +349,11 @@ mod tests {
     #[test]
     fn the_program_and_each_screen_can_be_left_from_everywhere() {
         let event = KeyEvent::new(Char('c'), crossterm::event::KeyModifiers::CONTROL);
-        for place in places() {
-            assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Quit)), "{place:?}");
+        for context in contexts() {
+            assert_eq!(find(&event, context, |_| None), Some(Ok(Action::Quit)), "{context:?}");
             for screen in PageId::ALL {
                 let event = chord_of_tab(screen).unwrap().event();
-                assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Open(screen))), "{place:?}");
+                assert_eq!(find(&event, context, |_| None), Some(Ok(Action::Open(screen))), "{context:?}");
             }
         }
     }
@@ -361,19 +363,19 @@ mod tests {
         let refuse_all = |_| Some("not now");
         assert_eq!(find(&KeyEvent::from(End), KeyContext::Training(TrainingContext::Form), refuse_all), None);
         let end = Some(Ok(Action::ScrollOverlay(i16::MAX)));
-        for place in KeyContext::PAGES.map(|(place, _)| place) {
-            assert_eq!(find(&KeyEvent::from(End), place, |_| None), end, "{place:?}");
+        for context in KeyContext::PAGES.map(|(context, _)| context) {
+            assert_eq!(find(&KeyEvent::from(End), context, |_| None), end, "{context:?}");
         }
     }
 
     #[test]
     fn letters_are_typed_where_words_are_and_digits_in_the_form() {
         let typed =
-            |place: KeyContext, text: &str| text.chars().filter(|letter| place.types(Chord::char(*letter))).count();
-        for place in places() {
-            let most = if place == KeyContext::Training(TrainingContext::Form) { 1 } else { 3 };
-            assert!([0, most].contains(&typed(place, "z 1")), "{place:?}");
-            assert!(!place.types(Chord::ctrl(Char('z'))) && !place.types(Chord::plain(Enter)), "{place:?}");
+            |context: KeyContext, text: &str| text.chars().filter(|letter| context.types(Chord::char(*letter))).count();
+        for context in contexts() {
+            let most = if context == KeyContext::Training(TrainingContext::Form) { 1 } else { 3 };
+            assert!([0, most].contains(&typed(context, "z 1")), "{context:?}");
+            assert!(!context.types(Chord::ctrl(Char('z'))) && !context.types(Chord::plain(Enter)), "{context:?}");
         }
         let words = [
             KeyContext::Question { is_typed: true },
@@ -381,16 +383,16 @@ mod tests {
             KeyContext::Drill(DrillContext::Search),
             KeyContext::Calibration(CalibrationContext::Marks),
         ];
-        assert!(words.iter().all(|place| typed(*place, "z 1") == 3));
+        assert!(words.iter().all(|context| typed(*context, "z 1") == 3));
         assert_eq!(typed(KeyContext::Training(TrainingContext::Form), "z 1"), 1);
         assert_eq!(typed(KeyContext::Question { is_typed: false }, "z 1"), 0);
     }
 
     #[test]
     fn no_binding_takes_a_key_of_the_text_that_is_typed() {
-        for place in places().filter(|place| place.types(Chord::char('z'))) {
-            for (chord, ..) in bindings(place).into_iter().flat_map(|binding| binding.keys) {
-                assert!(!place.types(chord), "{place:?}: {chord:?} is typed, and never comes to the binding");
+        for context in contexts().filter(|context| context.types(Chord::char('z'))) {
+            for (chord, ..) in bindings(context).into_iter().flat_map(|binding| binding.keys) {
+                assert!(!context.types(chord), "{context:?}: {chord:?} is typed, and never comes to the binding");
             }
         }
     }
@@ -408,13 +410,13 @@ mod tests {
 
     #[test]
     fn no_two_things_that_can_be_done_at_a_place_have_the_same_words() {
-        for place in places() {
-            for binding in listed(place) {
+        for context in contexts() {
+            for binding in listed(context) {
                 for (_, action, words) in &binding.keys {
-                    let same = listed(place)
+                    let same = listed(context)
                         .flat_map(|binding| binding.keys)
                         .find(|(_, other, its)| its == words && other != action);
-                    assert!(same.is_none(), "{place:?}: {words}: {action:?} and {same:?}");
+                    assert!(same.is_none(), "{context:?}: {words}: {action:?} and {same:?}");
                 }
             }
         }

@@ -18,7 +18,7 @@ impl App {
         if key.kind == KeyEventKind::Release {
             return None;
         }
-        let effect = self.take_key(key);
+        let effect = self.handle_key(key);
         self.collect_toasts(true);
         effect.or_else(|| self.study())
     }
@@ -31,13 +31,13 @@ impl App {
 
     /// Handles a key with Alt as Esc followed by the key, for contexts in which Alt has no meaning. Terminals send both in the same way:
     /// Esc pressed just before a key can arrive in one piece with it.
-    fn take_both(&mut self, key: &KeyEvent) -> Option<Effect> {
+    fn handle_as_escape_and_key(&mut self, key: &KeyEvent) -> Option<Effect> {
         let bare = KeyEvent { modifiers: key.modifiers - KeyModifiers::ALT, ..*key };
-        let effect = self.take_key(&KeyEvent::from(KeyCode::Esc));
-        effect.or_else(|| self.take_key(&bare))
+        let effect = self.handle_key(&KeyEvent::from(KeyCode::Esc));
+        effect.or_else(|| self.handle_key(&bare))
     }
 
-    fn take_key(&mut self, key: &KeyEvent) -> Option<Effect> {
+    fn handle_key(&mut self, key: &KeyEvent) -> Option<Effect> {
         // Works everywhere, even under an overlay.
         if (key.code, key.modifiers) == (KeyCode::Char('c'), KeyModifiers::CONTROL) {
             return self.update(Action::Quit);
@@ -71,7 +71,7 @@ impl App {
             return effect;
         }
         if found.is_none() && key.modifiers.contains(KeyModifiers::ALT) {
-            return self.take_both(key);
+            return self.handle_as_escape_and_key(key);
         }
         let found = found?;
         if meant.code == KeyCode::Esc {
@@ -94,7 +94,7 @@ impl App {
             Err(reason) => {
                 if self.overlay.is_some() {
                     // The open overlay may be the list of messages.
-                    self.toasts.push_for_now(reason.to_owned());
+                    self.toasts.push_unlisted(reason.to_owned());
                 } else {
                     self.toasts.push(reason.to_owned(), true);
                 }
@@ -139,11 +139,11 @@ impl App {
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         match when {
             Condition::Overlay => self.overlay.is_none().then_some("no page lies over the screen"),
-            Condition::Tabs => self.stands_alone().then_some("no other screens here; start carom for all of them"),
+            Condition::Tabs => self.is_only_screen().then_some("no other screens here; start carom for all of them"),
             _ if self.overlay.is_some() => Some("close this first: Esc"),
             Condition::Always => None,
             Condition::Shell => self.no_shell(),
-            Condition::Coach(CoachCondition::Interrupted) if self.goes_on_with_open_exam() => {
+            Condition::Coach(CoachCondition::Interrupted) if self.resumes_open_exam() => {
                 self.coach.disabled_reason(CoachCondition::Idle)
             }
             Condition::Coach(when) => self.coach.disabled_reason(when),

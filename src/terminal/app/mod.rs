@@ -257,9 +257,9 @@ impl App {
         match action {
             Action::Quit => return Some(Effect::Quit),
             Action::Suspend => return Some(Effect::Suspend),
-            Action::OpenHelp => self.lay_over(Overlay::Help),
-            Action::OpenMessages => self.lay_over(Overlay::Messages),
-            Action::OpenGlossary => self.lay_over(Overlay::Glossary),
+            Action::OpenHelp => self.open_overlay(Overlay::Help),
+            Action::OpenMessages => self.open_overlay(Overlay::Messages),
+            Action::OpenGlossary => self.open_overlay(Overlay::Glossary),
             Action::OpenMatch => {
                 let opened = self.open(PageId::Drills);
                 let coach = &mut self.coach;
@@ -287,14 +287,14 @@ impl App {
             Action::ClosePalette => self.command_palette = None,
             Action::ChooseCommand => return self.choose_command(),
             Action::PaletteLine(lines) => self.move_palette_mark(lines),
-            Action::Coach(CoachAction::Resume) if self.goes_on_with_open_exam() => {
+            Action::Coach(CoachAction::Resume) if self.resumes_open_exam() => {
                 let effect = self.open(PageId::Drills);
                 self.drills.show_session();
                 return effect;
             }
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;
-                self.turn_to(PageId::Drills);
+                self.switch_to(PageId::Drills);
                 let effect = self.drills.resume(practice, self.coach.query.skill);
                 // An exam that was open before waits until all others have been continued.
                 self.coach.left_exams.splice(0..0, self.drills.left_exam.take());
@@ -351,7 +351,7 @@ impl App {
     }
 
     /// Whether the session to continue is an exam that is still open on the drill screens.
-    pub(super) fn goes_on_with_open_exam(&self) -> bool {
+    pub(super) fn resumes_open_exam(&self) -> bool {
         self.coach.left_exams.is_empty() && self.drills.has_open_exam()
     }
 

@@ -28,7 +28,7 @@ impl App {
             self.training.alone = false;
             // If the user has opened another screen meanwhile, it stays open.
             if self.screen == PageId::Training {
-                self.turn_to(PageId::Coach);
+                self.switch_to(PageId::Coach);
             }
         }
         self.collect_toasts(false);

@@ -4,7 +4,7 @@ use crate::terminal::{App, Effect, Overlay, PageId};
 
 impl App {
     /// Opens an overlay in place of any other; closes it if it is already open.
-    pub(super) fn lay_over(&mut self, page: Overlay) {
+    pub(super) fn open_overlay(&mut self, page: Overlay) {
         if self.overlay.is_some_and(|(open, _)| open == page) {
             return self.close_overlay();
         }
@@ -24,7 +24,7 @@ impl App {
     }
 
     /// Switches to `screen` and closes any overlay. Returns the previous screen, or `None` if `screen` was open already.
-    pub(super) fn turn_to(&mut self, screen: PageId) -> Option<PageId> {
+    pub(super) fn switch_to(&mut self, screen: PageId) -> Option<PageId> {
         (self.overlay, self.command_palette) = (None, None);
         self.coach.drop_ball();
         if self.screen == screen {
@@ -37,7 +37,7 @@ impl App {
 
     /// Opens a screen in the state in which it was left. Searches and training continue in the background meanwhile.
     pub(super) fn open(&mut self, screen: PageId) -> Option<Effect> {
-        let before = self.turn_to(screen)?;
+        let before = self.switch_to(screen)?;
         if before == PageId::Drills {
             // The player chosen on the drill screens also becomes the player at the coach's table.
             self.coach.take_skill(self.drills.player.at_coach);
@@ -67,7 +67,7 @@ impl App {
     }
 
     /// Whether there is no other screen to open.
-    pub const fn stands_alone(&self) -> bool {
+    pub const fn is_only_screen(&self) -> bool {
         self.training.alone || self.coach.followed().is_some()
     }
 }

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Size of the read buffer, bytes.
-const AT_ONCE: usize = 65_536;
+const READ_SIZE: usize = 65_536;
 
 /// Starts the threads that read the terminal and the signals, and returns their common channel.
 ///
@@ -45,10 +45,10 @@ pub fn open() -> io::Result<(Sender<Event>, Receiver<Event>)> {
 fn read_input(to_screen: &Sender<Event>) -> io::Result<()> {
     let mut input = Input::open();
     let (mut decoder, mut events) = (Decoder::default(), Vec::new());
-    let mut bytes = vec![0; AT_ONCE];
+    let mut bytes = vec![0; READ_SIZE];
     loop {
-        match input.next(&mut bytes, decoder.patience())? {
-            Came::Silence => decoder.silence(&mut events),
+        match input.next(&mut bytes, decoder.timeout())? {
+            Came::Silence => decoder.on_timeout(&mut events),
             Came::Gone => return Ok(()),
             Came::Bytes(count) => decoder.feed(&bytes[..count], &mut events),
             Came::Event(event) => events.push(event),

@@ -32,7 +32,7 @@ use crate::{platform, printing::OneLine, terminal::host::backend::AnsiBackend};
 
 /// Whether the program has taken over the terminal. It is global because a process has one terminal, and a panic must not restore it twice:
 /// that would move the cursor onto the report.
-static TAKEN: AtomicBool = AtomicBool::new(false);
+static IS_ACTIVE: AtomicBool = AtomicBool::new(false);
 
 /// Enables reports of mouse buttons, wheel and drags, but not of motion (xterm modes 1002 and 1006). Crossterm's own command adds mode
 /// 1003, whose reports of every motion flood a slow link.
@@ -67,7 +67,7 @@ impl TerminalGuard {
     /// # Errors
     /// Any error of the terminal.
     pub fn enter(&mut self) -> io::Result<()> {
-        TAKEN.store(true, Ordering::SeqCst);
+        IS_ACTIVE.store(true, Ordering::SeqCst);
         enable_raw_mode()?;
         let mouse = if self.mouse { ENABLE_MOUSE } else { "" };
         execute!(self.output, EnterAlternateScreen, Hide, EnableBracketedPaste, Print(mouse))?;
@@ -82,7 +82,7 @@ impl TerminalGuard {
     ///
     /// # Errors
     /// Any error of the terminal.
-    pub fn want_mouse(&mut self, mouse: bool) -> io::Result<()> {
+    pub fn capture_mouse(&mut self, mouse: bool) -> io::Result<()> {
         if std::mem::replace(&mut self.mouse, mouse) == mouse {
             return Ok(());
         }
@@ -94,10 +94,10 @@ impl TerminalGuard {
     /// # Errors
     /// Any error of the terminal.
     pub fn leave(&mut self) -> io::Result<()> {
-        if !TAKEN.swap(false, Ordering::SeqCst) {
+        if !IS_ACTIVE.swap(false, Ordering::SeqCst) {
             return Ok(());
         }
-        let shown = give_back(&mut self.output);
+        let shown = write_restore(&mut self.output);
         disable_raw_mode().and(shown)
     }
 
@@ -134,7 +134,7 @@ pub fn has_terminal() -> bool {
 
 /// Writes the sequences that restore the terminal in one piece, so that no intermediate state is visible. A terminal without an alternate
 /// screen keeps the picture; the shell then continues below it, in its own colours.
-fn give_back(output: &mut impl Write) -> io::Result<()> {
+fn write_restore(output: &mut impl Write) -> io::Result<()> {
     let mut bytes = Vec::new();
     queue!(bytes, ResetColor, MoveTo(0, u16::MAX - 1), Print("\r\n"))?;
     queue!(bytes, EndSynchronizedUpdate, Print(DISABLE_MOUSE), DisableBracketedPaste, Show, LeaveAlternateScreen)?;
@@ -149,9 +149,9 @@ fn restore_on_panic() {
     let report = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
         tracing::error!("{}", OneLine(&info));
-        if thread::current().id() == screen && TAKEN.swap(false, Ordering::SeqCst) {
+        if thread::current().id() == screen && IS_ACTIVE.swap(false, Ordering::SeqCst) {
             let _ = disable_raw_mode();
-            let _ = give_back(&mut io::stdout());
+            let _ = write_restore(&mut io::stdout());
         }
         if thread::current().id() == screen {
             report(info);

@@ -16,16 +16,16 @@ use crate::{
     storage::Places,
     terminal::{
         App, CoachAnswer, CoachNews, Effect, SavedSession, TrainingReport,
-        host::{events, guard::TerminalGuard, log, pace::Pace, showing::Showing},
+        host::{events, guard::TerminalGuard, log, pace::Pace, showing::TableSharing},
         tasks::{Tasks, event::Event},
     },
 };
 
 /// Smallest interval between two frames; the effects of faster keys are drawn together.
-const LEAST_INTERVAL: Duration = Duration::from_millis(15);
+const MIN_FRAME_INTERVAL: Duration = Duration::from_millis(15);
 
 /// Smallest interval between two saves of the session.
-const REMEMBERED: Duration = Duration::from_secs(2);
+const SAVE_INTERVAL: Duration = Duration::from_secs(2);
 
 /// Whether the loop continues.
 enum Next {
@@ -46,21 +46,21 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     let (to_screen, events) = events::open()?;
     let session = TerminalGuard::start(app.mouse)?;
     let tasks = Tasks::new(to_screen)?;
-    let remembered = (None, Instant::now());
+    let saved = (None, Instant::now());
     let ticked = Instant::now();
-    let showing = Showing::new(places.shown.clone());
-    let (has_come_back, forgotten, written) = (false, false, String::new());
+    let showing = TableSharing::new(places.shown.clone());
+    let (has_resumed, has_save_failed, last_logged) = (false, false, String::new());
     let mut runner =
-        Runner { app, session, tasks, places, ticked, has_come_back, remembered, forgotten, written, showing };
-    let end = runner.until_the_end(&events);
+        Runner { app, session, tasks, places, ticked, has_resumed, saved, has_save_failed, last_logged, showing };
+    let end = runner.event_loop(&events);
     runner.showing.end();
-    runner.remember(true);
-    let unkept = runner.keep_draft();
+    runner.save_session(true);
+    let draft_saved = runner.keep_draft();
     info!(?end, "the screen closes");
     let left = runner.session.leave();
     // The player sees the shell again while the last changes are written.
     runner.tasks.finish();
-    if let Err(error) = unkept {
+    if let Err(error) = draft_saved {
         // A terminal that is gone shows nothing.
         let _ = writeln!(printing::stderr(), "the stroke that was typed in part is lost: {error}");
     }
@@ -72,7 +72,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
 }
 
 /// Whether an event can wait for the next frame: news of runs, and better shots while the coach still thinks.
-const fn can_come_later(event: &Event) -> bool {
+const fn can_be_deferred(event: &Event) -> bool {
     matches!(
         event,
         Event::Training(TrainingReport::Followed(..) | TrainingReport::HasPolicy(..))
@@ -88,20 +88,20 @@ struct Runner {
     /// Time of the last tick of the app, or of the return from being suspended.
     ticked: Instant,
     /// Whether the terminal has already been taken over again when the signal for it arrives.
-    has_come_back: bool,
+    has_resumed: bool,
     /// The session saved last, and the time of the save.
-    remembered: (Option<SavedSession>, Instant),
+    saved: (Option<SavedSession>, Instant),
     /// Whether saving the session has failed.
-    forgotten: bool,
+    has_save_failed: bool,
     /// The last message written to the log.
-    written: String,
+    last_logged: String,
     /// Writer of the shared table.
-    showing: Showing,
+    showing: TableSharing,
 }
 
 impl Runner {
     /// Runs the loop. Returns the signal that ended the program, or `None` if the player did.
-    fn until_the_end(&mut self, events: &Receiver<Event>) -> io::Result<Option<i32>> {
+    fn event_loop(&mut self, events: &Receiver<Event>) -> io::Result<Option<i32>> {
         self.draw()?;
         let mut pace = Pace::new(Instant::now());
         loop {
@@ -109,7 +109,7 @@ impl Runner {
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
             // A toast that disappears needs one more frame.
             let toast = self.app.toasts.left().map(|left| self.ticked + Duration::from_secs_f64(left));
-            let writing = self.forgets().into_iter().chain(self.showing.due(&self.app));
+            let writing = self.next_save().into_iter().chain(self.showing.due(&self.app));
             let first = match pace.wake(interval).into_iter().chain(toast).chain(writing).min() {
                 // Nothing moves: no timer, no processor time, no bytes.
                 None => events.recv().map_err(|_| RecvTimeoutError::Disconnected),
@@ -121,7 +121,7 @@ impl Runner {
                 Err(RecvTimeoutError::Disconnected) => return Ok(None),
             };
             if first.is_some() {
-                std::thread::sleep(LEAST_INTERVAL.saturating_sub(pace.since(Instant::now())));
+                std::thread::sleep(MIN_FRAME_INTERVAL.saturating_sub(pace.since(Instant::now())));
             }
             // Time that passed while nothing moved does not count.
             let passed = self.ticked.elapsed();
@@ -131,8 +131,8 @@ impl Runner {
             }
             let mut can_wait = first.is_some();
             for event in first.into_iter().chain(events.try_iter()) {
-                can_wait &= can_come_later(&event);
-                match self.take(event)? {
+                can_wait &= can_be_deferred(&event);
+                match self.handle(event)? {
                     Next::GoOn => {}
                     Next::Quit => return Ok(None),
                     Next::Die(signal) => return Ok(Some(signal)),
@@ -142,41 +142,41 @@ impl Runner {
                 continue;
             }
             // Before the frame, which a slow link may delay.
-            self.remember(false);
+            self.save_session(false);
             if let Err(sentence) = self.showing.write(&self.app) {
                 self.app.not_shown(sentence);
             }
-            self.write_down();
+            self.log_messages();
             self.draw()?;
             pace.drew(Instant::now());
         }
     }
 
     /// Time of the next save of the session; `None` if nothing has changed.
-    fn forgets(&self) -> Option<Instant> {
-        let (before, when) = &self.remembered;
-        (self.app.saved_session() != *before).then(|| *when + REMEMBERED)
+    fn next_save(&self) -> Option<Instant> {
+        let (before, when) = &self.saved;
+        (self.app.saved_session() != *before).then(|| *when + SAVE_INTERVAL)
     }
 
     /// Saves the session at the end and at intervals, so that a crash loses at most two seconds of it.
-    fn remember(&mut self, at_the_end: bool) {
-        let (before, when) = &self.remembered;
-        if !at_the_end && when.elapsed() < REMEMBERED {
+    fn save_session(&mut self, at_the_end: bool) {
+        let (before, when) = &self.saved;
+        if !at_the_end && when.elapsed() < SAVE_INTERVAL {
             return;
         }
         let last = self.app.saved_session();
         if last == *before {
-            self.remembered.1 = Instant::now();
+            self.saved.1 = Instant::now();
             return;
         }
         if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.places.last)) {
             // Report the failure once: repeating it would not help.
-            if !std::mem::replace(&mut self.forgotten, true) {
+            if !std::mem::replace(&mut self.has_save_failed, true) {
                 let path = self.places.last.display();
                 self.app.failed(format!("{path}: {error}; the next start cannot go on from here"));
             }
         }
-        self.remembered = (last, Instant::now());
+        self.saved = (last, Instant::now());
     }
 
     /// Saves the partly typed stroke for the next session, replacing that of the last one, however this session ends.
@@ -192,26 +192,26 @@ impl Runner {
     }
 
     /// Writes the refusals and failures that were shown to the log.
-    fn write_down(&mut self) {
+    fn log_messages(&mut self) {
         for text in self.app.toasts.take_unwritten() {
             // A key that is held down is refused repeatedly.
-            if self.written == text {
+            if self.last_logged == text {
                 continue;
             }
             warn!("{}", OneLine(&text));
-            self.written = text;
+            self.last_logged = text;
         }
     }
 
     fn draw(&mut self) -> io::Result<()> {
-        self.session.want_mouse(self.app.mouse)?;
+        self.session.capture_mouse(self.app.mouse)?;
         self.session.draw(|frame| {
             self.app.resize(frame.area().as_size());
             self.app.draw(frame);
         })
     }
 
-    fn take(&mut self, event: Event) -> io::Result<Next> {
+    fn handle(&mut self, event: Event) -> io::Result<Next> {
         self.tasks.taken(&event);
         let effect = match event {
             Event::Input(TerminalEvent::Key(key)) => self.app.handle(&key),
@@ -226,10 +226,10 @@ impl Runner {
             Event::InputEnded => return Ok(Next::Quit),
             Event::Signal(Signal::Stop) => Some(Effect::Suspend),
             // Another program may have used the terminal meanwhile.
-            Event::Signal(Signal::Continued) if std::mem::take(&mut self.has_come_back) => None,
+            Event::Signal(Signal::Continued) if std::mem::take(&mut self.has_resumed) => None,
             Event::Signal(Signal::Continued) => {
                 self.session.leave()?;
-                self.come_back()?;
+                self.resume()?;
                 None
             }
             Event::Signal(Signal::End(signal)) => return Ok(Next::Die(signal)),
@@ -271,12 +271,12 @@ impl Runner {
     fn suspend(&mut self) -> io::Result<()> {
         self.session.leave()?;
         platform::suspend()?;
-        self.has_come_back = true;
-        self.come_back()
+        self.has_resumed = true;
+        self.resume()
     }
 
     /// Takes over the terminal again. A running playback continues where it was: the time in between does not count.
-    fn come_back(&mut self) -> io::Result<()> {
+    fn resume(&mut self) -> io::Result<()> {
         self.ticked = Instant::now();
         self.session.enter()
     }

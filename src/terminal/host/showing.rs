@@ -19,7 +19,7 @@ const INTERVAL: Duration = Duration::from_millis(100);
 
 /// Writer of the shared table.
 #[derive(Debug)]
-pub struct Showing {
+pub struct TableSharing {
     folder: PathBuf,
     open: Option<Open>,
 }
@@ -33,7 +33,7 @@ struct Open {
     when: Instant,
 }
 
-impl Showing {
+impl TableSharing {
     /// Creates a writer for `folder`; nothing is shared yet.
     pub const fn new(folder: PathBuf) -> Self {
         Self { folder, open: None }

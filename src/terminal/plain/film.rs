@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// Times for which the distances are given, s after the stroke; the end follows.
-const TOLD: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
+const TIMES: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
 
 /// Lists the filmed shots.
 pub fn list() -> String {
@@ -60,7 +60,7 @@ pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
         let each = (0..BALLS).map(|ball| format!("{} {}", BALL_NAMES[ball], fixed(in_a_metre * apart[ball], 1)));
         each.collect::<Vec<_>>().join(", ")
     };
-    for time in TOLD.into_iter().filter(|time| *time < end) {
+    for time in TIMES.into_iter().filter(|time| *time < end) {
         let seconds = if time == 1.0 { "second" } else { "seconds" };
         lines.push(format!("{time} {seconds}: from the film, in {small}: {}.", distances(time)));
     }

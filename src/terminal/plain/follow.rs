@@ -42,7 +42,7 @@ pub fn follow_in_lines(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mut onlooker = Onlooker::new(folder.to_owned());
-    let mut teller = Teller { name, units, told: Told::default() };
+    let mut describer = Describer { name, units, told: Described::default() };
     let mut waiting: Option<(Box<SeenTable>, Instant)> = None;
     let mut is_over = false;
     while !is_over {
@@ -59,7 +59,7 @@ pub fn follow_in_lines(
             is_over || is_damaged || since.elapsed() >= QUIET || seen.shown.shot.is_some_and(|shot| shot.playing)
         };
         if let Some((seen, _)) = waiting.take_if(is_due) {
-            for line in teller.news(&seen) {
+            for line in describer.news(&seen) {
                 writeln!(out, "{line}")?;
             }
         }
@@ -77,7 +77,7 @@ pub fn follow_in_lines(
 
 /// What was described last.
 #[derive(Default)]
-struct Told {
+struct Described {
     scene: String,
     layout: Option<Layout>,
     cue: Option<CueInputs>,
@@ -86,13 +86,13 @@ struct Told {
 }
 
 /// Describes what has changed.
-struct Teller<'a> {
+struct Describer<'a> {
     name: &'a str,
     units: Units,
-    told: Told,
+    told: Described,
 }
 
-impl Teller<'_> {
+impl Describer<'_> {
     fn news(&mut self, seen: &SeenTable) -> Vec<String> {
         let (name, shown, told) = (self.name, &seen.shown, &mut self.told);
         let mut lines = Vec::new();
@@ -162,11 +162,11 @@ mod tests {
             let shown = ShownTable { shot: Some(stroke), ..shown };
             SeenTable { shown, age: Duration::ZERO, shot: Some(shot.clone()) }
         };
-        let mut teller = Teller { name: "anna", units: Units::default(), told: Told::default() };
-        assert_eq!(teller.news(&at(0.0, true)).last().unwrap(), "anna plays the shot.");
-        assert!(teller.news(&at(0.5 * end, false)).is_empty(), "a pause is no end");
-        teller.news(&at(0.5 * end, true));
-        let said = teller.news(&at(end, false));
+        let mut describer = Describer { name: "anna", units: Units::default(), told: Described::default() };
+        assert_eq!(describer.news(&at(0.0, true)).last().unwrap(), "anna plays the shot.");
+        assert!(describer.news(&at(0.5 * end, false)).is_empty(), "a pause is no end");
+        describer.news(&at(0.5 * end, true));
+        let said = describer.news(&at(end, false));
         assert!(said.len() == 1 && said[0].contains("oint"), "{said:?}");
     }
 }

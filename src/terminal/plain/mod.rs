@@ -73,7 +73,7 @@ pub struct Beginning {
 }
 
 /// Number of attempts that measure the success rate of a player's own stroke.
-const JUDGED: usize = 1000;
+const ATTEMPTS: usize = 1000;
 
 /// Answer to a line: the text, or why the line is refused.
 type Answer = Result<String, String>;
@@ -165,7 +165,7 @@ impl Conversation {
             Command::CueBall(cue_ball) if cue_ball == self.cue_ball() => format!("The cue ball is {cue_ball} already."),
             Command::CueBall(cue_ball) => {
                 self.balls.push((self.layout().for_the_opponent(), cue_ball));
-                self.forget(format!("The cue ball is {cue_ball}."))
+                self.drop_shots(format!("The cue ball is {cue_ball}."))
             }
             Command::Move(colour, step) => {
                 let ball = self.cue_ball().ordered([0, 1, 2])[colour];
@@ -181,35 +181,35 @@ impl Conversation {
             }
             Command::Rule(rule) => {
                 self.request.rule = rule;
-                self.forget(format!("The rule is {rule}."))
+                self.drop_shots(format!("The rule is {rule}."))
             }
             Command::Skill(skill) => {
                 self.request.skill = skill;
-                self.forget(speech::now_plays(skill))
+                self.drop_shots(speech::now_plays(skill))
             }
             Command::OwnSkill => {
                 let (skill, from) = self
                     .own
                     .ok_or("No skill of your own is kept yet; carom drill skill --keep estimates and keeps it.")?;
                 self.request.skill = skill;
-                self.forget(format!("You average {}, {from}.", speech::average(skill)))
+                self.drop_shots(format!("You average {}, {from}.", speech::average(skill)))
             }
             Command::Plan(plan) => {
                 self.request.plan = plan;
-                self.forget(format!("The next point {}.", if plan { "counts too" } else { "does not count" }))
+                self.drop_shots(format!("The next point {}.", if plan { "counts too" } else { "does not count" }))
             }
             Command::First(word) => {
                 let names = self.cue_ball().names();
                 self.request.first = FirstMet::said(&word, names).map_err(|error| error.to_string())?;
-                self.forget(format!("Met first: {word}."))
+                self.drop_shots(format!("Met first: {word}."))
             }
             Command::PlanNow => speech::plan(self.request.plan, self.shots.get(self.chosen).and_then(|shot| shot.next)),
-            Command::Chances => self.about_the_shot(|talk, _| {
+            Command::Chances => self.with_chosen_shot(|talk, _| {
                 let of = |shot: &Found| speech::chance(shot.is_attempt, shot.rate, talk.request.skill).join(" ");
                 let line = |(number, shot): (usize, &Found)| format!("Shot {number}. {}", of(shot));
                 Ok((1..).zip(&talk.shots).map(line).collect::<Vec<_>>().join("\n"))
             })?,
-            Command::Why => self.about_the_shot(|talk, _| {
+            Command::Why => self.with_chosen_shot(|talk, _| {
                 let why = talk.why.as_ref().ok_or("No reason is known why the first shot leads.")?;
                 Ok(format!("The first shot. {}", why.words(talk.cue_ball(), talk.units)))
             })?,
@@ -220,7 +220,7 @@ impl Conversation {
                 self.describe()?
             }
             Command::Other => return Err("There is no other shot; say shot to ask for one.".to_owned()),
-            Command::Margins => self.about_the_shot(|talk, shot| {
+            Command::Margins => self.with_chosen_shot(|talk, shot| {
                 let Request { rule, .. } = talk.request;
                 let doubt = talk.request.shooter().doubts();
                 Ok(match Sensitivity::new(rule, talk.table(), talk.layout(), doubt).margins(&shot.cue) {
@@ -228,14 +228,15 @@ impl Conversation {
                     None => "This shot makes no point.".to_owned(),
                 })
             })?,
-            Command::Numbers => self.about_the_shot(|talk, shot| {
+            Command::Numbers => self.with_chosen_shot(|talk, shot| {
                 let aim = aim(talk.table(), talk.layout(), &shot.cue).ok();
                 Ok(speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball(), talk.units))
             })?,
-            Command::System => self
-                .about_the_shot(|talk, shot| Ok(speech::system(guide(talk.table(), &talk.recorded(shot)?).as_ref())))?,
+            Command::System => self.with_chosen_shot(|talk, shot| {
+                Ok(speech::system(guide(talk.table(), &talk.recorded(shot)?).as_ref()))
+            })?,
             Command::Words => speech::words(self.table(), self.units.length),
-            Command::Tell(all) => self.about_the_shot(|talk, shot| {
+            Command::Tell(all) => self.with_chosen_shot(|talk, shot| {
                 let recording = talk.recorded(shot)?;
                 let verdict = Verdict::of(talk.request.rule, talk.table(), talk.layout(), &recording);
                 let outcome = verdict.words(talk.cue_ball(), talk.units.length);
@@ -248,7 +249,7 @@ impl Conversation {
             }
             Command::Films => film::list(),
             Command::Film(number) => film::tell(number, self.units.length)?,
-            Command::Undo if self.balls.undo() => self.forget(self.places()),
+            Command::Undo if self.balls.undo() => self.drop_shots(self.places()),
             Command::Undo => return Err("There is nothing to take back.".to_owned()),
             Command::Help => command::help(),
             Command::Quit => String::new(),
@@ -269,11 +270,11 @@ impl Conversation {
             return self.places();
         }
         self.balls.push((layout, self.cue_ball()));
-        self.forget(self.places())
+        self.drop_shots(self.places())
     }
 
     /// Drops the shots, because they were for another situation.
-    fn forget(&mut self, sentence: String) -> String {
+    fn drop_shots(&mut self, sentence: String) -> String {
         self.shots.clear();
         sentence
     }
@@ -315,8 +316,8 @@ impl Conversation {
         let cue = said.map_err(|error| error.to_string())?;
         let Request { rule, seed, .. } = self.request;
         let has_errors = !self.request.skill.is_perfect();
-        let rate =
-            has_errors.then(|| judge(self.request.shooter(), rule, self.table(), self.layout(), &cue, 0..JUDGED, seed));
+        let rate = has_errors
+            .then(|| judge(self.request.shooter(), rule, self.table(), self.layout(), &cue, 0..ATTEMPTS, seed));
         let found = Found { cue, is_attempt: false, rate, next: None };
         let verdict = Verdict::of(rule, self.table(), self.layout(), &self.recorded(&found)?);
         if self.shots.is_empty() {
@@ -329,7 +330,7 @@ impl Conversation {
 
     /// Describes the chosen shot.
     fn describe(&self) -> Answer {
-        self.about_the_shot(|talk, shot| {
+        self.with_chosen_shot(|talk, shot| {
             let mut lines = Vec::new();
             let (cue_ball, units) = (talk.cue_ball(), talk.units);
             let recording = Recording::new(talk.table(), talk.layout(), &shot.cue).ok();
@@ -355,7 +356,7 @@ impl Conversation {
         })
     }
 
-    fn about_the_shot(&self, say: impl Fn(&Self, &Found) -> Answer) -> Answer {
+    fn with_chosen_shot(&self, say: impl Fn(&Self, &Found) -> Answer) -> Answer {
         say(self, self.shots.get(self.chosen).ok_or(NO_SHOT)?)
     }
 

@@ -63,8 +63,8 @@ pub struct Tasks {
     /// The thread of the settings file.
     pub settings: Worker<SettingsTask>,
     /// The thread that saves measurements at a table, and the thread that evaluates them.
-    kept: Worker<CalibrationTask>,
-    judged: Worker<CalibrationTask>,
+    calibration_writer: Worker<CalibrationTask>,
+    calibration_evaluator: Worker<CalibrationTask>,
     /// Short-lived threads that write something.
     writing: Vec<JoinHandle<()>>,
     /// Set when answers are no longer needed.
@@ -104,8 +104,8 @@ impl Tasks {
             coach,
             practice,
             settings: Worker::start("settings", set)?,
-            kept: Worker::start("calibration", calibrate())?,
-            judged: Worker::of_the_newest("calibrate", calibrate())?,
+            calibration_writer: Worker::start("calibration", calibrate())?,
+            calibration_evaluator: Worker::newest_only("calibrate", calibrate())?,
             writing: Vec::new(),
             is_closing,
             to_screen,
@@ -119,15 +119,15 @@ impl Tasks {
     pub fn subscribe(&mut self, subscriptions: Subscriptions) -> io::Result<()> {
         let before = std::mem::replace(&mut self.subscriptions, subscriptions);
         let (now, to_screen) = (&self.subscriptions, &self.to_screen);
-        renew(&mut self.list, [&before.runs, &now.runs], |folder| {
+        restart_if_changed(&mut self.list, [&before.runs, &now.runs], |folder| {
             Poll::start("runs", LIST_INTERVAL, to_screen.clone(), list(folder))
         })?;
-        renew(&mut self.shown, [&before.shown, &now.shown], |folder| {
+        restart_if_changed(&mut self.shown, [&before.shown, &now.shown], |folder| {
             let mut onlooker = Onlooker::new(folder);
             Poll::start("onlooker", FOLLOW_INTERVAL, to_screen.clone(), move || onlooker.look().map(Event::Shown))
         })?;
         for (n, slot) in FollowSlot::ALL.into_iter().enumerate() {
-            renew(&mut self.followed[n], [&before.followed[n], &now.followed[n]], |folder| {
+            restart_if_changed(&mut self.followed[n], [&before.followed[n], &now.followed[n]], |folder| {
                 let look = follow(slot, folder, to_screen.clone())?;
                 Poll::start("follower", FOLLOW_INTERVAL, to_screen.clone(), look)
             })?;
@@ -169,7 +169,7 @@ impl Tasks {
     /// Queues tasks of the calibration page. Evaluations run on another thread than writes, and do not delay them.
     pub fn calibrate(&self, tasks: Vec<CalibrationTask>) {
         for task in tasks {
-            let worker = if task.writes() { &self.kept } else { &self.judged };
+            let worker = if task.writes() { &self.calibration_writer } else { &self.calibration_evaluator };
             worker.give(task);
         }
     }
@@ -178,7 +178,7 @@ impl Tasks {
     pub fn finish(self) {
         self.is_closing.store(true, Ordering::Relaxed);
         self.practice.finish();
-        self.kept.finish();
+        self.calibration_writer.finish();
         self.settings.finish();
         for thread in self.writing {
             // A panic of the thread was reported when it happened.
@@ -259,7 +259,7 @@ impl Tasks {
 }
 
 /// If the folder has changed, ends the poll and starts one for the new folder, if there is one.
-fn renew(
+fn restart_if_changed(
     poll: &mut Option<Poll>,
     [before, now]: [&Option<PathBuf>; 2],
     start: impl FnOnce(PathBuf) -> io::Result<Poll>,
@@ -326,7 +326,7 @@ fn follow(
 
 /// Starts a worker that records the shots of the run in `folder`.
 fn recorder(folder: PathBuf, to_screen: Sender<Event>) -> io::Result<Worker<(Examples, Table)>> {
-    Worker::of_the_newest("recorder", move |(examples, table): (Examples, Table)| {
+    Worker::newest_only("recorder", move |(examples, table): (Examples, Table)| {
         // A closed screen needs no shots.
         let _ =
             to_screen.send(Event::Training(TrainingReport::Recorded(folder.clone(), Reel::record(&examples, &table))));

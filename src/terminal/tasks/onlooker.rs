@@ -14,9 +14,9 @@ use crate::{
 
 /// Bounds for simulating another player's shot: computing time, number of events and of contact steps, and duration, s. Their table may be
 /// unusably stiff or slippery.
-const LONGEST: Duration = Duration::from_secs(2);
-const MOST: u32 = 20_000;
-const LONGEST_SHOT: f64 = 120.0;
+const MAX_TIME: Duration = Duration::from_secs(2);
+const MAX_EVENTS: u32 = 20_000;
+const MAX_DURATION: f64 = 120.0;
 
 /// The result of reading another player's table.
 pub type Seen = Sight<SeenTable>;
@@ -38,7 +38,7 @@ pub struct SeenTable {
 }
 
 /// The inputs of a simulated shot.
-type Made = (Table, Layout, CueInputs, bool);
+type ShotInputs = (Table, Layout, CueInputs, bool);
 
 /// A reader of another player's table.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ pub struct Onlooker {
     folder: PathBuf,
     before: Option<Seen>,
     /// The inputs and the result of the last simulation.
-    shot: Option<(Made, Option<Arc<Shot>>)>,
+    shot: Option<(ShotInputs, Option<Arc<Shot>>)>,
 }
 
 impl Onlooker {
@@ -82,25 +82,26 @@ impl Onlooker {
     /// Simulates the shot, unless it is the same as the last one.
     fn record(&mut self, shown: &ShownTable) -> Option<Arc<Shot>> {
         let shot = shown.shot?;
-        let made = (shown.table.clone(), shown.layout, shot.cue, shot.solved);
+        let inputs = (shown.table.clone(), shown.layout, shot.cue, shot.solved);
         if let Some((known, shot)) = &self.shot
-            && *known == made
+            && *known == inputs
         {
             return shot.clone();
         }
-        let (table, layout, cue, solved) = &made;
+        let (table, layout, cue, solved) = &inputs;
         let source = if shot.author == Author::Player { "their own" } else { "the coach" };
         let recording = recorded(table, layout, cue);
         let shot = recording.map(|recording| Arc::new(Shot::of(table, recording, *cue, *solved, source)));
-        self.shot = Some((made, shot.clone()));
+        self.shot = Some((inputs, shot.clone()));
         shot
     }
 }
 
 /// Simulates the shot; `None` if it exceeds a bound.
 fn recorded(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Recording> {
-    let (recording, is_over) = Recording::within_bounds(table, layout, Start::Stroke(cue), LONGEST, MOST).ok()?;
-    (!is_over && recording.is_finite() && recording.duration() <= LONGEST_SHOT).then_some(recording)
+    let (recording, is_over) =
+        Recording::within_bounds(table, layout, Start::Stroke(cue), MAX_TIME, MAX_EVENTS).ok()?;
+    (!is_over && recording.is_finite() && recording.duration() <= MAX_DURATION).then_some(recording)
 }
 
 #[cfg(test)]
@@ -152,6 +153,6 @@ mod tests {
         let start = Instant::now();
         let cue = CueInputs::parse("0,0,0,40,100").unwrap();
         assert!(recorded(&slippery, &Layout::opening(&slippery), &cue).is_none());
-        assert!(start.elapsed() < 5 * LONGEST, "{:?}", start.elapsed());
+        assert!(start.elapsed() < 5 * MAX_TIME, "{:?}", start.elapsed());
     }
 }

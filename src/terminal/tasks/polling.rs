@@ -14,9 +14,9 @@ use std::{
 use crate::terminal::tasks::event::Event;
 
 /// Number of polls without news after which polling slows down: a finished run seldom changes.
-const PATIENT_LOOKS: u32 = 30;
+const IDLE_POLLS: u32 = 30;
 /// Smallest interval after slowing down.
-const PATIENT_INTERVAL: Duration = Duration::from_millis(500);
+const IDLE_INTERVAL: Duration = Duration::from_millis(500);
 
 /// A polling thread; dropping the value ends it.
 #[derive(Debug)]
@@ -40,19 +40,19 @@ impl Poll {
         let poll = Self { stop: Arc::default(), waiting: Arc::default() };
         let (stop, waiting) = (Arc::clone(&poll.stop), Arc::clone(&poll.waiting));
         thread::Builder::new().name(name.into()).spawn(move || {
-            let mut without = 0;
+            let mut idle_polls = 0;
             while !stop.load(Ordering::Relaxed) {
                 if !waiting.load(Ordering::Acquire) {
-                    without += 1;
+                    idle_polls += 1;
                     if let Some(event) = look() {
-                        without = 0;
+                        idle_polls = 0;
                         waiting.store(true, Ordering::Release);
                         if to_screen.send(event).is_err() {
                             break;
                         }
                     }
                 }
-                thread::sleep(if without < PATIENT_LOOKS { interval } else { interval.max(PATIENT_INTERVAL) });
+                thread::sleep(if idle_polls < IDLE_POLLS { interval } else { interval.max(IDLE_INTERVAL) });
             }
         })?;
         Ok(poll)

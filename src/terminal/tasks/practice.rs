@@ -34,7 +34,7 @@ pub struct PracticeWorker {
     /// The session played last, with the success rates that were computed since.
     last: Option<Session>,
     /// Number of attempts of each session known to be on the disk.
-    safe: HashMap<String, usize>,
+    saved_attempts: HashMap<String, usize>,
 }
 
 impl PracticeWorker {
@@ -76,7 +76,7 @@ impl PracticeWorker {
                     Some(Err(StoreError::Taken(_))) => Ok(false),
                     Some(Err(error)) => Err(error.to_string()),
                     Some(Ok(())) => Ok(true),
-                    None => Err(UNKNOWN.to_owned()),
+                    None => Err(NO_STORE.to_owned()),
                 };
                 reply(DrillReport::PositionSaved(exercise, saved));
             }
@@ -111,24 +111,24 @@ impl PracticeWorker {
     }
 
     fn with_store(&self, work: impl FnOnce(&Store) -> Result<(), StoreError>) -> Result<(), String> {
-        let store = self.store.as_ref().ok_or(UNKNOWN)?;
+        let store = self.store.as_ref().ok_or(NO_STORE)?;
         work(store).map_err(|error| error.to_string())
     }
 
     /// Saves a session whose attempts before the change were `before`. Returns the error if it cannot be saved, or its present state if
     /// another program has changed it.
     fn save(&mut self, session: &Session, before: &[Attempt]) -> Result<Result<(), String>, Box<Session>> {
-        let Some(store) = &self.store else { return Ok(Err(UNKNOWN.to_owned())) };
+        let Some(store) = &self.store else { return Ok(Err(NO_STORE.to_owned())) };
         // If a session of an earlier program is continued, the disk may have refused some of it.
-        let safe = self.safe.entry(session.id.clone()).or_default();
-        match store.save(session, before, *safe) {
+        let saved_attempts = self.saved_attempts.entry(session.id.clone()).or_default();
+        match store.save(session, before, *saved_attempts) {
             Err(StoreError::Changed(stored)) => {
-                *safe = stored.attempts.len();
+                *saved_attempts = stored.attempts.len();
                 Err(stored)
             }
             Err(error) => Ok(Err(error.to_string())),
             Ok(()) => {
-                *safe = session.attempts.len();
+                *saved_attempts = session.attempts.len();
                 Ok(Ok(()))
             }
         }
@@ -173,7 +173,7 @@ impl PracticeWorker {
     /// Plays a stroke. The attempt is on the disk before its result is reported; its success rate is computed afterwards.
     fn play(&mut self, task: PlayTask, reply: &mut dyn FnMut(DrillReport)) {
         let PlayTask { mut session, meant, with_hint, advice_id } = task;
-        self.remember(&mut session);
+        self.add_known_rates(&mut session);
         let place = session.position().ok().flatten();
         let rule = session.exercise().map(|exercise| exercise.rule);
         let (played, (table, layout), rule) = match (session.play(meant, with_hint), place, rule) {
@@ -207,7 +207,7 @@ impl PracticeWorker {
     }
 
     /// Adds the success rates that were computed after the screen had sent the session.
-    fn remember(&self, session: &mut Session) {
+    fn add_known_rates(&self, session: &mut Session) {
         let Some(last) = self.last.as_ref().filter(|last| last.id == session.id) else { return };
         for (attempt, known) in session.attempts.iter_mut().zip(&last.attempts) {
             attempt.chance = attempt.chance.or(known.chance);
@@ -216,7 +216,7 @@ impl PracticeWorker {
 }
 
 /// Message before the first load; never shown, because loading is the first task.
-const UNKNOWN: &str = "it is not known where to write";
+const NO_STORE: &str = "it is not known where to write";
 
 /// Estimates the player's skill and describes how certain it is.
 fn estimated(sessions: &[Session]) -> Result<(Option<Skill>, String), String> {

@@ -25,10 +25,10 @@ use crate::{
 
 /// Smallest interval between two reports of better shots. Each report moves all paths on the screen, which is 3 KB on a slow link, and
 /// nobody can follow more of them.
-const TELLING: Duration = Duration::from_millis(250);
+const REPORT_INTERVAL: Duration = Duration::from_millis(250);
 
 /// Time budget of a search that ends after a number of simulations.
-const NO_HURRY: Duration = Duration::from_secs(3600);
+const UNLIMITED_TIME: Duration = Duration::from_secs(3600);
 
 /// Columns and rows of a map: three sub-pixels a row on the largest panels.
 const CELLS: usize = 61;
@@ -145,7 +145,7 @@ impl CoachWorker {
             plan,
             jumps,
             first,
-            budget: if self.simulations.is_some() { NO_HURRY } else { job.budget },
+            budget: if self.simulations.is_some() { UNLIMITED_TIME } else { job.budget },
             simulations: self.simulations.unwrap_or(u64::MAX),
             seed: job.seed,
             former: job.former.clone(),
@@ -154,7 +154,7 @@ impl CoachWorker {
         };
         let (is_hurried, mut told) = (self.simulations.is_none(), None);
         let tell = |better: &Improvement| {
-            if is_hurried && told.is_some_and(|told: Instant| told.elapsed() < TELLING) {
+            if is_hurried && told.is_some_and(|told: Instant| told.elapsed() < REPORT_INTERVAL) {
                 return;
             }
             told = Some(Instant::now());
@@ -231,19 +231,19 @@ fn study(job: &CoachJob, cue: &CueInputs, recording: &Recording) -> Option<ShotA
     let CoachJob { table, layout, query, .. } = job;
     let CoachQuery { rule, skill, .. } = query;
     let sensitivity = Sensitivity::new(*rule, table, layout, query.shooter().doubts());
-    let go_on = || (!job.cancel.load(Ordering::Relaxed)).then_some(());
+    let unless_cancelled = || (!job.cancel.load(Ordering::Relaxed)).then_some(());
     let margins = sensitivity.margins(cue);
-    go_on()?;
+    unless_cancelled()?;
     let centre = CueInputs { a: 0.0, b: 0.0, ..*cue };
     let face = 1e3 * table.radius * RIM * table.miscue_limit.sqrt();
     let tip = sensitivity.map(cue, &centre, (Input::Side, face), (Input::Height, face), CELLS);
-    go_on()?;
+    unless_cancelled()?;
     let hand = skill.at(cue);
     let usual = if skill.is_perfect() { Skill::EXPERT } else { hand };
     let span = (Input::Direction, REACH * usual.phi.to_degrees());
     let aim = sensitivity.map(cue, cue, span, (Input::Speed, REACH * usual.speed), CELLS);
-    go_on()?;
+    unless_cancelled()?;
     let scatter = scatter(query.shooter(), *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
     let system = margins.and_then(|_| guide(table, recording));
-    go_on().map(|()| ShotAnalysis { margins, tip, aim, hand, scatter, system })
+    unless_cancelled().map(|()| ShotAnalysis { margins, tip, aim, hand, scatter, system })
 }

@@ -28,7 +28,7 @@ impl<T: Send + 'static> Worker<T> {
     ///
     /// # Errors
     /// Fails if the thread cannot be started.
-    pub fn of_the_newest(name: &str, mut work: impl FnMut(T) + Send + 'static) -> io::Result<Self> {
+    pub fn newest_only(name: &str, mut work: impl FnMut(T) + Send + 'static) -> io::Result<Self> {
         let (queue, tasks) = channel();
         let thread = thread::Builder::new().name(name.into()).spawn(move || {
             while let Ok(task) = tasks.recv() {
@@ -59,7 +59,7 @@ mod tests {
     #[test]
     fn of_all_that_comes_during_its_work_only_the_newest_is_worked_on() {
         let ((begun, begins), (go_on, may_go_on)) = (channel(), channel());
-        let worker = Worker::of_the_newest("newest", move |task: u32| {
+        let worker = Worker::newest_only("newest", move |task: u32| {
             begun.send(task).unwrap();
             may_go_on.recv().unwrap();
         })

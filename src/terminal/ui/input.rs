@@ -22,13 +22,13 @@ pub enum Typed<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Edit {
     Insert(char),
-    Move(Way),
-    Delete(Way),
+    Move(Movement),
+    Delete(Movement),
 }
 
 /// Cursor movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
+enum Movement {
     Left,
     Right,
     WordLeft,
@@ -88,9 +88,9 @@ impl TextField {
             Typed::Key(key) => match Edit::of(key) {
                 None => return false,
                 Some(Edit::Insert(letter)) => self.insert(letter.encode_utf8(&mut [0; 4])),
-                Some(Edit::Move(way)) => self.cursor = self.at(way),
-                Some(Edit::Delete(way)) => {
-                    let end = self.at(way);
+                Some(Edit::Move(movement)) => self.cursor = self.at(movement),
+                Some(Edit::Delete(movement)) => {
+                    let end = self.at(movement);
                     let gone = self.cursor.min(end)..self.cursor.max(end);
                     self.cursor = gone.start;
                     self.text.drain(gone);
@@ -112,16 +112,16 @@ impl TextField {
     }
 
     /// The cursor position after the movement, a byte offset.
-    fn at(&self, way: Way) -> usize {
+    fn at(&self, movement: Movement) -> usize {
         let (before, after) = self.text.split_at(self.cursor);
         let (word, gap) = (char::is_alphanumeric, |letter: char| !letter.is_alphanumeric());
-        match way {
-            Way::Left => before.grapheme_indices(true).next_back().map_or(0, |(start, _)| start),
-            Way::Right => self.cursor + after.graphemes(true).next().map_or(0, str::len),
-            Way::WordLeft => before.trim_end_matches(gap).trim_end_matches(word).len(),
-            Way::WordRight => self.text.len() - after.trim_start_matches(gap).trim_start_matches(word).len(),
-            Way::Start => 0,
-            Way::End => self.text.len(),
+        match movement {
+            Movement::Left => before.grapheme_indices(true).next_back().map_or(0, |(start, _)| start),
+            Movement::Right => self.cursor + after.graphemes(true).next().map_or(0, str::len),
+            Movement::WordLeft => before.trim_end_matches(gap).trim_end_matches(word).len(),
+            Movement::WordRight => self.text.len() - after.trim_start_matches(gap).trim_start_matches(word).len(),
+            Movement::Start => 0,
+            Movement::End => self.text.len(),
         }
     }
 
@@ -147,22 +147,22 @@ impl Edit {
         let by_word = key.modifiers == KeyModifiers::CONTROL || key.modifiers == KeyModifiers::ALT;
         Some(match key.code {
             Char(letter) if (key.modifiers - KeyModifiers::SHIFT).is_empty() => Self::Insert(letter),
-            Char('w') if key.modifiers == KeyModifiers::CONTROL => Self::Delete(Way::WordLeft),
-            Char('u') if key.modifiers == KeyModifiers::CONTROL => Self::Delete(Way::Start),
+            Char('w') if key.modifiers == KeyModifiers::CONTROL => Self::Delete(Movement::WordLeft),
+            Char('u') if key.modifiers == KeyModifiers::CONTROL => Self::Delete(Movement::Start),
             // Many terminals send this for Alt with an arrow key.
-            Char('b') if key.modifiers == KeyModifiers::ALT => Self::Move(Way::WordLeft),
-            Char('f') if key.modifiers == KeyModifiers::ALT => Self::Move(Way::WordRight),
-            Left if by_word => Self::Move(Way::WordLeft),
-            Right if by_word => Self::Move(Way::WordRight),
-            Backspace if by_word => Self::Delete(Way::WordLeft),
-            Delete if by_word => Self::Delete(Way::WordRight),
+            Char('b') if key.modifiers == KeyModifiers::ALT => Self::Move(Movement::WordLeft),
+            Char('f') if key.modifiers == KeyModifiers::ALT => Self::Move(Movement::WordRight),
+            Left if by_word => Self::Move(Movement::WordLeft),
+            Right if by_word => Self::Move(Movement::WordRight),
+            Backspace if by_word => Self::Delete(Movement::WordLeft),
+            Delete if by_word => Self::Delete(Movement::WordRight),
             _ if !key.modifiers.is_empty() => return None,
-            Left => Self::Move(Way::Left),
-            Right => Self::Move(Way::Right),
-            Home => Self::Move(Way::Start),
-            End => Self::Move(Way::End),
-            Backspace => Self::Delete(Way::Left),
-            Delete => Self::Delete(Way::Right),
+            Left => Self::Move(Movement::Left),
+            Right => Self::Move(Movement::Right),
+            Home => Self::Move(Movement::Start),
+            End => Self::Move(Movement::End),
+            Backspace => Self::Delete(Movement::Left),
+            Delete => Self::Delete(Movement::Right),
             _ => return None,
         })
     }

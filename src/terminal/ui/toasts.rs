@@ -67,7 +67,7 @@ impl Toasts {
     }
 
     /// Shows an answer to a key without keeping it in the list.
-    pub fn push_for_now(&mut self, text: String) {
+    pub fn push_unlisted(&mut self, text: String) {
         let left = text.chars().count() as f64 / READING + LOOKING.0;
         self.shown.push(Toast { text, is_answer: true, is_kept: false, left });
     }

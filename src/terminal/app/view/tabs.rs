@@ -14,7 +14,7 @@ const NAME: &str = " carom ";
 
 /// Each tab with its area in the row `area` and its key, if there is room for it.
 pub fn tabs(app: &App, area: Rect) -> Vec<(PageId, Rect, String)> {
-    if app.stands_alone() {
+    if app.is_only_screen() {
         return Vec::new();
     }
     let mut x = area.x;

@@ -12,9 +12,9 @@ use crate::terminal::host::input::{
 };
 
 /// Silence after which an escape character counts as the Esc key.
-const LONE_ESCAPE: Duration = Duration::from_millis(30);
+const ESCAPE_TIMEOUT: Duration = Duration::from_millis(30);
 /// Silence after which the rest of a sequence no longer counts as coming.
-const CUT: Duration = Duration::from_millis(100);
+const SEQUENCE_TIMEOUT: Duration = Duration::from_millis(100);
 /// Longest meaningful parameters, bytes.
 const LONGEST: usize = 64;
 
@@ -101,18 +101,18 @@ impl Decoder {
         }
     }
 
-    /// Time to wait for more bytes before calling [`Decoder::silence`]; `None` if no sequence has begun.
-    pub fn patience(&self) -> Option<Duration> {
+    /// Time to wait for more bytes before calling [`Decoder::on_timeout`]; `None` if no sequence has begun.
+    pub fn timeout(&self) -> Option<Duration> {
         match &self.state {
             State::Ground => None,
-            State::Escape => Some(LONE_ESCAPE),
-            State::Paste(paste) => Some(paste.patience()),
-            _ => Some(CUT),
+            State::Escape => Some(ESCAPE_TIMEOUT),
+            State::Paste(paste) => Some(paste.timeout()),
+            _ => Some(SEQUENCE_TIMEOUT),
         }
     }
 
-    /// Ends the sequence begun, because no byte arrived for [`Decoder::patience`].
-    pub fn silence(&mut self, events: &mut Vec<Event>) {
+    /// Ends the sequence begun, because no byte arrived for [`Decoder::timeout`].
+    pub fn on_timeout(&mut self, events: &mut Vec<Event>) {
         match std::mem::take(&mut self.state) {
             State::Escape => events.push(key(KeyCode::Esc)),
             State::Csi(parameters) if parameters.is_empty() => events.push(alt(b'[')),

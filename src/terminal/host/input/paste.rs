@@ -9,9 +9,9 @@ use crate::terminal::host::input::keys::control;
 /// Marker of the end of a paste.
 const END: &[u8] = b"\x1b[201~";
 /// Silence after which the end marker counts as lost. Links stall for some tenths of a second; typing takes longer.
-const LOST: Duration = Duration::from_secs(1);
+const END_TIMEOUT: Duration = Duration::from_secs(1);
 /// Silence after which a Ctrl-C at the end counts as typed: in pasted text more would follow, at least the end marker.
-const TYPED: Duration = Duration::from_millis(100);
+const CTRL_C_TIMEOUT: Duration = Duration::from_millis(100);
 /// Longest text kept, bytes; every field accepts less.
 const LONGEST: usize = 1 << 20;
 
@@ -55,8 +55,8 @@ impl Paste {
     }
 
     /// Time to wait for more bytes.
-    pub const fn patience(&self) -> Duration {
-        if self.is_broken_off() { TYPED } else { LOST }
+    pub const fn timeout(&self) -> Duration {
+        if self.is_broken_off() { CTRL_C_TIMEOUT } else { END_TIMEOUT }
     }
 
     /// Whether the last byte was a Ctrl-C.

@@ -9,8 +9,8 @@ const LARGEST: f64 = 1e300;
 /// Smaller magnitudes are treated as zero.
 const SMALLEST: f64 = 1e-300;
 /// Smallest distance between two labels, rows, and largest number of labels on an axis.
-const APART: f64 = 1.9;
-const LABELS: f64 = 12.0;
+const LABEL_SPACING: f64 = 1.9;
+const MAX_LABELS: f64 = 12.0;
 /// Number of decades above which a logarithmic range ends at whole decades.
 const FEW_DECADES: f64 = 2.0;
 /// Possible distances between two labels of a logarithmic range, decades.
@@ -159,7 +159,7 @@ impl Scale {
 
 /// Smallest distance between two labels in a plot of `rows` rows.
 fn spacing(rows: u16) -> f64 {
-    APART.max(f64::from(rows) / LABELS)
+    LABEL_SPACING.max(f64::from(rows) / MAX_LABELS)
 }
 
 /// The ticks for shots between the ends of `shots` in a plot of `width` columns, far enough apart for their labels.
@@ -173,7 +173,7 @@ pub fn shot_ticks(shots: (f64, f64), width: u16) -> Vec<Tick> {
         let ends = [step.count_up(shots.0), step.count_down(shots.1)];
         let widest = ends.into_iter().map(|count| unit.label(step.times(count)).len()).max().unwrap_or(0);
         let columns = f64::from(width.saturating_sub(1)) * (step.value() / range);
-        if columns >= ((widest + GAP) as f64).max(f64::from(width) / LABELS) || step.value() > range {
+        if columns >= ((widest + GAP) as f64).max(f64::from(width) / MAX_LABELS) || step.value() > range {
             let tick = |count| {
                 let value = step.times(count);
                 Tick { at: (value - shots.0) / range, label: unit.label(value) }
@@ -289,7 +289,7 @@ mod tests {
                 prop_assert!(!sound(value) || (-1e-6..=1.0 + 1e-6).contains(&place), "{} in {:?}", place, scale);
             }
             let ticks = scale.ticks(rows);
-            prop_assert!(!ticks.is_empty() && ticks.len() <= LABELS as usize + 1, "{:?}", ticks);
+            prop_assert!(!ticks.is_empty() && ticks.len() <= MAX_LABELS as usize + 1, "{:?}", ticks);
             let differ = |one: &Tick, next: &Tick| one.label != next.label || one.label.is_empty();
             prop_assert!(ticks.is_sorted_by(|one, next| one.at < next.at && differ(one, next)), "{:?}", ticks);
             for tick in &ticks {

@@ -20,7 +20,7 @@ use crate::{
 
 /// Priority of a part; the lowest is dropped first if the row is too short.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Need {
+enum Priority {
     Note,
     Smoothing,
     Log,
@@ -35,7 +35,7 @@ const GAP: &str = "  ";
 
 /// A part of the row.
 struct Part {
-    need: Need,
+    priority: Priority,
     text: String,
     style: Style,
 }
@@ -52,10 +52,10 @@ pub fn draw_chart_title(chart: &Chart, area: Rect, ui: &mut Ui) {
     };
     // The start of the rule, and a blank at either side of both texts.
     while taken(&left, 0) + 3 + taken(&right, GAP.len()) + usize::from(!right.is_empty()) * 2 > width {
-        let least = left.iter().chain(&right).map(|part| part.need).min();
-        let Some(need) = least.filter(|need| *need < Need::Title) else { break };
-        left.retain(|part| part.need != need);
-        right.retain(|part| part.need != need);
+        let least = left.iter().chain(&right).map(|part| part.priority).min();
+        let Some(priority) = least.filter(|priority| *priority < Priority::Title) else { break };
+        left.retain(|part| part.priority != priority);
+        right.retain(|part| part.priority != priority);
     }
     let mut x = ui.buffer.set_stringn(area.x + u16::from(width > 1), area.y, " ", width.min(1), ui.theme.text()).0;
     let mut write = |x: u16, text: &str, style: Style| {
@@ -83,16 +83,17 @@ fn left(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
         (true, false) => theme.accent(),
         (false, _) => theme.text(),
     };
-    let mut parts = vec![Part { need: Need::Title, text: chart.title.to_owned(), style }];
-    let mut add = |need, text: &str| parts.push(Part { need, text: format!("{dot}{text}"), style: theme.faint() });
+    let mut parts = vec![Part { priority: Priority::Title, text: chart.title.to_owned(), style }];
+    let mut add =
+        |priority, text: &str| parts.push(Part { priority, text: format!("{dot}{text}"), style: theme.faint() });
     if chart.log {
-        add(Need::Log, "log");
+        add(Priority::Log, "log");
     }
     if chart.length().is_some() {
-        add(Need::Smoothing, &format!("smooth {} %", (1000.0 * chart.smoothing).round() / 10.0));
+        add(Priority::Smoothing, &format!("smooth {} %", (1000.0 * chart.smoothing).round() / 10.0));
     }
     if let Some(note) = chart.note.filter(|_| chart.has_points()) {
-        add(Need::Note, note);
+        add(Priority::Note, note);
     }
     parts
 }
@@ -105,14 +106,15 @@ fn right(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
             (SeriesId::Other, false) => theme.text().fg(theme.curves[1]),
             (SeriesId::Other, true) => theme.text().add_modifier(Modifier::DIM),
         };
-        let mut add = |need, text: String| parts.extend((!text.is_empty()).then_some(Part { need, text, style }));
-        add(Need::NotPositive, not_positive_words(curve, chart, caps));
-        add(Need::NonFinite, non_finite_words(curve.non_finite, caps));
+        let mut add =
+            |priority, text: String| parts.extend((!text.is_empty()).then_some(Part { priority, text, style }));
+        add(Priority::NotPositive, not_positive_words(curve, chart, caps));
+        add(Priority::NonFinite, non_finite_words(curve.non_finite, caps));
     }
     let own = chart.curves.iter().find(|curve| curve.whose == SeriesId::Own);
     let last = own.and_then(|own| own.points.iter().rfind(|point| point.shots.0 as f64 <= chart.shots.1));
     if let Some((text, style)) = last.map(|last| value(last, theme, caps)) {
-        parts.push(Part { need: Need::Value, text, style });
+        parts.push(Part { priority: Priority::Value, text, style });
     }
     parts
 }

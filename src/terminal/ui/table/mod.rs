@@ -1,10 +1,10 @@
 //! The table: cloth, rails, predicted paths and the three balls.
 
 mod cushions;
+mod labels;
 mod paint;
 mod picture;
 mod rails;
-mod ways;
 
 use glam::DVec2;
 use ratatui::{layout::Rect, style::Color};
@@ -116,7 +116,7 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     let told = |height: f64| if height < TOLD_HEIGHT { 0.0 } else { height };
     let heights = std::array::from_fn(|ball| shot.map_or(0.0, |shot| told(shot.recording.height(ball, view.time))));
     let off_table = std::array::from_fn(|ball| shot.is_some_and(|shot| is_gone(shot, ball, view.time, &mapping)));
-    let balls = apart_on_cloth(balls, heights, 2.0 * reach);
+    let balls = separated_on_cloth(balls, heights, 2.0 * reach);
     let time = if view.is_moving { view.time } else { 0.0 };
     let picture = TablePicture { view, caps: ui.caps, mapping, time, balls, heights, off_table, sprite, clear };
     paint::paint(&picture, ui);
@@ -124,7 +124,7 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
         draw_counts(view.table, &mapping, ui);
         view.shot.inspect(|shot| draw_cushions(&shot.words, view.table, &mapping, ui));
     }
-    ways::draw_words(&picture, ui);
+    labels::draw_words(&picture, ui);
 }
 
 /// Whether a ball that leaves the table is already beyond the rails, even if still in the air.
@@ -134,7 +134,7 @@ fn is_gone(shot: &Shot, ball: usize, time: f64, mapping: &Mapping) -> bool {
 
 /// The positions at which the sprites of the balls are drawn. If sprites are larger than the balls, those of touching balls are moved apart
 /// until they only touch.
-fn apart(mut balls: [DVec2; BALLS], least: f64) -> [DVec2; BALLS] {
+fn separated(mut balls: [DVec2; BALLS], least: f64) -> [DVec2; BALLS] {
     // Two passes, since moving one pair may bring another together; a third would change nothing visible.
     for (one, other) in PAIRS.into_iter().chain(PAIRS) {
         let way = balls[other] - balls[one];
@@ -148,12 +148,12 @@ fn apart(mut balls: [DVec2; BALLS], least: f64) -> [DVec2; BALLS] {
     balls
 }
 
-/// Like [`apart`], but balls in the air (`heights` in m above zero) keep their positions.
-fn apart_on_cloth(balls: [DVec2; BALLS], heights: [f64; BALLS], least: f64) -> [DVec2; BALLS] {
+/// Like [`separated`], but balls in the air (`heights` in m above zero) keep their positions.
+fn separated_on_cloth(balls: [DVec2; BALLS], heights: [f64; BALLS], least: f64) -> [DVec2; BALLS] {
     let is_aloft = |ball: usize| heights[ball] > 0.0;
     // Far enough away that no sprite reaches another.
     let away = |ball: usize| DVec2::splat(1e6 * (ball + 1) as f64);
-    let moved = apart(std::array::from_fn(|ball| if is_aloft(ball) { away(ball) } else { balls[ball] }), least);
+    let moved = separated(std::array::from_fn(|ball| if is_aloft(ball) { away(ball) } else { balls[ball] }), least);
     std::array::from_fn(|ball| if is_aloft(ball) { balls[ball] } else { moved[ball] })
 }
 
@@ -162,7 +162,7 @@ pub fn ball_at(balls: [DVec2; BALLS], mapping: &Mapping, glyphs: Glyphs, cell: (
     let middle = mapping.to_metres(cell.0, cell.1)?;
     let reach = Sprite::new(mapping, glyphs).reach(mapping, glyphs);
     let half_cell = 0.5 / mapping.scale();
-    let drawn = apart(balls, 2.0 * reach);
+    let drawn = separated(balls, 2.0 * reach);
     let is_there = |ball: DVec2| ball.clamp(middle - half_cell, middle + half_cell).distance(ball) <= reach;
     let found = (0..BALLS).filter(|&ball| is_there(drawn[ball]));
     found.min_by(|&one, &other| drawn[one].distance(middle).total_cmp(&drawn[other].distance(middle)))
@@ -175,11 +175,11 @@ mod tests {
     #[test]
     fn pictures_of_touching_balls_touch_and_others_stay() {
         let balls = [DVec2::ZERO, DVec2::new(0.06, 0.0), DVec2::new(0.5, 0.0)];
-        let [one, two, three] = apart(balls, 0.12);
+        let [one, two, three] = separated(balls, 0.12);
         assert!((one.distance(two) - 0.12).abs() < 1e-12);
         assert_eq!(three, balls[2]);
-        assert_eq!(apart(balls, 0.05), balls);
+        assert_eq!(separated(balls, 0.05), balls);
         // A ball that flies over another stays above it.
-        assert_eq!(apart_on_cloth(balls, [0.1, 0.0, 0.0], 0.12), balls);
+        assert_eq!(separated_on_cloth(balls, [0.1, 0.0, 0.0], 0.12), balls);
     }
 }

@@ -201,7 +201,7 @@ mod tests {
             Shot,
             ui::{
                 drawn,
-                table::{CLEAR_PICTURES, CLEAR_RADII, apart},
+                table::{CLEAR_PICTURES, CLEAR_RADII, separated},
             },
         },
     };
@@ -219,7 +219,7 @@ mod tests {
             let sprite = Sprite::new(&mapping, Glyphs::Sextant);
             let reach = sprite.reach(&mapping, Glyphs::Sextant);
             let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
-            let balls = apart(shot.recording.positions(time), 2.0 * reach);
+            let balls = separated(shot.recording.positions(time), 2.0 * reach);
             let (heights, off_table) = ([0.0; BALLS], [false; BALLS]);
             let lying =
                 TablePicture { view: &view, caps: ui.caps, mapping, time, balls, heights, off_table, sprite, clear };

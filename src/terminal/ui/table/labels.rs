@@ -11,19 +11,19 @@ use crate::terminal::{
 };
 
 /// Distance of the two paths from which on they are labelled, m: two balls.
-const APART: f64 = 0.12;
+const LABEL_DISTANCE: f64 = 0.12;
 /// Largest distance from a ball's centre of a mark for a position that the ball hides, and the distance between two tries, m.
 const FARTHEST: f64 = 0.3;
 const STEP: f64 = 0.005;
 
 /// Writes the words, each in free cells.
 pub fn draw_words(picture: &TablePicture, ui: &mut Ui) {
-    name_ways(picture, ui);
+    label_paths(picture, ui);
     draw_note(picture, ui);
 }
 
 /// Labels each path where the two are apart; draws nothing if they never are.
-fn name_ways(picture: &TablePicture, ui: &mut Ui) {
+fn label_paths(picture: &TablePicture, ui: &mut Ui) {
     let Some((own, other)) = picture.view.shot.zip(picture.view.other) else { return };
     if own.cue == other.cue {
         return;
@@ -36,7 +36,7 @@ fn name_ways(picture: &TablePicture, ui: &mut Ui) {
         [("you", own, other, theme.paths[0]), (picture.view.other_name, other, own, theme.way)]
     {
         let width = columns(text) as u16;
-        let is_apart = |place: DVec2| from.iter().all(|dot| dot.place.distance(place) > APART);
+        let is_apart = |place: DVec2| from.iter().all(|dot| dot.place.distance(place) > LABEL_DISTANCE);
         let apart = way.iter().filter(|dot| is_apart(dot.place)).map(|dot| picture.mapping.to_cell(dot.place));
         let starts = apart.flat_map(|cell| beside(cell, width, 1));
         let Some(cells) = free(picture, width, starts, &taken) else { continue };
