@@ -161,10 +161,10 @@ const OVERLAY: &[Binding<Action, Condition>] = &[
 /// The keys of the command palette.
 #[rustfmt::skip]
 const PALETTE: &[Binding<Action, Condition>] = &[
-    bind(Program, Condition::Always, &[key(Enter, A::ChooseCommand)], Some(("do it", 1)), "do what is marked"),
+    bind(Program, Condition::Always, &[key(Enter, A::ChooseCommand)], Some(("do it", 1)), "run the selected command"),
     bind(Program, Condition::Always, &[key(Down, A::PaletteLine(1)), key(Up, A::PaletteLine(-1)), key(PageDown, A::PaletteLine(10)),
-        key(PageUp, A::PaletteLine(-10))], Some(("choose", 2)), "mark another command")
-        .each(&["mark the next command", "mark the command before", "go down by ten commands", "go up by ten commands"]),
+        key(PageUp, A::PaletteLine(-10))], Some(("choose", 2)), "select another command")
+        .each(&["select the next command", "select the previous command", "go down by ten commands", "go up by ten commands"]),
     bind(Program, Condition::Always, &[key(Esc, A::ClosePalette), ctrl('p', A::ClosePalette)], Some(("close", 1)), "close the list"),
 ];
 
@@ -178,8 +178,8 @@ const QUESTION: &[Binding<Action, Condition>] = &[
 /// The keys of a question with a typed answer.
 #[rustfmt::skip]
 const TYPED: &[Binding<Action, Condition>] = &[
-    bind(Program, Condition::Always, &[key(Enter, A::Answer(true))], Some(("take it", 1)), "take what is typed"),
-    bind(Program, Condition::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "leave all as it is"),
+    bind(Program, Condition::Always, &[key(Enter, A::Answer(true))], Some(("take it", 1)), "accept the typed text"),
+    bind(Program, Condition::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "cancel"),
 ];
 
 /// The keys that all screens share, even where letters are typed.

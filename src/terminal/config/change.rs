@@ -11,7 +11,7 @@ use crate::terminal::{
 };
 
 /// First line of a file that the program creates.
-const FIRST_LINE: &str = "# The settings of carom; \"carom config\" prints all that may stand here.\n";
+const FIRST_LINE: &str = "# The settings of carom; \"carom config\" prints all of them.\n";
 
 /// A change of the settings file.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +36,7 @@ pub enum Unchanged {
         text: String,
     },
     /// The entry has another kind than the value or table expected there.
-    #[error("\"{0}\" is something else there; carom config --check says more")]
+    #[error("\"{0}\" has the wrong type in the file; carom config --check says more")]
     Misplaced(String),
 }
 

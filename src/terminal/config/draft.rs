@@ -42,7 +42,7 @@ impl StrokeDraft {
         });
         draft.map_err(|error| {
             let kept = storage::put_aside(path);
-            format!("{}: {error}; the stroke that was typed in part cannot be gone on with, and {kept}", path.display())
+            format!("{}: {error}; the stroke that was typed in part cannot be restored, and {kept}", path.display())
         })
     }
 

@@ -71,7 +71,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Looks",
         key: "colours",
-        about: "How many colours the terminal has; auto looks at NO_COLOR, COLORTERM and TERM.",
+        about: "Number of colours of the terminal; auto uses NO_COLOR, COLORTERM and TERM.",
         accepted: "\"auto\", \"true\", \"256\", \"16\", \"none\"",
         choices: || DEPTHS.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&DEPTHS, &settings.depth)),
@@ -80,7 +80,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Looks",
         key: "glyphs",
-        about: "What the table is drawn with; auto looks at the locale and never takes octants, which few fonts have. CAROM_GLYPHS overrides it.",
+        about: "Characters for the table; auto uses the locale, and never octants, which few fonts have. CAROM_GLYPHS overrides it.",
         accepted: "\"auto\", \"octant\", \"sextant\", \"half\", \"letters\"",
         choices: || GLYPHS.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&GLYPHS, &settings.glyphs)),
@@ -89,8 +89,8 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Game",
         key: "table",
-        about: "The table that is played on; F7 measures one of your own.",
-        accepted: "\"match\", \"textbook\", \"thesis\" or the path of a TOML file that is there; on the screen one of your own by its name",
+        about: "The table to play on; F7 measures your own table.",
+        accepted: "\"match\", \"textbook\", \"thesis\" or the path of an existing TOML file; on the screen, your own tables by name",
         choices: || PRESETS.map(quoted).to_vec(),
         get: |settings| quoted(&*settings.table),
         set: |settings, value| put(&mut settings.table, table(value)),
@@ -107,8 +107,8 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Game",
         key: "skill",
-        about: "Who plays: the errors that the coach reckons with.",
-        accepted: "\"perfect\", \"expert\", \"world-class\", \"national\", \"club\", \"beginner\", an average at three-cushion like \"0.6\", or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"; your own skill stands here by its errors",
+        about: "Who plays: the errors that the coach assumes.",
+        accepted: "\"perfect\", \"expert\", \"world-class\", \"national\", \"club\", \"beginner\", an average at three-cushion like \"0.6\", or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"; your own skill is stored as its errors",
         choices: || Skill::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(settings.skill.to_string()),
         set: |settings, value| put(&mut settings.skill, parsed(value)),
@@ -116,8 +116,8 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Game",
         key: "doubt",
-        about: "How much of the table and of the balls' places the coach takes to be unknown.",
-        accepted: "\"none\", \"full\" or its two numbers like \"table=1,placing=3\": a multiple, and mm",
+        about: "How uncertain the table and the balls' positions are for the coach.",
+        accepted: "\"none\", \"full\" or two numbers like \"table=1,placing=3\": a multiple, and mm",
         choices: || ["none", "full"].map(quoted).to_vec(),
         get: |settings| quoted(settings.doubt.to_string()),
         set: |settings, value| put(&mut settings.doubt, parsed(value)),
@@ -163,7 +163,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Handling",
         key: "speed",
-        about: "How fast shots are played, 1 as on the table.",
+        about: "Playback speed of shots; 1 is real time.",
         accepted: "0.1, 0.25, 0.5, 1, 2, 4 or 8",
         choices: || SPEEDS.map(decimal).to_vec(),
         get: |settings| decimal(settings.speed),
@@ -172,7 +172,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Handling",
         key: "mouse",
-        about: "Whether the mouse moves balls and lists; without it the terminal's own selection stays as it is.",
+        about: "Whether the mouse moves balls and lists; if not, the terminal's own text selection works.",
         accepted: "true, false",
         choices: truths,
         get: |settings| settings.mouse.to_string(),
@@ -181,7 +181,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Units",
         key: "tip_unit",
-        about: "In what the tip's distance from the centre of the ball is told.",
+        about: "Unit of the tip's distance from the centre of the ball.",
         accepted: "\"tips\", \"mm\"",
         choices: || TipUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&TipUnit::NAMED, &settings.units.tip)),
@@ -190,7 +190,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Units",
         key: "place_unit",
-        about: "In what places along the cushions are told.",
+        about: "Unit of positions along the cushions.",
         accepted: "\"diamonds\", \"mm\"",
         choices: || PlaceUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&PlaceUnit::NAMED, &settings.units.place)),
@@ -199,7 +199,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Units",
         key: "length_unit",
-        about: "In what distances on the table are told, where balls lie while they are placed, speeds and margins.",
+        about: "Unit of distances, of ball positions while placing, of speeds and of margins.",
         accepted: "\"metres\", \"feet\"",
         choices: || LengthUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&LengthUnit::NAMED, &settings.units.length)),

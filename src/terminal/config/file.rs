@@ -84,7 +84,7 @@ impl SettingsFile {
             Ok(text) => text,
             Err(error) => {
                 let line = line_at(&String::from_utf8_lossy(found.as_deref().unwrap_or_default()), error.valid_up_to());
-                return unwritten(known, format!("line {line} is no UTF-8"));
+                return unwritten(known, format!("line {line} is not UTF-8"));
             }
         };
         let new = match changed(text, change) {

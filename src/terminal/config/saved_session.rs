@@ -90,7 +90,7 @@ impl SavedSession {
         let damage = |error| format!("it is damaged: {}", json_flaw(&error));
         let header: Header = serde_json::from_slice(&bytes).map_err(damage)?;
         if header.version != VERSION {
-            return Err(format!("it is of version {}, and {VERSION} is understood", header.version));
+            return Err(format!("it is of version {}, but this program reads version {VERSION}", header.version));
         }
         serde_json::from_slice::<Self>(&bytes).map_err(damage)?.checked().map(Some)
     }
@@ -109,7 +109,7 @@ impl SavedSession {
     pub fn load_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
         Self::load(path).map_err(|error| {
             format!(
-                "{}: {error}; the last session cannot be gone on with, and {}",
+                "{}: {error}; the last session cannot be continued, and {}",
                 path.display(),
                 storage::put_aside(path)
             )

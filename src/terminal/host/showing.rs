@@ -77,11 +77,11 @@ impl TableSharing {
 
     fn show(&mut self, now: ShownTable) -> Result<(), String> {
         let refusal =
-            |error: std::io::Error| format!("{}: {error}; others see nothing of the table", self.folder.display());
+            |error: std::io::Error| format!("{}: {error}; others cannot see the table", self.folder.display());
         if self.open.is_none() {
             fs::create_dir_all(&self.folder).map_err(refusal)?;
             let lock = Lock::take(&self.folder).map_err(refusal)?;
-            let lock = lock.ok_or("others see the table of another session of yours already")?;
+            let lock = lock.ok_or("another session of yours already shows its table")?;
             self.open = Some(Open { _lock: lock, written: None, when: Instant::now() });
         }
         now.write(&self.folder).map_err(refusal)?;

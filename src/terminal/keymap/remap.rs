@@ -6,8 +6,8 @@ use crate::terminal::keymap::Chord;
 
 /// The section on keys in the documented settings file.
 pub const ABOUT: &str = "
-# Keys of your own: on the left the key that you press, on the right the one whose work it does. Keys that are not named
-# keep their work. Accepted: a letter or sign, Enter, Esc, Space, Tab, Backspace, Delete, Home, End, PageUp, PageDown, Left,
+# Keys of your own: on the left the key that you press, on the right the key that it acts as. All other keys keep their
+# defaults. Accepted: a letter or sign, Enter, Esc, Space, Tab, Backspace, Delete, Home, End, PageUp, PageDown, Left,
 # Right, Up, Down, F1 to F12, also with Ctrl- or Shift- before it.
 [keys]
 # \"x\" = \"Enter\"

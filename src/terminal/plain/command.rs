@@ -77,20 +77,20 @@ const HELP: &[(&str, &str)] = &[
     ("shot", "ask the coach for a shot; ask and an empty line do the same"),
     (
         "try red 1/2 right, 1.5 left, 2 up, 3 lengths",
-        "a stroke of your own: the ball and how full, side, height and speed, or the line of the cue like to 3.2 bottom; what you do not say is as in the shot that is spoken of",
+        "a stroke of your own: the ball and how full, side, height and speed, or the line of the cue like to 3.2 bottom; what you leave out is taken from the present shot",
     ),
-    ("other", "the next of the other shots; so does next"),
-    ("chances", "how often each of the shots is made"),
-    ("why", "why the first of the shots leads"),
+    ("other", "the next of the other shots; next does the same"),
+    ("chances", "how often each shot is made"),
+    ("why", "why the first shot is best"),
     ("numbers", "the shot in numbers: small distances, speed and degrees"),
-    ("system", "what a player counts on the diamonds for the shot, and what that is on this table"),
+    ("system", "the diamond system for the shot, and its numbers on this table"),
     ("words", "what the words for a shot mean: tips, o'clock, full, table lengths, diamonds"),
-    ("tell", "what the balls meet in the shot, and what comes of it; so does play"),
-    ("tell all", "the same, and where they begin to roll and stop"),
+    ("tell", "what the balls meet in the shot, and its outcome; play does the same"),
+    ("tell all", "the same, and when they begin to roll and stop"),
     ("margins", "how far off the shot may be, and where to aim"),
     ("go on", "take the balls as the shot leaves them"),
-    ("where", "where the balls lie; so does balls alone"),
-    ("move white left 20", "move a ball by so many millimetres: left, right, up or down"),
+    ("where", "where the balls are; balls alone does the same"),
+    ("move white left 20", "move a ball by a distance in millimetres: left, right, up or down"),
     ("balls -0.5,0 0,0 0.5,0.03", "place all three, in metres or in diamonds like 2d,2d 6d,2d 2d,2.5d"),
     (
         "opening",
@@ -101,15 +101,15 @@ const HELP: &[(&str, &str)] = &[
     ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
     (
         "skill club",
-        "who plays: perfect, expert, world-class, national, club, beginner, own (your own: by your notes once that is kept, else the average that is set), an average at three-cushion like 0.6, or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
+        "who plays: perfect, expert, world-class, national, club, beginner, own (your own skill: from your notes if saved, otherwise the average in the settings), an average at three-cushion like 0.6, or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
     ),
-    ("plan", "whether the coach has the next point in mind, and what the shot leaves"),
-    ("plan off", "whether the coach has the next point in mind from now on: on or off"),
-    ("first red", "what the cue ball shall meet first from now on: a ball's colour, cushion or any"),
-    ("film", "which filmed shots there are"),
+    ("plan", "whether the coach plans for the next point, and how often that is made"),
+    ("plan off", "whether the coach plans for the next point from now on: on or off"),
+    ("first red", "what the cue ball has to meet first from now on: a ball's colour, cushion or any"),
+    ("film", "the list of filmed shots"),
     ("film 12", "that filmed shot, and how far the simulated balls are from the filmed ones"),
-    ("undo", "take the last change of the balls back"),
-    ("quit", "end; so do exit and the end of the input"),
+    ("undo", "undo the last change of the balls"),
+    ("quit", "end the program; exit and the end of the input do the same"),
 ];
 
 /// The list of commands, one per line.
@@ -143,7 +143,7 @@ impl FromStr for Command {
             ["film", number] => Self::Film(
                 number
                     .parse()
-                    .map_err(|_| format!("\"{number}\" is no shot of the film; film says which there are"))?,
+                    .map_err(|_| format!("\"{number}\" is not the number of a filmed shot; film lists them"))?,
             ),
             ["help" | "?"] => Self::Help,
             ["quit" | "exit"] => Self::Quit,
@@ -163,7 +163,7 @@ impl FromStr for Command {
             }
             ["balls", ref places @ ..] => Self::Balls(places.join(" ")),
             ["move", ball, direction, distance] => Self::Move(ball_named(ball)?, step(direction, distance)?),
-            _ => return Err(format!("\"{}\" means nothing here; help says what may be said", line.trim())),
+            _ => return Err(format!("\"{}\" is not a command; help lists the commands", line.trim())),
         })
     }
 }

@@ -22,7 +22,7 @@ pub fn list() -> String {
         found.map(|listed| listed.filmed.number.to_string()).collect::<Vec<_>>().join(", ")
     };
     format!(
-        "There are {} filmed shots of a match at three cushions; film and a number tells one.\nPoints: {}.\nNo points: {}.",
+        "There are {} filmed shots of a match at three cushions; say film and a number for one of them.\nPoints: {}.\nNo points: {}.",
         listed().len(),
         numbers(true),
         numbers(false)
@@ -35,7 +35,7 @@ pub fn list() -> String {
 /// Fails if there is no shot with this number.
 pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
     let shot = listed().iter().find(|listed| listed.filmed.number == number);
-    let shot = shot.ok_or_else(|| format!("There is no filmed shot {number}; film says which there are."))?;
+    let shot = shot.ok_or_else(|| format!("There is no filmed shot {number}; film lists them."))?;
     let played = FilmReplay::new(&shot.filmed)?;
     let outcome = |is_point| if is_point { "a point" } else { "no point" };
     let mut lines = vec![

@@ -113,7 +113,7 @@ pub fn converse(
         units: settings.units,
         rng,
     };
-    write!(output, "carom. Say help for what may be said.\n{}\n{prompt}", talk.places())?;
+    write!(output, "carom. Say help for a list of commands.\n{}\n{prompt}", talk.places())?;
     output.flush()?;
     let mut refused = 0;
     // Lines that are not UTF-8 are answered like any other unknown command.
@@ -210,7 +210,7 @@ impl Conversation {
                 Ok((1..).zip(&talk.shots).map(line).collect::<Vec<_>>().join("\n"))
             })?,
             Command::Why => self.with_chosen_shot(|talk, _| {
-                let why = talk.why.as_ref().ok_or("No reason is known why the first shot leads.")?;
+                let why = talk.why.as_ref().ok_or("No reason is known why the first shot is best.")?;
                 Ok(format!("The first shot. {}", why.words(talk.cue_ball(), talk.units)))
             })?,
             Command::Shot => self.ask()?,

@@ -127,10 +127,10 @@ pub fn words(table: &Table, unit: LengthUnit) -> String {
     let tip = fixed(in_a_metre * TIP * table.radius, decimals);
     format!(
         "Tips: how far the cue's tip is from the middle of the ball, {tip} {small} each; above and below, or of left and right side.\n\
-         O'clock: in which direction from the middle, as you look along the cue.\n\
-         Running side makes the way off the first cushion longer, reverse side shorter.\n\
-         Full: how much of the ball is covered as the cue ball comes on; on the left is its left half.\n\
-         Table lengths: how far a ball would run that is struck so in the middle; up the table and back is two.\n\
+         O'clock: the direction from the middle, as you look along the cue.\n\
+         Running side makes the path off the first cushion longer, reverse side shorter.\n\
+         Full: how much of the ball the cue ball covers at the hit; on the left is its left half.\n\
+         Table lengths: how far a ball would run if struck at this speed in the centre; up the table and back is two.\n\
          Diamonds: counted from the lower left corner, 0 to 8 along the long rails, 0 to 4 up the short ones."
     )
 }

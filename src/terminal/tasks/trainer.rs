@@ -51,7 +51,7 @@ pub fn wait((mut process, said): Trainer) -> Result<(), TrainerFailure> {
         // A stopped run can be resumed, and its page shows that.
         Ok(status) if status.success() || status.code() == Some(i32::from(UNFINISHED)) => Ok(()),
         Ok(status) => {
-            let killed = || format!("the process that trains has ended: {status}");
+            let killed = || format!("the training process has ended: {status}");
             Err(failure(last_sentence(said).unwrap_or_else(killed)))
         }
         Err(error) => Err(failure(format!("the training cannot be watched: {error}"))),

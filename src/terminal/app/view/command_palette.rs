@@ -39,7 +39,7 @@ pub fn draw(app: &App, command_palette: &CommandPalette, area: Rect, ui: &mut Ui
     let below = Rect { y: area.y + 1, height: area.height - 2, ..area };
     Clear.render(below, ui.buffer);
     ui.buffer.set_style(below, ui.theme.text());
-    let title = Span::styled(" What can be done here ", ui.theme.text());
+    let title = Span::styled(" Commands ", ui.theme.text());
     let frame = frame(Block::bordered(), ui.caps).border_style(ui.theme.faint()).title(title);
     let inner = frame.inner(place);
     frame.render(place, ui.buffer);
