@@ -247,7 +247,7 @@ pub fn bindings(context: KeyContext) -> Vec<Bound> {
         KeyContext::Drill(context) => append(&mut all, context.bindings(), A::Drill, Condition::Drill),
         KeyContext::Settings(context) => append(&mut all, context.bindings(), A::Settings, Condition::Settings),
         KeyContext::Calibration(context) => {
-            append(&mut all, context.bindings(), A::Calibration, Condition::Calibration)
+            append(&mut all, context.bindings(), A::Calibration, Condition::Calibration);
         }
         KeyContext::CommandPalette => program(&mut all, PALETTE),
     }

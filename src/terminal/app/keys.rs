@@ -86,10 +86,10 @@ impl App {
     }
 
     /// Performs the action of a key or the mouse, or shows why it is disabled.
-    pub(super) fn perform(&mut self, asked: Result<Action, &'static str>) -> Option<Effect> {
+    pub(super) fn perform(&mut self, requested: Result<Action, &'static str>) -> Option<Effect> {
         *self.page_mut().message_mut() = None;
         self.toasts.go_on();
-        match asked {
+        match requested {
             Ok(action) => self.update(action),
             Err(reason) => {
                 if self.overlay.is_some() {

@@ -67,7 +67,7 @@ pub struct App {
     pub training: TrainingPage,
     /// The drill screens.
     pub drills: DrillsPage,
-    /// The settings' screen.
+    /// The settings screen.
     pub settings: SettingsPage,
     /// The calibration screen.
     pub calibration: CalibrationPage,

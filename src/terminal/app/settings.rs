@@ -80,7 +80,7 @@ impl App {
     /// Switches to the next theme, for this session.
     pub(super) fn next_theme(&mut self) {
         let message = if self.in_force.depth == Some(Depth::Mono) {
-            "no colours here: colours = \"none\" among the settings, F5".to_owned()
+            "no colours here: the setting colours is \"none\"; F5 changes it".to_owned()
         } else if self.full_caps.depth == Depth::Mono {
             "no colours here: NO_COLOR is set or the terminal has none".to_owned()
         } else {
@@ -97,7 +97,7 @@ impl App {
         let refused = if self.theme_name == ThemeName::Mono {
             "the theme mono draws with letters: T chooses another"
         } else if caps == self.caps {
-            "letters are all that this terminal shows: TERM or the locale says so"
+            "this terminal shows only letters, according to TERM or the locale"
         } else {
             (self.caps, self.full_caps) = (caps, caps);
             self.in_force.glyphs = Some(caps.glyphs);

@@ -182,11 +182,11 @@ impl Runner {
     /// Saves the partly typed stroke for the next session, replacing that of the last one, however this session ends.
     fn keep_draft(&self) -> io::Result<()> {
         let path = &self.places.draft;
-        let told = |error| io::Error::other(format!("{}: {error}", path.display()));
+        let with_path = |error| io::Error::other(format!("{}: {error}", path.display()));
         match self.app.draft() {
-            Some(draft) => draft.save(path).map_err(told),
+            Some(draft) => draft.save(path).map_err(with_path),
             // Another program may have removed the file.
-            None if self.app.draft_at_start.is_some() && path.exists() => fs::remove_file(path).map_err(told),
+            None if self.app.draft_at_start.is_some() && path.exists() => fs::remove_file(path).map_err(with_path),
             None => Ok(()),
         }
     }
@@ -212,7 +212,7 @@ impl Runner {
     }
 
     fn handle(&mut self, event: Event) -> io::Result<Next> {
-        self.tasks.taken(&event);
+        self.tasks.acknowledge(&event);
         let effect = match event {
             Event::Input(TerminalEvent::Key(key)) => self.app.handle(&key),
             Event::Input(TerminalEvent::Paste(text)) => {

@@ -56,8 +56,8 @@ pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
     };
     let (in_a_metre, _) = unit.small();
     let distances = |time: f64| {
-        let apart = played.replay.apart(time);
-        let each = (0..BALLS).map(|ball| format!("{} {}", BALL_NAMES[ball], fixed(in_a_metre * apart[ball], 1)));
+        let metres = played.replay.apart(time);
+        let each = (0..BALLS).map(|ball| format!("{} {}", BALL_NAMES[ball], fixed(in_a_metre * metres[ball], 1)));
         each.collect::<Vec<_>>().join(", ")
     };
     for time in TIMES.into_iter().filter(|time| *time < end) {

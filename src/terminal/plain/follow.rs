@@ -42,7 +42,7 @@ pub fn follow_in_lines(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mut onlooker = Onlooker::new(folder.to_owned());
-    let mut describer = Describer { name, units, told: Described::default() };
+    let mut describer = Describer { name, units, last: Described::default() };
     let mut waiting: Option<(Box<SeenTable>, Instant)> = None;
     let mut is_over = false;
     while !is_over {
@@ -89,29 +89,29 @@ struct Described {
 struct Describer<'a> {
     name: &'a str,
     units: Units,
-    told: Described,
+    last: Described,
 }
 
 impl Describer<'_> {
     fn news(&mut self, seen: &SeenTable) -> Vec<String> {
-        let (name, shown, told) = (self.name, &seen.shown, &mut self.told);
+        let (name, shown, last) = (self.name, &seen.shown, &mut self.last);
         let mut lines = Vec::new();
         let scene = format!("{name} plays {} on the table {}, as {}.", shown.rule, shown.table.name, shown.skill);
-        if told.scene != scene {
+        if last.scene != scene {
             lines.push(scene.clone());
-            told.scene = scene;
+            last.scene = scene;
         }
-        if told.doing.replace(shown.doing) != Some(shown.doing) && shown.doing == Doing::Elsewhere {
+        if last.doing.replace(shown.doing) != Some(shown.doing) && shown.doing == Doing::Elsewhere {
             lines.push(format!("{name} is at another screen."));
         }
-        if told.layout.replace(shown.layout) != Some(shown.layout) {
+        if last.layout.replace(shown.layout) != Some(shown.layout) {
             let places = speech::places(&shown.table, &shown.layout, shown.cue_ball, self.units.length);
             lines.extend(places.lines().map(str::to_owned));
-            told.cue = None;
+            last.cue = None;
         }
         let Some((stroke, shot)) = shown.shot.zip(seen.shot.as_ref()) else { return lines };
         let is_settled = shown.doing != Doing::Thinking && stroke.author != Author::Search;
-        if is_settled && told.cue.replace(stroke.cue) != Some(stroke.cue) {
+        if is_settled && last.cue.replace(stroke.cue) != Some(stroke.cue) {
             let whose = if stroke.author == Author::Player { "Their own stroke" } else { "The coach recommends" };
             let made = stroke.made.map_or_else(String::new, |(made, of)| {
                 format!(" It is made {} percent of the time.", percent(SuccessRate::new(made, of).rate))
@@ -119,14 +119,14 @@ impl Describer<'_> {
             lines.push(format!("{whose}: {}{made}", shot.words.sentence(shown.cue_ball, self.units)));
         }
         let plays = stroke.playing;
-        if plays && !told.plays {
+        if plays && !last.plays {
             lines.push(format!("{name} plays the shot."));
         }
-        if told.plays && !plays && stroke.over {
+        if last.plays && !plays && stroke.over {
             let verdict = shot.verdict(shown.rule, &shown.table);
             lines.push(verdict.words(shown.cue_ball, self.units.length));
         }
-        told.plays = plays;
+        last.plays = plays;
         lines
     }
 }
@@ -162,7 +162,7 @@ mod tests {
             let shown = ShownTable { shot: Some(stroke), ..shown };
             SeenTable { shown, age: Duration::ZERO, shot: Some(shot.clone()) }
         };
-        let mut describer = Describer { name: "anna", units: Units::default(), told: Described::default() };
+        let mut describer = Describer { name: "anna", units: Units::default(), last: Described::default() };
         assert_eq!(describer.news(&at(0.0, true)).last().unwrap(), "anna plays the shot.");
         assert!(describer.news(&at(0.5 * end, false)).is_empty(), "a pause is no end");
         describer.news(&at(0.5 * end, true));

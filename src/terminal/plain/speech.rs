@@ -43,8 +43,8 @@ fn coordinate(metres: f64, unit: LengthUnit) -> String {
         LengthUnit::Feet => 0,
     };
     let (in_a_metre, _, decimals) = small(unit, tenths);
-    let told = fixed(in_a_metre * metres, decimals);
-    told.strip_suffix(".0").map_or(told.clone(), str::to_owned)
+    let text = fixed(in_a_metre * metres, decimals);
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 
 /// Positions of the balls; the cue ball is named if it is not white.
@@ -221,8 +221,8 @@ pub fn events(recording: &Recording, all: bool, cue_ball: CueBall, unit: LengthU
         jump.map_or_else(String::new, |jump| format!(", {}", jump_words(&jump, unit)))
     };
     let line = |event: &Event| format!("{} seconds: {}{}.", fixed(event.time, 2), words(event.kind), jump(event));
-    let told = recording.events().iter().filter(|event| all || recording.is_told(event));
-    let mut lines: Vec<String> = told.map(line).collect();
+    let listed = recording.events().iter().filter(|event| all || recording.is_told(event));
+    let mut lines: Vec<String> = listed.map(line).collect();
     lines.push(format!("{} seconds: all balls lie still.", fixed(recording.duration(), 2)));
     lines.join("\n")
 }

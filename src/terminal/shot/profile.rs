@@ -55,9 +55,9 @@ pub struct Profile {
 impl Profile {
     /// The highest jump of the cue ball, or of another ball if the cue ball does not jump. `None` if no jump is high enough to report.
     pub fn of(table: &Table, recording: &Recording) -> Option<Self> {
-        let told = recording.jumps().into_iter().filter(Jump::is_told);
+        let visible = recording.jumps().into_iter().filter(Jump::is_told);
         let order = |jump: &Jump| (jump.ball == 0, jump.height);
-        let jump = told.max_by(|one, other| {
+        let jump = visible.max_by(|one, other| {
             let ((cue_ball, height), (is_other, other)) = (order(one), order(other));
             cue_ball.cmp(&is_other).then(height.total_cmp(&other))
         })?;

@@ -136,7 +136,7 @@ impl Tasks {
     }
 
     /// Confirms that the screen has handled an event, so that its sender may poll again. Events never pile up if the screen is slow.
-    pub fn taken(&self, event: &Event) {
+    pub fn acknowledge(&self, event: &Event) {
         let poll = match event {
             Event::Shown(_) => &self.shown,
             Event::Training(TrainingReport::Runs(_)) => &self.list,
@@ -145,7 +145,7 @@ impl Tasks {
             _ => &None,
         };
         if let Some(poll) = poll {
-            poll.taken();
+            poll.acknowledge();
         }
     }
 

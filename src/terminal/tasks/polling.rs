@@ -59,7 +59,7 @@ impl Poll {
     }
 
     /// Confirms that the last event was handled.
-    pub fn taken(&self) {
+    pub fn acknowledge(&self) {
         self.waiting.store(false, Ordering::Release);
     }
 }
@@ -84,7 +84,7 @@ mod tests {
         let patience = Duration::from_secs(20);
         assert!(receiver.recv_timeout(patience).is_ok());
         assert!(receiver.recv_timeout(Duration::from_millis(50)).is_err(), "not before they are taken");
-        poll.taken();
+        poll.acknowledge();
         assert!(receiver.recv_timeout(patience).is_ok());
         drop(poll);
         // The thread ends and closes the channel.

@@ -152,12 +152,12 @@ impl CoachWorker {
             cancel: Arc::clone(&job.cancel),
             ..Request::default()
         };
-        let (is_hurried, mut told) = (self.simulations.is_none(), None);
+        let (is_hurried, mut last_report) = (self.simulations.is_none(), None);
         let tell = |better: &Improvement| {
-            if is_hurried && told.is_some_and(|told: Instant| told.elapsed() < REPORT_INTERVAL) {
+            if is_hurried && last_report.is_some_and(|last_report: Instant| last_report.elapsed() < REPORT_INTERVAL) {
                 return;
             }
-            told = Some(Instant::now());
+            last_report = Some(Instant::now());
             // A shot that cannot be displayed is not reported; the answer will say why.
             let Ok(shot) = Shot::new(&job.table, layout, better.cue, true, "search") else { return };
             tell(Proposal {

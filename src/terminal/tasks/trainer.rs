@@ -26,11 +26,11 @@ pub fn start(arguments: &[OsString]) -> Result<Trainer, TrainerFailure> {
     let start = || {
         let program = std::env::current_exe()?;
         // Its output goes to a file without a name. A pipe would break when the screen closes, and the next write would end the training.
-        let said = tempfile::tempfile()?;
+        let output = tempfile::tempfile()?;
         let mut command = Command::new(program);
-        command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(said.try_clone()?);
+        command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(output.try_clone()?);
         // The terminal sends signals to a process group; this process gets its own.
-        Ok((platform::own_group(&mut command).spawn()?, said))
+        Ok((platform::own_group(&mut command).spawn()?, output))
     };
     start().map_err(|error: std::io::Error| TrainerFailure {
         process: None,
@@ -42,7 +42,7 @@ pub fn start(arguments: &[OsString]) -> Result<Trainer, TrainerFailure> {
 ///
 /// # Errors
 /// Fails if the process fails, with its own message if it has printed one.
-pub fn wait((mut process, said): Trainer) -> Result<(), TrainerFailure> {
+pub fn wait((mut process, output): Trainer) -> Result<(), TrainerFailure> {
     let failure = {
         let process = Some(process.id());
         move |sentence| TrainerFailure { process, sentence }
@@ -52,7 +52,7 @@ pub fn wait((mut process, said): Trainer) -> Result<(), TrainerFailure> {
         Ok(status) if status.success() || status.code() == Some(i32::from(UNFINISHED)) => Ok(()),
         Ok(status) => {
             let killed = || format!("the training process has ended: {status}");
-            Err(failure(last_sentence(said).unwrap_or_else(killed)))
+            Err(failure(last_sentence(output).unwrap_or_else(killed)))
         }
         Err(error) => Err(failure(format!("the training cannot be watched: {error}"))),
     }

@@ -60,8 +60,8 @@ pub fn draw_events(
     let first = present.saturating_sub(rows / 3).min((events.len() + 1).saturating_sub(rows));
     for (n, row) in (first..=events.len()).zip(inner.y..inner.bottom()) {
         let event = n.checked_sub(1).map(|n| events[n]);
-        let told = |event: Event| (event.time, words_of(event, recording, unit, room, ui));
-        let (at, words) = event.map_or((0.0, "stroke".to_owned()), told);
+        let row_of = |event: Event| (event.time, words_of(event, recording, unit, room, ui));
+        let (at, words) = event.map_or((0.0, "stroke".to_owned()), row_of);
         let words = if is_narrow {
             words.trim_end_matches(" rail").replace("contact begins", "touches").replace("contact ends", "is free")
         } else {

@@ -88,8 +88,8 @@ fn draw_hit(hit: &Hit, area: Rect, ui: &mut Ui) -> Rect {
         return cloth;
     }
     // In ball radii; the midpoint of the two balls is the middle of the picture.
-    let apart = 2.0 * (1.0 - hit.fullness).clamp(0.0, 1.0);
-    let cue = if hit.left { -0.5 * apart } else { 0.5 * apart };
+    let offset = 2.0 * (1.0 - hit.fullness).clamp(0.0, 1.0);
+    let cue = if hit.left { -0.5 * offset } else { 0.5 * offset };
     let per_half = f64::from(2 * rows) / f64::from(diameter);
     let (ink, letters) = (|color, weight| Ink { color, weight }, ui.theme.letters());
     draw_field(cloth, ui.theme.cloth, ui, |x, y, _| {

@@ -91,9 +91,9 @@ impl TextField {
                 Some(Edit::Move(movement)) => self.cursor = self.at(movement),
                 Some(Edit::Delete(movement)) => {
                     let end = self.at(movement);
-                    let gone = self.cursor.min(end)..self.cursor.max(end);
-                    self.cursor = gone.start;
-                    self.text.drain(gone);
+                    let removed = self.cursor.min(end)..self.cursor.max(end);
+                    self.cursor = removed.start;
+                    self.text.drain(removed);
                 }
             },
         }

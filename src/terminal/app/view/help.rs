@@ -90,7 +90,7 @@ const CALIBRATION_NOTES: [&str; 5] = [
     "Every entry is on the disk at once, in the file that carom calibrate goes on with as well. Both may be open at the same time.",
 ];
 
-/// What the help says of the picture at `place`.
+/// Notes of the help in the context `place`.
 fn notes(place: KeyContext) -> Vec<String> {
     let notes: &[&str] = match place {
         KeyContext::Coach | KeyContext::OwnStroke | KeyContext::Follow => &COACH_NOTES,

@@ -3,7 +3,7 @@
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
 use crate::terminal::host::input::{
-    keys::{held, key, with},
+    keys::{key, modifiers_and_kind, with},
     mouse,
 };
 
@@ -61,8 +61,8 @@ fn numbered<'a>(first: &str, mut rest: impl Iterator<Item = &'a str>) -> Option<
         number @ 28..=29 => KeyCode::F(number - 15),
         number @ 31..=34 => KeyCode::F(number - 17),
         27 => {
-            let held = rest.next();
-            return unicode(rest.next()?, held);
+            let modifiers = rest.next();
+            return unicode(rest.next()?, modifiers);
         }
         _ => return None,
     };
@@ -73,7 +73,7 @@ fn numbered<'a>(first: &str, mut rest: impl Iterator<Item = &'a str>) -> Option<
 fn unicode(first: &str, second: Option<&str>) -> Option<Event> {
     let mut numbers = first.split(':').map(|number| number.parse().ok().and_then(char::from_u32));
     let character = numbers.next()??;
-    let (mut modifiers, kind) = held(second)?;
+    let (mut modifiers, kind) = modifiers_and_kind(second)?;
     let code = match character {
         '\u{1b}' => KeyCode::Esc,
         '\r' | '\u{e046}' => KeyCode::Enter,
@@ -94,6 +94,6 @@ fn unicode(first: &str, second: Option<&str>) -> Option<Event> {
 }
 
 fn modified(code: KeyCode, parameter: Option<&str>) -> Option<Event> {
-    let (modifiers, kind): (_, KeyEventKind) = held(parameter)?;
+    let (modifiers, kind): (_, KeyEventKind) = modifiers_and_kind(parameter)?;
     Some(Event::Key(KeyEvent::new_with_kind(code, modifiers, kind)))
 }

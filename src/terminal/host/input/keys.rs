@@ -43,7 +43,7 @@ pub fn control(byte: u8) -> Option<Event> {
 }
 
 /// Decodes the modifiers and the kind of event (press, repeat or release) from the parameter `1 + mask` or `1 + mask:kind`.
-pub fn held(parameter: Option<&str>) -> Option<(KeyModifiers, KeyEventKind)> {
+pub fn modifiers_and_kind(parameter: Option<&str>) -> Option<(KeyModifiers, KeyEventKind)> {
     let Some(parameter) = parameter.filter(|text| !text.is_empty()) else {
         return Some((KeyModifiers::NONE, KeyEventKind::Press));
     };

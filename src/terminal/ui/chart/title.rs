@@ -46,12 +46,12 @@ pub fn draw_chart_title(chart: &Chart, area: Rect, ui: &mut Ui) {
     let rule = ui.caps.pick("─", "-");
     ui.buffer.set_stringn(area.x, area.y, rule.repeat(width), width, ui.theme.rule());
     let (mut left, mut right) = (left(chart, ui.theme, ui.caps), right(chart, ui.theme, ui.caps));
-    let taken = |parts: &[Part], gap: usize| {
+    let width_of = |parts: &[Part], gap: usize| {
         let texts: usize = parts.iter().map(|part| Span::raw(&part.text).width()).sum();
         texts + gap * parts.len().saturating_sub(1)
     };
     // The start of the rule, and a blank at either side of both texts.
-    while taken(&left, 0) + 3 + taken(&right, GAP.len()) + usize::from(!right.is_empty()) * 2 > width {
+    while width_of(&left, 0) + 3 + width_of(&right, GAP.len()) + usize::from(!right.is_empty()) * 2 > width {
         let least = left.iter().chain(&right).map(|part| part.priority).min();
         let Some(priority) = least.filter(|priority| *priority < Priority::Title) else { break };
         left.retain(|part| part.priority != priority);
@@ -67,7 +67,7 @@ pub fn draw_chart_title(chart: &Chart, area: Rect, ui: &mut Ui) {
     }
     write(x, " ", ui.theme.text());
     if !right.is_empty() {
-        let mut x = area.right().saturating_sub(taken(&right, GAP.len()) as u16 + 2).max(x);
+        let mut x = area.right().saturating_sub(width_of(&right, GAP.len()) as u16 + 2).max(x);
         for (n, part) in right.iter().enumerate() {
             x = write(x, if n == 0 { " " } else { GAP }, ui.theme.text());
             x = write(x, &part.text, part.style);

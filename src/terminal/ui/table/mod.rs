@@ -113,8 +113,9 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     let sprite = Sprite::new(&mapping, glyphs);
     let reach = sprite.reach(&mapping, glyphs);
     let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
-    let told = |height: f64| if height < TOLD_HEIGHT { 0.0 } else { height };
-    let heights = std::array::from_fn(|ball| shot.map_or(0.0, |shot| told(shot.recording.height(ball, view.time))));
+    let visible_height = |height: f64| if height < TOLD_HEIGHT { 0.0 } else { height };
+    let heights =
+        std::array::from_fn(|ball| shot.map_or(0.0, |shot| visible_height(shot.recording.height(ball, view.time))));
     let off_table = std::array::from_fn(|ball| shot.is_some_and(|shot| is_gone(shot, ball, view.time, &mapping)));
     let balls = separated_on_cloth(balls, heights, 2.0 * reach);
     let time = if view.is_moving { view.time } else { 0.0 };

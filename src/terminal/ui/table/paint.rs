@@ -30,7 +30,7 @@ const SHADOW: [char; 2] = ['○', 'o'];
 /// Weights of what shares a cell (see [`Ink`]).
 const DOT_WEIGHT: u8 = 3;
 const RING_WEIGHT: u8 = 4;
-/// More than all other sub-pixels of a cell together: a ball stays whole, whatever passes behind it.
+/// More than all other sub-pixels of a cell together: a ball stays whole, whatever shares its cells.
 const BALL_WEIGHT: u8 = 32;
 
 /// Draws the cloth with everything on it.

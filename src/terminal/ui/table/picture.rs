@@ -19,7 +19,7 @@ const CUE_LENGTH: f64 = 0.4;
 const CUE_DOTS: f64 = 0.008;
 /// Number of dots in a dash of the second shot's path, and in the gap after it: a tenth of a metre each.
 const DASH: usize = 4;
-/// Distance that dots keep from a ghost, relative to the distance from a ball: a cell has no third colour.
+/// Distance that dots keep from a ghost, relative to the distance from a ball: a dot next to a ring would need a third colour in the cell.
 const GHOST_CLEAR: f64 = 0.95;
 /// Time for which a ball's recent path counts as its trail, s.
 const TRAIL: f64 = 0.4;
