@@ -1,56 +1,55 @@
-//! What the terminal can show: how many colours and which characters, found out from the environment.
+//! What the terminal can show: its number of colours and its characters, detected from the environment.
 
 use crate::printing;
 
-/// How many colours the terminal has.
+/// Number of colours of the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
     /// 24-bit colours.
     True,
     /// The 256 colours of xterm.
     Indexed,
-    /// The 16 colours that the user has chosen.
+    /// The 16 colours of the user's own palette.
     Ansi,
-    /// None: `NO_COLOR` is set, or the terminal knows none.
+    /// No colours: `NO_COLOR` is set, or the terminal has none.
     Mono,
 }
 
-/// Which characters the table is drawn with.
+/// Characters that the table is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Glyphs {
-    /// Octants: two by four sub-pixels a cell. Few fonts have them, and multiplexers drop them: for those who ask for them.
+    /// Octants: two by four sub-pixels a cell. Few fonts have them and multiplexers drop them, so they are used only on request.
     Octant,
     /// Sextants: two by three sub-pixels a cell.
     Sextant,
     /// Half blocks: one by two sub-pixels a cell, for fonts without sextants.
     Half,
-    /// Letters and ASCII signs only.
+    /// Letters and ASCII characters only.
     Letters,
 }
 
-/// Everything that drawing has to know about the terminal.
+/// What the drawing code has to know about the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Its colours.
+    /// Number of colours.
     pub depth: Depth,
-    /// Its characters.
+    /// Character set for the table.
     pub glyphs: Glyphs,
     /// Whether text may contain characters beyond ASCII.
     pub unicode: bool,
 }
 
 impl Capabilities {
-    /// All that most terminals of today can show.
+    /// The capabilities of most current terminals.
     pub const TRUE_COLOUR: Self = Self { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
     /// Text without colours.
     pub const NO_COLOUR: Self = Self { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
     /// Text without colours, in ASCII.
     pub const ASCII: Self = Self { unicode: false, ..Self::NO_COLOUR };
 
-    /// Reads the environment: `NO_COLOR`, `COLORTERM`, `TERM`, the locale, and `CAROM_GLYPHS` (`octant`, `sextant`,
-    /// `half` or `letters`), with which a user whose font has octants, or lacks sextants, chooses once and for all.
-    /// What was `chosen` in the settings goes before what the environment lets guess, and before `NO_COLOR`, but not before
-    /// `CAROM_GLYPHS`.
+    /// Detects the capabilities from the environment: `NO_COLOR`, `COLORTERM`, `TERM`, the locale, and `CAROM_GLYPHS` (`octant`, `sextant`,
+    /// `half` or `letters`). `CAROM_GLYPHS` is for users whose font has octants or lacks sextants. Values `chosen` in the settings override
+    /// detection and `NO_COLOR`, but not `CAROM_GLYPHS`.
     pub fn detect(variable: impl Fn(&str) -> Option<String>, chosen: (Option<Depth>, Option<Glyphs>)) -> Self {
         let set = |name: &str| variable(name).filter(|value| !value.is_empty());
         let term = set("TERM").unwrap_or_default();
@@ -76,12 +75,12 @@ impl Capabilities {
         Self { depth, glyphs, unicode }
     }
 
-    /// The finest characters that may be drawn with: octants only where the user has asked for them.
+    /// The finest character set that may be used: octants only if the user has asked for them.
     pub fn finest(&self) -> Glyphs {
         if self.glyphs == Glyphs::Octant { Glyphs::Octant } else { Glyphs::Sextant }
     }
 
-    /// The next simpler set of characters that this terminal can show, and back to the `finest` after the simplest.
+    /// The next simpler character set that this terminal can show; after the simplest, `finest` again.
     #[must_use]
     pub fn with_next_glyphs(self, finest: Glyphs) -> Self {
         let glyphs = match self.glyphs {
@@ -94,7 +93,7 @@ impl Capabilities {
         Self { glyphs, ..self }
     }
 
-    /// `fancy` where the terminal shows characters beyond ASCII, `plain` elsewhere.
+    /// Returns `fancy` if the terminal shows characters beyond ASCII, otherwise `plain`.
     pub const fn pick<T: Copy>(&self, fancy: T, plain: T) -> T {
         if self.unicode { fancy } else { plain }
     }

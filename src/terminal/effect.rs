@@ -1,4 +1,4 @@
-//! What pages ask of the program around them, and the names of the pages.
+//! Effects that pages request from the program around them, and the identifiers of the pages.
 
 use std::path::PathBuf;
 
@@ -7,35 +7,35 @@ use crate::{
     terminal::{CalibrationTask, CoachJob, DrillTask, Keeping, Launch, SettingsTask},
 };
 
-/// What the program around the app has to do.
+/// An action that the program around the app has to carry out.
 #[derive(Clone, Debug)]
 pub enum Effect {
-    /// Ask the coach for a shot, or for a closer look at the job's own; the answers go to [`App::receive`](super::App::receive).
+    /// Ask the coach for a shot, or for an analysis of the job's own shot; answers go to [`App::receive`](super::App::receive).
     Ask(Box<CoachJob>),
-    /// Start a process that trains; how it ends goes to [`App::receive_training`](super::App::receive_training), as do the answers to what follows.
+    /// Start a training process. Its end, and the answers to the next three, go to [`App::receive_training`](super::App::receive_training).
     Train(Box<Launch>),
-    /// Ask a run for something.
+    /// Send a request to a run.
     Send(Request, PathBuf),
-    /// Keep a policy under a name.
+    /// Save a policy under a name.
     Keep(Box<Keeping>),
-    /// Read the policy of the run in this folder.
+    /// Load the policy of the run in this folder.
     LoadPolicy(PathBuf),
-    /// Do these, one after the other; what comes of them goes to [`App::receive_drill`](super::App::receive_drill).
+    /// Run these tasks of the drills in order; reports go to [`App::receive_drill`](super::App::receive_drill).
     Drill(Vec<DrillTask>),
-    /// Read or change the settings' file; what comes of it goes to [`App::receive_settings`](super::App::receive_settings).
+    /// Read or change the settings file; the report goes to [`App::receive_settings`](super::App::receive_settings).
     Settings(Box<SettingsTask>),
-    /// Do these of the calibration's page; what comes of them goes to [`App::receive_calibration`](super::App::receive_calibration).
+    /// Run these tasks of the calibration page; reports go to [`App::receive_calibration`](super::App::receive_calibration).
     Calibrate(Vec<CalibrationTask>),
-    /// Put a text into the terminal's clipboard, where it allows that.
+    /// Copy a text to the terminal's clipboard, if the terminal allows it.
     Copy(String),
-    /// Stop until the shell continues the program.
+    /// Suspend the program until the shell continues it.
     Suspend,
-    /// End.
+    /// Quit.
     Quit,
 }
 
 impl Effect {
-    /// Both, where both may be there; tasks of the drills are done one after the other, and of others the second is left out.
+    /// Combines two effects. Drill tasks are concatenated; with other effects the second is dropped if there is a first.
     pub fn both(first: Option<Self>, second: Option<Self>) -> Option<Self> {
         match (first, second) {
             (Some(Self::Drill(first)), Some(Self::Drill(second))) => Some(Self::Drill([first, second].concat())),
@@ -47,23 +47,23 @@ impl Effect {
 /// The screens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PageId {
-    /// The table, and what the coach recommends.
+    /// The table and the coach's recommendations.
     Coach,
-    /// Exercises, and the player at them.
+    /// Exercises and the player's results.
     Drills,
-    /// Runs, and how they learn.
+    /// Training runs and their learning curves.
     Training,
-    /// What is set once and for all.
+    /// The settings.
     Settings,
-    /// What is measured at a table, and what follows from it.
+    /// Measurements at a real table, and the parameters that follow from them.
     Calibration,
 }
 
 impl PageId {
-    /// All of them, in the order of their tabs.
+    /// All pages, in the order of their tabs.
     pub const ALL: [Self; 5] = [Self::Coach, Self::Drills, Self::Training, Self::Settings, Self::Calibration];
 
-    /// What stands on its tab.
+    /// The title on the page's tab.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Coach => "Coach",

@@ -1,7 +1,7 @@
 //! The terminal program: screens, input and drawing.
 //!
-//! [`App`] holds the state and knows no terminal: keys go in, pictures come out, and what it wants done outside comes
-//! back as an [`Effect`]. [`run`] is the loop around it.
+//! [`App`] holds the state and has no terminal: it receives keys, draws frames and returns an [`Effect`] for whatever has to happen
+//! outside. [`run`] is the event loop around it.
 
 mod app;
 mod capabilities;
@@ -87,28 +87,28 @@ pub use ui::{
 /// Why the terminal program cannot run.
 #[derive(Debug, thiserror::Error)]
 pub enum TerminalError {
-    /// Input or output is no terminal, or one that shows no pictures.
+    /// Input or output is not a terminal, or the terminal cannot draw pictures.
     #[error(
-        "this is no terminal that can show the table; use the command line instead: \
+        "this is not a terminal that can show the table; use the command line instead: \
          carom recommend --layout \"-0.71,0 0.71,0 -0.71,0.1825\", or carom --plain for the coach in lines"
     )]
     NoTerminal,
-    /// The same for a guest, who may do nothing else.
-    #[error("this is no terminal that can show the table; connect with one: ssh -t")]
+    /// The same for a guest, who may use no other command.
+    #[error("this is not a terminal that can show the table; connect with one: ssh -t")]
     NoTerminalOfGuest,
-    /// The first layout is not possible.
+    /// The layout at the start is not possible.
     #[error(transparent)]
     Layout(#[from] LayoutError),
-    /// The terminal has failed.
+    /// Reading from or writing to the terminal failed.
     #[error("the terminal has failed: {0}")]
     Io(#[from] io::Error),
 }
 
-/// Opens the coach on `table` for the player at `seat` as they want it, until they quit. The `complaints` about the settings are
-/// shown.
+/// Opens the coach on `table` with the settings of the player at `seat`, until they quit. The `complaints` about the settings are shown as
+/// toasts.
 ///
 /// # Errors
-/// [`TerminalError`]: no terminal, or one that fails.
+/// [`TerminalError`]: there is no terminal, or it fails.
 pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Seat) -> Result<(), TerminalError> {
     need_terminal(seat.is_guest)?;
     let layout = Layout::opening(&table);
@@ -119,13 +119,13 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
         .with_settings(settings)
         .with_notice(storage::notice(places))
         .with_notice(seat.warning().as_deref());
-    let app = with_what_was_left(app, places).with_complaints(&places.settings, complaints);
+    let app = with_saved_state(app, places).with_complaints(&places.settings, complaints);
     Ok(host::runner::run(app, seat.places)?)
 }
 
-/// The program with what the user's last session has left: where it ended, what was typed in part, and the skill.
-fn with_what_was_left(app: App, places: &Places) -> App {
-    // A file that cannot be read is named by the drill screens.
+/// Restores what the user's last session saved: its state, the calibration stroke that was typed in part, and the user's own skill.
+fn with_saved_state(app: App, places: &Places) -> App {
+    // The drill screens report a file that cannot be read.
     let own = Store::new(places).own_skill().unwrap_or_default();
     let last = SavedSession::load_or_put_aside(&places.last);
     let draft = StrokeDraft::read_or_put_aside(&places.draft);
@@ -139,17 +139,17 @@ fn with_what_was_left(app: App, places: &Places) -> App {
     app
 }
 
-/// The coach as a conversation in lines, on the standard input and output, for the player whose files are at `places`. Returns how many
-/// lines were refused.
+/// Runs the coach in plain mode, as a conversation in lines on standard input and output, for the player whose files are at `places`.
+/// Returns the number of lines that were refused.
 ///
 /// # Errors
-/// [`TerminalError`]: a layout that is not possible, or input or output that fails.
+/// [`TerminalError`]: the layout is not possible, or input or output fails.
 pub fn talk(table: Table, settings: &Settings, places: &Places) -> Result<usize, TerminalError> {
     let layout = Layout::opening(&table);
     let prompt = if io::stdin().is_terminal() { "> " } else { "" };
     let coach = Coach::new(table);
     let own = Store::new(places).own_skill().unwrap_or_else(|error| {
-        // As if none was kept; what is wrong is said once.
+        // Go on as if no skill were saved; the error is reported once.
         let _ = writeln!(printing::stderr(), "note: {error}");
         None
     });
@@ -157,17 +157,17 @@ pub fn talk(table: Table, settings: &Settings, places: &Places) -> Result<usize,
     Ok(plain::converse(coach, beginning, settings, io::stdin().lock(), printing::stdout(), prompt)?)
 }
 
-/// What the terminal can show, where the user has set that or the environment lets it be guessed.
+/// Detects what the terminal can show: from the settings if set there, otherwise from the environment.
 pub fn detect(settings: &Settings) -> Capabilities {
     Capabilities::detect(|name| std::env::var(name).ok(), (settings.depth, settings.glyphs))
 }
 
-/// Any number does: it only makes random layouts differ from one start to the next.
+/// Seed for random layouts. Any number will do, as long as it differs from one start to the next.
 fn seed() -> u64 {
     SystemTime::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_nanos() as u64)
 }
 
-/// That there is a terminal to draw on, for a guest or for whoever has other commands besides.
+/// Checks that there is a terminal to draw on. The error depends on whether the user is a guest, who has no other commands.
 ///
 /// # Errors
 /// [`TerminalError::NoTerminal`], [`TerminalError::NoTerminalOfGuest`].
@@ -179,11 +179,10 @@ pub fn need_terminal(is_guest: bool) -> Result<(), TerminalError> {
     }
 }
 
-/// The table of somebody else, who shows it in `folder` and is called `name`, on the screen, for the player at `seat` as they want
-/// it.
+/// Shows the table of another player, called `name`, who shares it in `folder`, for the player at `seat` with their settings.
 ///
 /// # Errors
-/// [`TerminalError`]: no terminal, or one that fails.
+/// [`TerminalError`]: there is no terminal, or it fails.
 pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Result<(), TerminalError> {
     need_terminal(seat.is_guest)?;
     let table = Table::default();
@@ -196,10 +195,10 @@ pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Res
     Ok(host::runner::run(app, seat.places)?)
 }
 
-/// The training screen, following `run`, or with the runs in `list`, by default the user's, to choose from.
+/// Opens the training screen, either following `run` or with a list of the runs in `list` (by default the user's).
 ///
 /// # Errors
-/// [`TerminalError`]: no terminal, or one that fails.
+/// [`TerminalError`]: there is no terminal, or it fails.
 pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalError> {
     need_terminal(false)?;
     let (settings, complaints) = Settings::load(&Settings::path());
@@ -207,7 +206,7 @@ pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalErro
     let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?
         .with_detection(detect)
         .with_settings(&settings);
-    // The coach can be opened from there, and then remembers this session in the place of the last one.
-    let app = with_what_was_left(app, &places).with_complaints(&Settings::path(), &complaints);
+    // The coach can be opened from there, and then saves this session in place of the last one.
+    let app = with_saved_state(app, &places).with_complaints(&Settings::path(), &complaints);
     Ok(host::runner::run(app, places)?)
 }

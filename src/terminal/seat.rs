@@ -1,5 +1,4 @@
-//! Who sits at the terminal: the user of this account, one of several players who share it, or a guest of a machine that is not
-//! theirs.
+//! The player at the terminal: the user of this account, one of several players who share it, or a guest.
 
 use std::{io, path::Path};
 
@@ -9,43 +8,43 @@ use crate::{
     storage::{self, Places, Player},
 };
 
-/// Longest time that the coach thinks for a guest, ms: what a player waits for anyway.
+/// Longest thinking time of the coach for a guest, ms: short enough that nobody minds the wait.
 pub const LONGEST_FOR_GUESTS: u64 = 1000;
 
-/// Room on the disk that a session needs, bytes: a few files of some kilobytes.
-const LEAST_ROOM: u64 = 1 << 18;
+/// Disk space that a session needs, bytes: a few files of some kilobytes.
+const MIN_FREE_SPACE: u64 = 1 << 18;
 
-/// Whose files are read and written, and what may be done.
+/// The player, the location of their files, and what they may do.
 #[derive(Clone, Debug)]
 pub struct Seat {
-    /// The player's name, where they have one.
+    /// The player's name, or `None` for the user of the account.
     pub player: Option<Player>,
     /// Where this player's files are.
     pub places: Places,
-    /// Guests start and steer no training, read and write no files but their own, think for a second at most and on one
-    /// thread, and have no shell to go back to.
+    /// Whether the player is a guest. Guests cannot start or control training, read and write only their own files, are limited to one
+    /// second of thinking on one thread, and cannot suspend the program to a shell.
     pub is_guest: bool,
 }
 
 impl Seat {
-    /// The user's own.
+    /// The seat of the account's user.
     pub fn of_this_user() -> Self {
         Self { player: None, places: Places::of_this_user(), is_guest: false }
     }
 
-    /// That of a player with a folder of their own.
+    /// The seat of a player with their own folder.
     ///
     /// # Errors
-    /// Where the account has no home.
+    /// Fails if the account has no home directory.
     pub fn of_player(player: &Player, is_guest: bool) -> io::Result<Self> {
         Ok(Self { player: Some(player.clone()), places: Places::of_player(player)?, is_guest })
     }
 
-    /// Holds this process to what the player may do, for as long as it runs; what somebody else shows in the folder `seen` may
-    /// be read too.
+    /// Restricts this process to what the player may do, until it ends. The folder `seen`, where another player shares a table, may be read
+    /// too.
     ///
     /// # Errors
-    /// Where a guest's folder cannot be made.
+    /// Fails if a guest's folder cannot be created.
     pub fn take(&self, seen: Option<&Path>) -> io::Result<()> {
         if self.is_guest {
             let read: Vec<&Path> = seen.into_iter().chain([&*self.places.runs]).collect();
@@ -55,7 +54,7 @@ impl Seat {
         Ok(())
     }
 
-    /// The settings as far as the player may have them.
+    /// Returns the settings, reduced to what the player may use.
     #[must_use]
     pub fn allowed(&self, settings: Settings) -> Settings {
         if !self.is_guest {
@@ -64,13 +63,13 @@ impl Seat {
         Settings { think_ms: settings.think_ms.min(LONGEST_FOR_GUESTS), ..settings }
     }
 
-    /// What the player should know before anything is lost: why nothing can be kept.
+    /// Returns a warning if nothing can be saved in the player's folder, with the reason.
     pub fn warning(&self) -> Option<String> {
         let folder = &self.places.own;
         let state = storage::folder_state(folder);
-        let is_full = state.free.is_some_and(|free| free < LEAST_ROOM);
+        let is_full = state.free.is_some_and(|free| free < MIN_FREE_SPACE);
         let refusal = state.refusal.map(|error| error.to_string());
         let refusal = refusal.or_else(|| is_full.then(|| "the disk is full".to_owned()))?;
-        Some(format!("nothing can be kept in {}: {refusal}", folder.display()))
+        Some(format!("nothing can be saved in {}: {refusal}", folder.display()))
     }
 }

@@ -1,6 +1,6 @@
-//! What a player lets others see of the coach's table: a small file in a folder of its own, there for as long as they allow it.
+//! The view of the coach's table that a player shares: a small file in its own folder, present while the player allows it.
 //!
-//! Whoever looks on reads that file and nothing else, and takes none of its word: somebody else has written it.
+//! Onlookers read only that file, and validate everything in it, since somebody else has written it.
 
 use std::{
     fs, io,
@@ -19,106 +19,106 @@ use crate::{
     terminal::shot::playback::SPEEDS,
 };
 
-/// The file.
+/// Name of the file.
 pub const FILE: &str = "table.json";
 
-/// Largest file that is read, bytes: sixty times what a usual table takes.
+/// Largest file that is read, bytes: sixty times the size of a usual one.
 const LARGEST: u64 = 1 << 16;
 
-/// The version of the file that is written.
+/// Version of the file format.
 const VERSION: u32 = 1;
 
-/// Sizes that a table to be drawn may have, and the radius of its balls, m: far beyond any that is built.
+/// Accepted lengths and widths of a table, and radii of its balls, m: far beyond any table that is built.
 const SIDE: std::ops::RangeInclusive<f64> = 0.3..=10.0;
 const RADIUS: std::ops::RangeInclusive<f64> = 0.005..=0.2;
 
 /// Longest name of a table, bytes.
 const LONGEST_NAME: usize = 64;
 
-/// What the player does.
+/// What the player is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Doing {
-    /// The balls are placed.
+    /// The player is placing the balls.
     Placing,
-    /// The coach thinks.
+    /// The coach is thinking.
     Thinking,
-    /// A shot is looked at, or plays.
+    /// A shot is displayed or playing.
     Watching,
-    /// Another screen is open.
+    /// The player has another screen open.
     Elsewhere,
 }
 
-/// Whose idea a shot is.
+/// Who proposed a shot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Author {
-    /// The coach recommends it.
+    /// The coach recommends the shot.
     Coach,
-    /// The coach has found no better one so far.
+    /// The coach is still searching, and this is its best shot so far.
     Search,
     /// The player's own stroke.
     Player,
 }
 
-/// The coach's table as others may see it.
+/// The coach's table as other players see it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShownTable {
-    /// The version of the file.
+    /// Version of the file format.
     pub version: u32,
-    /// What the player does.
+    /// What the player is doing.
     pub doing: Doing,
     /// The table.
     pub table: Table,
-    /// Where the balls lie before the shot.
+    /// Positions of the balls before the shot.
     pub layout: Layout,
-    /// Which of them is the cue ball.
+    /// Which ball is the cue ball.
     #[serde(default, skip_serializing_if = "CueBall::is_white")]
     pub cue_ball: CueBall,
     /// What counts as a point.
     pub rule: Rule,
-    /// Who plays.
+    /// Skill of the player.
     pub skill: Skill,
-    /// The ball that is selected, by its place in the layout.
+    /// Index of the selected ball in the layout.
     pub selected: usize,
-    /// The shot that is on the table.
+    /// The shot on the table, or `None`.
     pub shot: Option<ShownShot>,
 }
 
-/// A shot on a table that is shown.
+/// A shot on a shared table.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShownShot {
     /// The stroke.
     pub cue: CueInputs,
-    /// Whose idea it is.
+    /// Who proposed it.
     pub author: Author,
-    /// Whether it makes the point if it is played as meant.
+    /// Whether it makes the point if played without errors.
     pub solved: bool,
-    /// How often the player makes it, if that is known: attempts that do, and all of them.
+    /// Number of simulated attempts that make the point and number of all attempts, or `None` if unknown.
     pub made: Option<(usize, usize)>,
-    /// Where its playback stands, s since the stroke.
+    /// Playback position, s since the stroke.
     pub time: f64,
-    /// Seconds of the shot in a second.
+    /// Playback speed, seconds of the shot per second.
     pub speed: f64,
-    /// Whether it goes on by itself.
+    /// Whether the playback is running.
     pub playing: bool,
-    /// Whether it has been played to its end. Strokes are told in degrees, which changes the last digit of their direction: the
-    /// same shot may end at another time where it is looked on.
+    /// Whether the shot has played to its end. The file stores directions in degrees, which changes their last digit: for an onlooker the
+    /// same shot may end at a slightly different time.
     #[serde(default)]
     pub over: bool,
 }
 
 impl ShownShot {
-    /// Where its playback stands so long after it was written, s since the stroke.
+    /// Playback position at the time `since` after the file was written, s since the stroke.
     pub fn time_after(&self, since: Duration) -> f64 {
         self.time + if self.playing { self.speed * since.as_secs_f64() } else { 0.0 }
     }
 }
 
-/// What is to be seen in the folder of a player.
+/// What an onlooker finds in a player's folder.
 #[derive(Clone, Debug)]
 pub enum Sight<T> {
-    /// Nothing: the player shows no table, or is not there, which is none of anybody's business.
+    /// No table: the player shows none or is absent. Onlookers do not learn which.
     Nothing,
     /// A file that cannot be read.
     Damaged,
@@ -127,7 +127,7 @@ pub enum Sight<T> {
 }
 
 impl ShownTable {
-    /// A table with balls on it, and nothing else yet. A long name is shown as far as others accept it.
+    /// Creates a view of a table with balls and nothing else. A name that is too long for readers is truncated.
     pub fn new(doing: Doing, mut table: Table, layout: Layout, rule: Rule, skill: Skill) -> Self {
         let is_too_much = |(at, letter): &(usize, char)| at + letter.len_utf8() > LONGEST_NAME;
         if let Some((end, _)) = table.name.char_indices().find(is_too_much) {
@@ -137,9 +137,10 @@ impl ShownTable {
         Self { version: VERSION, doing, table, layout, cue_ball, rule, skill, selected, shot }
     }
 
-    /// Whether somebody who has seen this so long ago has to be told `now`: a shot that just plays on is no news.
+    /// Whether `now` has to be written for onlookers who have seen `self` the time `since` ago. A shot that only plays on does not count as
+    /// a change.
     pub fn is_outdated_by(&self, since: Duration, now: &Self) -> bool {
-        /// How far two clocks may be apart, seconds of the screen.
+        /// Largest accepted difference between two clocks, seconds of real time.
         const APART: f64 = 0.25;
         let (Some(before), Some(shot)) = (&self.shot, &now.shot) else { return self != now };
         if !(before.playing && shot.playing) {
@@ -152,17 +153,17 @@ impl ShownTable {
         *self != Self { shot, ..now.clone() }
     }
 
-    /// Puts it into `folder`, for others to see.
+    /// Writes the view into `folder`, where others can read it.
     ///
     /// # Errors
-    /// Whatever the file system reports; what stood there stays.
+    /// Any error of the file system; the old file then stays.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
         storage::replace(&folder.join(FILE), &serde_json::to_vec(self)?)
     }
 
-    /// What is to be seen in `folder`, and how long ago it was written.
+    /// Reads the view in `folder`, with its age.
     pub fn look(folder: &Path) -> Sight<(Self, Duration)> {
-        // The lock of a process that was killed is gone, whatever it has left.
+        // A killed process leaves its file behind, but its lock is released.
         if Lock::is_held(folder) == Some(false) {
             return Sight::Nothing;
         }
@@ -179,7 +180,7 @@ impl ShownTable {
         }
     }
 
-    /// Whether it can be shown: nothing that somebody else has written is taken on trust.
+    /// Whether the view can be drawn. Every value is checked, since somebody else has written the file.
     fn is_sound(&self) -> bool {
         let Self { table, .. } = self;
         let can_be_drawn = SIDE.contains(&table.length)
@@ -199,7 +200,7 @@ impl ShownTable {
     }
 }
 
-/// The players of this account who show their table now, by name.
+/// The players of this account who are sharing their table now, sorted by name.
 pub fn all_shown() -> Vec<Player> {
     let Some(folder) = Places::players() else { return Vec::new() };
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
@@ -245,7 +246,7 @@ mod tests {
         let Sight::Table(found) = ShownTable::look(folder.path()) else { panic!("nothing is seen") };
         let (seen, age) = *found;
         let cue = |shown: &ShownTable| shown.shot.unwrap().cue;
-        // Directions are written in degrees.
+        // Directions are stored in degrees.
         assert!((cue(&seen).phi - cue(&shown()).phi).abs() < 1e-14 && age < Duration::from_secs(60));
         let shot = seen.shot.map(|shot| ShownShot { cue: cue(&shown()), ..shot });
         assert_eq!(ShownTable { shot, ..seen }, shown());

@@ -1,4 +1,4 @@
-//! What the coach is asked for, as far as a key of the coach's page turns it.
+//! Terms of a question to the coach that keys of the coach's page change.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,22 +9,22 @@ use crate::{
     terminal::words::player_words,
 };
 
-/// What the player turns with a key: what counts, who plays, whether the next point counts too, and how the shot begins.
+/// What the player changes with a key: the rule, the skill, whether the next point counts too, and what the cue ball meets first.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Terms {
     /// What counts as a point.
     pub rule: Rule,
-    /// Who is to play the shot.
+    /// Skill of the player of the shot.
     pub skill: Skill,
     /// Whether the next point counts too.
     pub plan: bool,
-    /// What the cue ball is to meet first: a wish of the moment, which no file keeps.
+    /// What the cue ball has to meet first. It applies to the present question only and is never saved.
     #[serde(skip)]
     pub first: FirstMet,
 }
 
 impl Terms {
-    /// The same after a change from `before` to `now`; what is neither of it stays.
+    /// Applies the changes from `before` to `now` to `self`. A term of `self` that differs from `before` stays.
     #[must_use]
     pub fn with_change(self, [before, now]: [Self; 2]) -> Self {
         Self {
@@ -35,7 +35,7 @@ impl Terms {
         }
     }
 
-    /// What is otherwise than in `before`, in words, where the balls are called so, the cue ball first; empty where nothing is.
+    /// Describes in words what differs from `before`; empty if nothing does. `names` are the names of the balls, the cue ball first.
     pub fn news_since(self, before: Self, names: [&'static str; BALLS]) -> String {
         let plan = if self.plan { "the next point counts too" } else { "only this point counts" };
         let news = [

@@ -1,4 +1,4 @@
-//! Numbers and events in the words of a player.
+//! Numbers and events in words for players.
 
 use glam::DVec2;
 use indicatif::HumanCount;
@@ -15,7 +15,7 @@ use crate::{
     table::{CueBall, Table},
 };
 
-/// The cushion's name as it lies on the screen.
+/// Name of the cushion by its position on the screen.
 pub const fn rail_name(rail: Rail) -> &'static str {
     match rail {
         Rail::Left => "left rail",
@@ -25,12 +25,13 @@ pub const fn rail_name(rail: Rail) -> &'static str {
     }
 }
 
-/// Why a table or a position is not saved whose name another has, where nobody can be asked whether that may be replaced.
+/// The message that a table or position is not saved because its name is taken, for cases where the user cannot be asked about replacing
+/// it.
 pub fn taken_words(name: &str) -> String {
     format!("{name} is not saved: there is another of this name")
 }
 
-/// What happens, in a few words, for who plays with `cue_ball`.
+/// Describes an event in a few words, with balls named for the player of `cue_ball`.
 pub fn event_words(kind: EventKind, cue_ball: CueBall) -> String {
     let name = |ball: usize| cue_ball.names()[ball];
     match kind {
@@ -46,7 +47,7 @@ pub fn event_words(kind: EventKind, cue_ball: CueBall) -> String {
     }
 }
 
-/// The rule's name where there is little room.
+/// Short name of the rule.
 pub const fn rule_word(rule: Rule) -> &'static str {
     match rule {
         Rule::StraightRail => "straight",
@@ -55,43 +56,43 @@ pub const fn rule_word(rule: Rule) -> &'static str {
     }
 }
 
-/// The user at the table, by where the skill comes from; a skill with a name is nobody's in particular.
+/// Name of the user's own skill, by its source: set by the user, or measured from their notes.
 fn user_word(skill: Skill) -> &'static str {
-    // What notes give is a multiple of a level's errors in hundredths; what is set has any average.
+    // A skill from notes is a multiple, in hundredths, of a level's errors; a skill that was set can have any average.
     let hundredths = (100.0 * skill.scale()).round() / 100.0;
-    // By its words: a file has degrees, which come back as nearly the same radians.
+    // Compared as text: files store degrees, so the radians may differ in the last digits after reading.
     let is_noted = skill.as_average().is_none() && Skill::level(hundredths).to_string() == skill.to_string();
     if is_noted { "me by my notes" } else { "me as set" }
 }
 
-/// The name of a skill that has one.
+/// Name of the skill, or `None` if it has none.
 pub fn named_skill(skill: Skill) -> Option<&'static str> {
     Skill::NAMED.iter().find(|(_, named)| *named == skill).map(|(name, _)| *name)
 }
 
-/// The player in a few words: the skill's name, or whether it is the user's as set or by notes, with the average at three-cushion.
+/// Describes the player in a few words: the skill's name, or the source of the user's own skill and its average at three-cushion.
 pub fn skill_word(skill: Skill) -> String {
     let own = || format!("{}: {}", user_word(skill), average_words(skill));
     named_skill(skill).map_or_else(own, str::to_owned)
 }
 
-/// The same of somebody else.
+/// Describes another player's skill in a few words.
 pub fn others_skill_word(skill: Skill) -> String {
     named_skill(skill).map_or_else(|| format!("average {}", average_words(skill)), str::to_owned)
 }
 
-/// The same in fewer, without the average.
+/// Like [`skill_word`], but without the average.
 pub fn short_skill_word(skill: Skill) -> &'static str {
     named_skill(skill).unwrap_or_else(|| user_word(skill))
 }
 
-/// The player, and the average at three-cushion where that is known.
+/// Describes the player, with the average at three-cushion unless the skill is perfect.
 pub fn player_words(skill: Skill) -> String {
     let name = short_skill_word(skill);
     if skill.is_perfect() { name.to_owned() } else { format!("{name} (average {})", average_words(skill)) }
 }
 
-/// The average at three-cushion, as far as it is known: that of the named levels is about as much, a player's own has two decimals.
+/// The average at three-cushion: rounded to 0.05 for the named levels, to two decimals for a player's own skill.
 fn average_words(skill: Skill) -> String {
     let ((least, most), average) = (Skill::AVERAGES, Skill::average(skill.scale()));
     match named_skill(skill) {
@@ -102,24 +103,24 @@ fn average_words(skill: Skill) -> String {
     }
 }
 
-/// A probability in per cent, to a tenth where it is almost certain, never 100 before it is.
+/// Formats a probability in per cent: to a tenth from 98.5 % on, and never as 100 unless it is exactly 1.
 pub fn percent(probability: f64) -> String {
     let percent = 100.0 * probability;
     if (98.5..100.0).contains(&percent) { fixed((10.0 * percent).floor() / 10.0, 1) } else { fixed(percent, 0) }
 }
 
-/// A share with its 95 % interval, like 94 % (92-95).
+/// Formats a rate with its 95 % interval, like 94 % (92-95).
 pub fn chance_words(rate: &SuccessRate) -> String {
     let [rate, low, high] = [rate.rate, rate.low, rate.high].map(percent);
     if low == high { format!("{rate} %") } else { format!("{rate} % ({low}-{high})") }
 }
 
-/// A whole number with its thousands set off, like 1,234,567.
+/// Formats a whole number with thousands separators, like 1,234,567.
 pub fn count(number: u64) -> String {
     HumanCount(number).to_string()
 }
 
-/// A whole number in few columns, like 950, 12.5k, 1.2M.
+/// Formats a whole number in few columns, like 950, 12.5k, 1.2M.
 pub fn short_count(number: u64) -> String {
     for (unit, size) in [("G", 1e9), ("M", 1e6), ("k", 1e3)] {
         if number as f64 >= size {
@@ -130,7 +131,7 @@ pub fn short_count(number: u64) -> String {
     number.to_string()
 }
 
-/// A time in its two largest units, like 45 s, 3 min 20 s, 2 h 5 min, 3 d 4 h.
+/// Formats a duration in its two largest units, like 45 s, 3 min 20 s, 2 h 5 min, 3 d 4 h.
 pub fn time_words(seconds: f64) -> String {
     let seconds = seconds.max(0.0) as u64;
     let (minutes, hours, days) = (seconds / 60, seconds / 3600, seconds / 86_400);
@@ -142,36 +143,37 @@ pub fn time_words(seconds: f64) -> String {
     }
 }
 
-/// The same where it may be years.
+/// Like [`time_words`], but in years from two years on.
 pub fn long_time_words(seconds: f64) -> String {
     let years = seconds / (365.25 * 86_400.0);
     if years < 2.0 { time_words(seconds) } else { format!("{} years", count(years as u64)) }
 }
 
-/// A length of so many metres in what balls are placed in: millimetres, or hundredths of an inch; without its symbol.
+/// Formats a length in the fine unit for placing balls: millimetres, or hundredths of an inch; without the symbol.
 pub fn fine(metres: f64, unit: LengthUnit) -> String {
     let (in_a_metre, _, decimals) = unit.fine();
     fixed(in_a_metre * metres, decimals)
 }
 
-/// A speed of so many metres a second in the player's unit, with so many decimals.
+/// Formats a speed, given in metres per second, in the player's unit with `decimals` decimals.
 pub fn speed_words(speed: f64, unit: LengthUnit, decimals: usize) -> String {
     let (factor, symbol) = unit.speed();
     format!("{} {symbol}", fixed(factor * speed, decimals))
 }
 
-/// A place in metres from the middle of `table` in diamonds from the lower left corner of the noses, as layouts are typed.
+/// Converts a position in metres from the centre of `table` to diamonds from the lower left corner of the cushion noses, as layouts are
+/// typed.
 pub fn in_diamonds(table: &Table, place: DVec2) -> DVec2 {
     (place + 0.5 * DVec2::new(table.length, table.width)) / table.diamond()
 }
 
-/// A step of so many millimetres in what balls are placed in, without needless decimals.
+/// Formats a step, given in millimetres, in the fine unit for placing balls, without trailing zeros.
 pub fn step_words(millimetres: f64, unit: LengthUnit) -> String {
     let (in_a_metre, symbol, decimals) = unit.fine();
     format!("{} {symbol}", short(1e-3 * in_a_metre * millimetres, decimals))
 }
 
-/// The side of the tip's offset `a`, R positive to the shooter's left, or nothing for the centre.
+/// The side of the tip's offset `a`, in ball radii, positive to the shooter's left; "mid" for the centre.
 pub fn across_word(a: f64) -> &'static str {
     match a {
         _ if a > 0.0 => "left",
@@ -180,7 +182,7 @@ pub fn across_word(a: f64) -> &'static str {
     }
 }
 
-/// The side of the tip's offset `b`, positive above the centre.
+/// The side of the tip's offset `b`, in ball radii, positive above the centre; "mid" for the centre.
 pub fn height_word(b: f64) -> &'static str {
     match b {
         _ if b > 0.0 => "above",

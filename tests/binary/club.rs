@@ -225,7 +225,7 @@ fn keys_without_a_player_get_nothing_and_players_get_no_more_than_the_coach() {
     assert!(!refused.status.success() && String::from_utf8_lossy(&refused.stderr).contains("Permission denied"));
     let blind = ssh("anna", &["sh"]);
     assert_eq!(blind.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&blind.stderr).contains("this is no terminal"), "{blind:?}");
+    assert!(String::from_utf8_lossy(&blind.stderr).contains("this is not a terminal"), "{blind:?}");
     assert!(!String::from_utf8_lossy(&ssh("anna", &["-s", "sftp"]).stdout).contains("sftp"));
     let mut session = club.player("anna", "");
     session.wait_for(OPENING);

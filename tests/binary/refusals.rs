@@ -187,7 +187,7 @@ fn where_nothing_is_to_be_taken_back_other_programs_may_go_on() {
 fn of_a_guest_at_no_terminal_nothing_is_made() {
     let home = tempfile::tempdir().unwrap();
     let said = carom(home.path(), &["--guest", "--player", "anna"]);
-    assert!(said.code == Some(2) && said.err.contains("this is no terminal"), "{}", said.err);
+    assert!(said.code == Some(2) && said.err.contains("this is not a terminal"), "{}", said.err);
     assert!(said.err.contains("ssh -t") && !said.err.contains("carom recommend"), "{}", said.err);
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
 }

@@ -1,4 +1,4 @@
-//! All keys of the program: what each page's tables say, as one kind of action, with the keys that all pages have.
+//! All key bindings of the program: the tables of all pages, converted to one action type, plus the keys that all pages share.
 
 use crossterm::event::{
     KeyCode::{Down, End, Enter, Esc, F, Home, PageDown, PageUp, Up},
@@ -18,95 +18,95 @@ use crate::terminal::{
 
 use Action as A;
 
-/// What a key does.
+/// Action of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
     /// Ends the program.
     Quit,
-    /// Stops the program until the shell continues it.
+    /// Suspends the program until the shell continues it.
     Suspend,
     /// Opens the help.
     OpenHelp,
-    /// Closes the page that lies over the screen.
+    /// Closes the overlay.
     CloseOverlay,
-    /// Scrolls it by lines, down where positive.
+    /// Scrolls the overlay by lines, down if positive.
     ScrollOverlay(i16),
     /// Opens the command palette.
     OpenPalette,
-    /// Closes it.
+    /// Closes the command palette.
     ClosePalette,
-    /// Does what is marked there.
+    /// Runs the selected command of the palette.
     ChooseCommand,
-    /// Moves its mark by lines, down where positive.
+    /// Moves the palette's selection by lines, down if positive.
     PaletteLine(isize),
     /// Draws the table with the next simpler set of characters.
     NextGlyphs,
-    /// Shows the next of the themes.
+    /// Switches to the next theme.
     NextTheme,
-    /// Opens a screen, where it was left.
+    /// Opens a screen in the state in which it was left.
     Open(PageId),
-    /// Answers what the page asks: yes, or what was typed; or no.
+    /// Answers the page's question: yes, or the typed text; or no.
     Answer(bool),
-    /// Shows what was refused or has failed so far.
+    /// Shows all refusals and failures so far.
     OpenMessages,
-    /// Shows what the words of players mean.
+    /// Opens the glossary of players' terms.
     OpenGlossary,
-    /// Begins a match against the coach, or goes on with it.
+    /// Starts a match against the coach, or continues an open one.
     OpenMatch,
-    /// Something on the coach's screen.
+    /// An action of the coach's screen.
     Coach(CoachAction),
-    /// Something on the training screen.
+    /// An action of the training screen.
     Training(TrainingAction),
-    /// Something on the drill screens.
+    /// An action of the drill screens.
     Drill(DrillAction),
-    /// Something on the settings' screen.
+    /// An action of the settings screen.
     Settings(SettingsAction),
-    /// Something on the calibration's page.
+    /// An action of the calibration screen.
     Calibration(CalibrationAction),
 }
 
-/// When a binding may be used; the app knows whether it holds, and why not.
+/// Condition under which a binding is enabled. The app evaluates it and gives the reason if it does not hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Condition {
-    /// Whatever is on the screen.
+    /// Always enabled.
     Always,
-    /// Where a shell can take the terminal back and go on with the program later.
+    /// A shell can take the terminal back and continue the program later.
     Shell,
-    /// While a page lies over the screen.
+    /// An overlay is open.
     Overlay,
-    /// Where there are other screens to go to.
+    /// There are other screens to open.
     Tabs,
-    /// As the coach's screen says.
+    /// A condition of the coach's screen.
     Coach(CoachCondition),
-    /// As the training screen says.
+    /// A condition of the training screen.
     Training(TrainingCondition),
-    /// As the drill screens say.
+    /// A condition of the drill screens.
     Drill(DrillCondition),
-    /// As the settings' screen says.
+    /// A condition of the settings screen.
     Settings(SettingsCondition),
-    /// As the calibration's page says.
+    /// A condition of the calibration screen.
     Calibration(CalibrationCondition),
 }
 
-/// One line of a page's table, as the app reads it.
+/// One row of a page's key table, converted to the app's types.
 #[derive(Debug)]
 pub struct Bound {
-    /// The keys, each with what it does, and the words for that.
+    /// The keys, each with its action and the words for it.
     pub keys: Vec<(Chord, Action, &'static str)>,
-    /// Its word in the hint line, and how many of the keys stand before it there.
+    /// The word in the hint line, and the number of keys shown before it there.
     pub hint: Option<(&'static str, usize)>,
-    /// What the help says.
+    /// Description in the help.
     pub description: &'static str,
-    /// When it may be used.
+    /// Condition under which it is enabled.
     pub when: Condition,
-    /// Its heading in the help.
+    /// Section of the help.
     pub section: Section,
-    /// Other words under which the command palette finds it.
+    /// Further search words for the command palette.
     pub also: &'static str,
 }
 
 impl Bound {
-    /// What its keys do, one thing after the other: the words for it, and its keys.
+    /// The distinct actions of the binding, in order, each with its words and keys.
     pub fn commands(&self) -> Vec<(Action, &'static str, Vec<Chord>)> {
         let mut commands: Vec<(Action, &'static str, Vec<Chord>)> = Vec::new();
         for (chord, action, words) in &self.keys {
@@ -119,8 +119,8 @@ impl Bound {
     }
 }
 
-/// Adds the lines of a page's table.
-fn take<B: Copy + PartialEq, W: Copy>(
+/// Appends the rows of a page's table.
+fn append<B: Copy + PartialEq, W: Copy>(
     all: &mut Vec<Bound>,
     table: &[Binding<B, W>],
     action: fn(B) -> Action,
@@ -129,11 +129,11 @@ fn take<B: Copy + PartialEq, W: Copy>(
     all.extend(table.iter().map(|binding| {
         let mut actions: Vec<B> = Vec::new();
         let mut words = |of: B| {
-            let place = actions.iter().position(|known| *known == of).unwrap_or_else(|| {
+            let index = actions.iter().position(|known| *known == of).unwrap_or_else(|| {
                 actions.push(of);
                 actions.len() - 1
             });
-            binding.each.get(place).copied().unwrap_or(binding.description)
+            binding.each.get(index).copied().unwrap_or(binding.description)
         };
         Bound {
             keys: binding.keys.iter().map(|(chord, of)| (*chord, action(*of), words(*of))).collect(),
@@ -146,13 +146,13 @@ fn take<B: Copy + PartialEq, W: Copy>(
     }));
 }
 
-/// The keys of a page that lies over the screen, while one does.
+/// The keys of an overlay, enabled while one is open.
 #[rustfmt::skip]
 const OVERLAY: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Overlay, &[key(Esc, A::CloseOverlay), letter('?', A::CloseOverlay), letter('q', A::CloseOverlay),
         key(Enter, A::CloseOverlay)], Some(("close", 1)), "close this page"),
     bind(Program, Condition::Overlay, &[key(F(1), A::OpenHelp), key(F(6), A::OpenMessages), key(F(8), A::OpenGlossary)], None,
-        "the help, the messages or the glossary in its place; what has opened it closes it"),
+        "open the help, the messages or the glossary instead; the same key closes it"),
     bind(Program, Condition::Overlay, &[key(Down, A::ScrollOverlay(1)), key(Up, A::ScrollOverlay(-1)), letter('j', A::ScrollOverlay(1)),
         letter('k', A::ScrollOverlay(-1)), key(PageDown, A::ScrollOverlay(10)), key(PageUp, A::ScrollOverlay(-10)),
         key(End, A::ScrollOverlay(i16::MAX)), key(Home, A::ScrollOverlay(i16::MIN))], Some(("scroll", 2)), "scroll this page"),
@@ -161,28 +161,28 @@ const OVERLAY: &[Binding<Action, Condition>] = &[
 /// The keys of the command palette.
 #[rustfmt::skip]
 const PALETTE: &[Binding<Action, Condition>] = &[
-    bind(Program, Condition::Always, &[key(Enter, A::ChooseCommand)], Some(("do it", 1)), "do what is marked"),
+    bind(Program, Condition::Always, &[key(Enter, A::ChooseCommand)], Some(("do it", 1)), "run the selected command"),
     bind(Program, Condition::Always, &[key(Down, A::PaletteLine(1)), key(Up, A::PaletteLine(-1)), key(PageDown, A::PaletteLine(10)),
-        key(PageUp, A::PaletteLine(-10))], Some(("choose", 2)), "mark another command")
-        .each(&["mark the next command", "mark the command before", "go down by ten commands", "go up by ten commands"]),
+        key(PageUp, A::PaletteLine(-10))], Some(("choose", 2)), "select another command")
+        .each(&["select the next command", "select the previous command", "go down by ten commands", "go up by ten commands"]),
     bind(Program, Condition::Always, &[key(Esc, A::ClosePalette), ctrl('p', A::ClosePalette)], Some(("close", 1)), "close the list"),
 ];
 
-/// A question of a page.
+/// The keys of a yes-or-no question.
 #[rustfmt::skip]
 const QUESTION: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[letter('y', A::Answer(true))], Some(("yes", 1)), "yes"),
     bind(Program, Condition::Always, &[letter('n', A::Answer(false)), key(Esc, A::Answer(false)), letter('q', A::Answer(false))], Some(("no", 1)), "no"),
 ];
 
-/// A question whose answer is typed.
+/// The keys of a question with a typed answer.
 #[rustfmt::skip]
 const TYPED: &[Binding<Action, Condition>] = &[
-    bind(Program, Condition::Always, &[key(Enter, A::Answer(true))], Some(("take it", 1)), "take what is typed"),
-    bind(Program, Condition::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "leave all as it is"),
+    bind(Program, Condition::Always, &[key(Enter, A::Answer(true))], Some(("take it", 1)), "accept the typed text"),
+    bind(Program, Condition::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "cancel"),
 ];
 
-/// The keys that all screens have, where letters are typed too.
+/// The keys that all screens share, even where letters are typed.
 #[rustfmt::skip]
 const TABS: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Tabs, &[key(F(2), A::Open(PageId::Coach))], None, "the coach's table, as it was left"),
@@ -195,7 +195,7 @@ const TABS: &[Binding<Action, Condition>] = &[
         .known_as("game opponent play"),
 ];
 
-/// What opens the glossary.
+/// The key of the glossary.
 const GLOSSARY: Binding<Action, Condition> = bind(
     Program,
     Condition::Always,
@@ -205,7 +205,7 @@ const GLOSSARY: Binding<Action, Condition> = bind(
 )
 .known_as("words terms average tip clock fullness ticky plus natural running reverse lag");
 
-/// The keys that all screens have.
+/// The keys that all screens share.
 #[rustfmt::skip]
 const PROGRAM: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[letter('?', A::OpenHelp), key(F(1), A::OpenHelp)], Some(("help", 1)), "open this help"),
@@ -219,7 +219,7 @@ const PROGRAM: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[letter('q', A::Quit), ctrl('c', A::Quit)], Some(("quit", 1)), "quit"),
 ];
 
-/// Those of them that mean nothing else where letters are answers.
+/// The program keys that remain where letters are typed or are answers.
 #[rustfmt::skip]
 const LEAVE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[key(F(1), A::OpenHelp)], None, "open this help"),
@@ -229,24 +229,26 @@ const LEAVE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[ctrl('c', A::Quit)], None, "quit"),
 ];
 
-/// All keys at `place`. The first enabled binding with a key wins; the hint line shows as many as fit, in this order.
-pub fn bindings(place: KeyContext) -> Vec<Bound> {
+/// All bindings in `context`. The first enabled binding of a key wins; the hint line shows as many as fit, in this order.
+pub fn bindings(context: KeyContext) -> Vec<Bound> {
     let mut all = Vec::new();
-    let program = |all: &mut Vec<Bound>, table| take(all, table, |action| action, |when| when);
-    let (overlay, leave) = match place {
-        _ if place.takes_letters() => (&[][..], LEAVE),
+    let program = |all: &mut Vec<Bound>, table| append(all, table, |action| action, |when| when);
+    let (overlay, leave) = match context {
+        _ if context.takes_letters() => (&[][..], LEAVE),
         _ => (OVERLAY, PROGRAM),
     };
     program(&mut all, overlay);
-    match place {
-        KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach),
-        KeyContext::OwnStroke => take(&mut all, coach::OWN_STROKE, A::Coach, Condition::Coach),
-        KeyContext::Follow => take(&mut all, coach::FOLLOW, A::Coach, Condition::Coach),
+    match context {
+        KeyContext::Coach => append(&mut all, coach::COACH, A::Coach, Condition::Coach),
+        KeyContext::OwnStroke => append(&mut all, coach::OWN_STROKE, A::Coach, Condition::Coach),
+        KeyContext::Follow => append(&mut all, coach::FOLLOW, A::Coach, Condition::Coach),
         KeyContext::Question { is_typed } => program(&mut all, if is_typed { TYPED } else { QUESTION }),
-        KeyContext::Training(place) => take(&mut all, place.bindings(), A::Training, Condition::Training),
-        KeyContext::Drill(place) => take(&mut all, place.bindings(), A::Drill, Condition::Drill),
-        KeyContext::Settings(place) => take(&mut all, place.bindings(), A::Settings, Condition::Settings),
-        KeyContext::Calibration(place) => take(&mut all, place.bindings(), A::Calibration, Condition::Calibration),
+        KeyContext::Training(context) => append(&mut all, context.bindings(), A::Training, Condition::Training),
+        KeyContext::Drill(context) => append(&mut all, context.bindings(), A::Drill, Condition::Drill),
+        KeyContext::Settings(context) => append(&mut all, context.bindings(), A::Settings, Condition::Settings),
+        KeyContext::Calibration(context) => {
+            append(&mut all, context.bindings(), A::Calibration, Condition::Calibration);
+        }
         KeyContext::CommandPalette => program(&mut all, PALETTE),
     }
     program(&mut all, TABS);
@@ -254,17 +256,17 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
     all
 }
 
-/// All keys at `place` but those of a page that lies over it, for lists of keys.
-pub fn listed(place: KeyContext) -> impl Iterator<Item = Bound> {
-    bindings(place).into_iter().filter(|binding| binding.when != Condition::Overlay)
+/// All bindings in `context` except those of overlays, for lists of keys.
+pub fn listed(context: KeyContext) -> impl Iterator<Item = Bound> {
+    bindings(context).into_iter().filter(|binding| binding.when != Condition::Overlay)
 }
 
-/// What keys do on each page, for lists of keys.
+/// The bindings of each page, for lists of keys.
 pub fn key_pages() -> Vec<KeyPage> {
-    KeyContext::PAGES.iter().map(|(place, name)| KeyPage { name, entries: entries(*place) }).collect()
+    KeyContext::PAGES.iter().map(|(context, name)| KeyPage { name, entries: entries(*context) }).collect()
 }
 
-fn entries(place: KeyContext) -> Vec<KeyEntry> {
+fn entries(context: KeyContext) -> Vec<KeyEntry> {
     let entries = |binding: Bound| {
         binding.commands().into_iter().map(move |(_, words, chords)| KeyEntry {
             chords,
@@ -272,28 +274,28 @@ fn entries(place: KeyContext) -> Vec<KeyEntry> {
             section: binding.section,
         })
     };
-    listed(place).flat_map(entries).collect()
+    listed(context).flat_map(entries).collect()
 }
 
-/// The key that opens `screen` from everywhere.
+/// The key that opens `screen` from any page.
 pub fn chord_of_tab(screen: PageId) -> Option<Chord> {
     chord_of(TABS, &Action::Open(screen))
 }
 
-/// What `event` asks for at `place`: the first binding that may be used now, or else the reason why the last one may
-/// not, since the more particular ones come first.
-/// `None` where no binding has the key. `disabled_reason` says why a binding may not be used.
+/// Finds the action of `event` in `context`: that of the first enabled binding. If none is enabled, returns the reason of the
+/// last one, because the more specific bindings come first. `None` if no binding has the key. `disabled_reason` returns why a condition
+/// does not hold.
 pub fn find<'a>(
     event: &KeyEvent,
-    place: KeyContext,
+    context: KeyContext,
     disabled_reason: impl Fn(Condition) -> Option<&'a str>,
 ) -> Option<Result<Action, &'a str>> {
     let mut refused = None;
-    for binding in bindings(place) {
+    for binding in bindings(context) {
         let Some((_, action, _)) = binding.keys.iter().find(|(chord, ..)| chord.matches(event)) else { continue };
         match disabled_reason(binding.when) {
             None => return Some(Ok(*action)),
-            // While nothing lies over the screen, its keys mean nothing.
+            // While no overlay is open, its keys are ignored.
             Some(_) if binding.when == Condition::Overlay => {}
             Some(reason) => refused = Some(Err(reason)),
         }
@@ -308,7 +310,7 @@ mod tests {
     use super::*;
     use crate::terminal::{CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::commands_of};
 
-    fn places() -> impl Iterator<Item = KeyContext> {
+    fn contexts() -> impl Iterator<Item = KeyContext> {
         let over = [
             KeyContext::CommandPalette,
             KeyContext::Question { is_typed: true },
@@ -322,13 +324,13 @@ mod tests {
 
     #[test]
     fn no_two_bindings_with_the_same_condition_share_a_key() {
-        for place in places() {
-            let all = bindings(place);
+        for context in contexts() {
+            let all = bindings(context);
             for (n, one) in all.iter().enumerate() {
                 for other in all[n + 1..].iter().filter(|other| other.when == one.when) {
                     for (chord, ..) in &one.keys {
                         let free = other.keys.iter().all(|(theirs, ..)| theirs != chord);
-                        assert!(free, "{place:?} {chord:?}: {}", other.description);
+                        assert!(free, "{context:?} {chord:?}: {}", other.description);
                     }
                 }
             }
@@ -347,11 +349,11 @@ mod tests {
     #[test]
     fn the_program_and_each_screen_can_be_left_from_everywhere() {
         let event = KeyEvent::new(Char('c'), crossterm::event::KeyModifiers::CONTROL);
-        for place in places() {
-            assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Quit)), "{place:?}");
+        for context in contexts() {
+            assert_eq!(find(&event, context, |_| None), Some(Ok(Action::Quit)), "{context:?}");
             for screen in PageId::ALL {
                 let event = chord_of_tab(screen).unwrap().event();
-                assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Open(screen))), "{place:?}");
+                assert_eq!(find(&event, context, |_| None), Some(Ok(Action::Open(screen))), "{context:?}");
             }
         }
     }
@@ -361,19 +363,19 @@ mod tests {
         let refuse_all = |_| Some("not now");
         assert_eq!(find(&KeyEvent::from(End), KeyContext::Training(TrainingContext::Form), refuse_all), None);
         let end = Some(Ok(Action::ScrollOverlay(i16::MAX)));
-        for place in KeyContext::PAGES.map(|(place, _)| place) {
-            assert_eq!(find(&KeyEvent::from(End), place, |_| None), end, "{place:?}");
+        for context in KeyContext::PAGES.map(|(context, _)| context) {
+            assert_eq!(find(&KeyEvent::from(End), context, |_| None), end, "{context:?}");
         }
     }
 
     #[test]
     fn letters_are_typed_where_words_are_and_digits_in_the_form() {
         let typed =
-            |place: KeyContext, text: &str| text.chars().filter(|letter| place.types(Chord::char(*letter))).count();
-        for place in places() {
-            let most = if place == KeyContext::Training(TrainingContext::Form) { 1 } else { 3 };
-            assert!([0, most].contains(&typed(place, "z 1")), "{place:?}");
-            assert!(!place.types(Chord::ctrl(Char('z'))) && !place.types(Chord::plain(Enter)), "{place:?}");
+            |context: KeyContext, text: &str| text.chars().filter(|letter| context.types(Chord::char(*letter))).count();
+        for context in contexts() {
+            let most = if context == KeyContext::Training(TrainingContext::Form) { 1 } else { 3 };
+            assert!([0, most].contains(&typed(context, "z 1")), "{context:?}");
+            assert!(!context.types(Chord::ctrl(Char('z'))) && !context.types(Chord::plain(Enter)), "{context:?}");
         }
         let words = [
             KeyContext::Question { is_typed: true },
@@ -381,16 +383,16 @@ mod tests {
             KeyContext::Drill(DrillContext::Search),
             KeyContext::Calibration(CalibrationContext::Marks),
         ];
-        assert!(words.iter().all(|place| typed(*place, "z 1") == 3));
+        assert!(words.iter().all(|context| typed(*context, "z 1") == 3));
         assert_eq!(typed(KeyContext::Training(TrainingContext::Form), "z 1"), 1);
         assert_eq!(typed(KeyContext::Question { is_typed: false }, "z 1"), 0);
     }
 
     #[test]
     fn no_binding_takes_a_key_of_the_text_that_is_typed() {
-        for place in places().filter(|place| place.types(Chord::char('z'))) {
-            for (chord, ..) in bindings(place).into_iter().flat_map(|binding| binding.keys) {
-                assert!(!place.types(chord), "{place:?}: {chord:?} is typed, and never comes to the binding");
+        for context in contexts().filter(|context| context.types(Chord::char('z'))) {
+            for (chord, ..) in bindings(context).into_iter().flat_map(|binding| binding.keys) {
+                assert!(!context.types(chord), "{context:?}: {chord:?} is typed, and never comes to the binding");
             }
         }
     }
@@ -400,7 +402,7 @@ mod tests {
         let all = key_pages();
         let pages =
             |letter| commands_of(&all, Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
-        // Beside a stroke of one's own it goes back by the stroke's changes, then by the balls'.
+        // With the player's own stroke open, the key first undoes changes of the stroke, then those of the balls.
         assert_eq!(pages('u'), ["Coach", "Coach: your stroke", "Coach: your stroke", "Drills: exercise"]);
         assert_eq!(commands_of(&all, Chord::char('q')).len(), 1, "quitting");
         assert!(pages('%').is_empty());
@@ -408,13 +410,13 @@ mod tests {
 
     #[test]
     fn no_two_things_that_can_be_done_at_a_place_have_the_same_words() {
-        for place in places() {
-            for binding in listed(place) {
+        for context in contexts() {
+            for binding in listed(context) {
                 for (_, action, words) in &binding.keys {
-                    let same = listed(place)
+                    let same = listed(context)
                         .flat_map(|binding| binding.keys)
                         .find(|(_, other, its)| its == words && other != action);
-                    assert!(same.is_none(), "{place:?}: {words}: {action:?} and {same:?}");
+                    assert!(same.is_none(), "{context:?}: {words}: {action:?} and {same:?}");
                 }
             }
         }

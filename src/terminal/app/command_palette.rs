@@ -1,4 +1,4 @@
-//! The command palette: everything that the keys do at a place, narrowed by typed words, and what its own keys do.
+//! Command palette: all commands available in a context, filtered by typed words, and the handling of its own keys.
 
 use crate::terminal::{
     Action, App, Capabilities, Condition, Effect, KeyContext, Keys,
@@ -7,40 +7,40 @@ use crate::terminal::{
     ui::{TextField, Typed},
 };
 
-/// Most that is typed, bytes.
+/// Longest input, bytes.
 const LONGEST: usize = 200;
 
-/// One thing that can be done.
+/// One command of the palette.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Command {
-    /// Its keys as they are written on the screen.
+    /// Its keys as displayed.
     pub keys: String,
-    /// The keys that it has by default.
+    /// Its default keys.
     pub chords: Vec<Chord>,
     /// What it does.
     pub description: &'static str,
-    /// What the help says of the binding, which may do other things as well.
+    /// Description of the whole binding in the help, which may cover other commands too.
     pub group: &'static str,
-    /// Its word in the hint line, or nothing.
+    /// Its word in the hint line, or an empty text.
     pub hint: &'static str,
-    /// Its heading in the help.
+    /// Its section heading in the help.
     pub title: &'static str,
-    /// Other words under which it is found.
+    /// Further search words.
     pub also: &'static str,
-    /// What it asks for.
+    /// The action that it runs.
     pub action: Action,
-    /// When it may be used.
+    /// Condition under which it is enabled.
     pub when: Condition,
 }
 
 impl Command {
-    /// Whether all `words`, in small letters, occur in what is said of it alone, or is meant by it.
+    /// Whether all `words`, in lower case, occur in the text of this command alone.
     fn is_called(&self, words: &[String]) -> bool {
         let Self { keys, description, title, also, .. } = self;
         has(&format!("{description} {title} {also} {keys}"), words)
     }
 
-    /// The same, with what is said of all that its binding does.
+    /// Whether all `words` occur in the text of this command or of its whole binding.
     fn is_among(&self, words: &[String]) -> bool {
         let Self { keys, description, group, hint, title, also, .. } = self;
         has(&format!("{description} {group} {hint} {title} {also} {keys}"), words)
@@ -52,7 +52,7 @@ fn has(text: &str, words: &[String]) -> bool {
     words.iter().all(|word| text.contains(word))
 }
 
-/// The commands at `place`, one for each thing that a binding does.
+/// The commands in the context `place`, one for each action of a binding.
 pub fn commands(place: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Command> {
     let commands = |binding: Bound| {
         let all = binding.commands().into_iter().filter(|(action, ..)| *action != Action::OpenPalette);
@@ -71,10 +71,10 @@ pub fn commands(place: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Comma
     listed(place).flat_map(commands).collect()
 }
 
-/// The palette while it is open: what is typed, and the mark among what is found.
+/// State of the open palette: the input and the selected row.
 #[derive(Clone, Debug)]
 pub struct CommandPalette {
-    /// What is typed.
+    /// The typed text.
     pub words: TextField,
     mark: usize,
 }
@@ -86,8 +86,8 @@ impl Default for CommandPalette {
 }
 
 impl CommandPalette {
-    /// The commands that have all typed words, in their order. What a binding's keys do together finds them all, unless the
-    /// words are those of some of them alone.
+    /// Returns the commands that match all typed words, in their order. A match of the whole binding's text finds all its commands, unless
+    /// some of them match on their own.
     pub fn found(&self, mut commands: Vec<Command>) -> Vec<Command> {
         let words: Vec<String> = self.words.text().split_whitespace().map(str::to_lowercase).collect();
         let called: Vec<_> = commands.iter().filter(|one| one.is_called(&words)).map(|one| one.group).collect();
@@ -95,17 +95,17 @@ impl CommandPalette {
         commands
     }
 
-    /// Place of the mark among `count` that are found; the screen below may have changed since it was set.
+    /// Index of the selected row among `count` results; clamped, since the screen below may have changed since it was set.
     pub fn mark(&self, count: usize) -> usize {
         self.mark.min(count.saturating_sub(1))
     }
 
-    /// Moves the mark among `count` commands by lines, down where positive.
+    /// Moves the selection among `count` commands by lines, down if positive.
     pub fn move_mark(&mut self, lines: isize, count: usize) {
         self.mark = self.mark(count).saturating_add_signed(lines).min(count.saturating_sub(1));
     }
 
-    /// Takes what was typed or pasted; `false` where a key means nothing to it. Other words find something else to mark.
+    /// Handles typed or pasted input; returns `false` if the palette does not use the key. The selection resets when the text changes.
     pub fn input(&mut self, typed: Typed) -> bool {
         let before = self.words.text().len();
         let taken = self.words.take(typed);
@@ -117,12 +117,12 @@ impl CommandPalette {
 }
 
 impl App {
-    /// What is found by the words that are typed; nothing while the palette is closed.
+    /// The commands that match the typed words; empty while the palette is closed.
     pub(super) fn found_commands(&self) -> Vec<Command> {
         self.command_palette.as_ref().map_or_else(Vec::new, |palette| palette.found(self.commands()))
     }
 
-    /// Moves the palette's mark by lines, down where positive.
+    /// Moves the palette's selection by lines, down if positive.
     pub(super) fn move_palette_mark(&mut self, lines: isize) {
         let count = self.found_commands().len();
         if let Some(palette) = &mut self.command_palette {
@@ -130,7 +130,7 @@ impl App {
         }
     }
 
-    /// Does what is marked, or says why not.
+    /// Runs the selected command, or reports why it is disabled.
     pub(super) fn choose_command(&mut self) -> Option<Effect> {
         let found = self.found_commands();
         let command = found.get(self.command_palette.as_ref()?.mark(found.len()))?;
@@ -142,8 +142,8 @@ impl App {
         self.update(command.action)
     }
 
-    /// What can be done at the place below the command palette, what may be used now first. What one action does in several
-    /// states of the page is listed once, with the words of its present state.
+    /// The commands available below the palette, enabled ones first. An action that several states of the page offer is listed once, with
+    /// the words of the present state.
     pub fn commands(&self) -> Vec<Command> {
         let mut all = commands(self.place_below(), self.keys(), self.caps);
         all.sort_by_key(|command| self.disabled_reason(command.when).is_some());

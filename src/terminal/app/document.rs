@@ -1,4 +1,4 @@
-//! The keys as a page of the documentation.
+//! Documentation page of all keys, in Markdown.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use crate::terminal::{
     keymap::keys_text,
 };
 
-/// What [`TextField`](crate::terminal::ui::input::TextField) does with keys.
+/// The keys of [`TextField`](crate::terminal::ui::input::TextField).
 const TYPING: &str = "
 ## Where text is typed
 
@@ -21,7 +21,7 @@ const TYPING: &str = "
 | `Ctrl-w`, `Ctrl-u` | delete the word before the cursor, all before it |
 ";
 
-/// A table of all keys in Markdown, page by page; what all pages have comes last, once.
+/// Returns a Markdown table of all keys, page by page; the keys common to all pages come last, once.
 pub fn document() -> String {
     let mut text = String::from(
         "# Keys\n\nWritten from the program's own tables by `cargo run --release --example picture -- docs/`. Keys of your own: F5, \
@@ -40,7 +40,7 @@ pub fn document() -> String {
 }
 
 fn write_page<'a>(text: &mut String, name: &str, bindings: impl Iterator<Item = &'a Bound>) {
-    // Writing into a text never fails.
+    // Writing into a string never fails.
     let _ = write!(text, "\n## {name}\n\n| keys | what they do |\n|---|---|\n");
     for binding in bindings {
         let keys =

@@ -1,4 +1,4 @@
-//! Where keys are pressed: each page has its own, and so has whatever lies over it or is asked there.
+//! Key contexts: each page, each overlay and each question has its own keys.
 
 use crossterm::event::KeyCode::Char;
 
@@ -6,16 +6,16 @@ use crate::terminal::{
     CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::Chord, ui::is_typed,
 };
 
-/// What is on the screen: each has its own keys.
+/// The context in which a key is pressed; each has its own key bindings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeyContext {
-    /// The coach.
+    /// The coach's page.
     Coach,
-    /// The player's own stroke there.
+    /// The player's own stroke on the coach's page.
     OwnStroke,
-    /// The table of somebody else, who is followed.
+    /// The table of another player who is being followed.
     Follow,
-    /// What a page asks.
+    /// A question of a page.
     Question {
         /// Whether the answer is typed; otherwise it is yes or no.
         is_typed: bool,
@@ -24,11 +24,11 @@ pub enum KeyContext {
     Training(TrainingContext),
     /// One of the drill screens.
     Drill(DrillContext),
-    /// One of the settings' pages, or a key that is asked for there.
+    /// One of the settings pages, or the request there to press a key.
     Settings(SettingsContext),
-    /// The calibration's page, or the marks that are typed there.
+    /// The calibration page, or the input of marks there.
     Calibration(CalibrationContext),
-    /// The command palette, over any of them.
+    /// The command palette, over any of the others.
     CommandPalette,
 }
 
@@ -54,12 +54,12 @@ impl KeyContext {
         (Self::Calibration(CalibrationContext::Tests), "Calibration"),
     ];
 
-    /// Whether letters are typed there, or answers: so it is wherever no page is.
+    /// Whether letters are typed or are answers in this context: true for every context that is not a page.
     pub fn takes_letters(self) -> bool {
         Self::PAGES.iter().all(|(page, _)| *page != self)
     }
 
-    /// Whether `pressed` is typed there, whatever work of another key it was given.
+    /// Whether `pressed` types a character in this context, even if the user has bound it to something else.
     pub fn types(self, pressed: Chord) -> bool {
         let event = pressed.event();
         match self {

@@ -1,4 +1,4 @@
-//! What a key asks for, where it is pressed, and why not.
+//! Key input: finds the action of a key in the present context, or the reason why it is disabled.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
@@ -13,32 +13,32 @@ use crate::{
 };
 
 impl App {
-    /// A key was pressed.
+    /// Handles a key press.
     pub fn handle(&mut self, key: &KeyEvent) -> Option<Effect> {
         if key.kind == KeyEventKind::Release {
             return None;
         }
-        let effect = self.take_key(key);
+        let effect = self.handle_key(key);
         self.collect_toasts(true);
         effect.or_else(|| self.study())
     }
 
-    /// A closer look at the coach's shot, where that is on the screen and none was taken yet: settings that were changed elsewhere may
-    /// have brought it back.
+    /// Requests an analysis of the coach's shot if the shot is visible and has none yet: settings changed elsewhere may have brought it
+    /// back.
     pub(super) fn study(&mut self) -> Option<Effect> {
         if self.screen == PageId::Coach { self.coach.study() } else { None }
     }
 
-    /// A key whose byte has come in one piece with that of an Esc pressed just before, which is how terminals send a key with Alt: where
-    /// Alt means nothing, these are two keys.
-    fn take_both(&mut self, key: &KeyEvent) -> Option<Effect> {
+    /// Handles a key with Alt as Esc followed by the key, for contexts in which Alt has no meaning. Terminals send both in the same way:
+    /// Esc pressed just before a key can arrive in one piece with it.
+    fn handle_as_escape_and_key(&mut self, key: &KeyEvent) -> Option<Effect> {
         let bare = KeyEvent { modifiers: key.modifiers - KeyModifiers::ALT, ..*key };
-        let effect = self.take_key(&KeyEvent::from(KeyCode::Esc));
-        effect.or_else(|| self.take_key(&bare))
+        let effect = self.handle_key(&KeyEvent::from(KeyCode::Esc));
+        effect.or_else(|| self.handle_key(&bare))
     }
 
-    fn take_key(&mut self, key: &KeyEvent) -> Option<Effect> {
-        // Everywhere, whatever lies over the screen.
+    fn handle_key(&mut self, key: &KeyEvent) -> Option<Effect> {
+        // Works everywhere, even under an overlay.
         if (key.code, key.modifiers) == (KeyCode::Char('c'), KeyModifiers::CONTROL) {
             return self.update(Action::Quit);
         }
@@ -57,10 +57,10 @@ impl App {
             self.toasts.go_on();
             return None;
         }
-        // Where a key is asked for, each is an answer that means nothing else.
+        // While the page waits for a key to bind, every key is an answer and nothing else.
         let is_asked_for_a_key = self.is_asked_for_a_key();
         let find = |key: &KeyEvent| bindings::find(key, self.place(), |when| self.disabled_reason(when));
-        // The letters that a question asks for are its answers, even where the user gave them other work.
+        // The letters that answer a question always answer it, even if the user has bound them to something else.
         let is_answer = matches!(find(key), Some(Ok(Action::Answer(_))));
         let meant = if is_asked_for_a_key || is_answer { *key } else { self.keys().translate(key) };
         let found = find(&meant);
@@ -71,13 +71,13 @@ impl App {
             return effect;
         }
         if found.is_none() && key.modifiers.contains(KeyModifiers::ALT) {
-            return self.take_both(key);
+            return self.handle_as_escape_and_key(key);
         }
         let found = found?;
         if meant.code == KeyCode::Esc {
             self.toasts.clear();
             if found.is_err() {
-                // Where there is nothing to leave, nothing is to be said.
+                // If there is nothing to leave, Esc is silent.
                 *self.page_mut().message_mut() = None;
                 return None;
             }
@@ -85,16 +85,16 @@ impl App {
         self.perform(found)
     }
 
-    /// Does what a key or the mouse has asked for, or says why not.
-    pub(super) fn perform(&mut self, asked: Result<Action, &'static str>) -> Option<Effect> {
+    /// Performs the action of a key or the mouse, or shows why it is disabled.
+    pub(super) fn perform(&mut self, requested: Result<Action, &'static str>) -> Option<Effect> {
         *self.page_mut().message_mut() = None;
         self.toasts.go_on();
-        match asked {
+        match requested {
             Ok(action) => self.update(action),
             Err(reason) => {
                 if self.overlay.is_some() {
-                    // The page that is read may be that of the messages.
-                    self.toasts.push_for_now(reason.to_owned());
+                    // The open overlay may be the list of messages.
+                    self.toasts.push_unlisted(reason.to_owned());
                 } else {
                     self.toasts.push(reason.to_owned(), true);
                 }
@@ -103,7 +103,7 @@ impl App {
         }
     }
 
-    /// Whether nothing could be seen of what a key does, for want of room.
+    /// Whether the screen is too small to show the effect of a key.
     pub(super) const fn is_too_small(&self) -> bool {
         !self.area.is_empty() && view::is_too_small(self.area)
     }
@@ -114,7 +114,7 @@ impl App {
             && self.command_palette.is_none()
     }
 
-    /// Text was pasted.
+    /// Handles pasted text.
     pub fn paste(&mut self, text: &str) {
         if self.is_too_small() {
             return;
@@ -123,7 +123,7 @@ impl App {
         self.collect_toasts(true);
     }
 
-    /// Takes what was typed or pasted where text is typed; `false` where none is, or the key means something else.
+    /// Passes typed or pasted input to the open text field. Returns `false` if none is open, or if the key has another meaning.
     fn input(&mut self, typed: Typed) -> bool {
         if let Some(command_palette) = &mut self.command_palette {
             let taken = command_palette.input(typed);
@@ -135,15 +135,15 @@ impl App {
         self.overlay.is_none() && self.page_mut().input(typed)
     }
 
-    /// Why a binding may not be used now; `None` where it may.
+    /// Returns why a binding is disabled; `None` if it is enabled.
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         match when {
             Condition::Overlay => self.overlay.is_none().then_some("no page lies over the screen"),
-            Condition::Tabs => self.stands_alone().then_some("no other screens here; start carom for all of them"),
+            Condition::Tabs => self.is_only_screen().then_some("no other screens here; start carom for all of them"),
             _ if self.overlay.is_some() => Some("close this first: Esc"),
             Condition::Always => None,
             Condition::Shell => self.no_shell(),
-            Condition::Coach(CoachCondition::Interrupted) if self.goes_on_with_open_exam() => {
+            Condition::Coach(CoachCondition::Interrupted) if self.resumes_open_exam() => {
                 self.coach.disabled_reason(CoachCondition::Idle)
             }
             Condition::Coach(when) => self.coach.disabled_reason(when),
@@ -154,7 +154,7 @@ impl App {
         }
     }
 
-    /// Why the program cannot be suspended.
+    /// Returns why the program cannot be suspended.
     fn no_shell(&self) -> Option<&'static str> {
         if self.is_guest {
             return Some("guests have no shell to go back to; q quits");
@@ -162,12 +162,12 @@ impl App {
         (!platform::CAN_SUSPEND).then_some("programs cannot be suspended here; q quits")
     }
 
-    /// What is on the screen. The help is that of what lies below it.
+    /// The key context of the screen. The help lists the keys of the context below it.
     pub fn place(&self) -> KeyContext {
         if self.command_palette.is_some() { KeyContext::CommandPalette } else { self.place_below() }
     }
 
-    /// The same without the command palette.
+    /// Like [`Self::place`], but ignoring the command palette.
     pub(super) fn place_below(&self) -> KeyContext {
         let asked = self.page().asked(self.caps).filter(|asked| self.overlay.is_none() && !asked.has_own_keys);
         if let Some(asked) = asked {

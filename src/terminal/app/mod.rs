@@ -1,6 +1,6 @@
-//! The state of the program; it draws on any frame and needs no terminal.
+//! State of the program. It draws on any frame and needs no terminal.
 //!
-//! What its screens share is here; each screen has a state of its own. [`view`] is what drawing reads.
+//! This module holds what all screens share; each screen has a state of its own. [`view`] draws.
 
 pub mod bindings;
 pub mod command_palette;
@@ -45,21 +45,21 @@ use crate::{
     },
 };
 
-/// A page that lies over the screen.
+/// A page shown over the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overlay {
-    /// Every key.
+    /// The help: all keys.
     Help,
-    /// What was refused or has failed so far.
+    /// All refusals and failures so far.
     Messages,
-    /// What the words of players mean.
+    /// The glossary of players' terms.
     Glossary,
 }
 
-/// The whole state of the terminal program.
+/// Complete state of the terminal program.
 #[derive(Debug)]
 pub struct App {
-    /// Which screen is shown.
+    /// The open screen.
     pub screen: PageId,
     /// The coach's screen.
     pub coach: CoachPage,
@@ -67,31 +67,31 @@ pub struct App {
     pub training: TrainingPage,
     /// The drill screens.
     pub drills: DrillsPage,
-    /// The settings' screen.
+    /// The settings screen.
     pub settings: SettingsPage,
-    /// The calibration's page.
+    /// The calibration screen.
     pub calibration: CalibrationPage,
-    /// The file of a table that is to be played on as soon as the settings' file was read.
+    /// File of a table to play on once the settings file has been read.
     pending_table: Option<PathBuf>,
-    /// The settings that hold.
+    /// The settings in force.
     in_force: Settings,
-    /// The screen before the settings.
+    /// The screen that was open before the settings.
     before: PageId,
-    /// The page that lies over the screen, and its first line.
+    /// The overlay that is open, and the index of its first visible line.
     pub overlay: Option<(Overlay, u16)>,
     /// The command palette while it is open.
     pub command_palette: Option<CommandPalette>,
-    /// Refusals and failures, for as long as they are shown, and those before.
+    /// Refusals and failures shown as toasts, and those of earlier.
     pub toasts: Toasts,
-    /// The screen, nothing before its size is known: where the mouse points, and how far the help can be scrolled.
+    /// The screen's area, empty until its size is known. Used for mouse hits and for the scroll range of overlays.
     area: Rect,
-    /// Whether the mouse is wanted; otherwise the terminal keeps it for its own selection.
+    /// Whether the program captures the mouse; otherwise the terminal keeps it for its own selection.
     pub mouse: bool,
-    /// What the terminal can show.
+    /// What the terminal can show, under the present theme.
     pub caps: Capabilities,
-    /// What it can show with any theme that has colours.
+    /// What the terminal can show with a theme that has colours.
     full_caps: Capabilities,
-    /// The finest characters to draw with: octants only where they were asked for.
+    /// The finest character set that may be used: octants only if the user asked for them.
     finest: Glyphs,
     theme: Theme,
     theme_name: ThemeName,
@@ -99,15 +99,15 @@ pub struct App {
     pub(super) draft_at_start: Option<StrokeDraft>,
     /// Whether the player is a guest of this machine.
     is_guest: bool,
-    /// Finds out what the terminal can show under some settings; without it that stays as at the start.
+    /// Detects what the terminal can show under given settings; if `None`, the capabilities stay as at the start.
     detect: Option<fn(&Settings) -> Capabilities>,
 }
 
 impl App {
-    /// The program at its start; `seed` decides about random layouts.
+    /// Creates the program; `seed` seeds the random layouts.
     ///
     /// # Errors
-    /// A layout that is not possible on the table.
+    /// Fails if the layout is not possible on the table.
     pub fn new(table: Table, layout: Layout, caps: Capabilities, seed: u64) -> Result<Self, LayoutError> {
         Ok(Self {
             screen: PageId::Coach,
@@ -135,11 +135,11 @@ impl App {
         })
     }
 
-    /// The program that opens with the training screen: with a run, or with the list of those in `list`, by default the
-    /// user's. Going back from its first page ends the program.
+    /// Creates the program with the training screen open: following a run, or showing the list of runs in `list`, by default the user's.
+    /// Leaving its first page ends the program.
     ///
     /// # Errors
-    /// None with the default table, whose opening position is possible.
+    /// None in practice: the opening position is possible on the default table.
     pub fn watching(caps: Capabilities, run: Option<PathBuf>, list: Option<PathBuf>) -> Result<Self, LayoutError> {
         let table = Table::default();
         let layout = Layout::opening(&table);
@@ -149,7 +149,7 @@ impl App {
         Ok(app)
     }
 
-    /// The same program with the player's files elsewhere.
+    /// Sets where the player's files are.
     #[must_use]
     pub fn with_places(mut self, places: Places) -> Self {
         self.training.folder.clone_from(&places.runs);
@@ -160,7 +160,7 @@ impl App {
         self
     }
 
-    /// The same program for the player who sits there.
+    /// Sets the player at the terminal.
     #[must_use]
     pub fn with_seat(self, seat: &Seat) -> Self {
         let mut app = self.with_places(seat.places.clone());
@@ -173,14 +173,14 @@ impl App {
         app
     }
 
-    /// The same program that shows the table of somebody else, who shows it in `folder`, and nothing else.
+    /// Shows only the table of another player, who shares it in `folder`.
     #[must_use]
     pub fn following(mut self, name: String, folder: PathBuf) -> Self {
         self.coach.follow(name, folder);
         self
     }
 
-    /// The same program as the user wants it.
+    /// Applies the user's settings.
     #[must_use]
     pub fn with_settings(mut self, settings: &Settings) -> Self {
         self.coach.take_settings(settings);
@@ -193,21 +193,21 @@ impl App {
         self
     }
 
-    /// The same program, which asks `detect` what the terminal can show whenever that is set otherwise.
+    /// Sets `detect`, which is called again whenever the display settings change.
     #[must_use]
     pub fn with_detection(mut self, detect: fn(&Settings) -> Capabilities) -> Self {
         self.detect = Some(detect);
         self
     }
 
-    /// The same program with the way back to where the last session ended.
+    /// Offers to continue where the last session ended.
     #[must_use]
     pub fn with_saved_session(mut self, last: Option<SavedSession>) -> Self {
         self.coach.offer(last);
         self
     }
 
-    /// The same program with the stroke of a calibration that was typed in part when the last session ended.
+    /// Restores the calibration stroke that was typed in part when the last session ended.
     #[must_use]
     pub fn with_draft(mut self, draft: Option<StrokeDraft>) -> Self {
         let Some(draft) = draft else { return self };
@@ -217,49 +217,49 @@ impl App {
             self.draft_at_start = Some(left);
             if !is_told {
                 let sentence = format!("a stroke of {test} that was typed in part is kept: F7 goes on with it");
-                // It goes with the next key, as an answer does: it would lie on the form that it offers.
+                // Cleared by the next key, like an answer: otherwise it would cover the form that it offers.
                 self.toasts.push(sentence, true);
             }
         }
         self
     }
 
-    /// The stroke that is typed in part, for the next session; it is told of again where anything has been typed since the last start.
+    /// Returns the stroke that is typed in part, for the next session. It is announced again if anything was typed since the last start.
     pub fn draft(&self) -> Option<StrokeDraft> {
         let draft = self.calibration.draft()?;
         let is_told = self.draft_at_start.as_ref() == Some(&draft);
         Some(StrokeDraft { is_told, ..draft })
     }
 
-    /// What the next session may go on from; `None` where nothing has been done that is worth it.
+    /// Returns the state that the next session can continue from; `None` if there is nothing worth keeping.
     pub fn saved_session(&self) -> Option<SavedSession> {
-        // An exam, a game and a match are gone on with whatever was done after them.
+        // Exams, games and matches are offered even if the user did other things after them.
         let is_open = |session: &&Session| self.screen == PageId::Drills || session.is_exam();
         self.coach.saved_session(self.drills.unfinished().filter(is_open), self.drills.open_game())
     }
 
-    /// Says what has changed since the user was here before.
+    /// Shows what has changed since the user's last session.
     #[must_use]
     pub fn with_notice(mut self, notice: Option<&str>) -> Self {
         self.toasts.push_first(notice.map(str::to_owned).as_slice());
         self
     }
 
-    /// Says that something is wrong with the settings.
+    /// Shows what is wrong with the settings.
     #[must_use]
     pub fn with_complaints(mut self, file: &Path, complaints: &[Complaint]) -> Self {
         self.toasts.push_first(&Complaint::sentences(file, complaints));
         self
     }
 
-    /// Does what an enabled binding asks for.
+    /// Performs an action of an enabled binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Quit => return Some(Effect::Quit),
             Action::Suspend => return Some(Effect::Suspend),
-            Action::OpenHelp => self.lay_over(Overlay::Help),
-            Action::OpenMessages => self.lay_over(Overlay::Messages),
-            Action::OpenGlossary => self.lay_over(Overlay::Glossary),
+            Action::OpenHelp => self.open_overlay(Overlay::Help),
+            Action::OpenMessages => self.open_overlay(Overlay::Messages),
+            Action::OpenGlossary => self.open_overlay(Overlay::Glossary),
             Action::OpenMatch => {
                 let opened = self.open(PageId::Drills);
                 let coach = &mut self.coach;
@@ -287,22 +287,22 @@ impl App {
             Action::ClosePalette => self.command_palette = None,
             Action::ChooseCommand => return self.choose_command(),
             Action::PaletteLine(lines) => self.move_palette_mark(lines),
-            Action::Coach(CoachAction::Resume) if self.goes_on_with_open_exam() => {
+            Action::Coach(CoachAction::Resume) if self.resumes_open_exam() => {
                 let effect = self.open(PageId::Drills);
                 self.drills.show_session();
                 return effect;
             }
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;
-                self.turn_to(PageId::Drills);
+                self.switch_to(PageId::Drills);
                 let effect = self.drills.resume(practice, self.coach.query.skill);
-                // One that was open waits until all others were gone on with.
+                // An exam that was open before waits until all others have been continued.
                 self.coach.left_exams.splice(0..0, self.drills.left_exam.take());
                 return Some(effect);
             }
             Action::Coach(action) => {
                 return match self.coach.update(action) {
-                    // The folder of the positions may not be known yet: it comes with the task that reads it.
+                    // The drills may not know the folder of the positions yet; the first task loads it.
                     Some(Effect::Drill(tasks)) => {
                         Some(Effect::Drill(std::iter::once(self.drills.load()).chain(tasks).collect()))
                     }
@@ -350,12 +350,12 @@ impl App {
         None
     }
 
-    /// Whether what waits to be gone on with is an exam that is still open in the drills.
-    pub(super) fn goes_on_with_open_exam(&self) -> bool {
+    /// Whether the session to continue is an exam that is still open on the drill screens.
+    pub(super) fn resumes_open_exam(&self) -> bool {
         self.coach.left_exams.is_empty() && self.drills.has_open_exam()
     }
 
-    /// The answer to the open page's question.
+    /// The action that answers the open page's question.
     const fn answer(&self, yes: bool) -> Action {
         match self.screen {
             PageId::Coach => Action::Coach(CoachAction::Answer(yes)),
@@ -366,7 +366,7 @@ impl App {
         }
     }
 
-    /// What is polled for the page that is open; reports go to [`App::receive_training`] and `CoachPage::see`.
+    /// Returns what to poll for the open page; reports go to [`App::receive_training`] and `CoachPage::see`.
     pub fn subscriptions(&self) -> Subscriptions {
         if let Some(followed) = self.coach.followed() {
             return Subscriptions { shown: Some(followed.folder.clone()), ..Subscriptions::default() };
@@ -374,18 +374,18 @@ impl App {
         if self.screen == PageId::Training { self.training.subscriptions() } else { Subscriptions::default() }
     }
 
-    /// What others may see of the coach's table, while the player allows it.
+    /// Returns the view of the coach's table that others may see, while the player shares it.
     pub fn shown_table(&self) -> Option<ShownTable> {
         self.coach.shown_table(self.screen == PageId::Coach)
     }
 
-    /// It cannot be shown, as the sentence says.
+    /// Stops sharing the table because its view could not be written, and shows `sentence`.
     pub fn not_shown(&mut self, sentence: String) {
         self.coach.hide();
         self.failed(sentence);
     }
 
-    /// Lets `seconds` pass for whatever moves on the screen.
+    /// Advances all animations by `seconds`.
     pub fn tick(&mut self, seconds: f64) {
         self.toasts.tick(seconds);
         if !self.is_covered() {
@@ -393,17 +393,17 @@ impl App {
         }
     }
 
-    /// Seconds until the next picture; `None` while nothing moves by itself.
+    /// Seconds until the next frame; `None` while nothing is animated.
     pub fn frame_interval(&self) -> Option<f64> {
         self.page().frame_interval().filter(|_| !self.is_covered())
     }
 
-    /// Whether something lies over the page, which then stands still: what moves is to be seen.
+    /// Whether an overlay or the command palette covers the page. The page's animations then pause, so that the user misses nothing.
     pub(super) const fn is_covered(&self) -> bool {
         self.overlay.is_some() || self.command_palette.is_some()
     }
 
-    /// The terminal has this size from now on.
+    /// Sets the size of the terminal.
     pub const fn resize(&mut self, size: Size) {
         self.area = Rect::new(0, 0, size.width, size.height);
     }
@@ -413,7 +413,7 @@ impl App {
         view::draw(self, frame.area(), frame.buffer_mut());
     }
 
-    /// The page that is open.
+    /// The open page.
     pub fn page(&self) -> &dyn Page {
         match self.screen {
             PageId::Coach => &self.coach,
@@ -434,12 +434,12 @@ impl App {
         }
     }
 
-    /// Keys of the user's own.
+    /// The user's own key bindings.
     pub const fn keys(&self) -> &Keys {
         &self.settings.settings.keys
     }
 
-    /// The colours.
+    /// The colours for the open page.
     pub fn theme(&self) -> Theme {
         self.theme.with_cue_ball(self.page().cue_ball())
     }

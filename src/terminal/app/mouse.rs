@@ -1,4 +1,4 @@
-//! The mouse: each thing that it does is something that keys do as well, but for dragging balls.
+//! Mouse input. Except for dragging balls, the mouse does nothing that keys cannot do.
 
 use crossterm::event::{KeyCode, KeyEvent, MouseButton::Left, MouseEvent, MouseEventKind as Kind};
 
@@ -13,11 +13,11 @@ use crate::terminal::{
     ui::ball_at,
 };
 
-/// Lines of the help that a notch of the wheel scrolls.
+/// Lines that one notch of the wheel scrolls an overlay.
 const OVERLAY_LINES: i16 = 3;
 
 impl App {
-    /// The mouse was used somewhere on the screen that was drawn last.
+    /// Handles a mouse event on the screen that was drawn last.
     pub fn mouse(&mut self, event: MouseEvent) -> Option<Effect> {
         let effect = self.point(event);
         self.collect_toasts(true);
@@ -55,7 +55,7 @@ impl App {
         }
     }
 
-    /// The wheel was turned by a notch, down where positive.
+    /// Handles one notch of the wheel, positive if turned down.
     fn wheel(&mut self, event: MouseEvent, notch: i8) -> Option<Effect> {
         if self.command_palette.is_some() {
             return self.update(Action::PaletteLine(isize::from(notch)));
@@ -66,7 +66,7 @@ impl App {
         match self.target(event)? {
             Pointed::Page(Target::Table(_)) => {
                 let faster = Action::Coach(CoachAction::Playback(PlaybackKey::Pace(-isize::from(notch))));
-                // A notch may be an accident: where no shot plays, nothing is said.
+                // The user may turn the wheel by accident: if no shot plays, nothing is reported.
                 let is_watched = self.disabled_reason(Condition::Coach(CoachCondition::Watching)).is_none();
                 if is_watched { self.perform(Ok(faster)) } else { None }
             }
@@ -79,13 +79,13 @@ impl App {
         if self.is_covered() { None } else { pointed_at(self, self.area, (event.column, event.row).into()) }
     }
 
-    /// Selects the ball that is drawn where the mouse is, and holds it.
+    /// Selects the ball under the pointer and starts dragging it.
     fn take_ball(&mut self, mapping: &Mapping, event: MouseEvent) -> Option<Effect> {
         let time = self.coach.playback.time;
         let balls = self.coach.watched().map_or(self.coach.layout().balls, |shot| shot.recording.positions(time));
         let ball = ball_at(balls, mapping, self.caps.glyphs, (event.column, event.row))?;
         let colour = self.coach.cue_ball().ordered([0, 1, 2])[ball];
-        // A click leaves the shot. Once that has begun the ball is drawn elsewhere than where it lies then.
+        // A click leaves the shot. Once the shot has started, the ball is drawn away from its position in the layout.
         let has_moved = self.coach.watched().is_some() && time > 0.0;
         let select = Action::Coach(CoachAction::Select(colour));
         let effect = self.attempt(Condition::Coach(CoachCondition::Idle), select);
@@ -95,16 +95,16 @@ impl App {
         effect
     }
 
-    /// Moves the mark of the list that is shown by lines, as the arrow keys do, and only where they do.
+    /// Moves the selection of the visible list by `lines`, exactly as the arrow keys would.
     fn move_mark(&mut self, lines: isize) -> Option<Effect> {
         let arrow = KeyEvent::from(if lines < 0 { KeyCode::Up } else { KeyCode::Down });
         let found = bindings::find(&arrow, self.place(), |when| self.disabled_reason(when))?;
-        // A refusal is told once; of the steps, only the last one's effect counts.
+        // A refusal is reported once; of several steps, only the last effect counts.
         let times = if found.is_ok() { lines.unsigned_abs() } else { 1 };
         (0..times).fold(None, |effect, _| self.perform(found).or(effect))
     }
 
-    /// Does what a key would do that may be used at such a time, or says why not.
+    /// Performs `action` if its condition holds, otherwise reports why it does not.
     fn attempt(&mut self, when: Condition, action: Action) -> Option<Effect> {
         self.perform(self.disabled_reason(when).map_or(Ok(action), Err))
     }

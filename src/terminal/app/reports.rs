@@ -1,40 +1,40 @@
-//! Reports from the background, and their messages: sentences on the status line, refusals and failures as toasts.
+//! Reports from background tasks. Their messages appear on the status line; refusals and failures appear as toasts.
 
 use crate::terminal::{App, CalibrationReport, CoachAnswer, DrillReport, DrillTask, Effect, PageId, TrainingReport};
 
 impl App {
-    /// The coach has something to say. Late answers to cancelled questions are dropped.
+    /// Handles an answer of the coach. Late answers to cancelled questions are dropped.
     pub fn receive(&mut self, answer: CoachAnswer) -> Option<Effect> {
         let was_thinking = self.coach.spinner().is_some();
         let effect = self.coach.receive(answer);
         if was_thinking && self.coach.spinner().is_none() {
-            // What was refused because the coach was thinking is not so any more.
+            // Refusals because the coach was thinking no longer apply.
             self.toasts.go_on();
         }
         self.collect_toasts(false);
         effect
     }
 
-    /// The thread that thinks is gone, and with it the answer.
+    /// Handles the loss of the coach's worker thread, and with it the answer.
     pub fn coach_lost(&mut self) {
         self.coach.lost();
         self.collect_toasts(false);
     }
 
-    /// A report from the training page's background tasks.
+    /// Handles a report from the training page's background tasks.
     pub fn receive_training(&mut self, report: TrainingReport) {
         if let Some((table, query)) = self.training.receive(report) {
             self.coach.take_query(&table, query);
             self.training.alone = false;
-            // Who has gone elsewhere meanwhile stays there.
+            // If the user has opened another screen meanwhile, it stays open.
             if self.screen == PageId::Training {
-                self.turn_to(PageId::Coach);
+                self.switch_to(PageId::Coach);
             }
         }
         self.collect_toasts(false);
     }
 
-    /// Something has come of a task of the drill screens, or the coach's position is saved; gives what is to be done next.
+    /// Handles the report of a drill task, or of saving the coach's position. Returns the tasks to run next.
     pub fn receive_drill(&mut self, report: DrillReport) -> Vec<DrillTask> {
         let report = match report {
             DrillReport::PositionSaved(exercise, outcome) if self.coach.has_saved(&exercise.name) => {
@@ -53,14 +53,14 @@ impl App {
         tasks
     }
 
-    /// Something has come of a task of the calibration's page.
+    /// Handles the report of a calibration task.
     pub fn receive_calibration(&mut self, report: CalibrationReport) -> Option<Effect> {
         let tasks = self.calibration.receive(report);
         self.collect_toasts(false);
         (!tasks.is_empty()).then_some(Effect::Calibrate(tasks))
     }
 
-    /// Makes toasts of what is refused or has failed since: the answer to a key, or something that came by itself.
+    /// Turns the pages' warnings into toasts. `is_answer`: whether they answer a key press, or came on their own.
     pub(super) fn collect_toasts(&mut self, is_answer: bool) {
         let Self { coach, training, drills, settings, calibration, toasts, .. } = self;
         let messages = [
@@ -77,7 +77,7 @@ impl App {
         }
     }
 
-    /// Something around the screen has failed.
+    /// Reports a failure outside the screens.
     pub fn failed(&mut self, sentence: String) {
         self.toasts.push(sentence, false);
     }

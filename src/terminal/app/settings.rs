@@ -1,4 +1,4 @@
-//! Changed settings take effect at once; what keys change for the session alone is shown among them.
+//! Applying changed settings at once, and showing what keys have changed for this session only on the settings screen.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use crate::{
 };
 
 impl App {
-    /// Something has come of what the settings' screen wanted of the file.
+    /// Handles the report of a task on the settings file.
     pub fn receive_settings(&mut self, report: SettingsReport) -> Option<Effect> {
         let troubles = self.settings.receive(report);
         self.toasts.push_first(&troubles);
@@ -22,7 +22,7 @@ impl App {
         if effect.is_some()
             && let Ok(table) = self.in_force.table()
         {
-            // It may be another one of the same name, so that no setting has changed.
+            // The table may be another one of the same name, in which case no setting has changed.
             self.coach.take_table(&table);
             self.calibration.play_on(&table);
             let how_long = if self.settings.is_writable { ", at every start too" } else { " until the program ends" };
@@ -33,14 +33,14 @@ impl App {
         effect
     }
 
-    /// Plays on the table of this file from now on, once the settings' file was read again.
+    /// Plays on the table in this file from now on, once the settings file has been read again.
     pub(super) fn use_table(&mut self, path: PathBuf) -> Effect {
         self.pending_table = Some(path);
         self.show_session();
         self.settings.open()
     }
 
-    /// Does what has been set otherwise on the settings' screen.
+    /// Applies the changes made on the settings screen.
     pub(super) fn take_changes(&mut self) {
         if self.settings.settings == self.in_force {
             return;
@@ -61,7 +61,7 @@ impl App {
         self.choose_theme(settings.theme);
     }
 
-    /// Lets the settings' screen show what keys of other screens have changed since; nothing else changes.
+    /// Copies what keys of other screens have changed into the settings screen, without applying anything.
     pub(super) fn show_session(&mut self) {
         let CoachQuery { rule, skill, plan, .. } = self.coach.query;
         let (step_mm, speed) = (self.coach.step_mm(), self.coach.playback.speed());
@@ -77,10 +77,10 @@ impl App {
         self.settings.settings = self.in_force.clone();
     }
 
-    /// The next theme, for this session.
+    /// Switches to the next theme, for this session.
     pub(super) fn next_theme(&mut self) {
         let message = if self.in_force.depth == Some(Depth::Mono) {
-            "no colours here: colours = \"none\" among the settings, F5".to_owned()
+            "no colours here: the setting colours is \"none\"; F5 changes it".to_owned()
         } else if self.full_caps.depth == Depth::Mono {
             "no colours here: NO_COLOR is set or the terminal has none".to_owned()
         } else {
@@ -91,13 +91,13 @@ impl App {
         *self.page_mut().message_mut() = Some(Message::plain(message));
     }
 
-    /// The next characters that the terminal can show, for this session.
+    /// Switches to the next character set that the terminal can show, for this session.
     pub(super) fn next_glyphs(&mut self) {
         let caps = self.caps.with_next_glyphs(self.finest);
         let refused = if self.theme_name == ThemeName::Mono {
             "the theme mono draws with letters: T chooses another"
         } else if caps == self.caps {
-            "letters are all that this terminal shows: TERM or the locale says so"
+            "this terminal shows only letters, according to TERM or the locale"
         } else {
             (self.caps, self.full_caps) = (caps, caps);
             self.in_force.glyphs = Some(caps.glyphs);
@@ -106,7 +106,7 @@ impl App {
         *self.page_mut().message_mut() = Some(Message::plain(refused));
     }
 
-    /// Draws with these colours from now on.
+    /// Switches to this theme.
     pub(super) fn choose_theme(&mut self, name: ThemeName) {
         self.theme_name = name;
         let mono = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, ..self.full_caps };

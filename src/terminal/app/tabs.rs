@@ -1,45 +1,45 @@
-//! Going from screen to screen.
+//! Switching between the screens.
 
 use crate::terminal::{App, Effect, Overlay, PageId};
 
 impl App {
-    /// Opens the page over the screen, in place of another one; the same once more closes it.
-    pub(super) fn lay_over(&mut self, page: Overlay) {
+    /// Opens an overlay in place of any other; closes it if it is already open.
+    pub(super) fn open_overlay(&mut self, page: Overlay) {
         if self.overlay.is_some_and(|(open, _)| open == page) {
             return self.close_overlay();
         }
         self.command_palette = None;
         self.overlay = Some((page, 0));
         if page == Overlay::Messages {
-            // All of them are there, and a toast would lie on them.
+            // The page lists all toasts, and a toast would cover it.
             self.toasts.clear();
         }
     }
 
     pub(super) fn close_overlay(&mut self) {
         if self.overlay.take() == Some((Overlay::Messages, 0)) {
-            // What has come meanwhile was the first line there.
+            // Messages that arrived meanwhile were visible in the first line.
             self.toasts.clear();
         }
     }
 
-    /// Turns to a screen, whatever lay over the one before; gives that one, if it is another.
-    pub(super) fn turn_to(&mut self, screen: PageId) -> Option<PageId> {
+    /// Switches to `screen` and closes any overlay. Returns the previous screen, or `None` if `screen` was open already.
+    pub(super) fn switch_to(&mut self, screen: PageId) -> Option<PageId> {
         (self.overlay, self.command_palette) = (None, None);
         self.coach.drop_ball();
         if self.screen == screen {
             return None;
         }
-        // A shot that is not on the screen is paused.
+        // A shot that is not visible is paused.
         self.coach.playback.pause();
         Some(std::mem::replace(&mut self.screen, screen))
     }
 
-    /// Opens a screen where it was left. What is thought about or trained meanwhile goes on, and is there when one comes back.
+    /// Opens a screen in the state in which it was left. Searches and training continue in the background meanwhile.
     pub(super) fn open(&mut self, screen: PageId) -> Option<Effect> {
-        let before = self.turn_to(screen)?;
+        let before = self.switch_to(screen)?;
         if before == PageId::Drills {
-            // The player who was chosen there also plays at the coach's table.
+            // The player chosen on the drill screens also becomes the player at the coach's table.
             self.coach.take_skill(self.drills.player.at_coach);
         }
         match screen {
@@ -58,7 +58,7 @@ impl App {
         }
     }
 
-    /// Back to the coach, or to the shell where the program began with the training screen.
+    /// Returns to the coach, or to the shell if the program started with the training screen.
     pub(super) fn leave_training(&mut self) -> Option<Effect> {
         if self.training.alone {
             return Some(Effect::Quit);
@@ -66,8 +66,8 @@ impl App {
         self.open(PageId::Coach)
     }
 
-    /// Whether there is no other screen to go to.
-    pub const fn stands_alone(&self) -> bool {
+    /// Whether there is no other screen to open.
+    pub const fn is_only_screen(&self) -> bool {
         self.training.alone || self.coach.followed().is_some()
     }
 }

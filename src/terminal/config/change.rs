@@ -1,4 +1,4 @@
-//! Changing one thing in the text of the file: comments, order, and all that is not understood stay as they are.
+//! Changes one entry in the text of the settings file; comments, order and unknown keys stay as they are.
 
 use toml_edit::{DocumentMut, Item, Table, TomlError, Value};
 
@@ -10,37 +10,37 @@ use crate::terminal::{
     },
 };
 
-/// What a file begins with that the program has made.
-const FIRST_LINE: &str = "# The settings of carom; \"carom config\" prints all that may stand here.\n";
+/// First line of a file that the program creates.
+const FIRST_LINE: &str = "# The settings of carom; \"carom config\" prints all of them.\n";
 
-/// Something that is to stand in the file otherwise.
+/// A change of the settings file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
-    /// A setting gets this value, as TOML writes it.
+    /// Sets a setting to this value, in TOML.
     Value(&'static str, String),
-    /// A setting goes back to its default, which is this value; where the file does not have it, nothing happens.
+    /// Resets a setting to its default, which is this value; does nothing if the file does not contain it.
     Default(&'static str, String),
-    /// These keys do no other's work any more; then, where there is a pair, its first does the work of its second.
+    /// Removes the bindings of these keys; then, if there is a pair, lets its first key act as its second.
     Keys(Vec<Chord>, Option<(Chord, Chord)>),
 }
 
-/// Why the text is not changed.
+/// Why the text was not changed.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum Unchanged {
-    /// The text is no TOML.
+    /// The text is not valid TOML.
     #[error("line {line}: {text}")]
     Damaged {
-        /// The first line that is wrong, counted from 1.
+        /// The first wrong line, counted from 1.
         line: usize,
-        /// What is wrong.
+        /// Description of the error.
         text: String,
     },
-    /// Something else stands where the value or the table should.
-    #[error("\"{0}\" is something else there; carom config --check says more")]
+    /// The entry has another kind than the value or table expected there.
+    #[error("\"{0}\" has the wrong type in the file; carom config --check says more")]
     Misplaced(String),
 }
 
-/// `text` with the change; `None` stands for a file that is not there yet.
+/// Applies the change to `text`; `None` stands for a file that does not exist yet.
 ///
 /// # Errors
 /// [`Unchanged`]: the text stays as it is.
@@ -48,14 +48,14 @@ pub fn changed(text: Option<&str>, change: &Change) -> Result<String, Unchanged>
     let text = text.unwrap_or(FIRST_LINE);
     let document: DocumentMut = text.parse().map_err(|error| damaged(text, &error))?;
     let new = if document.is_empty() && !text.is_empty() {
-        // Comments alone stay at the head of the file.
+        // A file with comments only keeps them at its start.
         let end = if text.ends_with('\n') { "" } else { "\n" };
         format!("{text}{end}{}", edited(DocumentMut::new(), text, change)?)
     } else {
         edited(document, text, change)?
     };
     let new = new.replace("\r\n", "\n");
-    // A file whose lines end as on Windows stays one; the library writes them all alike.
+    // Keep Windows line endings; the library writes all line endings alike.
     let is_windows = text.contains('\n') && text.matches("\r\n").count() == text.matches('\n').count();
     Ok(if is_windows { new.replace('\n', "\r\n") } else { new })
 }
@@ -65,7 +65,7 @@ pub fn is_changeable(text: &str) -> bool {
     text.parse::<DocumentMut>().is_ok()
 }
 
-/// The text of `document`, which was read from `text`, with the change.
+/// Applies the change to `document`, which was parsed from `text`.
 fn edited(mut document: DocumentMut, text: &str, change: &Change) -> Result<String, Unchanged> {
     match change {
         Change::Default(key, _) if !document.contains_key(key) => {}
@@ -89,7 +89,7 @@ fn edited(mut document: DocumentMut, text: &str, change: &Change) -> Result<Stri
     Ok(document.to_string())
 }
 
-/// Puts the value of `key` in place of the one that is there, with the comment behind it, or after all others.
+/// Replaces the value of `key`, keeping the comment after it, or appends a new one.
 fn put(table: &mut Table, key: &str, value: &str, text: &str) -> Result<(), Unchanged> {
     let mut value: Value = value.parse().map_err(|error| damaged(text, &error))?;
     match table.get_mut(key) {

@@ -1,4 +1,4 @@
-//! A stroke of a calibration that was typed in part when the program ended, kept for the next start.
+//! A partly typed stroke of a calibration, saved when the program ends and restored at the next start.
 
 use std::{fs, io, path::Path};
 
@@ -9,31 +9,31 @@ use crate::{
     storage::{self, replace},
 };
 
-/// What was typed.
+/// The saved form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StrokeDraft {
-    /// The name of the test.
+    /// Name of the test.
     pub test: String,
-    /// What is typed of each mark, in the order of the form.
+    /// Typed text of each mark, in the order of the form.
     pub typed: Vec<String>,
-    /// The place of the mark that was typed last.
+    /// Index of the mark that was typed last.
     pub field: usize,
     /// Whether the stroke was played from the far end.
     pub far_end: bool,
-    /// The stroke that is changed, with its place among all entries.
+    /// The entry that the stroke replaces, with its index among all entries.
     pub amends: Option<(usize, Entry)>,
-    /// Whether it is one of a check of the day.
+    /// Whether the stroke belongs to a daily check.
     pub is_daily: bool,
-    /// Whether a start has told of it as it is.
+    /// Whether the program has already announced this draft at a start.
     #[serde(default)]
     pub is_told: bool,
 }
 
 impl StrokeDraft {
-    /// What the last session left, if anything; it stays there until this one ends.
+    /// Reads the draft of the last session, if any; the file stays until this session ends.
     ///
     /// # Errors
-    /// A sentence about a file that cannot be read, which is put aside.
+    /// The message about a file that cannot be read, which is set aside.
     pub fn read_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
         let read = storage::read_if_there(path, storage::SMALL).map_err(|error| error.to_string());
         let draft = read.and_then(|bytes| {
@@ -42,14 +42,14 @@ impl StrokeDraft {
         });
         draft.map_err(|error| {
             let kept = storage::put_aside(path);
-            format!("{}: {error}; the stroke that was typed in part cannot be gone on with, and {kept}", path.display())
+            format!("{}: {error}; the stroke that was typed in part cannot be restored, and {kept}", path.display())
         })
     }
 
-    /// Writes it down.
+    /// Writes the draft to `path`.
     ///
     /// # Errors
-    /// Whatever the file system reports.
+    /// Any error of the file system.
     pub fn save(&self, path: &Path) -> io::Result<()> {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;

@@ -1,4 +1,4 @@
-//! The table of settings: reading the file, its documentation and what is said of a wrong value all come from here.
+//! The table of all settings. Parsing, documentation and error messages are derived from it.
 
 use std::{path::Path, str::FromStr};
 
@@ -18,25 +18,25 @@ use crate::{
     },
 };
 
-/// One key of the file.
+/// One setting.
 pub struct Entry {
-    /// Its heading on the screen; those that have the same stand together.
+    /// Its heading on the screen; settings with the same heading are neighbours.
     pub group: &'static str,
-    /// Its name.
+    /// Its key in the file.
     pub key: &'static str,
     /// What it is for.
     pub about: &'static str,
-    /// What it accepts.
+    /// The accepted values.
     pub accepted: &'static str,
-    /// Values to step through, as TOML, all of which it accepts.
+    /// Values to step through, in TOML, all of them accepted.
     pub choices: fn() -> Vec<String>,
-    /// Its value as TOML.
+    /// Returns its value in TOML.
     pub get: fn(&Settings) -> String,
-    /// Takes a value; `None` if it is refused.
+    /// Sets its value; `None` if it is not accepted.
     pub set: fn(&mut Settings, &DeValue) -> Option<()>,
 }
 
-/// How many colours, by name.
+/// Colour depths by name.
 const DEPTHS: [(&str, Option<Depth>); 5] = [
     ("auto", None),
     ("true", Some(Depth::True)),
@@ -45,7 +45,7 @@ const DEPTHS: [(&str, Option<Depth>); 5] = [
     ("none", Some(Depth::Mono)),
 ];
 
-/// What the table is drawn with, by name.
+/// Character sets by name.
 const GLYPHS: [(&str, Option<Glyphs>); 5] = [
     ("auto", None),
     ("octant", Some(Glyphs::Octant)),
@@ -57,7 +57,7 @@ const GLYPHS: [(&str, Option<Glyphs>); 5] = [
 /// Thinking times to step through, ms.
 const THINKING: [u64; 10] = [100, 250, 500, 1000, 2000, 3000, 5000, 10_000, 30_000, 60_000];
 
-/// All keys, in the order of the file.
+/// All settings, in the order of the file.
 pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Looks",
@@ -71,7 +71,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Looks",
         key: "colours",
-        about: "How many colours the terminal has; auto looks at NO_COLOR, COLORTERM and TERM.",
+        about: "Number of colours of the terminal; auto uses NO_COLOR, COLORTERM and TERM.",
         accepted: "\"auto\", \"true\", \"256\", \"16\", \"none\"",
         choices: || DEPTHS.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&DEPTHS, &settings.depth)),
@@ -80,7 +80,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Looks",
         key: "glyphs",
-        about: "What the table is drawn with; auto looks at the locale and never takes octants, which few fonts have. CAROM_GLYPHS overrides it.",
+        about: "Characters for the table; auto uses the locale, and never octants, which few fonts have. CAROM_GLYPHS overrides it.",
         accepted: "\"auto\", \"octant\", \"sextant\", \"half\", \"letters\"",
         choices: || GLYPHS.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&GLYPHS, &settings.glyphs)),
@@ -89,8 +89,8 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Game",
         key: "table",
-        about: "The table that is played on; F7 measures one of your own.",
-        accepted: "\"match\", \"textbook\", \"thesis\" or the path of a TOML file that is there; on the screen one of your own by its name",
+        about: "The table to play on; F7 measures your own table.",
+        accepted: "\"match\", \"textbook\", \"thesis\" or the path of an existing TOML file; on the screen, your own tables by name",
         choices: || PRESETS.map(quoted).to_vec(),
         get: |settings| quoted(&*settings.table),
         set: |settings, value| put(&mut settings.table, table(value)),
@@ -107,8 +107,8 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Game",
         key: "skill",
-        about: "Who plays: the errors that the coach reckons with.",
-        accepted: "\"perfect\", \"expert\", \"world-class\", \"national\", \"club\", \"beginner\", an average at three-cushion like \"0.6\", or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"; your own skill stands here by its errors",
+        about: "Who plays: the errors that the coach assumes.",
+        accepted: "\"perfect\", \"expert\", \"world-class\", \"national\", \"club\", \"beginner\", an average at three-cushion like \"0.6\", or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"; your own skill is stored as its errors",
         choices: || Skill::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(settings.skill.to_string()),
         set: |settings, value| put(&mut settings.skill, parsed(value)),
@@ -116,8 +116,8 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Game",
         key: "doubt",
-        about: "How much of the table and of the balls' places the coach takes to be unknown.",
-        accepted: "\"none\", \"full\" or its two numbers like \"table=1,placing=3\": a multiple, and mm",
+        about: "How uncertain the table and the balls' positions are for the coach.",
+        accepted: "\"none\", \"full\" or two numbers like \"table=1,placing=3\": a multiple, and mm",
         choices: || ["none", "full"].map(quoted).to_vec(),
         get: |settings| quoted(settings.doubt.to_string()),
         set: |settings, value| put(&mut settings.doubt, parsed(value)),
@@ -163,7 +163,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Handling",
         key: "speed",
-        about: "How fast shots are played, 1 as on the table.",
+        about: "Playback speed of shots; 1 is real time.",
         accepted: "0.1, 0.25, 0.5, 1, 2, 4 or 8",
         choices: || SPEEDS.map(decimal).to_vec(),
         get: |settings| decimal(settings.speed),
@@ -172,7 +172,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Handling",
         key: "mouse",
-        about: "Whether the mouse moves balls and lists; without it the terminal's own selection stays as it is.",
+        about: "Whether the mouse moves balls and lists; if not, the terminal's own text selection works.",
         accepted: "true, false",
         choices: truths,
         get: |settings| settings.mouse.to_string(),
@@ -181,7 +181,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Units",
         key: "tip_unit",
-        about: "In what the tip's distance from the centre of the ball is told.",
+        about: "Unit of the tip's distance from the centre of the ball.",
         accepted: "\"tips\", \"mm\"",
         choices: || TipUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&TipUnit::NAMED, &settings.units.tip)),
@@ -190,7 +190,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Units",
         key: "place_unit",
-        about: "In what places along the cushions are told.",
+        about: "Unit of positions along the cushions.",
         accepted: "\"diamonds\", \"mm\"",
         choices: || PlaceUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&PlaceUnit::NAMED, &settings.units.place)),
@@ -199,7 +199,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Units",
         key: "length_unit",
-        about: "In what distances on the table are told, where balls lie while they are placed, speeds and margins.",
+        about: "Unit of distances, of ball positions while placing, of speeds and of margins.",
         accepted: "\"metres\", \"feet\"",
         choices: || LengthUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&LengthUnit::NAMED, &settings.units.length)),
@@ -207,18 +207,18 @@ pub const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// Puts a value that is accepted in the place of the one that is there.
+/// Stores a value if it is accepted.
 fn put<T>(place: &mut T, value: Option<T>) -> Option<()> {
     *place = value?;
     Some(())
 }
 
-/// Something that reads itself from its text.
+/// Parses a value from a string.
 fn parsed<T: FromStr>(value: &DeValue) -> Option<T> {
     value.as_str()?.parse().ok()
 }
 
-/// A bundled table, or the path of a file that is there, as far as this process may know.
+/// A bundled table, or the path of an existing file, as far as this process may read it.
 fn table(value: &DeValue) -> Option<String> {
     let is_there = |path: &Path| may_read(path).is_ok() && path.is_file();
     value.as_str().filter(|name| PRESETS.contains(name) || is_there(Path::new(name))).map(str::to_owned)
@@ -232,18 +232,18 @@ pub fn quoted(value: impl Into<String>) -> String {
     toml::Value::String(value.into()).to_string()
 }
 
-/// A number as TOML writes it: always with a point.
+/// A number in TOML, always with a decimal point.
 fn decimal(value: f64) -> String {
     toml::Value::Float(value).to_string()
 }
 
-/// A number, whole or not, in a range.
+/// An integer or a float within a range.
 fn number(value: &DeValue, least: f64, most: f64) -> Option<f64> {
     let text = value.as_integer().map(DeInteger::as_str).or_else(|| value.as_float().map(DeFloat::as_str))?;
     text.replace('_', "").parse().ok().filter(|number| (least..=most).contains(number))
 }
 
-/// One of some numbers.
+/// A number that must be one of `accepted`.
 fn one_of(value: &DeValue, accepted: &[f64]) -> Option<f64> {
     number(value, f64::MIN, f64::MAX).filter(|number| accepted.contains(number))
 }

@@ -1,4 +1,4 @@
-//! The user's file as it is read and written while the program runs, one task after the other.
+//! Reads and changes the settings file while the program runs, one task after the other.
 
 use std::{
     io,
@@ -16,41 +16,41 @@ use crate::{
     },
 };
 
-/// Something that is to be done with the file.
+/// A task on the settings file.
 #[derive(Clone, Debug)]
 pub struct SettingsTask {
-    /// Tells this task's report from those of others.
+    /// Identifies the report of this task.
     pub number: u64,
-    /// Where the file and the player's own tables are.
+    /// Locations of the settings file and of the player's own tables.
     pub places: Places,
-    /// What is to be changed; otherwise the file is read.
+    /// The change to make; `None` to read the file.
     pub change: Option<Change>,
 }
 
-/// What has come of a task.
+/// The result of a task.
 #[derive(Clone, Debug)]
 pub struct SettingsReport {
-    /// The task's number.
+    /// Number of the task.
     pub number: u64,
-    /// What the file says now; `None` where it cannot be read or is no TOML.
+    /// The settings in the file; `None` if it cannot be read or is not valid TOML.
     pub settings: Option<Settings>,
-    /// Whether the file can be changed, as far as is known.
+    /// Whether the file can be changed, as far as known.
     pub is_writable: bool,
-    /// What is wrong, a sentence each.
+    /// Problems, one sentence each.
     pub troubles: Vec<String>,
-    /// The files of the player's own tables.
+    /// Files of the player's own tables.
     pub tables: Vec<PathBuf>,
 }
 
-/// The file.
+/// State of the settings file.
 #[derive(Debug, Default)]
 pub struct SettingsFile {
-    /// Whether the last attempt to write it has failed.
+    /// Whether the last attempt to write the file failed.
     has_failed: bool,
 }
 
 impl SettingsFile {
-    /// Does a task. A change is made in the text as it stands: what another program has written stays.
+    /// Runs a task. A change is applied to the present text of the file, so that changes by other programs are kept.
     pub fn run(&mut self, task: &SettingsTask) -> SettingsReport {
         let SettingsTask { number, places, change } = task;
         let path = &places.settings;
@@ -84,7 +84,7 @@ impl SettingsFile {
             Ok(text) => text,
             Err(error) => {
                 let line = line_at(&String::from_utf8_lossy(found.as_deref().unwrap_or_default()), error.valid_up_to());
-                return unwritten(known, format!("line {line} is no UTF-8"));
+                return unwritten(known, format!("line {line} is not UTF-8"));
             }
         };
         let new = match changed(text, change) {
@@ -92,7 +92,7 @@ impl SettingsFile {
             Err(error) => return unwritten(known, error.to_string()),
         };
         if text != Some(&new) {
-            // What is linked from elsewhere stays linked.
+            // A symbolic link stays a link.
             let target = storage::target_of(path);
             let written = write_atomic(&target, new.as_bytes());
             self.has_failed = written.is_err();
@@ -104,7 +104,7 @@ impl SettingsFile {
     }
 }
 
-/// The bytes of the file; `None` where there is none.
+/// The bytes of the file; `None` if it does not exist.
 fn content(path: &Path) -> io::Result<Option<Vec<u8>>> {
     match storage::read(path, storage::SMALL) {
         Ok(bytes) => Ok(Some(bytes)),

@@ -1,4 +1,4 @@
-//! What the user has chosen once and for all: a file in TOML, every key of it optional.
+//! The user's settings: a TOML file in which every key is optional.
 
 mod change;
 pub mod draft;
@@ -27,40 +27,39 @@ pub use entries::{ENTRIES, Entry, quoted};
 pub use file::{SettingsFile, SettingsReport, SettingsTask};
 pub use read::Complaint;
 
-/// What the program starts with.
+/// The settings of the program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// The colours.
+    /// Colour theme.
     pub theme: ThemeName,
-    /// How many colours the terminal has; `None` to find out.
+    /// Number of colours of the terminal; `None` to detect it.
     pub depth: Option<Depth>,
-    /// What the table is drawn with; `None` to find out.
+    /// Characters for the table; `None` to detect them.
     pub glyphs: Option<Glyphs>,
     /// The table: a bundled one or the path of a TOML file.
     pub table: String,
     /// What counts as a point.
     pub rule: Rule,
-    /// Who plays.
+    /// The player's skill.
     pub skill: Skill,
-    /// How much of the table and of the balls' places the coach takes to be unknown.
+    /// How uncertain the table's parameters and the balls' positions are, for the coach.
     pub doubt: Doubt,
-    /// Whether the coach has the next point in mind.
+    /// Whether the coach plans for the next point.
     pub plan: bool,
     /// Whether the coach may advise jumps and massés.
     pub jumps: bool,
-    /// How long the coach may think, ms. A quarter of the usual second finds an expert three-cushion shots that are made 98
-    /// times of 100; the rest is for players who err more and for the next point, and no longer than a player looks at the
-    /// table.
+    /// Thinking time of the coach, ms. A quarter of the default second is enough to find an expert three-cushion shots with a success rate
+    /// of 98 %. The rest is for players with larger errors and for the next point, and is no longer than a player looks at the table.
     pub think_ms: u64,
-    /// The units in which lengths are told.
+    /// Units of length for display.
     pub units: Units,
     /// The step of the arrow keys, mm.
     pub step_mm: f64,
-    /// Seconds of a shot in a second of the screen.
+    /// Playback speed, seconds of the shot per second.
     pub speed: f64,
-    /// Whether the program takes the mouse.
+    /// Whether the program captures the mouse.
     pub mouse: bool,
-    /// Keys that do what others do.
+    /// User-defined keys.
     pub keys: Keys,
 }
 
@@ -87,12 +86,12 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The file of this user; where the user has no home, one in the working directory.
+    /// The settings file of this user; if the user has no home directory, a file in the working directory.
     pub fn path() -> PathBuf {
         Places::of_this_user().settings
     }
 
-    /// What the file says, or the defaults where there is none or a key is wrong; and what is wrong.
+    /// Loads the settings, with the defaults for a missing file and for missing or wrong keys, and the list of mistakes.
     pub fn load(path: &Path) -> (Self, Vec<Complaint>) {
         match storage::read(path, storage::SMALL) {
             Ok(bytes) => read::read(&String::from_utf8_lossy(&bytes)),
@@ -101,12 +100,12 @@ impl Settings {
         }
     }
 
-    /// The same with the setting called `key` at the value that `typed` is: as TOML, or a text without its quotes.
+    /// Returns the settings with `entry` set to the value `typed`, given in TOML or as text without quotes.
     ///
     /// # Errors
-    /// A sentence that names the value and what would be accepted.
+    /// A message that names the value and what would be accepted.
     pub fn with(&self, entry: &Entry, typed: &str) -> Result<Self, String> {
-        // A number with a decimal comma is none of TOML's.
+        // TOML has no decimal comma.
         let number = typed_number(typed).filter(|_| typed.contains(',')).map(|number| number.to_string());
         let number = number.as_deref().unwrap_or(typed);
         for value in [typed, &quoted(typed), number] {
@@ -121,10 +120,10 @@ impl Settings {
         Err(format!("{} = {typed}; accepted is {}", entry.key, entry.accepted))
     }
 
-    /// The table that is named.
+    /// The table of the settings.
     ///
     /// # Errors
-    /// A sentence where its file cannot be read or holds no table.
+    /// A message if its file cannot be read or contains no table.
     pub fn table(&self) -> Result<Table, String> {
         if PRESETS.contains(&self.table.as_str()) {
             return Table::preset(&self.table).map_err(|error| error.to_string());
@@ -135,11 +134,11 @@ impl Settings {
         table.map_err(|sentence| format!("{}: {sentence}", self.table))
     }
 
-    /// The settings as a file with everything that may stand in it, each key with what it means and accepts.
+    /// Writes the settings as a complete file, with a comment on the meaning and the accepted values of each key.
     pub fn document(&self) -> String {
         let mut text = String::from("# All settings of carom. A key that is left out has its default.\n");
         for entry in ENTRIES {
-            // Writing into a text never fails.
+            // Writing into a string never fails.
             let _ = write!(
                 text,
                 "\n# {}\n# Accepted: {}. Default: {}.\n{} = {}\n",

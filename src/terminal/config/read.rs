@@ -1,4 +1,4 @@
-//! Reading the file: every right key counts, every wrong one is named with its line and what would be accepted.
+//! Parses the settings file: every correct key is used, every mistake is reported with its line and what would be accepted.
 
 use std::{fmt, io, path::Path};
 
@@ -16,31 +16,31 @@ use crate::{
     },
 };
 
-/// The name of the part with the keys.
+/// Name of the section with the keys.
 pub const KEYS: &str = "keys";
 
-/// The name of the setting that may name a file, which may be wrong itself.
+/// Name of the setting whose value may be a file, which may itself contain mistakes.
 const TABLE: &str = "table";
 
-/// Lines that are no TOML, after which the file is not read any further: each costs another look at all of it.
+/// Number of syntax errors after which the file is given up, since each costs another pass over it.
 const MOST_MISTAKES: usize = 50;
 
-/// Something wrong in the file.
+/// A mistake in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Complaint {
-    /// The line, counted from 1; `None` where the whole file cannot be read.
+    /// The line, counted from 1; `None` if the whole file cannot be read.
     pub line: Option<usize>,
     /// What is wrong, and what would be accepted.
     pub text: String,
 }
 
 impl Complaint {
-    /// A file that cannot be read.
+    /// The mistake that the file cannot be read.
     pub fn of_file(error: &io::Error) -> Self {
         Self { line: None, text: format!("it cannot be read: {error}; the defaults are used") }
     }
 
-    /// What is wrong with the file at `path`, a sentence each.
+    /// One sentence for each mistake in the file at `path`.
     pub fn sentences(path: &Path, complaints: &[Self]) -> Vec<String> {
         complaints.iter().map(|complaint| format!("{}: {complaint}", path.display())).collect()
     }
@@ -55,7 +55,7 @@ impl fmt::Display for Complaint {
     }
 }
 
-/// The settings in `text`, with defaults for what is missing or wrong.
+/// Parses the settings in `text`, with defaults for what is missing or wrong.
 pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
     let mut settings = Settings::default();
     let (text, mut complaints) = without_mistakes(text);
@@ -95,8 +95,8 @@ pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
     (settings, complaints)
 }
 
-/// The text with blanks in place of the lines that are no TOML, and what is wrong with each: a line without a value would cost all that
-/// follow.
+/// Replaces each line that is not valid TOML by blanks, and lists the mistakes. Otherwise one broken line would make the parser drop all
+/// lines after it.
 fn without_mistakes(text: &str) -> (String, Vec<Complaint>) {
     let (mut text, mut complaints) = (text.to_owned(), Vec::new());
     loop {
@@ -112,7 +112,7 @@ fn without_mistakes(text: &str) -> (String, Vec<Complaint>) {
             format!("{what} is not taken: {reason}; accepted are lines like name = value, with words in quotes")
         };
         if written.is_empty() || complaints.len() == MOST_MISTAKES {
-            // Something above has no end, or it is no file of settings.
+            // Something above is not closed, or the file is not a settings file.
             complaints.push(Complaint { line: Some(number), text: text_of("the file") });
             return (String::new(), complaints);
         }
@@ -121,22 +121,22 @@ fn without_mistakes(text: &str) -> (String, Vec<Complaint>) {
     }
 }
 
-/// Takes `value`, a value as TOML writes it; `None` where it is none or is refused.
+/// Sets `entry` to `value`, given in TOML; `None` if it is invalid or not accepted.
 pub fn take_value(settings: &mut Settings, entry: &Entry, value: &str) -> Option<()> {
     let text = format!("value = {value}");
     let table = DeTable::parse(&text).ok()?;
     let mut values = table.get_ref().values();
-    // One value, and not more lines.
+    // Exactly one value, without further lines.
     let value = values.next().filter(|_| values.next().is_none())?;
     (entry.set)(settings, value.get_ref())
 }
 
-/// The number of the line with the byte at `place`, counted from 1. A place may lie within a letter.
+/// Line number of the byte at `place`, counted from 1. The offset may be inside a multi-byte character.
 pub fn line_at(text: &str, place: usize) -> usize {
     text.bytes().take(place).filter(|byte| *byte == b'\n').count() + 1
 }
 
-/// Reads the part with the keys; `complain` gets the place in the text of what is wrong.
+/// Reads the section of keys; `complain` receives the byte offset of each mistake.
 fn read_keys(settings: &mut Settings, keys: &DeTable, mut complain: impl FnMut(usize, String)) {
     for (key, value) in keys {
         let place = key.span().start;
@@ -161,7 +161,7 @@ fn refused(text: &str) -> String {
     )
 }
 
-/// The value as it stands in the file.
+/// The value as written in the file.
 fn shown(text: &str, value: &Spanned<DeValue>) -> String {
     text.get(value.span()).unwrap_or_default().lines().next().unwrap_or_default().to_owned()
 }

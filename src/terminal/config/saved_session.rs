@@ -1,4 +1,4 @@
-//! Where the last session ended, so that the next one can go on from there.
+//! The state of the last session, from which the next one can continue.
 
 use std::{io, path::Path};
 
@@ -13,112 +13,110 @@ use crate::{
     terminal::Terms,
 };
 
-/// The version of the file that is written.
+/// Version of the file format.
 const VERSION: u32 = 1;
 
-/// Most former sessions that are kept with the last one.
+/// Most earlier sessions kept with the last one.
 const MOST_FORMER: usize = 4;
 
-/// The part of the file that tells its version.
+/// The part of the file with its version.
 #[derive(Deserialize)]
 struct Header {
     version: u32,
 }
 
-/// What is remembered of a session.
+/// Saved state of a session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SavedSession {
     version: u32,
     /// The table.
     pub table: Table,
-    /// Where the balls lay.
+    /// Positions of the balls.
     pub layout: Layout,
-    /// Which of them was the cue ball.
+    /// Which ball was the cue ball.
     #[serde(default, skip_serializing_if = "CueBall::is_white")]
     pub cue_ball: CueBall,
-    /// What counted as a point.
+    /// The rule.
     pub rule: Rule,
-    /// Who played.
+    /// The player's skill.
     pub skill: Skill,
     /// Whether the next point counted too.
     pub plan: bool,
-    /// What the settings said of these three: what has been set otherwise since goes before what was left here. Older versions
-    /// did not keep it.
+    /// The values of these three terms in the settings of that time: a setting that was changed since takes precedence over the saved
+    /// value. `None` in files of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settings: Option<Terms>,
-    /// What was practised, where that was on the screen and not over.
+    /// The practice session, if it was open on the screen and unfinished.
     #[serde(default)]
     pub practice: Option<Session>,
-    /// Sessions before it that nobody has gone on with since, the latest first: a key that was pressed by mistake at the start
-    /// does not take the place of what was there.
+    /// Earlier sessions that were not continued since, the latest first: a key pressed by mistake at the start must not overwrite them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     former: Vec<Self>,
 }
 
 impl SavedSession {
-    /// What is to be remembered of the screens.
+    /// Creates the saved state of the present screens.
     pub fn new(table: Table, layout: Layout, cue_ball: CueBall, terms: Terms, practice: Option<Session>) -> Self {
         let Terms { rule, skill, plan, .. } = terms;
         let (settings, former) = (None, Vec::new());
         Self { version: VERSION, table, layout, cue_ball, rule, skill, plan, settings, practice, former }
     }
 
-    /// The same where the settings said this.
+    /// Records the terms that the settings had.
     #[must_use]
     pub fn under(self, settings: Terms) -> Self {
         Self { settings: Some(settings), ..self }
     }
 
-    /// What was asked for.
+    /// The terms of the questions to the coach.
     pub const fn terms(&self) -> Terms {
         Terms { rule: self.rule, skill: self.skill, plan: self.plan, first: FirstMet::Any }
     }
 
-    /// The same, followed by former sessions that were not gone on with, the latest first.
+    /// Appends earlier sessions that were not continued, the latest first.
     #[must_use]
     pub fn followed_by(self, mut former: Vec<Self>) -> Self {
         former.truncate(MOST_FORMER);
         Self { former, ..self }
     }
 
-    /// What the file says; nothing where there is none.
+    /// Loads the file; `None` if it does not exist.
     ///
     /// # Errors
-    /// Why it cannot be gone on from: it cannot be read, is damaged, or is from a newer version.
+    /// Why the session cannot be continued: the file cannot be read, is damaged, or has a newer version.
     pub fn load(path: &Path) -> Result<Option<Self>, String> {
         let bytes = storage::read_if_there(path, storage::PRACTICE).map_err(|error| error.to_string())?;
         let Some(bytes) = bytes else { return Ok(None) };
         let damage = |error| format!("it is damaged: {}", json_flaw(&error));
         let header: Header = serde_json::from_slice(&bytes).map_err(damage)?;
         if header.version != VERSION {
-            return Err(format!("it is of version {}, and {VERSION} is understood", header.version));
+            return Err(format!("it is of version {}, but this program reads version {VERSION}", header.version));
         }
         serde_json::from_slice::<Self>(&bytes).map_err(damage)?.checked().map(Some)
     }
 
-    /// The same on the table that it means now, if the balls can lie there.
+    /// Replaces an outdated table and checks that the balls can lie on it.
     fn checked(mut self) -> Result<Self, String> {
         self.table = renewed(self.table);
         self.layout.validate(&self.table).map_err(|error| format!("it is damaged: {error}"))?;
         Ok(self)
     }
 
-    /// The same at the start of the program: a file that cannot be gone on from is put aside, since this session will be
-    /// written in its place.
+    /// Loads the file at the start of the program. A file that cannot be used is set aside, since this session will overwrite it.
     ///
     /// # Errors
-    /// A sentence about that.
+    /// The message about such a file.
     pub fn load_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
         Self::load(path).map_err(|error| {
             format!(
-                "{}: {error}; the last session cannot be gone on with, and {}",
+                "{}: {error}; the last session cannot be continued, and {}",
                 path.display(),
                 storage::put_aside(path)
             )
         })
     }
 
-    /// It, then the former sessions, each by itself. What was practised in several is gone on with in the latest.
+    /// Returns this session followed by the earlier ones. A practice session that occurs several times stays only in the latest.
     pub fn with_former(mut self) -> Vec<Self> {
         let former = std::mem::take(&mut self.former);
         let mut sessions = vec![self];
@@ -132,10 +130,10 @@ impl SavedSession {
         sessions
     }
 
-    /// Writes it down.
+    /// Writes the session to `path`.
     ///
     /// # Errors
-    /// Whatever the file system reports; what stood there stays.
+    /// Any error of the file system; the old file then stays.
     pub fn save(&self, path: &Path) -> io::Result<()> {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder)?;
@@ -145,7 +143,7 @@ impl SavedSession {
     }
 }
 
-/// The table that the name "match" means now, where this is the one that it meant in older versions.
+/// Replaces the table that "match" meant in older versions by the one that it means now.
 fn renewed(table: Table) -> Table {
     let is_former = |textbook: Table| Table { name: table.name.clone(), ..textbook } == table;
     if table.name == "match" && Table::preset("textbook").is_ok_and(is_former) { Table::default() } else { table }
@@ -173,7 +171,7 @@ mod tests {
         };
         last.save(&path).unwrap();
         assert_eq!(SavedSession::load(&path).as_ref(), Ok(&Some(last.clone())));
-        // After some thousand attempts a session has more than a mebibyte.
+        // After some thousand attempts, a session is larger than one mebibyte.
         let mut long = std::fs::read(&path).unwrap();
         long.resize(2 << 20, b' ');
         std::fs::write(&path, long).unwrap();

@@ -1,7 +1,7 @@
-//! Turns changed cells into as few bytes as possible: a slow link shows it.
+//! Encodes changed cells in as few bytes as possible, for slow links.
 //!
-//! crossterm's backend names both colours at each change of one and takes everything back at the end of a frame, which
-//! is two thirds of the bytes in playback; and under `NO_COLOR` its colour commands turn bold and reverse off.
+//! crossterm's backend writes both colours whenever one changes and resets everything at the end of a frame, which is two thirds of the
+//! bytes during playback. Under `NO_COLOR`, its colour commands turn bold and reverse video off.
 
 use std::io::{self, Write};
 
@@ -14,13 +14,13 @@ use ratatui::{
 
 use crate::terminal::host::sgr::Sgr;
 
-/// Bytes of a frame that fit without growing; a full picture of a large terminal is some 30 KB.
+/// Initial buffer size, bytes; a full frame of a large terminal takes about 30 KB.
 const FRAME_BYTES: usize = 64 * 1024;
-/// Between these, a terminal shows the frame at once. Those that do not know the mode ignore it.
+/// A terminal shows everything between these at once. Terminals without the mode ignore them.
 const BEGIN: &[u8] = b"\x1b[?2026h";
 const END: &[u8] = b"\x1b[?2026l";
 
-/// A backend that keeps a frame's bytes until [`AnsiBackend::write_frame`].
+/// A backend that buffers a frame until [`AnsiBackend::write_frame`].
 #[derive(Debug)]
 pub struct AnsiBackend {
     bytes: Vec<u8>,
@@ -28,12 +28,12 @@ pub struct AnsiBackend {
     front: Color,
     back: Color,
     modifier: Modifier,
-    /// Where the next character goes, if that is known.
+    /// The cursor position, if known.
     cursor: Option<Position>,
 }
 
 impl AnsiBackend {
-    /// A backend for a terminal of the size that `size` tells.
+    /// Creates a backend for a terminal whose size the function `size` returns.
     pub fn new(size: fn() -> io::Result<(u16, u16)>) -> Self {
         let mut backend = Self {
             bytes: Vec::with_capacity(FRAME_BYTES),
@@ -47,7 +47,7 @@ impl AnsiBackend {
         backend
     }
 
-    /// Throws away what was not written and assumes nothing of the terminal.
+    /// Discards buffered bytes and all assumptions about the terminal's state.
     pub fn forget(&mut self) {
         self.bytes.clear();
         self.bytes.extend_from_slice(BEGIN);
@@ -58,7 +58,7 @@ impl AnsiBackend {
     /// Writes the frame in one piece, unless nothing has changed.
     ///
     /// # Errors
-    /// What the output answers.
+    /// Any error of the output.
     pub fn write_frame(&mut self, output: &mut impl Write) -> io::Result<()> {
         if self.bytes.len() == BEGIN.len() {
             return Ok(());
@@ -89,14 +89,14 @@ impl AnsiBackend {
         }
     }
 
-    /// The cells of one style behind each other, those of the present one first, otherwise as they were. To go elsewhere is
-    /// 8 bytes, and a colour up to 19: in playback this saves a seventh of the bytes, of a full picture a quarter.
+    /// Sorts the cells by style, those of the present style first, otherwise in their old order. Moving the cursor costs 8 bytes, changing
+    /// a colour up to 19. This saves a seventh of the bytes during playback, and a quarter for a full frame.
     fn by_style<'a>(&self, cells: Vec<(u16, u16, &'a Cell)>) -> Vec<(u16, u16, &'a Cell)> {
         let mut grounds = vec![(self.modifier, self.back)];
         let mut fronts = vec![self.front];
         let mut front = 0;
         let place = |cell: (u16, u16, &'a Cell)| {
-            // A blank goes with what stands before it.
+            // A blank keeps the foreground colour of the cell before it.
             if !is_blank(cell.2) {
                 front = place_of(cell.2.fg, &mut fronts);
             }
@@ -145,12 +145,12 @@ impl AnsiBackend {
     }
 }
 
-/// Whether the foreground colour of the cell cannot be seen.
+/// Whether the foreground colour of the cell is invisible.
 fn is_blank(cell: &Cell) -> bool {
     cell.symbol() == " " && !cell.modifier.intersects(Modifier::REVERSED | Modifier::UNDERLINED)
 }
 
-/// The place of `one` in the list, at its end from now on if it was not there.
+/// Index of `one` in the list; appends it if it is missing.
 fn place_of<T: PartialEq>(one: T, list: &mut Vec<T>) -> usize {
     list.iter().position(|known| *known == one).unwrap_or_else(|| {
         list.push(one);
@@ -166,7 +166,7 @@ impl Backend for AnsiBackend {
         I: Iterator<Item = (u16, u16, &'a Cell)>,
     {
         let mut cells: Vec<_> = content.collect();
-        // Terminals differ in how wide they draw a wide character: what lies behind one has to be painted after it.
+        // Terminals differ in the width of wide characters, so cells after one must be painted after it.
         if cells.iter().all(|(.., cell)| cell.cell_width() == 1) {
             cells = self.by_style(cells);
         }
@@ -174,10 +174,10 @@ impl Backend for AnsiBackend {
             self.move_to(x, y);
             self.restyle(cell);
             self.bytes.extend_from_slice(cell.symbol().as_bytes());
-            // Terminals differ in how wide they draw what takes more than a column, or none.
+            // Terminals differ in the width of characters that do not take exactly one column.
             self.cursor = (cell.cell_width() == 1).then_some(Position::new(x + 1, y));
         }
-        // After the last column terminals differ in where the cursor waits; the next frame may have grown past it.
+        // Terminals differ in the cursor position after the last column, and the terminal may grow before the next frame.
         self.cursor = None;
         Ok(())
     }
@@ -199,7 +199,7 @@ impl Backend for AnsiBackend {
         self.clear_region(ClearType::All)
     }
 
-    /// The cursor is hidden as long as the program has the terminal.
+    /// The cursor stays hidden while the program runs.
     fn hide_cursor(&mut self) -> io::Result<()> {
         Ok(())
     }
@@ -244,7 +244,7 @@ mod tests {
     const WIDTH: u16 = 30;
     const HEIGHT: u16 = 8;
 
-    /// What a terminal shows after the frames, against what was drawn.
+    /// Checks that a terminal shows what was drawn, frame by frame; returns the bytes of the last frame.
     fn check(frames: &[fn(&mut ratatui::Frame)]) -> usize {
         let mut terminal = Terminal::new(AnsiBackend::new(|| Ok((WIDTH, HEIGHT)))).unwrap();
         let mut screen = vt100::Parser::new(NonZero::new(HEIGHT).unwrap(), NonZero::new(WIDTH).unwrap(), 0);
@@ -340,7 +340,7 @@ mod tests {
                 }
             },
         ]);
-        // A move and a character a cell, and not 19 bytes more for its colour.
+        // A move and a character per cell, without 19 more bytes for each colour.
         assert!(bytes < usize::from(WIDTH) * 5 + 100, "{bytes}");
     }
 }

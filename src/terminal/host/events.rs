@@ -1,4 +1,4 @@
-//! The one channel of everything that happens: keys, resizes, signals, the coach's answers, and news of training.
+//! The channel of all events: keys, resizes, signals, the coach's answers, and news of training.
 
 use std::{
     io,
@@ -11,16 +11,16 @@ use crate::{
     terminal::{host::input::Decoder, tasks::event::Event},
 };
 
-/// Bytes that are read at once.
-const AT_ONCE: usize = 65_536;
+/// Size of the read buffer, bytes.
+const READ_SIZE: usize = 65_536;
 
-/// Starts the threads that read the terminal and the signals into one channel.
+/// Starts the threads that read the terminal and the signals, and returns their common channel.
 ///
 /// # Errors
-/// A thread or a signal handler that could not be set up.
+/// Fails if a thread or a signal handler cannot be set up.
 pub fn open() -> io::Result<(Sender<Event>, Receiver<Event>)> {
     let (sender, receiver) = channel();
-    // The input thread learns of a resize too, but only from its first read on: one before that would be lost.
+    // The input thread detects resizes too, but only after its first read; an earlier one would be lost.
     let to_screen = sender.clone();
     platform::listen(move |signal| {
         let is_heard = to_screen.send(Event::Signal(signal)).is_ok();
@@ -31,24 +31,24 @@ pub fn open() -> io::Result<(Sender<Event>, Receiver<Event>)> {
     })?;
     let to_screen = sender.clone();
     thread::Builder::new().name("input".into()).spawn(move || {
-        // The end of the input ends the screen; a screen that is gone already needs no event.
+        // The end of the input closes the screen; a closed screen needs no event.
         let _ = read_input(&to_screen);
         let _ = to_screen.send(Event::InputEnded);
     })?;
     Ok((sender, receiver))
 }
 
-/// Reads the terminal until it gives no more.
+/// Reads the terminal until its input ends.
 ///
 /// # Errors
-/// What the terminal answers.
+/// Any error of the terminal.
 fn read_input(to_screen: &Sender<Event>) -> io::Result<()> {
     let mut input = Input::open();
     let (mut decoder, mut events) = (Decoder::default(), Vec::new());
-    let mut bytes = vec![0; AT_ONCE];
+    let mut bytes = vec![0; READ_SIZE];
     loop {
-        match input.next(&mut bytes, decoder.patience())? {
-            Came::Silence => decoder.silence(&mut events),
+        match input.next(&mut bytes, decoder.timeout())? {
+            Came::Silence => decoder.on_timeout(&mut events),
             Came::Gone => return Ok(()),
             Came::Bytes(count) => decoder.feed(&bytes[..count], &mut events),
             Came::Event(event) => events.push(event),

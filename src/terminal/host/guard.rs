@@ -1,4 +1,4 @@
-//! The terminal while the program has it: taken over, given back as it was found, whatever ends the program.
+//! Terminal guard: takes over the terminal and restores it, however the program ends.
 
 #![allow(
     clippy::disallowed_methods,
@@ -30,29 +30,29 @@ use ratatui::{
 
 use crate::{platform, printing::OneLine, terminal::host::backend::AnsiBackend};
 
-/// Whether the program has the terminal. A process has one, and a panic has to know: giving it back twice would move the
-/// cursor onto the report.
-static TAKEN: AtomicBool = AtomicBool::new(false);
+/// Whether the program has taken over the terminal. It is global because a process has one terminal, and a panic must not restore it twice:
+/// that would move the cursor onto the report.
+static IS_ACTIVE: AtomicBool = AtomicBool::new(false);
 
-/// Has the mouse's buttons, wheel and drags reported, and no motion between (modes 1002 and 1006 of xterm). Crossterm's own
-/// command adds mode 1003, whose reports of every motion flood a slow link.
+/// Enables reports of mouse buttons, wheel and drags, but not of motion (xterm modes 1002 and 1006). Crossterm's own command adds mode
+/// 1003, whose reports of every motion flood a slow link.
 const ENABLE_MOUSE: &str = "\x1b[?1002h\x1b[?1006h";
-/// Ends that; a terminal that never began it takes no notice.
+/// Disables these reports; terminals without them ignore it.
 const DISABLE_MOUSE: &str = "\x1b[?1006l\x1b[?1002l";
 
-/// The terminal in raw mode with its alternate screen; dropping it gives the terminal back.
+/// The terminal in raw mode with its alternate screen; dropping the guard restores it.
 pub struct TerminalGuard {
     terminal: Terminal<AnsiBackend>,
     output: File,
-    /// Whether the mouse is reported.
+    /// Whether the mouse is captured.
     mouse: bool,
 }
 
 impl TerminalGuard {
-    /// Takes the terminal over, and the `mouse` where it is wanted.
+    /// Takes over the terminal, and the mouse if `mouse`.
     ///
     /// # Errors
-    /// What the terminal answers.
+    /// Any error of the terminal.
     pub fn start(mouse: bool) -> io::Result<Self> {
         let output = platform::terminal_output()?;
         restore_on_panic();
@@ -62,57 +62,57 @@ impl TerminalGuard {
         Ok(session)
     }
 
-    /// Takes the terminal over again after [`TerminalGuard::leave`], or after another program has changed it.
+    /// Takes over the terminal again after [`TerminalGuard::leave`], or after another program has changed it.
     ///
     /// # Errors
-    /// What the terminal answers.
+    /// Any error of the terminal.
     pub fn enter(&mut self) -> io::Result<()> {
-        TAKEN.store(true, Ordering::SeqCst);
+        IS_ACTIVE.store(true, Ordering::SeqCst);
         enable_raw_mode()?;
         let mouse = if self.mouse { ENABLE_MOUSE } else { "" };
         execute!(self.output, EnterAlternateScreen, Hide, EnableBracketedPaste, Print(mouse))?;
         self.terminal.backend_mut().forget();
-        // The next picture has to be painted in full. `Terminal::clear` would ask the terminal for the cursor's place, and
-        // the answer would have to get past the thread that reads keys.
+        // The next frame has to be painted in full. `Terminal::clear` would query the cursor position, and the thread that reads keys would
+        // take the answer.
         let size = self.terminal.size()?;
         self.terminal.resize(Rect::from((Position::ORIGIN, size)))
     }
 
-    /// Takes the mouse or leaves it to the terminal, where that is not so already.
+    /// Captures or releases the mouse, if that changes anything.
     ///
     /// # Errors
-    /// What the terminal answers.
-    pub fn want_mouse(&mut self, mouse: bool) -> io::Result<()> {
+    /// Any error of the terminal.
+    pub fn capture_mouse(&mut self, mouse: bool) -> io::Result<()> {
         if std::mem::replace(&mut self.mouse, mouse) == mouse {
             return Ok(());
         }
         execute!(self.output, Print(if mouse { ENABLE_MOUSE } else { DISABLE_MOUSE }))
     }
 
-    /// Gives the terminal back.
+    /// Restores the terminal.
     ///
     /// # Errors
-    /// What the terminal answers.
+    /// Any error of the terminal.
     pub fn leave(&mut self) -> io::Result<()> {
-        if !TAKEN.swap(false, Ordering::SeqCst) {
+        if !IS_ACTIVE.swap(false, Ordering::SeqCst) {
             return Ok(());
         }
-        let shown = give_back(&mut self.output);
+        let shown = write_restore(&mut self.output);
         disable_raw_mode().and(shown)
     }
 
-    /// Puts `text` into the terminal's clipboard by OSC 52, which terminals that do not allow it ignore.
+    /// Copies `text` to the terminal's clipboard with OSC 52; terminals that do not allow it ignore the sequence.
     ///
     /// # Errors
-    /// What the terminal answers.
+    /// Any error of the terminal.
     pub fn copy(&mut self, text: &str) -> io::Result<()> {
         execute!(self.output, CopyToClipboard::to_clipboard_from(text))
     }
 
-    /// Draws one picture and writes what has changed, in one piece; nothing where nothing has.
+    /// Draws a frame and writes the changes in one piece; writes nothing if there are none.
     ///
     /// # Errors
-    /// What the terminal answers.
+    /// Any error of the terminal.
     pub fn draw(&mut self, draw: impl FnOnce(&mut Frame)) -> io::Result<()> {
         self.terminal.draw(draw)?;
         self.terminal.backend_mut().write_frame(&mut self.output)
@@ -121,20 +121,20 @@ impl TerminalGuard {
 
 impl Drop for TerminalGuard {
     fn drop(&mut self) {
-        // There is no terminal left to write to.
+        // On an error there is no terminal left to write to.
         let _ = self.leave();
     }
 }
 
-/// Whether there is a terminal on both sides that can show pictures.
+/// Whether input and output are a terminal that can draw pictures.
 pub fn has_terminal() -> bool {
     let dumb = std::env::var("TERM").map_or(platform::NEEDS_TERM, |term| term.is_empty() || term == "dumb");
     io::stdin().is_terminal() && io::stdout().is_terminal() && !dumb
 }
 
-/// Writes what gives the terminal back, in one piece, so that no half of it is seen. One without an alternate screen keeps the picture:
-/// there the shell goes on below it, in its own colours.
-fn give_back(output: &mut impl Write) -> io::Result<()> {
+/// Writes the sequences that restore the terminal in one piece, so that no intermediate state is visible. A terminal without an alternate
+/// screen keeps the picture; the shell then continues below it, in its own colours.
+fn write_restore(output: &mut impl Write) -> io::Result<()> {
     let mut bytes = Vec::new();
     queue!(bytes, ResetColor, MoveTo(0, u16::MAX - 1), Print("\r\n"))?;
     queue!(bytes, EndSynchronizedUpdate, Print(DISABLE_MOUSE), DisableBracketedPaste, Show, LeaveAlternateScreen)?;
@@ -142,16 +142,16 @@ fn give_back(output: &mut impl Write) -> io::Result<()> {
     output.flush()
 }
 
-/// Lets a panic of this thread restore the terminal before it is reported. Panics of other threads are caught where
-/// they happen and shown on the status line, not in the middle of the picture.
+/// Makes a panic of this thread restore the terminal before it is reported. Panics of other threads are caught where they happen and appear
+/// on the status line, not in the middle of the picture.
 fn restore_on_panic() {
     let screen = thread::current().id();
     let report = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
         tracing::error!("{}", OneLine(&info));
-        if thread::current().id() == screen && TAKEN.swap(false, Ordering::SeqCst) {
+        if thread::current().id() == screen && IS_ACTIVE.swap(false, Ordering::SeqCst) {
             let _ = disable_raw_mode();
-            let _ = give_back(&mut io::stdout());
+            let _ = write_restore(&mut io::stdout());
         }
         if thread::current().id() == screen {
             report(info);

@@ -1,4 +1,4 @@
-//! What happened, for later: a file in the user's state directory.
+//! The log file in the user's state directory.
 
 use std::{
     fs::{self, File, OpenOptions},
@@ -11,33 +11,33 @@ use tracing::Level;
 
 use crate::printing::Shown;
 
-/// Bytes from which on the file is laid aside, so that at most two of this size are kept.
+/// Size from which the file is rotated, bytes; at most two files of this size are kept.
 const LARGEST: u64 = 1 << 20;
 
-/// The level that is written down, unless `CAROM_LOG` says otherwise.
+/// Default log level, unless `CAROM_LOG` sets another.
 const LEVEL: Level = Level::INFO;
 
-/// Starts writing to the file at `path`, with `level` as in `CAROM_LOG`: error, warn, info, debug or trace.
+/// Starts logging to the file at `path`, with a `level` as in `CAROM_LOG`: error, warn, info, debug or trace.
 ///
 /// # Errors
-/// A file that cannot be opened. The program does without, then.
+/// Fails if the file cannot be opened; the program then runs without a log.
 pub fn start(path: &Path, level: Option<&str>) -> io::Result<()> {
     let file = Mutex::new(Shown::new(LogFile::open(path)?));
     let level = level.and_then(|name| name.parse().ok()).unwrap_or(LEVEL);
-    // What cannot be written, as on a full disk, is not told on the standard error: that is the screen, and where it is gone
-    // the complaint itself would be a panic, which is written down in its turn, and so on.
+    // Write errors, as on a full disk, are not printed on standard error: that is the screen. If it is closed, printing would panic, the
+    // panic would be logged, and so on.
     let subscriber = tracing_subscriber::fmt()
         .with_writer(file)
         .with_ansi(false)
         .with_target(false)
         .with_max_level(level)
         .log_internal_errors(false);
-    // A second start in the same process, as in tests, changes nothing.
+    // A second start in the same process, as in tests, has no effect.
     let _ = subscriber.try_init();
     Ok(())
 }
 
-/// The file while the program runs.
+/// The open log file.
 struct LogFile {
     path: PathBuf,
     file: File,
@@ -67,7 +67,7 @@ impl Write for LogFile {
     }
 }
 
-/// The file, to be written on at its end; one that has grown large is laid aside.
+/// Opens the file for appending; a large one is renamed first.
 fn open(path: &Path) -> io::Result<File> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;

@@ -1,4 +1,4 @@
-//! The program's way to the terminal: the loop, input, signals, and drawing what has changed.
+//! Connects the program to the terminal: event loop, input, signals, and drawing of changes.
 
 pub mod backend;
 mod events;

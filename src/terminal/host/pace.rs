@@ -1,52 +1,50 @@
-//! When a picture is due: at once after a key, steadily while something moves, and ten times a second at most where only
-//! the runs that are followed have news.
+//! Frame pacing: immediately after a key, at a steady rate while something moves, and at most ten times a second for news of followed runs.
 
 use std::time::{Duration, Instant};
 
-/// Least time between two pictures that only news of runs have made.
+/// Smallest interval between two frames drawn only for news of runs.
 const NEWS_INTERVAL: Duration = Duration::from_millis(100);
 
-/// Keeps the time of pictures.
+/// Frame timer.
 #[derive(Debug)]
 pub struct Pace {
-    /// When the last picture was drawn.
+    /// Time of the last frame.
     drawn: Instant,
-    /// When the next one is due, while something moves.
+    /// Time of the next frame while something moves.
     due: Instant,
-    /// Whether news wait for a picture.
+    /// Whether there is news that has not been drawn.
     stale: bool,
 }
 
 impl Pace {
-    /// A picture has been drawn at `now`, the first one.
+    /// Starts the timer after the first frame, drawn at `now`.
     pub const fn new(now: Instant) -> Self {
         Self { drawn: now, due: now, stale: false }
     }
 
-    /// Until when to wait for news, before a picture is due without; for ever where it is `None`. `interval` is the time
-    /// between two pictures while something moves.
+    /// Returns the time until which to wait for events before the next frame is due; `None` means without limit. `interval` is the frame
+    /// interval while something moves.
     pub fn wake(&mut self, interval: Option<Duration>) -> Option<Instant> {
         let Some(interval) = interval else { return self.stale.then(|| self.drawn + NEWS_INTERVAL) };
-        // From when the last picture was due, not from when it was done: the rate is to be steady.
+        // Counted from when the last frame was due, not from when it was drawn, to keep the rate steady.
         if self.due <= self.drawn {
             self.due = (self.due + interval).max(self.drawn);
         }
         Some(self.due)
     }
 
-    /// Time since the last picture.
+    /// Time since the last frame.
     pub fn since(&self, now: Instant) -> Duration {
         now.saturating_duration_since(self.drawn)
     }
 
-    /// News of runs has come, and nothing else: whether they are drawn `now`. Where something moves they come with its
-    /// next picture.
+    /// Records that only news of runs has arrived, and returns whether to draw it `now`. While something moves, the next frame shows it.
     pub fn news(&mut self, now: Instant, moves: bool) -> bool {
         self.stale = true;
         !moves && self.since(now) >= NEWS_INTERVAL
     }
 
-    /// A picture has been drawn at `now`.
+    /// Records that a frame was drawn at `now`.
     pub const fn drew(&mut self, now: Instant) {
         self.drawn = now;
         self.stale = false;
@@ -86,7 +84,7 @@ mod tests {
         let frame = Duration::from_millis(33);
         assert_eq!(pace.wake(Some(frame)), Some(start + frame));
         assert!(!pace.news(start + 5 * NEWS_INTERVAL, true));
-        // Late by 4 ms: the next one is due as if it had not been.
+        // Late by 4 ms: the next frame is due as if it had been on time.
         pace.drew(start + frame + Duration::from_millis(4));
         assert_eq!(pace.wake(Some(frame)), Some(start + 2 * frame));
         assert_eq!(pace.wake(None), None, "all news are drawn");

@@ -1,4 +1,4 @@
-//! The loop: waits for events, hands them to the app, and draws once when something has changed.
+//! The event loop: waits for events, passes them to the app, and draws a frame after changes.
 
 use std::{
     fs,
@@ -16,18 +16,18 @@ use crate::{
     storage::Places,
     terminal::{
         App, CoachAnswer, CoachNews, Effect, SavedSession, TrainingReport,
-        host::{events, guard::TerminalGuard, log, pace::Pace, showing::Showing},
+        host::{events, guard::TerminalGuard, log, pace::Pace, showing::TableSharing},
         tasks::{Tasks, event::Event},
     },
 };
 
-/// Least time between two pictures; keys that come faster are drained and drawn together.
-const LEAST_INTERVAL: Duration = Duration::from_millis(15);
+/// Smallest interval between two frames; the effects of faster keys are drawn together.
+const MIN_FRAME_INTERVAL: Duration = Duration::from_millis(15);
 
-/// Least time between two times that the session is written down.
-const REMEMBERED: Duration = Duration::from_secs(2);
+/// Smallest interval between two saves of the session.
+const SAVE_INTERVAL: Duration = Duration::from_secs(2);
 
-/// Whether the loop goes on.
+/// Whether the loop continues.
 enum Next {
     GoOn,
     Quit,
@@ -38,41 +38,41 @@ enum Next {
 /// Runs the app on the terminal until the player quits.
 ///
 /// # Errors
-/// What the terminal answers.
+/// Any error of the terminal.
 pub fn run(app: App, places: Places) -> io::Result<()> {
-    // Without a log the program is as good.
+    // The program works without a log too.
     let _ = log::start(&places.log, std::env::var("CAROM_LOG").ok().as_deref());
     info!(version = FULL_VERSION, caps = ?app.caps, "the screen opens");
     let (to_screen, events) = events::open()?;
     let session = TerminalGuard::start(app.mouse)?;
     let tasks = Tasks::new(to_screen)?;
-    let remembered = (None, Instant::now());
+    let saved = (None, Instant::now());
     let ticked = Instant::now();
-    let showing = Showing::new(places.shown.clone());
-    let (has_come_back, forgotten, written) = (false, false, String::new());
+    let showing = TableSharing::new(places.shown.clone());
+    let (has_resumed, has_save_failed, last_logged) = (false, false, String::new());
     let mut runner =
-        Runner { app, session, tasks, places, ticked, has_come_back, remembered, forgotten, written, showing };
-    let end = runner.until_the_end(&events);
+        Runner { app, session, tasks, places, ticked, has_resumed, saved, has_save_failed, last_logged, showing };
+    let end = runner.event_loop(&events);
     runner.showing.end();
-    runner.remember(true);
-    let unkept = runner.keep_draft();
+    runner.save_session(true);
+    let draft_saved = runner.keep_draft();
     info!(?end, "the screen closes");
     let left = runner.session.leave();
-    // The player sees the shell again; what was noted last is written all the same.
+    // The player sees the shell again while the last changes are written.
     runner.tasks.finish();
-    if let Err(error) = unkept {
-        // A terminal that is gone reads nothing.
+    if let Err(error) = draft_saved {
+        // A terminal that is gone shows nothing.
         let _ = writeln!(printing::stderr(), "the stroke that was typed in part is lost: {error}");
     }
     match end? {
-        // The parent is to see that a signal ended the program, even where the terminal is gone already.
+        // The parent process must see that a signal ended the program, even if the terminal is already gone.
         Some(signal) => platform::die(signal),
         None => left,
     }
 }
 
-/// Whether an event may be drawn with the next picture: news of runs, and every better shot of a coach that still thinks.
-const fn can_come_later(event: &Event) -> bool {
+/// Whether an event can wait for the next frame: news of runs, and better shots while the coach still thinks.
+const fn can_be_deferred(event: &Event) -> bool {
     matches!(
         event,
         Event::Training(TrainingReport::Followed(..) | TrainingReport::HasPolicy(..))
@@ -85,31 +85,31 @@ struct Runner {
     session: TerminalGuard,
     tasks: Tasks,
     places: Places,
-    /// When the app last ticked, or the program came back from being stopped.
+    /// Time of the last tick of the app, or of the return from being suspended.
     ticked: Instant,
-    /// Whether the terminal is taken again already when the signal comes that tells of it.
-    has_come_back: bool,
-    /// What was last remembered of the session, and when.
-    remembered: (Option<SavedSession>, Instant),
-    /// Whether that could not be done.
-    forgotten: bool,
-    /// What was last written into the log.
-    written: String,
-    /// The table as others see it, if they may.
-    showing: Showing,
+    /// Whether the terminal has already been taken over again when the signal for it arrives.
+    has_resumed: bool,
+    /// The session saved last, and the time of the save.
+    saved: (Option<SavedSession>, Instant),
+    /// Whether saving the session has failed.
+    has_save_failed: bool,
+    /// The last message written to the log.
+    last_logged: String,
+    /// Writer of the shared table.
+    showing: TableSharing,
 }
 
 impl Runner {
-    /// The signal that ended the program, or `None` where the player did.
-    fn until_the_end(&mut self, events: &Receiver<Event>) -> io::Result<Option<i32>> {
+    /// Runs the loop. Returns the signal that ended the program, or `None` if the player did.
+    fn event_loop(&mut self, events: &Receiver<Event>) -> io::Result<Option<i32>> {
         self.draw()?;
         let mut pace = Pace::new(Instant::now());
         loop {
             self.tasks.subscribe(self.app.subscriptions())?;
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
-            // A toast goes by itself: one picture more, and no other.
+            // A toast that disappears needs one more frame.
             let toast = self.app.toasts.left().map(|left| self.ticked + Duration::from_secs_f64(left));
-            let writing = self.forgets().into_iter().chain(self.showing.due(&self.app));
+            let writing = self.next_save().into_iter().chain(self.showing.due(&self.app));
             let first = match pace.wake(interval).into_iter().chain(toast).chain(writing).min() {
                 // Nothing moves: no timer, no processor time, no bytes.
                 None => events.recv().map_err(|_| RecvTimeoutError::Disconnected),
@@ -121,7 +121,7 @@ impl Runner {
                 Err(RecvTimeoutError::Disconnected) => return Ok(None),
             };
             if first.is_some() {
-                std::thread::sleep(LEAST_INTERVAL.saturating_sub(pace.since(Instant::now())));
+                std::thread::sleep(MIN_FRAME_INTERVAL.saturating_sub(pace.since(Instant::now())));
             }
             // Time that passed while nothing moved does not count.
             let passed = self.ticked.elapsed();
@@ -131,8 +131,8 @@ impl Runner {
             }
             let mut can_wait = first.is_some();
             for event in first.into_iter().chain(events.try_iter()) {
-                can_wait &= can_come_later(&event);
-                match self.take(event)? {
+                can_wait &= can_be_deferred(&event);
+                match self.handle(event)? {
                     Next::GoOn => {}
                     Next::Quit => return Ok(None),
                     Next::Die(signal) => return Ok(Some(signal)),
@@ -141,78 +141,78 @@ impl Runner {
             if can_wait && !pace.news(Instant::now(), self.app.frame_interval().is_some()) {
                 continue;
             }
-            // Before the picture: a slow link may hold that up.
-            self.remember(false);
+            // Before the frame, which a slow link may delay.
+            self.save_session(false);
             if let Err(sentence) = self.showing.write(&self.app) {
                 self.app.not_shown(sentence);
             }
-            self.write_down();
+            self.log_messages();
             self.draw()?;
             pace.drew(Instant::now());
         }
     }
 
-    /// When something is to be written down for the next session, if there is anything new.
-    fn forgets(&self) -> Option<Instant> {
-        let (before, when) = &self.remembered;
-        (self.app.saved_session() != *before).then(|| *when + REMEMBERED)
+    /// Time of the next save of the session; `None` if nothing has changed.
+    fn next_save(&self) -> Option<Instant> {
+        let (before, when) = &self.saved;
+        (self.app.saved_session() != *before).then(|| *when + SAVE_INTERVAL)
     }
 
-    /// Writes down what the next session may go on from, at the end and now and then: a crash costs two seconds of it.
-    fn remember(&mut self, at_the_end: bool) {
-        let (before, when) = &self.remembered;
-        if !at_the_end && when.elapsed() < REMEMBERED {
+    /// Saves the session at the end and at intervals, so that a crash loses at most two seconds of it.
+    fn save_session(&mut self, at_the_end: bool) {
+        let (before, when) = &self.saved;
+        if !at_the_end && when.elapsed() < SAVE_INTERVAL {
             return;
         }
         let last = self.app.saved_session();
         if last == *before {
-            self.remembered.1 = Instant::now();
+            self.saved.1 = Instant::now();
             return;
         }
         if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.places.last)) {
-            // Once: the next session will have nothing to go on from, and nothing more comes of saying it again.
-            if !std::mem::replace(&mut self.forgotten, true) {
+            // Report the failure once: repeating it would not help.
+            if !std::mem::replace(&mut self.has_save_failed, true) {
                 let path = self.places.last.display();
                 self.app.failed(format!("{path}: {error}; the next start cannot go on from here"));
             }
         }
-        self.remembered = (last, Instant::now());
+        self.saved = (last, Instant::now());
     }
 
-    /// Keeps what is typed in part for the next session, whatever ends this one, in place of what the last one left.
+    /// Saves the partly typed stroke for the next session, replacing that of the last one, however this session ends.
     fn keep_draft(&self) -> io::Result<()> {
         let path = &self.places.draft;
-        let told = |error| io::Error::other(format!("{}: {error}", path.display()));
+        let with_path = |error| io::Error::other(format!("{}: {error}", path.display()));
         match self.app.draft() {
-            Some(draft) => draft.save(path).map_err(told),
-            // Another program may have done so.
-            None if self.app.draft_at_start.is_some() && path.exists() => fs::remove_file(path).map_err(told),
+            Some(draft) => draft.save(path).map_err(with_path),
+            // Another program may have removed the file.
+            None if self.app.draft_at_start.is_some() && path.exists() => fs::remove_file(path).map_err(with_path),
             None => Ok(()),
         }
     }
 
-    /// Writes refusals and failures down that were shown.
-    fn write_down(&mut self) {
+    /// Writes the refusals and failures that were shown to the log.
+    fn log_messages(&mut self) {
         for text in self.app.toasts.take_unwritten() {
-            // A key that is held is refused again and again.
-            if self.written == text {
+            // A key that is held down is refused repeatedly.
+            if self.last_logged == text {
                 continue;
             }
             warn!("{}", OneLine(&text));
-            self.written = text;
+            self.last_logged = text;
         }
     }
 
     fn draw(&mut self) -> io::Result<()> {
-        self.session.want_mouse(self.app.mouse)?;
+        self.session.capture_mouse(self.app.mouse)?;
         self.session.draw(|frame| {
             self.app.resize(frame.area().as_size());
             self.app.draw(frame);
         })
     }
 
-    fn take(&mut self, event: Event) -> io::Result<Next> {
-        self.tasks.taken(&event);
+    fn handle(&mut self, event: Event) -> io::Result<Next> {
+        self.tasks.acknowledge(&event);
         let effect = match event {
             Event::Input(TerminalEvent::Key(key)) => self.app.handle(&key),
             Event::Input(TerminalEvent::Paste(text)) => {
@@ -221,15 +221,15 @@ impl Runner {
             }
             Event::Input(TerminalEvent::Mouse(mouse)) => self.app.mouse(mouse),
             Event::Answer(answer) => self.app.receive(answer),
-            // A resize needs a picture, which follows anyway.
+            // A resize only needs a frame, which follows anyway.
             Event::Input(_) | Event::Signal(Signal::Resized) => None,
             Event::InputEnded => return Ok(Next::Quit),
             Event::Signal(Signal::Stop) => Some(Effect::Suspend),
-            // Somebody else may have had the terminal since.
-            Event::Signal(Signal::Continued) if std::mem::take(&mut self.has_come_back) => None,
+            // Another program may have used the terminal meanwhile.
+            Event::Signal(Signal::Continued) if std::mem::take(&mut self.has_resumed) => None,
             Event::Signal(Signal::Continued) => {
                 self.session.leave()?;
-                self.come_back()?;
+                self.resume()?;
                 None
             }
             Event::Signal(Signal::End(signal)) => return Ok(Next::Die(signal)),
@@ -267,16 +267,16 @@ impl Runner {
         Ok(Next::GoOn)
     }
 
-    /// Gives the terminal back and stops until the shell continues the program.
+    /// Restores the terminal and suspends the program until the shell continues it.
     fn suspend(&mut self) -> io::Result<()> {
         self.session.leave()?;
         platform::suspend()?;
-        self.has_come_back = true;
-        self.come_back()
+        self.has_resumed = true;
+        self.resume()
     }
 
-    /// Takes the terminal again. A shot that plays goes on from where it was: the time between does not count.
-    fn come_back(&mut self) -> io::Result<()> {
+    /// Takes over the terminal again. A running playback continues where it was: the time in between does not count.
+    fn resume(&mut self) -> io::Result<()> {
         self.ticked = Instant::now();
         self.session.enter()
     }

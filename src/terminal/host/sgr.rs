@@ -6,7 +6,7 @@ use ratatui::style::Color;
 
 use crate::terminal::ui::theme::ANSI;
 
-/// A colour as the parameters of SGR; `base` is 30 for the front and 40 for the back.
+/// A colour as SGR parameters; `base` is 30 for the foreground and 40 for the background.
 pub struct Sgr {
     /// The colour.
     pub color: Color,
@@ -23,7 +23,7 @@ impl fmt::Display for Sgr {
             Color::Indexed(index) => write!(out, "{};5;{index}", base + 8),
             named => {
                 let number = ANSI.iter().position(|color| *color == named).unwrap_or_default() as u8;
-                // The bright ones have codes of their own.
+                // The bright colours have their own codes.
                 write!(out, "{}", base + number % 8 + number / 8 * 60)
             }
         }

@@ -1,4 +1,4 @@
-//! Showing the table to others: written where they look, when it changes, as long as the player allows it.
+//! Sharing of the table with other players: writes it after each change, while the player allows it.
 
 use std::{
     fs,
@@ -14,32 +14,32 @@ use crate::{
     },
 };
 
-/// Least time between two times that the table is written: whoever looks on looks no more often.
+/// Smallest interval between two writes; onlookers do not read more often.
 const INTERVAL: Duration = Duration::from_millis(100);
 
-/// The table as others see it.
+/// Writer of the shared table.
 #[derive(Debug)]
-pub struct Showing {
+pub struct TableSharing {
     folder: PathBuf,
     open: Option<Open>,
 }
 
-/// What others see at present.
+/// State while the table is shared.
 #[derive(Debug)]
 struct Open {
-    /// Says that it is shown still: it ends with the process, however that ends.
+    /// Signals that the table is still shared; released when the process ends, however that happens.
     _lock: Lock,
     written: Option<ShownTable>,
     when: Instant,
 }
 
-impl Showing {
-    /// Nothing is shown yet; it will be in `folder`.
+impl TableSharing {
+    /// Creates a writer for `folder`; nothing is shared yet.
     pub const fn new(folder: PathBuf) -> Self {
         Self { folder, open: None }
     }
 
-    /// When something is to be written; `None` where nothing is.
+    /// Time of the next write; `None` if there is nothing to write.
     pub fn due(&self, app: &App) -> Option<Instant> {
         self.due_for(app.shown_table().as_ref())
     }
@@ -55,10 +55,10 @@ impl Showing {
         }
     }
 
-    /// Writes what is due.
+    /// Writes the table if a write is due.
     ///
     /// # Errors
-    /// A sentence why it cannot be shown; nothing is then.
+    /// A message that says why the table cannot be shared; sharing then ends.
     pub fn write(&mut self, app: &App) -> Result<(), String> {
         let now = app.shown_table();
         if self.due_for(now.as_ref()).is_none_or(|due| due > Instant::now()) {
@@ -77,11 +77,11 @@ impl Showing {
 
     fn show(&mut self, now: ShownTable) -> Result<(), String> {
         let refusal =
-            |error: std::io::Error| format!("{}: {error}; others see nothing of the table", self.folder.display());
+            |error: std::io::Error| format!("{}: {error}; others cannot see the table", self.folder.display());
         if self.open.is_none() {
             fs::create_dir_all(&self.folder).map_err(refusal)?;
             let lock = Lock::take(&self.folder).map_err(refusal)?;
-            let lock = lock.ok_or("others see the table of another session of yours already")?;
+            let lock = lock.ok_or("another session of yours already shows its table")?;
             self.open = Some(Open { _lock: lock, written: None, when: Instant::now() });
         }
         now.write(&self.folder).map_err(refusal)?;
@@ -91,10 +91,10 @@ impl Showing {
         Ok(())
     }
 
-    /// Takes it away from the others' eyes.
+    /// Stops sharing.
     pub fn end(&mut self) {
         if self.open.is_some() {
-            // What cannot be removed is not shown without its lock.
+            // If the file cannot be removed, readers still ignore it without its lock.
             let _ = fs::remove_file(self.folder.join(FILE));
             self.open = None;
         }

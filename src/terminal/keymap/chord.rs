@@ -1,4 +1,4 @@
-//! Keys with their modifiers, and how they are written on the screen.
+//! Keys with modifiers, and their names on the screen.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -12,12 +12,12 @@ pub struct Chord {
 }
 
 impl Chord {
-    /// A key by itself.
+    /// A key without modifiers.
     pub const fn plain(code: KeyCode) -> Self {
         Self { code, modifiers: KeyModifiers::NONE }
     }
 
-    /// The key that types `letter`, Shift included where it is needed.
+    /// The key that types `letter`, including Shift if needed.
     pub const fn char(letter: char) -> Self {
         Self::plain(KeyCode::Char(letter))
     }
@@ -39,17 +39,17 @@ impl Chord {
         Self { code: event.code, modifiers: event.modifiers - ignored }
     }
 
-    /// The event of this key being pressed.
+    /// A press event of this key.
     pub const fn event(self) -> KeyEvent {
         KeyEvent::new(self.code, self.modifiers)
     }
 
-    /// Whether `event` is this key. Terminals differ in whether they report Shift beside a letter that it made.
+    /// Whether `event` is this key. Terminals differ in whether they report Shift for a letter that includes it.
     pub fn matches(self, event: &KeyEvent) -> bool {
         self == Self::of(event)
     }
 
-    /// The modifiers as they are written before the key.
+    /// The modifiers as written before the key.
     pub(super) const fn prefix(self) -> &'static str {
         if self.modifiers.contains(KeyModifiers::CONTROL) {
             "Ctrl-"
@@ -75,7 +75,7 @@ impl Chord {
         }
     }
 
-    /// Keys that are written without a blank between them, since they belong together.
+    /// Group of keys that are written together without a blank.
     const fn family(self) -> Option<bool> {
         match self.code {
             KeyCode::Left | KeyCode::Right | KeyCode::Up | KeyCode::Down => Some(true),
@@ -85,7 +85,7 @@ impl Chord {
     }
 }
 
-/// The keys as they are written on the screen, like `Shift-←↓↑→ HJKL`.
+/// The keys as displayed, like `Shift-←↓↑→ HJKL`.
 pub fn keys_text(chords: impl IntoIterator<Item = Chord>, caps: Capabilities) -> String {
     let mut text = String::new();
     let mut before: Option<Chord> = None;

@@ -1,7 +1,7 @@
-//! Tables of keys: what each key does, when it may be used, and what is said of it.
+//! Key tables: the keys, their actions, conditions and descriptions.
 //!
-//! Each page has tables of its own. Dispatch, the hint line, the help, the command palette and the documentation all read
-//! them, so that they cannot disagree.
+//! Each page has its own tables. Key dispatch, the hint line, the help, the command palette and the documentation all read them, so that
+//! they cannot disagree.
 
 pub mod chord;
 pub mod remap;
@@ -14,38 +14,38 @@ pub use self::{
     section::Section,
 };
 
-/// One line of a table: keys that do `A`, at times that `W` names.
+/// One row of a key table: keys for actions `A`, enabled under the condition `W`.
 #[derive(Debug)]
 pub struct Binding<A: 'static, W> {
-    /// The keys, each with what it does.
+    /// The keys, each with its action.
     pub keys: &'static [(Chord, A)],
-    /// Its word in the hint line, and how many of the keys stand before it there.
+    /// The word in the hint line, and the number of keys shown before it there.
     pub hint: Option<(&'static str, usize)>,
-    /// What the help says.
+    /// Description in the help.
     pub description: &'static str,
-    /// When it may be used.
+    /// Condition under which it is enabled.
     pub when: W,
-    /// Its heading in the help.
+    /// Section of the help.
     pub section: Section,
-    /// Other words under which the command palette finds it.
+    /// Further search words for the command palette.
     pub also: &'static str,
-    /// What its actions do one by one, in the order of their first keys; empty where the description says it of each.
+    /// Descriptions of the single actions, in the order of their first keys; empty if the description fits each of them.
     pub each: &'static [&'static str],
 }
 
 impl<A, W: Copy> Binding<A, W> {
-    /// The same line, which the command palette finds by these `words` as well.
+    /// Adds search `words` for the command palette.
     pub const fn known_as(self, also: &'static str) -> Self {
         Self { also, ..self }
     }
 
-    /// The same line with `words` for each of its actions, in the order of their first keys.
+    /// Adds a description of each action, in the order of their first keys.
     pub const fn each(self, words: &'static [&'static str]) -> Self {
         Self { each: words, ..self }
     }
 }
 
-/// A line of a table.
+/// Creates a row of a key table.
 pub const fn bind<A, W: Copy>(
     section: Section,
     when: W,
@@ -61,7 +61,7 @@ pub const fn key<A: Copy>(code: KeyCode, action: A) -> (Chord, A) {
     (Chord::plain(code), action)
 }
 
-/// A letter or a sign.
+/// A letter or sign.
 pub const fn letter<A: Copy>(letter: char, action: A) -> (Chord, A) {
     (Chord::char(letter), action)
 }
@@ -71,37 +71,37 @@ pub const fn ctrl<A: Copy>(letter: char, action: A) -> (Chord, A) {
     (Chord::ctrl(KeyCode::Char(letter)), action)
 }
 
-/// The first key of `table` that does `action`.
+/// The first key of `table` that runs `action`.
 pub fn chord_of<A: PartialEq, W>(table: &[Binding<A, W>], action: &A) -> Option<Chord> {
     table.iter().flat_map(|binding| binding.keys).find(|(_, known)| known == action).map(|(chord, _)| *chord)
 }
 
-/// One thing that keys do on a page, as lists of keys show it.
+/// One command of a page, for lists of keys.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeyEntry {
-    /// The keys that it has by default.
+    /// Its default keys.
     pub chords: Vec<Chord>,
-    /// What it does.
+    /// Its description.
     pub words: &'static str,
-    /// Its heading in the help.
+    /// Its section of the help.
     pub section: Section,
 }
 
-/// All that keys do on a page of the program.
+/// All commands of a page.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeyPage {
     /// The page's name.
     pub name: &'static str,
-    /// What they do, in the order of the page's table.
+    /// The commands, in the order of the page's tables.
     pub entries: Vec<KeyEntry>,
 }
 
-/// Everything that a key does by default on any of `pages`: the page's name and what it does there.
+/// All commands that a key has by default on `pages`: the page's name and the description.
 pub fn commands_of(pages: &[KeyPage], chord: Chord) -> Vec<(&'static str, &'static str)> {
     let mut commands = Vec::new();
     for page in pages {
         for entry in page.entries.iter().filter(|entry| entry.chords.contains(&chord)) {
-            // What all pages have is listed once.
+            // A command that all pages have is listed once.
             if commands.iter().all(|(_, known)| *known != entry.words) {
                 commands.push((page.name, entry.words));
             }
@@ -110,7 +110,7 @@ pub fn commands_of(pages: &[KeyPage], chord: Chord) -> Vec<(&'static str, &'stat
     commands
 }
 
-/// The keys that mark another line of a list; `$line` makes the number of lines an action.
+/// The keys that move the selection of a list; `$line` turns a number of lines into an action.
 macro_rules! lines {
     ($line:path) => {{
         use crossterm::event::KeyCode::{Down, End, Home, PageDown, PageUp, Up};
@@ -128,7 +128,7 @@ macro_rules! lines {
 }
 pub(in crate::terminal) use lines;
 
-/// What each of [`lines!`] does in a list of `$what`.
+/// Descriptions of the actions of [`lines!`] in a list of `$what`.
 macro_rules! marks {
     ($what:literal) => {
         &[

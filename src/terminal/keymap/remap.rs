@@ -1,65 +1,64 @@
-//! Keys of the user's own: each does what another key does.
+//! User-defined keys: each acts as another key.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use crate::terminal::keymap::Chord;
 
-/// What the documentation says of the keys.
+/// The section on keys in the documented settings file.
 pub const ABOUT: &str = "
-# Keys of your own: on the left the key that you press, on the right the one whose work it does. Keys that are not named
-# keep their work. Accepted: a letter or sign, Enter, Esc, Space, Tab, Backspace, Delete, Home, End, PageUp, PageDown, Left,
+# Keys of your own: on the left the key that you press, on the right the key that it acts as. All other keys keep their
+# defaults. Accepted: a letter or sign, Enter, Esc, Space, Tab, Backspace, Delete, Home, End, PageUp, PageDown, Left,
 # Right, Up, Down, F1 to F12, also with Ctrl- or Shift- before it.
 [keys]
 # \"x\" = \"Enter\"
 ";
 
-/// The keys that were given other work.
+/// User-defined key bindings.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Keys {
-    /// The key that is pressed, and the one whose work it does.
+    /// The pressed key, and the key that it acts as.
     pairs: Vec<(Chord, Chord)>,
 }
 
 impl Keys {
-    /// Lets `pressed` do what `meant` does.
+    /// Binds `pressed` to act as `meant`.
     pub fn add(&mut self, pressed: Chord, meant: Chord) {
         self.remove(pressed);
         self.pairs.push((pressed, meant));
-        // In whatever order they were given: a file that is read again gives them by name.
+        // Sorted by name, like the keys of a file that is read again.
         self.pairs.sort_by_key(|(pressed, _)| name(*pressed));
     }
 
-    /// What is meant by a key that was pressed.
+    /// Returns the key that a pressed key acts as.
     pub fn translate(&self, event: &KeyEvent) -> KeyEvent {
         let meant = self.pairs.iter().find(|(pressed, _)| pressed.matches(event)).map(|(_, meant)| *meant);
         meant.map_or(*event, |meant| KeyEvent { kind: event.kind, ..meant.event() })
     }
 
-    /// Gives `pressed` back the work that it has by default.
+    /// Restores the default of `pressed`.
     pub fn remove(&mut self, pressed: Chord) {
         self.pairs.retain(|(known, _)| *known != pressed);
     }
 
-    /// The key that was given to `pressed` to do its work, if one was.
+    /// The key that `pressed` acts as, or `None` if it has its default.
     pub fn meant_by(&self, pressed: Chord) -> Option<Chord> {
         self.pairs.iter().find(|(known, _)| *known == pressed).map(|(_, meant)| *meant)
     }
 
-    /// Those that do not do what they do by default and have to do with `chords`: they do the work of one of these, or are
-    /// one of these and do other work.
+    /// The rebound keys that concern `chords`: those that act as one of them, and those among them that act as another key.
     pub fn about(&self, chords: &[Chord]) -> Vec<Chord> {
         let is_about = |(pressed, meant): &&(Chord, Chord)| chords.contains(pressed) || chords.contains(meant);
         self.pairs.iter().filter(is_about).map(|(pressed, _)| *pressed).collect()
     }
 
-    /// The keys that do the work of `meant`, the user's own first.
+    /// The keys that act as `meant`, user-defined ones first.
     pub fn keys_for(&self, meant: Chord) -> impl Iterator<Item = Chord> {
         let own = self.pairs.iter().filter(move |(_, work)| *work == meant).map(|(pressed, _)| *pressed);
         let kept = self.pairs.iter().all(|(pressed, _)| *pressed != meant).then_some(meant);
         own.chain(kept)
     }
 
-    /// The lines of the file.
+    /// The bindings as lines of the settings file.
     pub fn document(&self) -> String {
         let quoted = |chord: &Chord| toml::Value::String(name(*chord)).to_string();
         let line = |(pressed, meant): &(Chord, Chord)| format!("{} = {}\n", quoted(pressed), quoted(meant));
@@ -67,7 +66,7 @@ impl Keys {
     }
 }
 
-/// The keys with names.
+/// Keys with names.
 const NAMES: [(&str, KeyCode); 14] = [
     ("Space", KeyCode::Char(' ')),
     ("Enter", KeyCode::Enter),
@@ -85,7 +84,7 @@ const NAMES: [(&str, KeyCode); 14] = [
     ("Down", KeyCode::Down),
 ];
 
-/// The key that is written so; capitals of names do not matter.
+/// Parses the name of a key, ignoring the case of key names.
 pub fn chord(text: &str) -> Option<Chord> {
     let (modifiers, rest) = match text.split_once('-') {
         Some((prefix, rest)) if prefix.eq_ignore_ascii_case("ctrl") && !rest.is_empty() => {
@@ -111,7 +110,7 @@ pub fn chord(text: &str) -> Option<Chord> {
     })
 }
 
-/// What Shift makes of a letter, where its capital is one letter; what it makes of a sign depends on the keyboard.
+/// The capital of a letter, if it is a single letter; what Shift does to a sign depends on the keyboard.
 fn capital(letter: char) -> char {
     let mut capitals = letter.to_uppercase();
     match (capitals.next(), capitals.next()) {
@@ -120,7 +119,7 @@ fn capital(letter: char) -> char {
     }
 }
 
-/// How a key is written in the file.
+/// The name of a key in the settings file.
 pub fn name(chord: Chord) -> String {
     let code = match chord.event().code {
         KeyCode::BackTab => return "Shift-Tab".to_owned(),
@@ -141,7 +140,7 @@ mod tests {
         for text in ["x", "X", "-", "Ctrl-r", "Ctrl--", "Shift-Left", "Shift-Tab", "F12", "Space", "PageUp", "ä"] {
             assert_eq!(name(chord(text).unwrap()), text);
         }
-        // Of a letter without a capital of one letter it makes nothing that is known here.
+        // A letter whose capital is not a single letter stays as it is.
         for (written, letter) in [("shift-x", "X"), ("shift-\u{e4}", "\u{c4}"), ("shift-\u{df}", "\u{df}")] {
             assert_eq!(chord(written), chord(letter));
         }

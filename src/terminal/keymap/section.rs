@@ -1,29 +1,29 @@
-//! What belongs together among the keys.
+//! Sections of the key tables, the headings of the help.
 
-/// Headings of the help, in its order.
+/// A section of the help, in display order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Section {
     /// Keys that move balls.
     Balls,
-    /// Keys that ask the coach and play the shot.
+    /// Keys that query the coach and play the shot.
     Shot,
     /// Keys of the list of runs.
     List,
-    /// Keys of the form.
+    /// Keys of the form for a new run.
     Form,
-    /// Keys that choose what is drawn of a run.
+    /// Keys that choose what the charts of a run show.
     Charts,
-    /// Keys that steer a run and use what it has learnt.
+    /// Keys that control a run and use its policy.
     Run,
     /// Keys of the replay.
     Replay,
     /// Keys of the list of exercises.
     Library,
-    /// Keys that set and play a stroke.
+    /// Keys that adjust and play a stroke.
     Stroke,
-    /// Keys of what is counted.
+    /// Keys that change the score.
     Score,
-    /// Keys of where the balls lie.
+    /// Keys that change the positions of the balls.
     Position,
     /// Keys of the page of records.
     Record,
@@ -31,18 +31,18 @@ pub enum Section {
     Film,
     /// Keys of the settings.
     Settings,
-    /// Keys of the page of keys.
+    /// Keys of the page of key bindings.
     OwnKeys,
-    /// Keys of the tests at a table.
+    /// Keys of the tests that measure a table.
     Calibration,
-    /// Keys of the form for a stroke.
+    /// Keys of the form for the marks of a stroke.
     Marks,
     /// All others.
     Program,
 }
 
 impl Section {
-    /// All headings with their words, in the order above, which is the help's.
+    /// All sections with their titles, in the order of the help.
     pub const ALL: [(Self, &'static str); 18] = [
         (Self::Balls, "Placing the balls"),
         (Self::Shot, "The shot"),

@@ -1,4 +1,4 @@
-//! What a player may say, a line each.
+//! Commands of the plain mode, one per line.
 
 use std::str::FromStr;
 
@@ -11,86 +11,86 @@ use crate::{
     table::{BALL_NAMES, CueBall, Side},
 };
 
-/// What a line asks for.
+/// A command.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Where the balls lie.
+    /// Describe the positions of the balls.
     Where,
-    /// All three balls at once, as on the command line.
+    /// Place all three balls, as on the command line.
     Balls(String),
-    /// This ball is the cue ball.
+    /// Choose the cue ball.
     CueBall(CueBall),
-    /// A ball, by its place among white, yellow and red, goes by so many millimetres to the right and up.
+    /// Move a ball, given by its index among white, yellow and red, by a displacement in metres to the right and up.
     Move(usize, DVec2),
-    /// Balls on their spots, the cue ball on this side.
+    /// Put the balls on their spots, the cue ball on this side.
     Opening(Side),
-    /// Balls anywhere.
+    /// Random position.
     Random,
-    /// What counts as a point.
+    /// Set the rule.
     Rule(Rule),
-    /// Who plays.
+    /// Set the player's skill.
     Skill(Skill),
-    /// The player of the skill that was kept plays.
+    /// Use the user's own skill.
     OwnSkill,
-    /// Whether the next point counts too.
+    /// Set whether the next point counts too.
     Plan(bool),
-    /// Whether it does now, and what the shot leaves.
+    /// Say whether the next point counts, and what the shot leaves.
     PlanNow,
-    /// What the cue ball shall meet first, in a word.
+    /// Set what the cue ball has to meet first, as a word.
     First(String),
-    /// A shot.
+    /// Ask the coach for a shot.
     Shot,
-    /// A stroke of the player's own, in these words.
+    /// Try a stroke of the player's own, described in words.
     Try(String),
-    /// The next of the other shots.
+    /// Describe the next of the other shots.
     Other,
-    /// How often each of the shots is made.
+    /// List the success rates of all shots.
     Chances,
-    /// Why the first shot leads.
+    /// Explain why the first shot is best.
     Why,
-    /// How far off it may be.
+    /// Describe how far off the shot may be.
     Margins,
-    /// Where the tip meets the ball, the speed and the direction, in numbers.
+    /// Describe the shot in numbers: tip contact, speed and direction.
     Numbers,
-    /// What a player counts on the diamonds for it.
+    /// Describe the diamond system for the shot.
     System,
-    /// What the words for a shot mean.
+    /// Explain the words used for shots.
     Words,
-    /// Which balls and cushions are met in it, or with `true` all that happens, and what comes of it.
+    /// Describe the shot's contacts (with `true`, all its events) and its outcome.
     Tell(bool),
-    /// Balls as it leaves them.
+    /// Continue with the balls as the shot leaves them.
     GoOn,
-    /// Which filmed shots there are.
+    /// List the filmed shots.
     Films,
-    /// The filmed shot of this number, beside its simulation.
+    /// Describe the filmed shot with this number and its simulation.
     Film(u32),
-    /// The last change of the balls back.
+    /// Undo the last change of the balls.
     Undo,
-    /// What may be said.
+    /// List the commands.
     Help,
-    /// The end.
+    /// Quit.
     Quit,
 }
 
-/// What may be said, and what it does.
+/// The commands and what they do.
 const HELP: &[(&str, &str)] = &[
     ("shot", "ask the coach for a shot; ask and an empty line do the same"),
     (
         "try red 1/2 right, 1.5 left, 2 up, 3 lengths",
-        "a stroke of your own: the ball and how full, side, height and speed, or the line of the cue like to 3.2 bottom; what you do not say is as in the shot that is spoken of",
+        "a stroke of your own: the ball and how full, side, height and speed, or the line of the cue like to 3.2 bottom; what you leave out is taken from the present shot",
     ),
-    ("other", "the next of the other shots; so does next"),
-    ("chances", "how often each of the shots is made"),
-    ("why", "why the first of the shots leads"),
+    ("other", "the next of the other shots; next does the same"),
+    ("chances", "how often each shot is made"),
+    ("why", "why the first shot is best"),
     ("numbers", "the shot in numbers: small distances, speed and degrees"),
-    ("system", "what a player counts on the diamonds for the shot, and what that is on this table"),
+    ("system", "the diamond system for the shot, and its numbers on this table"),
     ("words", "what the words for a shot mean: tips, o'clock, full, table lengths, diamonds"),
-    ("tell", "what the balls meet in the shot, and what comes of it; so does play"),
-    ("tell all", "the same, and where they begin to roll and stop"),
+    ("tell", "what the balls meet in the shot, and its outcome; play does the same"),
+    ("tell all", "the same, and when they begin to roll and stop"),
     ("margins", "how far off the shot may be, and where to aim"),
     ("go on", "take the balls as the shot leaves them"),
-    ("where", "where the balls lie; so does balls alone"),
-    ("move white left 20", "move a ball by so many millimetres: left, right, up or down"),
+    ("where", "where the balls are; balls alone does the same"),
+    ("move white left 20", "move a ball by a distance in millimetres: left, right, up or down"),
     ("balls -0.5,0 0,0 0.5,0.03", "place all three, in metres or in diamonds like 2d,2d 6d,2d 2d,2.5d"),
     (
         "opening",
@@ -101,18 +101,18 @@ const HELP: &[(&str, &str)] = &[
     ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
     (
         "skill club",
-        "who plays: perfect, expert, world-class, national, club, beginner, own (your own: by your notes once that is kept, else the average that is set), an average at three-cushion like 0.6, or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
+        "who plays: perfect, expert, world-class, national, club, beginner, own (your own skill: from your notes if saved, otherwise the average in the settings), an average at three-cushion like 0.6, or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
     ),
-    ("plan", "whether the coach has the next point in mind, and what the shot leaves"),
-    ("plan off", "whether the coach has the next point in mind from now on: on or off"),
-    ("first red", "what the cue ball shall meet first from now on: a ball's colour, cushion or any"),
-    ("film", "which filmed shots there are"),
+    ("plan", "whether the coach plans for the next point, and how often that is made"),
+    ("plan off", "whether the coach plans for the next point from now on: on or off"),
+    ("first red", "what the cue ball has to meet first from now on: a ball's colour, cushion or any"),
+    ("film", "the list of filmed shots"),
     ("film 12", "that filmed shot, and how far the simulated balls are from the filmed ones"),
-    ("undo", "take the last change of the balls back"),
-    ("quit", "end; so do exit and the end of the input"),
+    ("undo", "undo the last change of the balls"),
+    ("quit", "end the program; exit and the end of the input do the same"),
 ];
 
-/// All of it, a line each.
+/// The list of commands, one per line.
 pub fn help() -> String {
     HELP.iter().map(|(line, about)| format!("{line}: {about}.")).collect::<Vec<_>>().join("\n")
 }
@@ -143,7 +143,7 @@ impl FromStr for Command {
             ["film", number] => Self::Film(
                 number
                     .parse()
-                    .map_err(|_| format!("\"{number}\" is no shot of the film; film says which there are"))?,
+                    .map_err(|_| format!("\"{number}\" is not the number of a filmed shot; film lists them"))?,
             ),
             ["help" | "?"] => Self::Help,
             ["quit" | "exit"] => Self::Quit,
@@ -163,7 +163,7 @@ impl FromStr for Command {
             }
             ["balls", ref places @ ..] => Self::Balls(places.join(" ")),
             ["move", ball, direction, distance] => Self::Move(ball_named(ball)?, step(direction, distance)?),
-            _ => return Err(format!("\"{}\" means nothing here; help says what may be said", line.trim())),
+            _ => return Err(format!("\"{}\" is not a command; help lists the commands", line.trim())),
         })
     }
 }
@@ -175,7 +175,7 @@ fn ball_named(name: &str) -> Result<usize, String> {
         .ok_or_else(|| format!("there is no ball \"{name}\"; there are {}", BALL_NAMES.join(", ")))
 }
 
-/// So many millimetres in a direction, m.
+/// Parses a displacement: a direction and a distance in millimetres; returns metres.
 fn step(direction: &str, distance: &str) -> Result<DVec2, String> {
     let unit = match direction {
         "left" => DVec2::NEG_X,

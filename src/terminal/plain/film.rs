@@ -1,4 +1,4 @@
-//! Filmed shots in sentences: which there are, and how far the simulated balls are from the filmed ones.
+//! Filmed shots in sentences: the list, and the distances between simulated and filmed balls.
 
 use crate::{
     coach::words::LengthUnit,
@@ -12,30 +12,30 @@ use crate::{
     },
 };
 
-/// Moments at which the distances are given, s after the stroke; the end comes after them.
-const TOLD: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
+/// Times for which the distances are given, s after the stroke; the end follows.
+const TIMES: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
 
-/// Which filmed shots there are.
+/// Lists the filmed shots.
 pub fn list() -> String {
     let numbers = |points: bool| -> String {
         let found = listed().iter().filter(|listed| listed.is_point == points);
         found.map(|listed| listed.filmed.number.to_string()).collect::<Vec<_>>().join(", ")
     };
     format!(
-        "There are {} filmed shots of a match at three cushions; film and a number tells one.\nPoints: {}.\nNo points: {}.",
+        "There are {} filmed shots of a match at three cushions; say film and a number for one of them.\nPoints: {}.\nNo points: {}.",
         listed().len(),
         numbers(true),
         numbers(false)
     )
 }
 
-/// One of them, played beside the film.
+/// Describes a filmed shot and its simulation.
 ///
 /// # Errors
-/// Where there is none of this number.
+/// Fails if there is no shot with this number.
 pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
     let shot = listed().iter().find(|listed| listed.filmed.number == number);
-    let shot = shot.ok_or_else(|| format!("There is no filmed shot {number}; film says which there are."))?;
+    let shot = shot.ok_or_else(|| format!("There is no filmed shot {number}; film lists them."))?;
     let played = FilmReplay::new(&shot.filmed)?;
     let outcome = |is_point| if is_point { "a point" } else { "no point" };
     let mut lines = vec![
@@ -56,11 +56,11 @@ pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
     };
     let (in_a_metre, _) = unit.small();
     let distances = |time: f64| {
-        let apart = played.replay.apart(time);
-        let each = (0..BALLS).map(|ball| format!("{} {}", BALL_NAMES[ball], fixed(in_a_metre * apart[ball], 1)));
+        let metres = played.replay.apart(time);
+        let each = (0..BALLS).map(|ball| format!("{} {}", BALL_NAMES[ball], fixed(in_a_metre * metres[ball], 1)));
         each.collect::<Vec<_>>().join(", ")
     };
-    for time in TOLD.into_iter().filter(|time| *time < end) {
+    for time in TIMES.into_iter().filter(|time| *time < end) {
         let seconds = if time == 1.0 { "second" } else { "seconds" };
         lines.push(format!("{time} {seconds}: from the film, in {small}: {}.", distances(time)));
     }

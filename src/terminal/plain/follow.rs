@@ -1,4 +1,4 @@
-//! Somebody else's table in lines, as it changes: for screen readers, pipes and scripts.
+//! Another player's table in lines, as it changes, for screen readers, pipes and scripts.
 
 use std::{
     io::{self, Write},
@@ -22,17 +22,17 @@ use crate::{
     },
 };
 
-/// Time between two looks.
+/// Polling interval.
 const INTERVAL: Duration = Duration::from_millis(200);
 
-/// How long a table has to be as it is before it is told: balls on their way need no sentence each.
+/// How long a table must stay unchanged before it is described: moving balls need no sentence each.
 const QUIET: Duration = Duration::from_millis(600);
 
-/// Tells what is seen of the table in `folder`, which is that of `name`, until they show it no more or `stop` is set; with `json`
-/// every change as an object.
+/// Describes the table that the player `name` shares in `folder`, until they stop sharing it or `stop` is set. With `json`, writes every
+/// change as an object.
 ///
 /// # Errors
-/// Whatever writing reports.
+/// Any error of the output.
 pub fn follow_in_lines(
     name: &str,
     folder: &Path,
@@ -42,7 +42,7 @@ pub fn follow_in_lines(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mut onlooker = Onlooker::new(folder.to_owned());
-    let mut teller = Teller { name, units, told: Told::default() };
+    let mut describer = Describer { name, units, last: Described::default() };
     let mut waiting: Option<(Box<SeenTable>, Instant)> = None;
     let mut is_over = false;
     while !is_over {
@@ -59,11 +59,11 @@ pub fn follow_in_lines(
             is_over || is_damaged || since.elapsed() >= QUIET || seen.shown.shot.is_some_and(|shot| shot.playing)
         };
         if let Some((seen, _)) = waiting.take_if(is_due) {
-            for line in teller.news(&seen) {
+            for line in describer.news(&seen) {
                 writeln!(out, "{line}")?;
             }
         }
-        // Programs are told of tables alone.
+        // JSON output contains tables only.
         if is_damaged && !json {
             writeln!(out, "{}", damage_words(name))?;
         }
@@ -75,9 +75,9 @@ pub fn follow_in_lines(
     Ok(())
 }
 
-/// What was told last.
+/// What was described last.
 #[derive(Default)]
-struct Told {
+struct Described {
     scene: String,
     layout: Option<Layout>,
     cue: Option<CueInputs>,
@@ -85,33 +85,33 @@ struct Told {
     plays: bool,
 }
 
-/// Somebody who tells what is new.
-struct Teller<'a> {
+/// Describes what has changed.
+struct Describer<'a> {
     name: &'a str,
     units: Units,
-    told: Told,
+    last: Described,
 }
 
-impl Teller<'_> {
+impl Describer<'_> {
     fn news(&mut self, seen: &SeenTable) -> Vec<String> {
-        let (name, shown, told) = (self.name, &seen.shown, &mut self.told);
+        let (name, shown, last) = (self.name, &seen.shown, &mut self.last);
         let mut lines = Vec::new();
         let scene = format!("{name} plays {} on the table {}, as {}.", shown.rule, shown.table.name, shown.skill);
-        if told.scene != scene {
+        if last.scene != scene {
             lines.push(scene.clone());
-            told.scene = scene;
+            last.scene = scene;
         }
-        if told.doing.replace(shown.doing) != Some(shown.doing) && shown.doing == Doing::Elsewhere {
+        if last.doing.replace(shown.doing) != Some(shown.doing) && shown.doing == Doing::Elsewhere {
             lines.push(format!("{name} is at another screen."));
         }
-        if told.layout.replace(shown.layout) != Some(shown.layout) {
+        if last.layout.replace(shown.layout) != Some(shown.layout) {
             let places = speech::places(&shown.table, &shown.layout, shown.cue_ball, self.units.length);
             lines.extend(places.lines().map(str::to_owned));
-            told.cue = None;
+            last.cue = None;
         }
         let Some((stroke, shot)) = shown.shot.zip(seen.shot.as_ref()) else { return lines };
         let is_settled = shown.doing != Doing::Thinking && stroke.author != Author::Search;
-        if is_settled && told.cue.replace(stroke.cue) != Some(stroke.cue) {
+        if is_settled && last.cue.replace(stroke.cue) != Some(stroke.cue) {
             let whose = if stroke.author == Author::Player { "Their own stroke" } else { "The coach recommends" };
             let made = stroke.made.map_or_else(String::new, |(made, of)| {
                 format!(" It is made {} percent of the time.", percent(SuccessRate::new(made, of).rate))
@@ -119,14 +119,14 @@ impl Teller<'_> {
             lines.push(format!("{whose}: {}{made}", shot.words.sentence(shown.cue_ball, self.units)));
         }
         let plays = stroke.playing;
-        if plays && !told.plays {
+        if plays && !last.plays {
             lines.push(format!("{name} plays the shot."));
         }
-        if told.plays && !plays && stroke.over {
+        if last.plays && !plays && stroke.over {
             let verdict = shot.verdict(shown.rule, &shown.table);
             lines.push(verdict.words(shown.cue_ball, self.units.length));
         }
-        told.plays = plays;
+        last.plays = plays;
         lines
     }
 }
@@ -162,11 +162,11 @@ mod tests {
             let shown = ShownTable { shot: Some(stroke), ..shown };
             SeenTable { shown, age: Duration::ZERO, shot: Some(shot.clone()) }
         };
-        let mut teller = Teller { name: "anna", units: Units::default(), told: Told::default() };
-        assert_eq!(teller.news(&at(0.0, true)).last().unwrap(), "anna plays the shot.");
-        assert!(teller.news(&at(0.5 * end, false)).is_empty(), "a pause is no end");
-        teller.news(&at(0.5 * end, true));
-        let said = teller.news(&at(end, false));
+        let mut describer = Describer { name: "anna", units: Units::default(), last: Described::default() };
+        assert_eq!(describer.news(&at(0.0, true)).last().unwrap(), "anna plays the shot.");
+        assert!(describer.news(&at(0.5 * end, false)).is_empty(), "a pause is no end");
+        describer.news(&at(0.5 * end, true));
+        let said = describer.news(&at(end, false));
         assert!(said.len() == 1 && said[0].contains("oint"), "{said:?}");
     }
 }

@@ -1,4 +1,5 @@
-//! The coach as a conversation: lines in, sentences out. For screen readers, dumb terminals and scripts.
+//! Plain mode: the coach as a conversation, with commands as input lines and sentences as output. For screen readers, dumb terminals and
+//! scripts.
 
 mod command;
 mod film;
@@ -33,55 +34,54 @@ use crate::{
     },
 };
 
-/// A shot that was found.
+/// A shot found by the coach or tried by the player.
 #[derive(Clone, Copy, Debug)]
 struct Found {
     cue: CueInputs,
     /// Whether it is the best attempt of a search that found no point.
     is_attempt: bool,
     rate: Option<SuccessRate>,
-    /// How often the point after it is made, where that is known.
+    /// Success rate of the next point, if known.
     next: Option<f64>,
 }
 
-/// A conversation on its way.
+/// State of a conversation.
 struct Conversation {
     coach: Coach,
     request: Request,
-    /// The player's own skill, where there is one, and where it comes from.
+    /// The player's own skill and its source, if there is one.
     own: Option<(Skill, &'static str)>,
     balls: History<(Layout, CueBall)>,
-    /// The shots that were found for the balls as they lie, and which of them is spoken of.
+    /// The shots found for the present balls, and the index of the one being discussed.
     shots: Vec<Found>,
     chosen: usize,
-    /// Why the first of them leads.
+    /// Why the first shot is best.
     why: Option<Why>,
     units: Units,
     rng: Xoshiro256PlusPlus,
 }
 
-/// What a conversation begins with.
+/// Initial state of a conversation.
 #[derive(Clone, Copy, Debug)]
 pub struct Beginning {
-    /// Where the balls lie.
+    /// Positions of the balls.
     pub layout: Layout,
-    /// The player's own skill, where one is kept; else an average in the settings is it.
+    /// The player's own skill, if saved; otherwise an average in the settings is used.
     pub own: Option<Skill>,
-    /// What decides about random layouts.
+    /// Seed for random layouts.
     pub seed: u64,
 }
 
-/// Attempts at a stroke of the player's own by which it is told how often it is made.
-const JUDGED: usize = 1000;
+/// Number of attempts that measure the success rate of a player's own stroke.
+const ATTEMPTS: usize = 1000;
 
-/// What is said to a line: what it asked for, or why it is refused.
+/// Answer to a line: the text, or why the line is refused.
 type Answer = Result<String, String>;
 
-/// Talks until the input ends or the player quits; with a `prompt` before every answer that is awaited. Returns how many lines were
-/// refused.
+/// Runs the conversation until the input ends or the player quits, with a `prompt` before each line. Returns how many lines were refused.
 ///
 /// # Errors
-/// What reading or writing reports.
+/// Any error of reading or writing.
 pub fn converse(
     coach: Coach,
     Beginning { layout, own, seed }: Beginning,
@@ -113,10 +113,10 @@ pub fn converse(
         units: settings.units,
         rng,
     };
-    write!(output, "carom. Say help for what may be said.\n{}\n{prompt}", talk.places())?;
+    write!(output, "carom. Say help for a list of commands.\n{}\n{prompt}", talk.places())?;
     output.flush()?;
     let mut refused = 0;
-    // What is no UTF-8 is no command either, and is answered so.
+    // Lines that are not UTF-8 are answered like any other unknown command.
     let mut line = Vec::new();
     loop {
         let command = match next_line(&mut input, &mut line)? {
@@ -165,7 +165,7 @@ impl Conversation {
             Command::CueBall(cue_ball) if cue_ball == self.cue_ball() => format!("The cue ball is {cue_ball} already."),
             Command::CueBall(cue_ball) => {
                 self.balls.push((self.layout().for_the_opponent(), cue_ball));
-                self.forget(format!("The cue ball is {cue_ball}."))
+                self.drop_shots(format!("The cue ball is {cue_ball}."))
             }
             Command::Move(colour, step) => {
                 let ball = self.cue_ball().ordered([0, 1, 2])[colour];
@@ -181,36 +181,36 @@ impl Conversation {
             }
             Command::Rule(rule) => {
                 self.request.rule = rule;
-                self.forget(format!("The rule is {rule}."))
+                self.drop_shots(format!("The rule is {rule}."))
             }
             Command::Skill(skill) => {
                 self.request.skill = skill;
-                self.forget(speech::now_plays(skill))
+                self.drop_shots(speech::now_plays(skill))
             }
             Command::OwnSkill => {
                 let (skill, from) = self
                     .own
                     .ok_or("No skill of your own is kept yet; carom drill skill --keep estimates and keeps it.")?;
                 self.request.skill = skill;
-                self.forget(format!("You average {}, {from}.", speech::average(skill)))
+                self.drop_shots(format!("You average {}, {from}.", speech::average(skill)))
             }
             Command::Plan(plan) => {
                 self.request.plan = plan;
-                self.forget(format!("The next point {}.", if plan { "counts too" } else { "does not count" }))
+                self.drop_shots(format!("The next point {}.", if plan { "counts too" } else { "does not count" }))
             }
             Command::First(word) => {
                 let names = self.cue_ball().names();
                 self.request.first = FirstMet::said(&word, names).map_err(|error| error.to_string())?;
-                self.forget(format!("Met first: {word}."))
+                self.drop_shots(format!("Met first: {word}."))
             }
             Command::PlanNow => speech::plan(self.request.plan, self.shots.get(self.chosen).and_then(|shot| shot.next)),
-            Command::Chances => self.about_the_shot(|talk, _| {
+            Command::Chances => self.with_chosen_shot(|talk, _| {
                 let of = |shot: &Found| speech::chance(shot.is_attempt, shot.rate, talk.request.skill).join(" ");
                 let line = |(number, shot): (usize, &Found)| format!("Shot {number}. {}", of(shot));
                 Ok((1..).zip(&talk.shots).map(line).collect::<Vec<_>>().join("\n"))
             })?,
-            Command::Why => self.about_the_shot(|talk, _| {
-                let why = talk.why.as_ref().ok_or("No reason is known why the first shot leads.")?;
+            Command::Why => self.with_chosen_shot(|talk, _| {
+                let why = talk.why.as_ref().ok_or("No reason is known why the first shot is best.")?;
                 Ok(format!("The first shot. {}", why.words(talk.cue_ball(), talk.units)))
             })?,
             Command::Shot => self.ask()?,
@@ -220,7 +220,7 @@ impl Conversation {
                 self.describe()?
             }
             Command::Other => return Err("There is no other shot; say shot to ask for one.".to_owned()),
-            Command::Margins => self.about_the_shot(|talk, shot| {
+            Command::Margins => self.with_chosen_shot(|talk, shot| {
                 let Request { rule, .. } = talk.request;
                 let doubt = talk.request.shooter().doubts();
                 Ok(match Sensitivity::new(rule, talk.table(), talk.layout(), doubt).margins(&shot.cue) {
@@ -228,14 +228,15 @@ impl Conversation {
                     None => "This shot makes no point.".to_owned(),
                 })
             })?,
-            Command::Numbers => self.about_the_shot(|talk, shot| {
+            Command::Numbers => self.with_chosen_shot(|talk, shot| {
                 let aim = aim(talk.table(), talk.layout(), &shot.cue).ok();
                 Ok(speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball(), talk.units))
             })?,
-            Command::System => self
-                .about_the_shot(|talk, shot| Ok(speech::system(guide(talk.table(), &talk.recorded(shot)?).as_ref())))?,
+            Command::System => self.with_chosen_shot(|talk, shot| {
+                Ok(speech::system(guide(talk.table(), &talk.recorded(shot)?).as_ref()))
+            })?,
             Command::Words => speech::words(self.table(), self.units.length),
-            Command::Tell(all) => self.about_the_shot(|talk, shot| {
+            Command::Tell(all) => self.with_chosen_shot(|talk, shot| {
                 let recording = talk.recorded(shot)?;
                 let verdict = Verdict::of(talk.request.rule, talk.table(), talk.layout(), &recording);
                 let outcome = verdict.words(talk.cue_ball(), talk.units.length);
@@ -248,7 +249,7 @@ impl Conversation {
             }
             Command::Films => film::list(),
             Command::Film(number) => film::tell(number, self.units.length)?,
-            Command::Undo if self.balls.undo() => self.forget(self.places()),
+            Command::Undo if self.balls.undo() => self.drop_shots(self.places()),
             Command::Undo => return Err("There is nothing to take back.".to_owned()),
             Command::Help => command::help(),
             Command::Quit => String::new(),
@@ -262,18 +263,18 @@ impl Conversation {
         self.place(layout) + if asks { "\nThe first shot of a game has to meet red first." } else { "" }
     }
 
-    /// Puts the balls elsewhere.
+    /// Moves the balls to `layout`.
     fn place(&mut self, layout: Layout) -> String {
-        // What moves nothing is no step that could be taken back.
+        // If no ball moves, there is no step to undo.
         if layout == *self.layout() {
             return self.places();
         }
         self.balls.push((layout, self.cue_ball()));
-        self.forget(self.places())
+        self.drop_shots(self.places())
     }
 
-    /// The shots were for something else.
-    fn forget(&mut self, sentence: String) -> String {
+    /// Drops the shots, because they were for another situation.
+    fn drop_shots(&mut self, sentence: String) -> String {
         self.shots.clear();
         sentence
     }
@@ -307,7 +308,7 @@ impl Conversation {
         Ok(format!("{}{next}\n{others}", self.describe()?))
     }
 
-    /// Tells of a stroke of the player's own, in these words.
+    /// Describes a stroke of the player's own, given in words.
     fn try_stroke(&mut self, words: &str) -> Answer {
         let before = self.shots.get(self.chosen).map(|shot| shot.cue);
         let read = SpokenStroke::read(words);
@@ -315,8 +316,8 @@ impl Conversation {
         let cue = said.map_err(|error| error.to_string())?;
         let Request { rule, seed, .. } = self.request;
         let has_errors = !self.request.skill.is_perfect();
-        let rate =
-            has_errors.then(|| judge(self.request.shooter(), rule, self.table(), self.layout(), &cue, 0..JUDGED, seed));
+        let rate = has_errors
+            .then(|| judge(self.request.shooter(), rule, self.table(), self.layout(), &cue, 0..ATTEMPTS, seed));
         let found = Found { cue, is_attempt: false, rate, next: None };
         let verdict = Verdict::of(rule, self.table(), self.layout(), &self.recorded(&found)?);
         if self.shots.is_empty() {
@@ -327,9 +328,9 @@ impl Conversation {
         Ok(format!("{}\n{}.", self.describe()?, verdict.words(self.cue_ball(), self.units.length)))
     }
 
-    /// The shot that is spoken of.
+    /// Describes the chosen shot.
     fn describe(&self) -> Answer {
-        self.about_the_shot(|talk, shot| {
+        self.with_chosen_shot(|talk, shot| {
             let mut lines = Vec::new();
             let (cue_ball, units) = (talk.cue_ball(), talk.units);
             let recording = Recording::new(talk.table(), talk.layout(), &shot.cue).ok();
@@ -355,7 +356,7 @@ impl Conversation {
         })
     }
 
-    fn about_the_shot(&self, say: impl Fn(&Self, &Found) -> Answer) -> Answer {
+    fn with_chosen_shot(&self, say: impl Fn(&Self, &Found) -> Answer) -> Answer {
         say(self, self.shots.get(self.chosen).ok_or(NO_SHOT)?)
     }
 

@@ -1,4 +1,4 @@
-//! Sentences about balls and shots, for ears.
+//! Sentences about balls and shots, to be read aloud.
 
 use crate::{
     coach::{
@@ -14,7 +14,7 @@ use crate::{
     terminal::words::{event_words, fixed, in_diamonds, percent, rail_name},
 };
 
-/// A small distance in words, and the decimals that it is told with: how many of it are a metre.
+/// Small unit of length: how many make a metre, its name, and the decimals to display.
 const fn small(unit: LengthUnit, decimals: usize) -> (f64, &'static str, usize) {
     let (in_a_metre, ..) = unit.fine();
     match unit {
@@ -23,12 +23,12 @@ const fn small(unit: LengthUnit, decimals: usize) -> (f64, &'static str, usize) 
     }
 }
 
-/// Sentences that the screen has too, with words for its signs: what one reads aloud is spelt one way.
+/// Spells out the signs in sentences shared with the screen, so that they are read aloud the same way.
 pub fn for_ears(said: &str) -> String {
     said.replace(" %", " percent").replace('\u{b0}', " degrees")
 }
 
-/// What speeds are told in, in words.
+/// Unit of speed in words.
 pub const fn of_speed(unit: LengthUnit) -> &'static str {
     match unit {
         LengthUnit::Metres => "metres a second",
@@ -36,18 +36,18 @@ pub const fn of_speed(unit: LengthUnit) -> &'static str {
     }
 }
 
-/// A coordinate in a small unit: tenths of a millimetre where there are some.
+/// A coordinate in the small unit, with tenths of a millimetre only if they are not zero.
 fn coordinate(metres: f64, unit: LengthUnit) -> String {
     let tenths = match unit {
         LengthUnit::Metres => 1,
         LengthUnit::Feet => 0,
     };
     let (in_a_metre, _, decimals) = small(unit, tenths);
-    let told = fixed(in_a_metre * metres, decimals);
-    told.strip_suffix(".0").map_or(told.clone(), str::to_owned)
+    let text = fixed(in_a_metre * metres, decimals);
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 
-/// Where the balls lie; which is the cue ball is said where it is not white.
+/// Positions of the balls; the cue ball is named if it is not white.
 pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUnit) -> String {
     let (_, small, _) = small(unit, 0);
     let names = cue_ball.ordered(["White", "Yellow", "Red"]);
@@ -67,7 +67,7 @@ pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUni
     if cue_ball == CueBall::White { places } else { format!("{places}\nThe cue ball is {cue_ball}.") }
 }
 
-/// How to strike.
+/// The stroke in numbers.
 pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBall, units: Units) -> String {
     let unit = units.length;
     let of_the_tip = if units.tip == TipUnit::Mm { LengthUnit::Metres } else { unit };
@@ -103,7 +103,7 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBa
     lines.join("\n")
 }
 
-/// What a player counts on the diamonds for a shot.
+/// The diamond system for a shot.
 pub fn system(guide: Option<&Guide>) -> String {
     match guide {
         None => "No diamond system describes this shot.".to_owned(),
@@ -121,21 +121,21 @@ pub fn system(guide: Option<&Guide>) -> String {
     }
 }
 
-/// What the words for a shot mean.
+/// Explanation of the words used for shots.
 pub fn words(table: &Table, unit: LengthUnit) -> String {
     let (in_a_metre, small, decimals) = small(unit, 1);
     let tip = fixed(in_a_metre * TIP * table.radius, decimals);
     format!(
         "Tips: how far the cue's tip is from the middle of the ball, {tip} {small} each; above and below, or of left and right side.\n\
-         O'clock: in which direction from the middle, as you look along the cue.\n\
-         Running side makes the way off the first cushion longer, reverse side shorter.\n\
-         Full: how much of the ball is covered as the cue ball comes on; on the left is its left half.\n\
-         Table lengths: how far a ball would run that is struck so in the middle; up the table and back is two.\n\
+         O'clock: the direction from the middle, as you look along the cue.\n\
+         Running side makes the path off the first cushion longer, reverse side shorter.\n\
+         Full: how much of the ball the cue ball covers at the hit; on the left is its left half.\n\
+         Table lengths: how far a ball would run if struck at this speed in the centre; up the table and back is two.\n\
          Diamonds: counted from the lower left corner, 0 to 8 along the long rails, 0 to 4 up the short ones."
     )
 }
 
-/// How often the player makes a shot; that it makes no point, where it makes none.
+/// The player's success rate at a shot, and a sentence if it is only an attempt that makes no point.
 pub fn chance(is_attempt: bool, rate: Option<SuccessRate>, skill: Skill) -> Vec<String> {
     let none = is_attempt.then(|| "No point was found; this is the best attempt.".to_owned());
     let rate = rate.map(|rate| {
@@ -145,12 +145,12 @@ pub fn chance(is_attempt: bool, rate: Option<SuccessRate>, skill: Skill) -> Vec<
     none.into_iter().chain(rate).collect()
 }
 
-/// What a player of this skill averages at three-cushion, to two digits behind the point.
+/// Average of this skill at three-cushion, to two decimals.
 pub fn average(skill: Skill) -> String {
     number((100.0 * Skill::average(skill.scale())).round() / 100.0)
 }
 
-/// Who plays, at the beginning of a sentence.
+/// Names the player, for the start of a sentence.
 pub fn player(skill: Skill) -> String {
     if let Some(average) = skill.as_average() {
         return format!("A player who averages {average}");
@@ -159,13 +159,13 @@ pub fn player(skill: Skill) -> String {
         Some((name @ "expert", _)) => format!("An {name}"),
         Some((name @ "beginner", _)) => format!("A {name}"),
         Some((name, _)) => format!("A {name} player"),
-        // As a skill of one's own is that was estimated.
+        // The form of a user's own skill that was estimated.
         None if skill.growth == Growth::USUAL => format!("A player who averages {}", average(skill)),
         None => format!("Player {skill}"),
     }
 }
 
-/// Who plays from now on.
+/// Describes the player after a change.
 pub fn now_plays(skill: Skill) -> String {
     skill.as_average().map_or_else(
         || format!("The player is {skill}."),
@@ -173,19 +173,19 @@ pub fn now_plays(skill: Skill) -> String {
     )
 }
 
-/// What the shot leaves.
+/// The success rate of the next point.
 pub fn next_point(next: f64) -> String {
     format!("The point after it is made about {:.0} percent of the time.", 100.0 * next)
 }
 
-/// Whether the next point counts too, and what the shot leaves.
+/// Whether the next point counts too, and its success rate.
 pub fn plan(counts: bool, next: Option<f64>) -> String {
     let [now, other] = if counts { ["counts too", "off"] } else { ["does not count", "on"] };
     let next = next.map_or_else(String::new, |next| format!("{} ", next_point(next)));
     format!("The next point {now}. {next}Say plan {other} to change that.")
 }
 
-/// How far off each input may be.
+/// How far each input may be off.
 pub fn margins(margins: &[Margin], unit: LengthUnit) -> String {
     let (_, small, _) = small(unit, 0);
     let line = |margin: &Margin| {
@@ -199,7 +199,7 @@ pub fn margins(margins: &[Margin], unit: LengthUnit) -> String {
         let (factor, _) = margin.input.told_in(unit);
         let end = |end: Option<f64>, way: &str| match end {
             Some(end) => format!("up to {} {word} {way}", fixed(factor * end, 2)),
-            // There is an end to that for every cue.
+            // Every cue can be lowered only until it is level.
             None if way == "flatter" => "down to level".to_owned(),
             None => format!("far {way}"),
         };
@@ -208,7 +208,7 @@ pub fn margins(margins: &[Margin], unit: LengthUnit) -> String {
     margins.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// What balls and cushions are met in a shot, or with `all` everything that happens.
+/// The contacts of a shot, or with `all` its events.
 pub fn events(recording: &Recording, all: bool, cue_ball: CueBall, unit: LengthUnit) -> String {
     let names = cue_ball.names();
     let words = |kind: EventKind| match kind {
@@ -221,8 +221,8 @@ pub fn events(recording: &Recording, all: bool, cue_ball: CueBall, unit: LengthU
         jump.map_or_else(String::new, |jump| format!(", {}", jump_words(&jump, unit)))
     };
     let line = |event: &Event| format!("{} seconds: {}{}.", fixed(event.time, 2), words(event.kind), jump(event));
-    let told = recording.events().iter().filter(|event| all || recording.is_told(event));
-    let mut lines: Vec<String> = told.map(line).collect();
+    let listed = recording.events().iter().filter(|event| all || recording.is_told(event));
+    let mut lines: Vec<String> = listed.map(line).collect();
     lines.push(format!("{} seconds: all balls lie still.", fixed(recording.duration(), 2)));
     lines.join("\n")
 }

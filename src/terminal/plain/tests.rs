@@ -1,4 +1,4 @@
-//! The conversation as somebody holds it.
+//! Whole conversations.
 
 use super::*;
 use crate::coach::words::LengthUnit;
@@ -8,7 +8,7 @@ fn talk(lines: &str) -> String {
     talk_of(None, &Settings { think_ms: 1_000, ..Settings::default() }, lines)
 }
 
-/// With a player whose own skill this is, under these settings.
+/// A conversation with a player of this own skill, under these settings.
 fn talk_of(own: Option<Skill>, settings: &Settings, lines: &str) -> String {
     let table = Table::default();
     let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
@@ -18,7 +18,7 @@ fn talk_of(own: Option<Skill>, settings: &Settings, lines: &str) -> String {
     String::from_utf8(output).unwrap()
 }
 
-fn assert_told(said: &str, all: &[&str]) {
+fn assert_contains(said: &str, all: &[&str]) {
     for words in all {
         assert!(said.contains(words), "{words}: {said}");
     }
@@ -34,7 +34,7 @@ fn a_line_that_is_too_long_is_refused_and_the_talk_goes_on() {
 #[test]
 fn a_shot_is_told_its_margins_its_course_and_its_end() {
     let said = talk("shot\nnumbers\nmargins\ntell\ngo on\nundo\nquit\nwhere");
-    assert_told(
+    assert_contains(
         &said,
         &[
             "percent of the time, between",
@@ -65,7 +65,7 @@ fn distances_and_speeds_are_told_in_the_unit_of_the_settings() {
     let units = Units { length: LengthUnit::Feet, ..Units::default() };
     let settings = Settings { think_ms: 1_000, units, ..Settings::default() };
     let said = talk_of(None, &settings, "words\nshot\nnumbers\nmargins\ntell\n");
-    assert_told(
+    assert_contains(
         &said,
         &["-19.69 and 0.00 inches from the middle", "0.121 inches each", "feet a second, ", "feet a second softer"],
     );
@@ -82,8 +82,8 @@ fn the_system_of_a_shot_is_told_and_what_the_words_mean() {
     assert!(is_told || told == "No diamond system describes this shot.", "{said}");
 }
 
-/// Why a shot leads, and which system describes it, is worked out after the search: in less time than 2000 shots take on the
-/// same machine, half of a short search's.
+/// The reasons for a shot and its diamond system are computed after the search. They must take less time than 2000 shots on the same
+/// machine, which is half of a short search.
 #[test]
 #[ignore = "compares times: cargo test --profile quick --lib the_reasons -- --ignored"]
 fn the_reasons_take_no_longer_than_a_short_search() {
@@ -97,7 +97,7 @@ fn the_reasons_take_no_longer_than_a_short_search() {
         work();
         start.elapsed()
     };
-    // The least of three: what else runs on the machine only adds to a time.
+    // The minimum of three: other load on the machine only increases a time.
     let least = |work: &dyn Fn()| (0..3).map(|_| timed(work)).min().unwrap();
     let record = || Recording::new(&table, &layout, &advice.cue).unwrap();
     let shots = least(&|| (0..500).for_each(|_| drop(record())));
@@ -111,7 +111,7 @@ fn the_reasons_take_no_longer_than_a_short_search() {
 #[test]
 fn a_filmed_shot_is_told_beside_its_simulation() {
     let said = talk("film\nfilm 90\nfilm 91\nwhere");
-    assert_told(
+    assert_contains(
         &said,
         &[
             "There are 91 filmed shots",
@@ -144,7 +144,7 @@ fn the_skill_that_is_kept_plays_and_where_none_is_that_is_said() {
     let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
     let settings = Settings { think_ms: 1_000, ..Settings::default() };
     let said = talk_of(own.parse().ok(), &settings, "skill own\nskill 0.6\nshot\nskill 7\n");
-    assert_told(
+    assert_contains(
         &said,
         &[
             "You average 2.02, by your notes.",
@@ -169,7 +169,7 @@ fn the_players_two_skills_are_told_apart_by_where_they_come_from() {
 fn why_chances_and_plan_are_answered_in_sentences_without_the_course_again() {
     assert!(talk("why").contains("There is no shot yet") && talk("chances").contains("There is no shot yet"));
     let said = talk("skill club\nshot\nwhy\nchances\nplan\nplan off\nplan");
-    assert_told(
+    assert_contains(
         &said,
         &[
             "The first shot. It is made ",
@@ -187,7 +187,7 @@ fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
     let said = talk(
         "tell\nother\ngo on\nmove white left 0\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nmove red right 9000\nfirst white\nrule one-cushion\n",
     );
-    assert_told(
+    assert_contains(
         &said,
         &[
             "no shot yet",

@@ -1,4 +1,4 @@
-//! The stroke that the player sets with keys.
+//! Changes of a stroke by keys.
 
 use crate::{
     game::Point,
@@ -6,64 +6,64 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Smallest steps, to which what is set is rounded: 0.01°, 0.1 mm, 0.05 m/s.
+/// Smallest steps, to which values are rounded: 0.01°, 0.1 mm, 0.05 m/s.
 const DEGREES: f64 = 0.01;
 const MILLIMETRES: f64 = 0.1;
 const SPEED: f64 = 0.05;
-/// Slowest and fastest stroke that can be set, m/s; the fastest is that of the thesis (its 4.1.3).
+/// Slowest and fastest stroke, m/s; the fastest is that of the thesis (section 4.1.3).
 const SPEEDS: (f64, f64) = (0.1, 6.0);
-/// Steepest cue that can be set, degrees.
+/// Steepest cue elevation, degrees.
 const STEEPEST: f64 = 80.0;
-/// Speed of the stroke that one begins with, m/s: it takes the cue ball about once around the table.
+/// Initial speed of a stroke, m/s: the cue ball runs about once around the table.
 const FIRST_SPEED: f64 = 2.5;
 
 /// Nearest multiple of `step`.
 fn rounded(value: f64, step: f64) -> f64 {
-    // Dividing by a whole number gives the number that people would write; multiplying by the step would not.
+    // Dividing by an integer gives the decimal number itself; multiplying by the step would not.
     let steps = (1.0 / step).round();
     (value * steps).round() / steps
 }
 
-/// A stroke at the first object ball, or at red where that has to be met first: full, level, in the middle.
+/// The initial stroke: level, in the centre, aimed full at the first object ball, or at red if the rule requires red first.
 pub fn first_stroke(point: Point, layout: &Layout) -> CueInputs {
     let level = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: FIRST_SPEED };
     at_ball(&level, layout, point.first_ball())
 }
 
-/// The same stroke, aimed full at `ball`.
+/// Aims the stroke full at `ball`.
 pub fn at_ball(cue: &CueInputs, layout: &Layout, ball: usize) -> CueInputs {
     let degrees = (layout.balls[ball] - layout.balls[0]).to_angle().to_degrees();
     CueInputs { phi: rounded(degrees, DEGREES).to_radians(), ..*cue }
 }
 
-/// The object ball that the next press of the key aims at: the one that the stroke goes nearer to, or the other one where it is
-/// aimed full at that.
+/// The object ball that the next press of the key aims at: the one closest to the present aim, or the other one if the stroke already aims
+/// full at it.
 pub fn next_ball(cue: &CueInputs, layout: &Layout) -> usize {
     let off = |ball| turn(at_ball(cue, layout, ball).phi, cue.phi).abs();
     let nearer = if off(1) <= off(2) { 1 } else { 2 };
     if off(nearer) < 1e-9 { 3 - nearer } else { nearer }
 }
 
-/// Aimed so many degrees further to the left.
+/// Turns the aim to the left by `degrees`.
 pub fn turned(cue: &CueInputs, degrees: f64) -> CueInputs {
     let turned = rounded(cue.phi.to_degrees() + degrees, DEGREES);
-    // From -180 (not included) to 180 degrees.
+    // The range is -180 (excluded) to 180 degrees.
     let turned = 180.0 - (180.0 - turned).rem_euclid(360.0);
     CueInputs { phi: rounded(turned, DEGREES).to_radians(), ..*cue }
 }
 
-/// The cue raised by so many degrees.
+/// Raises the cue by `degrees`.
 pub fn raised(cue: &CueInputs, degrees: f64) -> CueInputs {
     let theta = rounded(cue.theta.to_degrees() + degrees, DEGREES).clamp(0.0, STEEPEST);
     CueInputs { theta: theta.to_radians(), ..*cue }
 }
 
-/// Struck so much faster, m/s.
+/// Increases the speed by `by` m/s.
 pub fn faster(cue: &CueInputs, by: f64) -> CueInputs {
     CueInputs { speed: rounded(cue.speed + by, SPEED).clamp(SPEEDS.0, SPEEDS.1), ..*cue }
 }
 
-/// The tip moved, mm to the player's left and up; `None` where it would slip off the ball.
+/// Moves the tip, mm to the player's left and up; `None` if it would slip off the ball.
 pub fn tip_moved(table: &Table, cue: &CueInputs, left: f64, up: f64) -> Option<CueInputs> {
     let millimetre = 0.001 / table.radius;
     let moved = |radii: f64, by: f64| rounded(radii / millimetre + by, MILLIMETRES) * millimetre;

@@ -1,4 +1,4 @@
-//! Filmed shots, ready to be shown beside their simulation.
+//! Filmed shots, prepared for display with their simulation.
 
 use std::sync::{Arc, OnceLock};
 
@@ -10,24 +10,24 @@ use crate::{
     terminal::Shot,
 };
 
-/// A filmed shot as it is listed.
+/// A filmed shot in the list.
 #[derive(Debug)]
 pub struct Listed {
     /// The film.
     pub filmed: FilmedShot,
-    /// Where the balls lie before the stroke.
+    /// Positions of the balls before the stroke.
     pub layout: Layout,
-    /// Whether the film shows a point at three cushions.
+    /// Whether the film shows a three-cushion point.
     pub is_point: bool,
 }
 
-/// The table that the film is played on.
+/// The table of the films.
 pub fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(Table::default)
 }
 
-/// All filmed shots, in the order of the match. They are read when they are first asked for.
+/// All filmed shots, in the order of the match; read at the first call.
 pub fn listed() -> &'static [Listed] {
     static FILM: OnceLock<Vec<Listed>> = OnceLock::new();
     FILM.get_or_init(|| {
@@ -40,27 +40,27 @@ pub fn listed() -> &'static [Listed] {
     })
 }
 
-/// A filmed shot that can be watched.
+/// A filmed shot ready for playback.
 #[derive(Clone, Debug)]
 pub struct FilmReplay {
     /// Film and simulation.
     pub replay: Replay,
-    /// What the simulation makes of it, to be shown.
+    /// The simulated shot.
     pub shot: Arc<Shot>,
-    /// The stroke with a level cue that gives the fitted motion, where one does.
+    /// The stroke with a level cue that gives the fitted motion, or `None` if there is none.
     pub stroke: Option<CueInputs>,
 }
 
 impl FilmReplay {
-    /// Fits the stroke and plays the shot. That may take a second: not for the screen's thread.
+    /// Fits the stroke and simulates the shot. This may take a second, so it must not run on the screen's thread.
     ///
     /// # Errors
-    /// A sentence on why it cannot be played.
+    /// A message that says why the shot cannot be simulated.
     pub fn new(filmed: &FilmedShot) -> Result<Self, String> {
         let replay = Replay::new(table(), filmed).map_err(|error| error.to_string())?;
         let impulse = replay.recording.impulse();
         let stroke = level_stroke(table(), impulse);
-        // Where no level cue gives such a spin, the direction alone is known.
+        // If no level cue gives this spin, only the direction and speed are known.
         let shown = stroke.unwrap_or_else(|| CueInputs {
             a: 0.0,
             b: 0.0,

@@ -1,9 +1,9 @@
-//! Undo and redo, as far back as is kept.
+//! Undo and redo with a limited number of steps.
 
-/// Steps that are kept. An answered shot is a tenth of a megabyte, and players go back no further.
+/// Most steps kept. A shot takes a tenth of a megabyte, and players do not go back further.
 const LONGEST: usize = 200;
 
-/// A value with its past and the future that was undone.
+/// A value with its earlier versions and the undone ones.
 #[derive(Clone, Debug)]
 pub struct History<T> {
     past: Vec<T>,
@@ -12,22 +12,22 @@ pub struct History<T> {
 }
 
 impl<T> History<T> {
-    /// A history that begins with `present`.
+    /// Creates a history that starts with `present`.
     pub const fn new(present: T) -> Self {
         Self { past: Vec::new(), present, future: Vec::new() }
     }
 
-    /// What holds now.
+    /// The present value.
     pub const fn present(&self) -> &T {
         &self.present
     }
 
-    /// What holds now, to be completed without a step of its own.
+    /// The present value, to be completed without adding a step.
     pub const fn present_mut(&mut self) -> &mut T {
         &mut self.present
     }
 
-    /// Makes `next` the present; what was undone is gone.
+    /// Makes `next` the present value; undone versions are dropped.
     pub fn push(&mut self, next: T) {
         if self.past.len() == LONGEST {
             self.past.remove(0);
@@ -36,14 +36,14 @@ impl<T> History<T> {
         self.future.clear();
     }
 
-    /// One step back; `false` at the beginning.
+    /// Goes back one step; `false` at the beginning.
     pub fn undo(&mut self) -> bool {
         let Some(before) = self.past.pop() else { return false };
         self.future.push(std::mem::replace(&mut self.present, before));
         true
     }
 
-    /// One step forward again; `false` where nothing is undone.
+    /// Goes forward one step; `false` if nothing is undone.
     pub fn redo(&mut self) -> bool {
         let Some(after) = self.future.pop() else { return false };
         self.past.push(std::mem::replace(&mut self.present, after));

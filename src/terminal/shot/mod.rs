@@ -1,5 +1,4 @@
-//! A recommended shot as the screen needs it: its recording, the dots of its paths, what a player calls it, and how it meets the
-//! first ball.
+//! A shot prepared for display: its recording, the dots of its paths, its description in words, and its hit on the first object ball.
 
 pub mod aiming;
 pub mod film;
@@ -32,24 +31,24 @@ use crate::{
     table::{BALLS, CueBall, Layout, Table},
 };
 
-/// Distance of two dots of a path, m. The screen shows every second or third of them, as its sub-pixels ask for.
+/// Distance of two dots of a path, m. The screen draws every second or third of them, depending on its sub-pixels.
 pub const DOT_SPACING: f64 = 0.0275;
-/// Seconds between two looks at a path; at 10 m/s a ball moves 10 mm meanwhile, well below a dot's distance.
+/// Sampling interval of a path, s; at 10 m/s a ball moves 10 mm in it, well below the distance of two dots.
 const PATH_STEP: f64 = 0.001;
 
 /// A dot of a ball's path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dot {
-    /// When the ball is here, s.
+    /// Time at which the ball is here, s.
     pub time: f64,
-    /// Where, m.
+    /// Position, m.
     pub place: DVec2,
-    /// How high it is over the cloth, m.
+    /// Height above the cloth, m.
     pub height: f64,
 }
 
 impl Dot {
-    /// Whether the ball is in the air there, as far as it is told.
+    /// Whether the ball is visibly in the air.
     pub fn is_aloft(&self) -> bool {
         self.height >= TOLD_HEIGHT
     }
@@ -60,27 +59,27 @@ impl Dot {
 pub struct Contact {
     /// The object ball, 1 or 2.
     pub ball: usize,
-    /// When, s.
+    /// Time, s.
     pub time: f64,
-    /// Where the cue ball is then, m.
+    /// Position of the cue ball, m.
     pub place: DVec2,
-    /// Where the object ball is then, m.
+    /// Position of the object ball, m.
     pub other: DVec2,
 }
 
-/// What the cue ball meets first.
+/// The first thing that the cue ball hits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Meeting {
-    /// An object ball, and how.
+    /// An object ball, with the hit.
     Ball(Hit),
-    /// A cushion, and after it perhaps an object ball.
+    /// A cushion, and the hit on the first object ball after it, if any.
     Rail(Rail, Option<Hit>),
     /// Nothing.
     Nothing,
 }
 
 impl Meeting {
-    /// What the cue ball meets first in a recorded shot that meets its first object ball so.
+    /// The first thing that the cue ball hits in a recorded shot, whose hit on its first object ball is `first`.
     pub fn of(recording: &Recording, first: Option<Hit>) -> Self {
         let met = recording.events().iter().find_map(|event| match event.kind {
             EventKind::BallRail(0, rail) => Some(Some(rail)),
@@ -95,36 +94,36 @@ impl Meeting {
     }
 }
 
-/// A shot ready to be shown and played.
+/// A shot ready for display and playback.
 #[derive(Debug)]
 pub struct Shot {
-    /// What the player has to do.
+    /// The stroke.
     pub cue: CueInputs,
     /// Whether the shot makes the point.
     pub solved: bool,
-    /// Where the shot comes from.
+    /// Where the shot comes from, in a word.
     pub source: String,
-    /// What happens, exact at any time.
+    /// The simulated motion, exact at any time.
     pub recording: Recording,
     /// The dots of the three balls' paths.
     pub paths: [Vec<Dot>; BALLS],
-    /// Its first contact with each object ball that it meets.
+    /// The cue ball's first contact with each object ball that it hits.
     pub contacts: Vec<Contact>,
-    /// What a player calls it.
+    /// Description in a player's words.
     pub words: ShotWords,
-    /// The sort of shot that it is; `None` where not both balls are met.
+    /// The pattern of the shot; `None` if it does not hit both object balls.
     pub pattern: Option<&'static Pattern>,
-    /// Its jump from the side, once somebody has looked.
+    /// Side view of its jump, computed at first use.
     profile: OnceLock<Option<Profile>>,
-    /// What came of it by each rule, once somebody has asked.
+    /// The verdict by each rule, computed at first use.
     verdicts: [OnceLock<Verdict>; Rule::ALL.len()],
 }
 
 impl Shot {
-    /// Records the shot `cue` from `layout`; `solved` says whether it makes the point, `source` where it comes from.
+    /// Simulates the stroke `cue` from `layout`. `solved`: whether it makes the point; `source`: where it comes from.
     ///
     /// # Errors
-    /// What the simulator refuses.
+    /// Any error of the simulator.
     pub fn new(
         table: &Table,
         layout: &Layout,
@@ -135,7 +134,7 @@ impl Shot {
         Ok(Self::of(table, Recording::new(table, layout, &cue)?, cue, solved, source))
     }
 
-    /// The shot that was recorded; `cue` is the stroke to show with it.
+    /// Prepares a recorded shot; `cue` is the stroke to display.
     pub fn of(table: &Table, recording: Recording, cue: CueInputs, solved: bool, source: impl Into<String>) -> Self {
         let technique = Technique::of_recorded(table, &recording);
         let layout = Layout::new(recording.positions(0.0));
@@ -153,12 +152,12 @@ impl Shot {
         }
     }
 
-    /// Its jump on `table`, the one that it was recorded on, as one who looks from the side sees it; `None` where nothing jumps.
+    /// Side view of its jump on `table`, which must be the table of the recording; `None` if no ball jumps.
     pub fn profile(&self, table: &Table) -> Option<&Profile> {
         self.profile.get_or_init(|| Profile::of(table, &self.recording)).as_ref()
     }
 
-    /// What came of it by a rule on `table`, the one that it was recorded on.
+    /// The verdict by a rule on `table`, which must be the table of the recording.
     pub fn verdict(&self, rule: Rule, table: &Table) -> Verdict {
         let place = Rule::ALL.iter().position(|one| *one == rule).unwrap_or_default();
         *self.verdicts[place].get_or_init(|| {
@@ -167,18 +166,18 @@ impl Shot {
         })
     }
 
-    /// How the cue ball, of `radius` in m, spins at `time`, s, while the shot is under way; `None` before and after.
+    /// Spin of the cue ball, of `radius` in m, at `time`, s, while the shot runs; `None` before and after.
     pub fn spin(&self, time: f64, radius: f64) -> Option<Spin> {
         let is_under_way = time > 0.0 && time < self.recording.duration();
         is_under_way.then(|| Spin::of(&self.recording.state(0, time), self.recording.motion(0, time), radius))
     }
 
-    /// What the cue ball meets first.
+    /// The first thing that the cue ball hits.
     pub fn meeting(&self) -> Meeting {
         Meeting::of(&self.recording, self.words.first)
     }
 
-    /// How the cue ball meets the first object ball, in words, for who plays with `cue_ball`.
+    /// Describes the hit on the first object ball, with balls named for the player of `cue_ball`.
     pub fn contact_words(&self, cue_ball: CueBall) -> Option<String> {
         let contact = self.words.first?;
         let side = contact.side().map_or_else(String::new, |side| format!(", {side} side"));
@@ -204,7 +203,7 @@ fn dots(recording: &Recording, ball: usize) -> Vec<Dot> {
         since_dot += place.distance(last);
         last = place;
         if since_dot >= DOT_SPACING {
-            // What is over counts for the next, so that the distance is right on average.
+            // Carry over the excess, so that the distance is right on average.
             since_dot -= DOT_SPACING;
             dots.push(Dot { time, place, height: recording.height(ball, time) });
         }
@@ -224,7 +223,7 @@ mod tests {
 
     #[test]
     fn fullness_and_side_are_those_the_player_sees() {
-        // The object ball lies half a radius to the right of the cue ball's way along x: its left side is hit.
+        // The object ball lies half a radius to the right of the cue ball's path along x: its left side is hit.
         let half = shot("-0.7,0 0,-0.03075 0.9,0.5", "0,0,0,0,3");
         let contact = half.words.first.unwrap();
         assert_eq!(contact.ball, 1);

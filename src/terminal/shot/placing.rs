@@ -1,23 +1,23 @@
-//! Moving a ball by hand: it slides until it touches a ball or a cushion, and says which.
+//! Moving a ball by hand: it slides until it touches a ball or a cushion.
 
 use glam::DVec2;
 
 use crate::table::{BALLS, Layout, LayoutError, TOUCHING_TOLERANCE, Table};
 
-/// Step sizes of the arrow keys, mm; Shift makes them ten times larger, Ctrl ten times smaller.
+/// Step sizes of the arrow keys, mm; Shift multiplies them by ten, Ctrl divides them by ten.
 pub const STEPS: [f64; 5] = [1.0, 5.0, 10.0, 50.0, 100.0];
 
-/// Where a ball came to lie, and why it did not go all the way.
+/// Result of moving a ball.
 #[derive(Debug, PartialEq)]
 pub struct Slide {
     /// The layout after the move.
     pub layout: Layout,
-    /// What the wanted place, or the way to it, would have broken.
+    /// What the ball would have hit at its destination or on the way; `None` if it went all the way.
     pub stopped: Option<LayoutError>,
 }
 
 impl Slide {
-    /// Where `ball` stopped before it had gone all the way, for who calls the balls by these names: "at the rail".
+    /// Where `ball` stopped before the end of its way, like "at the rail"; `names` are the names of the balls.
     pub fn stop_words(&self, ball: usize, names: [&str; BALLS]) -> Option<String> {
         Some(match self.stopped.as_ref()? {
             LayoutError::Overlap { first, second, .. } => format!("in contact with {}", names[first + second - ball]),
@@ -36,7 +36,7 @@ pub fn slide(table: &Table, layout: &Layout, ball: usize, step: DVec2) -> Slide 
     let reach = table.reach();
     for (from, along, limit) in [(start.x, direction.x, reach.x), (start.y, direction.y, reach.y)] {
         let room = if along == 0.0 { f64::INFINITY } else { ((limit.copysign(along) - from) / along).max(0.0) };
-        // A ball is not refused for the last bit of a computed limit.
+        // Tolerance for the last bit of a computed limit.
         if room + TOUCHING_TOLERANCE < free {
             free = room;
             let wanted = start + step;
@@ -47,7 +47,7 @@ pub fn slide(table: &Table, layout: &Layout, ball: usize, step: DVec2) -> Slide 
     let least = 2.0 * table.radius;
     for other in (0..BALLS).filter(|&other| other != ball) {
         let from_other = start - layout.balls[other];
-        // The ball's way is |from_other + s direction|; it touches where that is two radii.
+        // The ball's path is |from_other + s direction|; it touches where that is two radii.
         let along = from_other.dot(direction);
         let discriminant = along * along - (from_other.length_squared() - least * least);
         if along >= 0.0 || discriminant <= 0.0 {
@@ -66,10 +66,10 @@ pub fn slide(table: &Table, layout: &Layout, ball: usize, step: DVec2) -> Slide 
     Slide { layout, stopped }
 }
 
-/// The way from `place`, m, to the quarter of a diamond that is so many quarters away along each axis; a ball between two of
-/// them comes to the next one first. Less than a quarter is not rounded.
+/// The displacement from `place`, m, by `count` quarters of a diamond along each axis. A ball between two quarters goes to the next one
+/// first. Counts below one quarter are not rounded.
 pub fn quarters(table: &Table, place: DVec2, count: DVec2) -> DVec2 {
-    // A ball lies on a quarter that is off by rounding alone.
+    // Tolerance for a ball that lies on a quarter.
     const ROUNDING: f64 = 1e-6;
     let quarter = 0.25 * table.diamond();
     let step = |from: f64, half: f64, count: f64| {

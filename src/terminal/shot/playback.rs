@@ -1,37 +1,37 @@
-//! The clock of a shot that is being watched: playing, pausing, stepping from event to event.
+//! The clock of a shot's playback: play, pause, and stepping from event to event.
 
 use crate::simulation::Event;
 
-/// Speeds of playback, the real one in the middle.
+/// Playback speeds, with real time in the middle.
 pub const SPEEDS: [f64; 7] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 const REAL: usize = 3;
-/// Seconds between two changes of the numbers on the screen while the balls move: thirty a second cannot be read, and
-/// each costs bytes on a slow link.
+/// Seconds between two updates of the numbers on the screen while the balls move. Thirty updates a second would be unreadable, and each
+/// costs bytes on a slow link.
 const READOUT_INTERVAL: f64 = 0.1;
 
-/// What a key asks of the clock.
+/// A playback command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PlaybackKey {
-    /// Plays or pauses the shot.
+    /// Plays or pauses.
     Toggle,
-    /// Steps to another event, the next where positive.
+    /// Jumps to another event, the next one if positive.
     Event(isize),
-    /// Plays faster where positive, else slower.
+    /// Plays faster if positive, otherwise slower.
     Pace(isize),
-    /// Goes to the stroke.
+    /// Jumps to the stroke.
     ToStart,
-    /// Goes to where the balls lie still.
+    /// Jumps to the end of the shot.
     ToEnd,
 }
 
-/// Where playback stands.
+/// State of the playback.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Playback {
     /// Seconds since the stroke.
     pub time: f64,
-    /// The time that the numbers on the screen belong to.
+    /// The time that the displayed numbers belong to.
     pub readout: f64,
-    /// Whether time goes on by itself.
+    /// Whether the clock is running.
     pub playing: bool,
     since_readout: f64,
     speed: usize,
@@ -44,22 +44,22 @@ impl Default for Playback {
 }
 
 impl Playback {
-    /// Seconds of the shot in a second of the screen.
+    /// Playback speed, seconds of the shot per second.
     pub fn speed(&self) -> f64 {
         SPEEDS[self.speed]
     }
 
-    /// Plays at one of [`SPEEDS`]; another changes nothing.
+    /// Sets one of [`SPEEDS`]; ignores any other.
     pub fn set_speed(&mut self, speed: f64) {
         self.speed = SPEEDS.iter().position(|known| *known == speed).unwrap_or(self.speed);
     }
 
-    /// The next higher speed, or the next lower one where negative.
+    /// Changes to the next higher speed, or the next lower one if negative.
     pub fn change_speed(&mut self, steps: isize) {
         self.speed = self.speed.saturating_add_signed(steps).min(SPEEDS.len() - 1);
     }
 
-    /// Does what a key asks in a shot of these `events` and this `duration`.
+    /// Runs a playback command for a shot with these `events` and this `duration`.
     pub fn act(&mut self, key: PlaybackKey, events: &[Event], duration: f64) {
         match key {
             PlaybackKey::Toggle => self.toggle(duration),
@@ -70,7 +70,7 @@ impl Playback {
         }
     }
 
-    /// Plays, or pauses; at the end it plays from the start.
+    /// Plays or pauses; at the end of the shot, plays from the start.
     pub fn toggle(&mut self, duration: f64) {
         if !self.playing && self.time >= duration {
             self.jump(0.0);
@@ -79,13 +79,13 @@ impl Playback {
         self.readout = self.time;
     }
 
-    /// Stops playing where it is.
+    /// Pauses at the present time.
     pub fn pause(&mut self) {
         self.playing = false;
         self.readout = self.time;
     }
 
-    /// Lets `seconds` of the screen pass; playback pauses at the end of the shot.
+    /// Advances by `seconds` of real time; pauses at the end of the shot.
     pub fn tick(&mut self, seconds: f64, duration: f64) {
         if !self.playing {
             return;
@@ -108,13 +108,13 @@ impl Playback {
         self.playing = false;
     }
 
-    /// Goes on as somebody else's clock does that stands at `time` in a shot of this `duration`.
+    /// Follows another player's clock, which is at `time` in a shot of this `duration`.
     pub fn follow(&mut self, time: f64, duration: f64, playing: bool) {
         self.jump(time.min(duration));
         self.playing = playing && time < duration;
     }
 
-    /// Pauses at the first event after now, or at the end; where `steps` is negative at the last event before, or at the stroke.
+    /// Pauses at the next event or the end; if `steps` is negative, at the previous event or the stroke.
     pub fn step(&mut self, steps: isize, events: &[Event], duration: f64) {
         let (found, end) = if steps > 0 {
             (events.iter().find(|event| event.time > self.time), duration)
@@ -125,7 +125,7 @@ impl Playback {
     }
 }
 
-/// How many of the events have happened at `time`.
+/// Number of events up to `time`.
 pub fn passed(events: &[Event], time: f64) -> usize {
     events.partition_point(|event| event.time <= time)
 }

@@ -1,109 +1,109 @@
-//! A jump from the side: how high the ball is over its way, and what it passes.
+//! Side view of a jump: the ball's height over the distance, and the obstacles that it passes.
 
 use crate::{
     simulation::{EventKind, Jump, Rail, Recording, TOLD_HEIGHT},
     table::{BALLS, Table},
 };
 
-/// Looks at the way; twice as many as the widest picture has sub-pixels.
-const LOOKS: u32 = 600;
-/// How much of the way after the last hop that is told is shown.
-const AFTER: f64 = 1.04;
+/// Number of samples of the flight; twice the sub-pixels of the widest picture.
+const SAMPLES: u32 = 600;
+/// Length of the shown path, relative to the end of the last visible hop.
+const SHOWN_LENGTH: f64 = 1.04;
 
-/// Something that the ball flies over or against.
+/// An obstacle that the ball flies over or against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Obstacle {
     /// A ball.
     Ball(usize),
-    /// The nose of a cushion.
+    /// A cushion nose.
     Nose(Rail),
 }
 
-/// Where the ball passes something.
+/// An obstacle at the point where the ball passes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Passed {
-    /// What.
+pub struct PassedObstacle {
+    /// The obstacle.
     pub what: Obstacle,
-    /// At which way, m.
-    pub way: f64,
-    /// Height of its top over the cloth, m.
+    /// Distance along the path, m.
+    pub distance: f64,
+    /// Height of its top above the cloth, m.
     pub top: f64,
 }
 
-/// A place of the flight.
+/// A sample of the flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// When, s.
+    /// Time, s.
     pub time: f64,
-    /// Way along the cloth since the ball left it, m.
-    pub way: f64,
-    /// Height of the ball's lowest point over the cloth, m.
+    /// Distance along the cloth since the ball left it, m.
+    pub distance: f64,
+    /// Height of the ball's lowest point above the cloth, m.
     pub height: f64,
 }
 
-/// A jump from the side.
+/// Side view of a jump.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     /// The jump.
     pub jump: Jump,
-    /// Its course, in order of time; never empty.
+    /// The samples in order of time; never empty.
     pub points: Vec<Point>,
-    /// What the ball passes, in order of the way.
-    pub passed: Vec<Passed>,
+    /// The obstacles in order of distance.
+    pub passed: Vec<PassedObstacle>,
 }
 
 impl Profile {
-    /// The highest jump of the cue ball; where it does not jump, that of another ball. `None` where none is told.
+    /// The highest jump of the cue ball, or of another ball if the cue ball does not jump. `None` if no jump is high enough to report.
     pub fn of(table: &Table, recording: &Recording) -> Option<Self> {
-        let told = recording.jumps().into_iter().filter(Jump::is_told);
+        let visible = recording.jumps().into_iter().filter(Jump::is_told);
         let order = |jump: &Jump| (jump.ball == 0, jump.height);
-        let jump = told.max_by(|one, other| {
+        let jump = visible.max_by(|one, other| {
             let ((cue_ball, height), (is_other, other)) = (order(one), order(other));
             cue_ball.cmp(&is_other).then(height.total_cmp(&other))
         })?;
         let whole = points(recording, &jump, jump.end);
         let last = whole.iter().rfind(|point| point.height >= TOLD_HEIGHT)?.time;
-        let end = (jump.start + AFTER * (last - jump.start)).min(jump.end);
+        let end = (jump.start + SHOWN_LENGTH * (last - jump.start)).min(jump.end);
         let points = points(recording, &jump, end);
         let mut passed = balls(table, recording, &jump, &points);
         passed.extend(noses(table, recording, &Jump { end, ..jump }, &points));
-        passed.sort_by(|one, other| one.way.total_cmp(&other.way));
+        passed.sort_by(|one, other| one.distance.total_cmp(&other.distance));
         Some(Self { jump, points, passed })
     }
 
-    /// How far the ball goes, m.
+    /// Length of the path, m.
     pub fn length(&self) -> f64 {
-        self.points.last().map_or(0.0, |point| point.way)
+        self.points.last().map_or(0.0, |point| point.distance)
     }
 
-    /// Where the ball is at `time`, s; `None` before and after.
+    /// The sample at `time`, s; `None` before and after the flight.
     pub fn at(&self, time: f64) -> Option<Point> {
         let after = self.points.partition_point(|point| point.time < time);
         self.points.get(after).copied().filter(|point| after > 0 || point.time == time)
     }
 
-    /// The height of the highest thing that is to be seen, m.
+    /// Height of the highest thing in the picture, m.
     pub fn top(&self) -> f64 {
         self.passed.iter().map(|passed| passed.top).fold(self.jump.height, f64::max)
     }
 }
 
-/// Places of the flight up to `end`, s, at even times.
+/// Samples of the flight up to `end`, s, equally spaced in time.
 fn points(recording: &Recording, jump: &Jump, end: f64) -> Vec<Point> {
-    let (mut way, mut last) = (0.0, recording.state(jump.ball, jump.start).position);
-    let times = (0..=LOOKS).map(|look| jump.start + (end - jump.start) * f64::from(look) / f64::from(LOOKS));
+    let (mut distance, mut last) = (0.0, recording.state(jump.ball, jump.start).position);
+    let times = (0..=SAMPLES).map(|sample| jump.start + (end - jump.start) * f64::from(sample) / f64::from(SAMPLES));
     times
         .map(|time| {
             let place = recording.state(jump.ball, time).position;
-            way += place.distance(last);
+            distance += place.distance(last);
             last = place;
-            Point { time, way, height: recording.height(jump.ball, time) }
+            Point { time, distance, height: recording.height(jump.ball, time) }
         })
         .collect()
 }
 
-/// The balls over which or against which the ball flies, each where it is nearest.
-fn balls(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) -> Vec<Passed> {
+/// The balls that the ball flies over or against, each at the smallest distance.
+fn balls(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) -> Vec<PassedObstacle> {
     let others = (0..BALLS).filter(|&other| other != jump.ball);
     let nearest = |other: usize| {
         let gap = |point: &Point| {
@@ -111,17 +111,17 @@ fn balls(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
             places[jump.ball].distance(places[other])
         };
         let gaps = points.iter().map(|point| (gap(point), point));
-        // Where it meets the ball a look may come a little too soon or late.
+        // At a contact, the nearest sample may be slightly too early or too late.
         let (gap, point) = gaps.min_by(|one, two| one.0.total_cmp(&two.0))?;
         let is_passed = gap < 2.05 * table.radius;
         let top = recording.height(other, point.time) + 2.0 * table.radius;
-        is_passed.then_some(Passed { what: Obstacle::Ball(other), way: point.way, top })
+        is_passed.then_some(PassedObstacle { what: Obstacle::Ball(other), distance: point.distance, top })
     };
     others.filter_map(nearest).collect()
 }
 
-/// The noses that the ball meets or flies over.
-fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) -> Vec<Passed> {
+/// The noses that the ball hits or flies over.
+fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) -> Vec<PassedObstacle> {
     let top = |rail: Rail| table.rail.own(rail).height.or(table.rail.height).unwrap_or(table.radius);
     recording
         .events()
@@ -143,9 +143,9 @@ fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
             _ => None,
         })
         .filter_map(|(rail, time)| {
-            // The last look may be rounded to before the end.
+            // Rounding may put the last sample just before the end.
             let point = points.iter().find(|point| point.time >= time).or(points.last())?;
-            Some(Passed { what: Obstacle::Nose(rail), way: point.way, top: top(rail) })
+            Some(PassedObstacle { what: Obstacle::Nose(rail), distance: point.distance, top: top(rail) })
         })
         .collect()
 }
@@ -167,12 +167,12 @@ mod tests {
         let profile = profile("-0.5,0 -0.2,0 0.9,0.5", "0,0,45,0,6").unwrap();
         let [passed] = profile.passed[..] else { panic!("{:?}", profile.passed) };
         assert_eq!(passed.what, Obstacle::Ball(1));
-        assert!((passed.way - 0.3).abs() < 0.01 && passed.top == 2.0 * Table::default().radius, "{passed:?}");
-        let over = profile.points.iter().find(|point| point.way >= passed.way).unwrap();
+        assert!((passed.distance - 0.3).abs() < 0.01 && passed.top == 2.0 * Table::default().radius, "{passed:?}");
+        let over = profile.points.iter().find(|point| point.distance >= passed.distance).unwrap();
         assert!(over.height > passed.top, "{over:?}");
         let highest = profile.points.iter().map(|point| point.height).fold(0.0, f64::max);
         assert!((highest - profile.jump.height).abs() < 0.01 * highest);
-        assert_eq!(profile.at(profile.jump.start).map(|point| point.way), Some(0.0));
+        assert_eq!(profile.at(profile.jump.start).map(|point| point.distance), Some(0.0));
         assert_eq!(profile.at(60.0), None);
     }
 
@@ -180,8 +180,8 @@ mod tests {
     fn a_ball_that_leaves_the_table_passes_the_nose_above_it() {
         let profile = profile("0.9,0 0,0.3 0,-0.3", "0,0,30,0,9").unwrap();
         let nose = profile.passed.iter().find(|passed| passed.what == Obstacle::Nose(Rail::Right)).unwrap();
-        assert!((nose.way - (0.5 * Table::default().length - 0.9)).abs() < 0.05, "{nose:?}");
-        let over = profile.points.iter().find(|point| point.way >= nose.way).unwrap();
+        assert!((nose.distance - (0.5 * Table::default().length - 0.9)).abs() < 0.05, "{nose:?}");
+        let over = profile.points.iter().find(|point| point.distance >= nose.distance).unwrap();
         assert!(over.height > 0.0, "{over:?}");
     }
 

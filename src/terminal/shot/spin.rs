@@ -1,33 +1,34 @@
-//! How a ball spins, as a player reads it: draw or follow, and side.
+//! A ball's spin as a player describes it: draw or follow, and side.
 
 use glam::{DVec2, DVec3};
 
 use crate::physics::{BallState, Motion};
 
-/// Spin of a level stroke through a place beside the centre, in radii, over the speed that it gives, `w R / v`: a solid
-/// ball's (thesis equations 15 and 16 at theta = 0).
+/// Spin per tip offset of a level stroke, `w R / v`, with the offset in ball radii: that of a solid ball (thesis equations 15 and 16 at
+/// theta = 0).
 const SPIN_OF_TIP: f64 = 2.5;
-/// Share of the spin of a rolling ball up to which a sliding ball counts as without any, and beyond that as with more.
+/// Tolerance for a sliding ball's spin, as a fraction of that of a rolling ball: below the negative of it the ball draws, above one plus it
+/// the ball follows.
 const LITTLE: f64 = 0.1;
-/// Side below which a ball on the spot stands, rad/s.
+/// Side spin below which a stationary ball counts as still, rad/s.
 const STILL: f64 = 0.5;
-/// The farthest that a mark lies from the centre, in radii: a little beyond where a tip holds. At lower speeds no place gives
-/// the spin.
+/// Largest distance of the mark from the centre, in ball radii: slightly beyond the miscue limit. At low speeds no tip contact gives the
+/// spin.
 const FARTHEST: f64 = 0.65;
 
-/// A ball's spin, seen from behind along its way.
+/// A ball's spin, seen from behind along its direction of motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spin {
-    /// What the ball does: it rolls, it slides, or slides with draw or follow.
+    /// What the ball does: rolls, slides, or slides with draw or follow.
     pub word: &'static str,
-    /// Where a level cue would have had to meet the ball to give it this spin at this speed: radii to the right and up.
+    /// Where a level cue would have to hit the ball to give it this spin at this speed, in ball radii to the right and up.
     pub mark: DVec2,
-    /// Side, rad/s, positive to the left, as with the tip's offset `a`.
+    /// Side spin, rad/s, positive to the left like the tip's offset `a`.
     pub side: f64,
 }
 
 impl Spin {
-    /// The spin of a ball of `radius`, m, that moves in the way `motion`.
+    /// The spin of a ball of `radius`, m, in the state of motion `motion`.
     pub fn of(state: &BallState, motion: Motion, radius: f64) -> Self {
         let speed = state.velocity.length();
         let ahead = state.velocity.normalize_or_zero();

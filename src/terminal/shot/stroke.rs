@@ -1,4 +1,4 @@
-//! The stroke that a player sets with keys: what each key changes, and what the stroke was before.
+//! The stroke that a player adjusts with keys, with undo and redo.
 
 use std::mem::{Discriminant, discriminant};
 
@@ -9,54 +9,54 @@ use crate::{
     terminal::shot::{History, aiming},
 };
 
-/// What a key changes of a stroke.
+/// A change of the stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StrokeChange {
-    /// Turns the aim by degrees, to the left where positive.
+    /// Turns the aim by degrees, to the left if positive.
     Turn(f64),
-    /// Aims full at an object ball, then at the other.
+    /// Aims full at an object ball, with the next press at the other.
     AimAtBall,
     /// Moves the tip by mm to the left and up.
     Tip(f64, f64),
-    /// Puts the tip in the middle.
+    /// Moves the tip to the centre.
     Centre,
     /// Raises the cue by degrees.
     Raise(f64),
-    /// Strikes faster by m/s.
+    /// Increases the speed by m/s.
     Faster(f64),
 }
 
-/// What asks for a stroke in words.
+/// Prompt for a stroke in words.
 pub const SAY: &str = "your stroke, or what changes of it (red 1/2 right, 1.5 left, 2 up, 3 lengths): ";
 
-/// Longest text that says a stroke, bytes: the coach's own words have 400.
+/// Longest text of a stroke in words, bytes: the coach's own texts have up to 400.
 pub const LONGEST: usize = 600;
 
-/// Why a stroke stays as it is.
+/// Error: the tip would slip off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("further out the tip would slip off the ball")]
 pub struct TipSlips;
 
-/// The stroke that is set, with what it was before.
+/// The player's stroke and its earlier versions.
 #[derive(Clone, Debug)]
 pub struct OwnStroke {
     strokes: History<CueInputs>,
-    /// What has changed it last: one input that is changed several times over is one step back.
+    /// Kind of the last change: successive changes of one input count as one undo step.
     changed_by: Option<Discriminant<StrokeChange>>,
 }
 
 impl OwnStroke {
-    /// A stroke to begin with.
+    /// Creates a history that starts with this stroke.
     pub const fn new(cue: CueInputs) -> Self {
         Self { strokes: History::new(cue), changed_by: None }
     }
 
-    /// The stroke that is set.
+    /// The present stroke.
     pub const fn cue(&self) -> &CueInputs {
         self.strokes.present()
     }
 
-    /// The stroke as it will be meant when it is played: rails and balls behind raise the cue that is set lower.
+    /// The stroke as it will be played: the cue is raised if rails or balls behind it need that.
     pub fn raised(&self, table: &Table, layout: &Layout) -> CueInputs {
         with_room(table, layout, self.cue()).unwrap_or(*self.cue())
     }
@@ -64,7 +64,7 @@ impl OwnStroke {
     /// Changes the stroke.
     ///
     /// # Errors
-    /// A place of the tip at which it would slip off; the stroke stays as it is.
+    /// The tip would slip off; the stroke stays as it is.
     pub fn change(&mut self, change: StrokeChange, table: &Table, layout: &Layout) -> Result<(), TipSlips> {
         let cue = *self.cue();
         let next = match change {
@@ -88,17 +88,17 @@ impl OwnStroke {
         Ok(())
     }
 
-    /// Sets the stroke as a player with `cue_ball` says it; what is not said stays as it is.
+    /// Changes the stroke as described in words by a player with `cue_ball`; what the text does not mention stays.
     ///
     /// # Errors
-    /// What is not understood, or cannot be played; the stroke stays as it is.
+    /// The text is not understood, or the stroke cannot be played; the stroke stays as it is.
     pub fn say(&mut self, words: &str, table: &Table, layout: &Layout, cue_ball: CueBall) -> Result<(), SpokenError> {
         let cue = SpokenStroke::read(words)?.stroke(table, layout, cue_ball, Some(self.cue()))?;
         self.set(cue);
         Ok(())
     }
 
-    /// Sets another stroke, as a step of its own.
+    /// Replaces the stroke, as a separate undo step.
     pub fn set(&mut self, cue: CueInputs) {
         if cue != *self.cue() {
             self.strokes.push(cue);
@@ -106,31 +106,31 @@ impl OwnStroke {
         self.settle();
     }
 
-    /// Makes the next change a step of its own.
+    /// Makes the next change a separate undo step.
     pub const fn settle(&mut self) {
         self.changed_by = None;
     }
 
-    /// Sets the stroke as it was before its last change; `false` where there was none.
+    /// Undoes the last change; `false` if there is none.
     pub fn undo(&mut self) -> bool {
         self.settle();
         self.strokes.undo()
     }
 
-    /// Makes a change again that was taken back; `false` where none was.
+    /// Redoes a change; `false` if none was undone.
     pub fn redo(&mut self) -> bool {
         self.settle();
         self.strokes.redo()
     }
 
-    /// Whether the stroke can be set as it was before its last change, and after it again.
+    /// Whether undo and redo are possible.
     pub const fn can_travel(&self) -> (bool, bool) {
         (self.strokes.can_undo(), self.strokes.can_redo())
     }
 }
 
-/// A page's table of keys with those that set a stroke: `$before`, aim, tip and speed, `$between`, then the others, `$after`.
-/// `$action` makes a [`StrokeChange`] the page's action, `$when` is when they may be used.
+/// A page's key table with the keys that adjust a stroke: `$before`, aim, tip and speed, `$between`, the other keys, `$after`. `$action`
+/// converts a [`StrokeChange`] to the page's action; `$when` is the condition of the keys.
 macro_rules! stroke_keys {
     ($action:path, $when:expr, [$($before:expr,)*], [$($between:expr,)*], [$($after:expr,)*]) => {{
         use crossterm::event::KeyCode::{Down, Left, Right, Tab, Up};

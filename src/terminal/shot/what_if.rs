@@ -1,5 +1,4 @@
-//! What if: a stroke of the player's own, beside the coach's where there is one: what comes of it, how often it is made, and how it
-//! differs.
+//! A stroke of the player's own, compared with the coach's if there is one: its outcome, its success rate and its differences.
 
 use std::sync::{
     Arc,
@@ -16,35 +15,35 @@ use crate::{
     terminal::Shot,
 };
 
-/// Where both strokes are played, and what counts.
+/// The situation of both strokes.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
     /// The table.
     pub table: &'a Table,
-    /// Where the balls lie.
+    /// Positions of the balls.
     pub layout: &'a Layout,
     /// What counts as a point.
     pub rule: Rule,
 }
 
-/// A stroke of the player's own, beside the coach's where there is one.
+/// A stroke of the player's own, compared with the coach's if there is one.
 #[derive(Debug)]
 pub struct WhatIf {
     /// The coach's shot.
     pub coach: Option<Arc<Shot>>,
-    /// The player's own.
+    /// The player's own shot.
     pub shot: Arc<Shot>,
     verdict: Verdict,
     has_room: bool,
-    /// How often the player makes it, once that is known.
+    /// The player's success rate at it, once known.
     pub made: Option<SuccessRate>,
-    /// The number of the question how often the player makes it, as long as it is open.
+    /// Identifier of the open request for the success rate, if any.
     question: Option<u64>,
     cancel: Arc<AtomicBool>,
 }
 
 impl WhatIf {
-    /// The coach's shot, taken over as it is.
+    /// Starts with a copy of the coach's shot.
     pub fn new(coach: Arc<Shot>, situation: Situation) -> Self {
         let verdict = Verdict::of(situation.rule, situation.table, situation.layout, &coach.recording);
         let shot = Arc::clone(&coach);
@@ -52,20 +51,19 @@ impl WhatIf {
         Self { coach: Some(coach), shot, verdict, has_room: true, made, question, cancel }
     }
 
-    /// A stroke of the player's own alone; rails and balls behind raise the cue that is set lower.
+    /// Starts with a stroke of the player's own. The cue is raised if rails or balls behind it need that.
     ///
     /// # Errors
-    /// What the simulator refuses.
+    /// Any error of the simulator.
     pub fn alone(cue: &CueInputs, situation: Situation) -> Result<Self, ShotError> {
         let (shot, verdict, has_room) = struck(cue, situation)?;
         Ok(Self { coach: None, shot, verdict, has_room, made: None, question: None, cancel: Arc::default() })
     }
 
-    /// Takes another stroke for the player's own; rails and balls behind raise the cue that is set lower. How often it is made is
-    /// not known then.
+    /// Replaces the player's own stroke; its success rate is then unknown. The cue is raised if rails or balls behind it need that.
     ///
     /// # Errors
-    /// What the simulator refuses; all stays as it is.
+    /// Any error of the simulator; the old stroke then stays.
     pub fn strike(&mut self, cue: &CueInputs, situation: Situation) -> Result<(), ShotError> {
         (self.shot, self.verdict, self.has_room) = struck(cue, situation)?;
         self.made = None;
@@ -73,25 +71,25 @@ impl WhatIf {
         Ok(())
     }
 
-    /// Whether the player's own makes the point if it is played as meant.
+    /// Whether the player's own shot makes the point if played without errors.
     pub fn is_made(&self) -> bool {
         self.verdict.is_made()
     }
 
-    /// Whether that is being worked out.
+    /// Whether the success rate is being computed.
     pub const fn is_asked(&self) -> bool {
         self.question.is_some()
     }
 
-    /// Asks how often the player makes it as question `id`; nobody waits for the answer to the one before any more. What is
-    /// given is set when the answer is no longer wanted.
+    /// Starts the request `id` for the success rate and cancels an earlier one. The returned flag is set when the answer is no longer
+    /// needed.
     pub fn ask(&mut self, id: u64) -> Arc<AtomicBool> {
         self.stop_asking();
         self.question = Some(id);
         Arc::clone(&self.cancel)
     }
 
-    /// The answer to question `id`; late ones are dropped.
+    /// Handles the answer to request `id`; late answers are dropped.
     pub fn judged(&mut self, id: u64, made: SuccessRate) {
         if self.question == Some(id) {
             (self.question, self.made) = (None, Some(made));
@@ -104,14 +102,14 @@ impl WhatIf {
         self.question = None;
     }
 
-    /// What comes of it if it is played as meant; how often it is made, which may stand beside it, is told of strokes with errors.
+    /// Describes the outcome if the stroke is played exactly. The success rate, which may be shown next to it, is for strokes with errors.
     pub fn outcome(&self, cue_ball: CueBall, units: Units) -> String {
         self.verdict.words(cue_ball, units.length).replacen(": ", ", if played exactly: ", 1)
     }
 
-    /// How the stroke differs from the coach's, who is called `advisor`, and whether there is room for the cue; without one, how it is
-    /// struck. `coach_made` is how often the player makes the coach's, if known: a stroke that is made as often is not called wrong,
-    /// even where it misses if played exactly.
+    /// Describes how the stroke differs from that of the coach, called `advisor`, and whether the cue has no room; without a coach's
+    /// stroke, describes the stroke. `coach_made` is the player's success rate at the coach's stroke, if known: a stroke with at least that
+    /// rate is not called wrong, even if it misses when played exactly.
     pub fn difference(&self, advisor: &str, coach_made: Option<f64>, cue_ball: CueBall, units: Units) -> String {
         let Some(coach) = &self.coach else {
             let room = if self.has_room { "" } else { " No room for the cue." };
@@ -133,7 +131,7 @@ impl WhatIf {
     }
 }
 
-/// What comes of a stroke of the player's own, and whether there is room for the cue.
+/// Simulates a stroke of the player's own. Returns the shot, its verdict, and whether there is room for the cue.
 fn struck(cue: &CueInputs, situation: Situation) -> Result<(Arc<Shot>, Verdict, bool), ShotError> {
     let raised = with_room(situation.table, situation.layout, cue);
     let shot = Shot::new(situation.table, situation.layout, raised.unwrap_or(*cue), false, "yours")?;
@@ -174,7 +172,7 @@ mod tests {
             assert!(what_if.outcome(CueBall::White, units).starts_with("No point, if played exactly: "));
             let told = what_if.difference("coach", None, CueBall::White, units);
             assert!(told.starts_with("You: ") && told.contains("softer by "), "{told}");
-            // With the player's errors it may be as good, even where it misses if it is played exactly.
+            // With the player's errors it may be as good, even if it misses when played exactly.
             what_if.made = Some(SuccessRate::new(90, 100));
             let as_good = what_if.difference("coach", Some(0.5), CueBall::White, units);
             assert!(as_good.ends_with("; you make it at least as often"), "{as_good}");

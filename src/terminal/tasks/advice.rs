@@ -1,4 +1,4 @@
-//! What the coach is asked and what it answers, as the screen needs it.
+//! Queries to the coach and its answers, as the screen needs them.
 
 use std::{sync::Arc, time::Duration};
 
@@ -10,22 +10,22 @@ use crate::{
     terminal::{Shot, Terms},
 };
 
-/// Whose advice is asked, and for what. Two are equal if they ask the same.
+/// Policy and terms of a query to the coach. Two queries are equal if they have the same answer.
 #[derive(Clone, Debug)]
 pub struct CoachQuery {
-    /// A policy that a user has trained, with its name; without one the bundled ones are asked.
+    /// A policy trained by the user, with its name; `None` for the bundled policies.
     pub policy: Option<(String, Arc<Policy>)>,
     /// What counts as a point.
     pub rule: Rule,
-    /// Who is to play the shot.
+    /// Skill of the player of the shot.
     pub skill: Skill,
-    /// How much of the table and of the balls' places is in doubt.
+    /// How uncertain the table's parameters and the balls' positions are.
     pub doubt: Doubt,
     /// Whether the next point counts too.
     pub plan: bool,
     /// Whether jumps and massés may be advised.
     pub jumps: bool,
-    /// What the cue ball is to meet first.
+    /// What the cue ball has to meet first.
     pub first: FirstMet,
 }
 
@@ -43,28 +43,28 @@ impl PartialEq for CoachQuery {
 }
 
 impl CoachQuery {
-    /// What a key turns of it.
+    /// The terms that keys can change.
     pub const fn terms(&self) -> Terms {
         Terms { rule: self.rule, skill: self.skill, plan: self.plan, first: self.first }
     }
 
-    /// The same on other terms.
+    /// Returns the query with other terms.
     #[must_use]
     pub fn with(&self, Terms { rule, skill, plan, first }: Terms) -> Self {
         Self { rule, skill, plan, first, ..self.clone() }
     }
 
-    /// Who plays, and what is in doubt.
+    /// The player's skill, and how uncertain the table and the positions are.
     pub const fn shooter(&self) -> Shooter {
         Shooter { skill: self.skill, doubt: self.doubt }
     }
 
-    /// The policy's name, in the words of players.
+    /// Name of the policy, as shown to players.
     pub fn name(&self) -> &str {
         self.policy.as_ref().map_or("the bundled networks", |(name, _)| name)
     }
 
-    /// Whether `other` is asked the same policy; a policy is never changed, only replaced.
+    /// Whether `other` uses the same policy; policies are never changed, only replaced.
     pub fn has_policy_of(&self, other: &Self) -> bool {
         match (&self.policy, &other.policy) {
             (None, None) => true,
@@ -74,10 +74,10 @@ impl CoachQuery {
     }
 }
 
-/// What an answer has cost.
+/// Cost of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
-    /// Shots that were simulated.
+    /// Number of simulated shots.
     pub simulations: u64,
     /// How long the coach thought.
     pub elapsed: Duration,
@@ -88,43 +88,43 @@ pub struct Effort {
 pub struct Proposal {
     /// The shot.
     pub shot: Arc<Shot>,
-    /// How often the player makes it, if that is known.
+    /// The player's success rate, if known.
     pub made: Option<SuccessRate>,
-    /// What would miss it by itself, if that is known.
+    /// How often it would be missed if only one thing were uncertain, if known.
     pub risk: Option<Risk>,
-    /// Probability of the point after this one, if it is known.
+    /// Probability of the next point, if known.
     pub next: Option<f64>,
-    /// Whether the search had not ended: the share of points is then from the errors that it was chosen by, which flatters.
+    /// Whether the search had not ended: the rate is then from the errors by which the shot was selected, and too optimistic.
     pub is_early: bool,
 }
 
 /// The coach's advice on a layout.
 #[derive(Clone, Debug)]
 pub struct Advice {
-    /// The shot that it recommends, then the others that may be chosen.
+    /// The recommended shot, then the alternatives.
     pub proposals: Vec<Proposal>,
-    /// The question's seed, which tells by which errors its shots were judged.
+    /// Seed of the query, which determines the errors by which its shots were judged.
     pub seed: u64,
-    /// What it has cost, if that is to be shown.
+    /// Cost of the answer, if it is to be shown.
     pub effort: Option<Effort>,
-    /// What the coach has found, where it is asked why its shot leads.
+    /// The coach's full result, used to explain why its shot is best.
     pub found: Option<Arc<Recommendation>>,
 }
 
-/// A closer look at a shot.
+/// Analysis of a shot.
 #[derive(Clone, Debug)]
 pub struct ShotAnalysis {
-    /// How far off each input may be, if the shot makes the point.
+    /// How far each input may be off, if the shot makes the point.
     pub margins: Option<[Margin; 5]>,
-    /// The outcome over all tips that do not slip off, as changes from the ball's centre.
+    /// Map of the outcome over all tip contacts within the miscue limit, relative to the ball's centre.
     pub tip: Map,
-    /// The outcome over direction and speed around the stroke.
+    /// Map of the outcome over direction and speed around the stroke.
     pub aim: Map,
     /// The player's standard errors at this stroke.
     pub hand: Skill,
-    /// What comes of many attempts of the player.
+    /// Outcomes of many attempts of the player.
     pub scatter: Scatter,
-    /// What a player counts on the diamonds for it, if it makes the point and a system applies.
+    /// A diamond system's calculation for the shot, if it makes the point and a system applies.
     pub system: Option<Guide>,
 }
 

@@ -1,4 +1,4 @@
-//! Background tasks of the calibration's page, and their reports.
+//! Background tasks of the calibration page, and their reports.
 
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
@@ -13,80 +13,80 @@ use crate::{
     table::{Table, TableDoubt},
 };
 
-/// Something that is to be done.
+/// A task.
 #[derive(Clone, Debug)]
 pub enum CalibrationTask {
     /// Read the entries of a file.
     Read(PathBuf),
-    /// Change them; whether that takes an earlier change back.
+    /// Edit the entries of a file; the flag says whether the edit undoes an earlier one.
     Edit(PathBuf, Edit, bool),
-    /// Put a file of entries aside that cannot be read, so that others can be kept.
+    /// Set a file of entries aside that cannot be read, so that new entries can be saved.
     PutAside(PathBuf),
-    /// Find out what entries say of the table.
+    /// Evaluate entries: what they say about the table.
     Judge(Box<Judging>),
-    /// Write a table to a file, over another table only where that is wanted.
+    /// Write a table to a file; the flag allows replacing another table.
     Save(PathBuf, Box<Table>, bool),
 }
 
 impl CalibrationTask {
-    /// Whether it has to be done before the program ends.
+    /// Whether the task has to be done before the program ends.
     pub const fn writes(&self) -> bool {
         !matches!(self, Self::Judge(_))
     }
 }
 
-/// Entries that are to be judged.
+/// Entries to be evaluated.
 #[derive(Clone, Debug)]
 pub struct Judging {
-    /// Tells this answer from those to earlier questions.
+    /// Identifies the answer to this request.
     pub number: u64,
-    /// What the table shall be called.
+    /// Name of the resulting table.
     pub name: String,
-    /// What is held of the table.
+    /// The table with the prior parameters.
     pub table: Table,
-    /// How much of it is open.
+    /// How uncertain those parameters are.
     pub doubt: TableDoubt,
-    /// The trials, each with its number among the entries.
+    /// The trials, each with its index among the entries.
     pub trials: Vec<(usize, Trial)>,
-    /// Whether it is a check of the day.
+    /// Whether it is a daily check.
     pub is_daily: bool,
 }
 
-/// What entries say of a table.
+/// What the entries say about a table.
 #[derive(Clone, Debug)]
 pub struct Judged {
-    /// The calibration; none where there is no entry yet.
+    /// The calibration; `None` if there are no entries yet.
     pub found: Option<Calibration>,
-    /// All tests, the one that tells most first.
+    /// All tests, the most informative first.
     pub next: Vec<Next>,
-    /// Of a check of the day: how the table played before and plays now.
+    /// For a daily check: how the table played before and how it plays now.
     pub play: Option<[Play; 2]>,
 }
 
-/// What a file of entries holds.
+/// Content of a file of entries.
 #[derive(Clone, Debug)]
 pub struct KeptEntries {
     /// All entries.
     pub entries: Entries,
-    /// Where they were changed, the change back, and whether the change was one back itself.
+    /// After an edit: the inverse edit, and whether the edit itself was an undo.
     pub back: Option<(Edit, bool)>,
 }
 
-/// What has come of a task.
+/// Report of a task.
 #[derive(Clone, Debug)]
 pub enum CalibrationReport {
-    /// What a file holds.
+    /// Content of a file.
     Entries(PathBuf, Result<Box<KeptEntries>, String>),
-    /// A change of a file was not made.
+    /// A file could not be changed.
     Unkept(PathBuf, String),
-    /// Of [`CalibrationTask::Judge`]: whether it was a check of the day, with its number.
+    /// Result of [`CalibrationTask::Judge`]: whether it was a daily check, and its number.
     Judged(bool, u64, Result<Box<Judged>, String>),
-    /// Of [`CalibrationTask::Save`]: whether it is saved, or another table is there.
+    /// Result of [`CalibrationTask::Save`]: `true` if saved, `false` if another table has the name.
     Saved(PathBuf, Result<bool, String>),
 }
 
 impl CalibrationTask {
-    /// Does it on this thread. A panic in a simulation becomes a sentence.
+    /// Runs the task on this thread. A panic in a simulation becomes an error message.
     pub fn run(self) -> CalibrationReport {
         match self {
             Self::Read(path) => {

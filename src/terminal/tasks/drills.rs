@@ -1,4 +1,4 @@
-//! Background tasks of the drill screens, done in order, and their reports.
+//! Background tasks of the drill screens, run in order, and their reports.
 
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -14,33 +14,33 @@ use crate::{
     terminal::{FilmReplay, Shot},
 };
 
-/// Something that is to be done.
+/// A task.
 #[derive(Clone, Debug)]
 pub enum DrillTask {
-    /// Read what the user has played and saved there; all that follows is written there.
+    /// Load the user's records from this location; all later tasks write there.
     Load(Box<Places>),
     /// Find the model shot.
     Advise(Box<AdviceTask>),
-    /// Play the next attempt of a session, and save it.
+    /// Play the next attempt of a session and save it.
     Play(Box<PlayTask>),
-    /// Find out how often the player makes a stroke that is not played.
+    /// Compute the player's success rate at a stroke that is not played.
     Judge(Box<JudgedStroke>),
-    /// Save a session, in which something was noted or taken back; with the attempts that it had before.
+    /// Save a session in which something was noted or undone, together with its attempts before the change.
     Save(Box<Session>, Vec<Attempt>),
-    /// Save a position, over one of the same name only where that is wanted.
+    /// Save a position; the flag allows replacing one of the same name.
     SavePosition(Box<Exercise>, bool),
-    /// Remove the position of this name.
+    /// Remove the position with this name.
     RemovePosition(String),
-    /// Estimate the player's skill from these sessions; the number tells the answer from those to earlier questions.
+    /// Estimate the player's skill from these sessions; the number identifies the answer.
     Estimate(u64, Arc<[Session]>),
-    /// Keep the player's skill.
+    /// Save the player's skill.
     KeepSkill(Skill),
-    /// Fit the stroke of a filmed shot and play it.
+    /// Fit the stroke of a filmed shot and simulate it.
     Film(Box<FilmedShot>),
 }
 
 impl DrillTask {
-    /// Whether it changes what is on the disk, or is needed for that.
+    /// Whether the task writes to the disk, or is needed for that.
     pub const fn writes(&self) -> bool {
         !matches!(self, Self::Advise(_) | Self::Judge(_) | Self::Estimate(..) | Self::Film(_))
     }
@@ -49,124 +49,124 @@ impl DrillTask {
 /// A request for the model shot.
 #[derive(Clone, Debug)]
 pub struct AdviceTask {
-    /// Tells this question's answer from those to earlier ones.
+    /// Identifies the answer to this request.
     pub id: u64,
     /// The table.
     pub table: Table,
-    /// Where the balls lie.
+    /// Positions of the balls.
     pub layout: Layout,
     /// What counts as a point.
     pub rule: Rule,
-    /// Who plays, and what is in doubt.
+    /// The player's skill, and how uncertain the table and the positions are.
     pub shooter: Shooter,
-    /// Whether what comes next counts too, as in a game.
+    /// Whether the next point counts too, as in a game.
     pub plan: bool,
     /// Whether jumps and massés may be advised.
     pub jumps: bool,
-    /// Whether the coach is to play the stroke itself.
+    /// Whether the coach itself will play the stroke.
     pub is_coachs: bool,
-    /// The exercise's own shot, where the balls lie for it; otherwise the coach is asked.
+    /// The exercise's own shot, if its layout is on the table; otherwise the coach searches for one.
     pub own: Option<CueInputs>,
-    /// Set when the answer is no longer wanted.
+    /// Set when the answer is no longer needed.
     pub cancel: Arc<AtomicBool>,
 }
 
-/// A stroke that is to be played.
+/// A stroke to be played.
 #[derive(Clone, Debug)]
 pub struct PlayTask {
     /// The session so far.
     pub session: Session,
-    /// What the player means.
+    /// The stroke that the player intends.
     pub meant: CueInputs,
     /// Whether the player has seen a shot that makes the point.
     pub with_hint: bool,
-    /// The number of the question for its model shot, see [`AdviceTask::id`].
+    /// Identifier of the request for the model shot, see [`AdviceTask::id`].
     pub advice_id: u64,
 }
 
-/// A stroke that is not played, only judged.
+/// A stroke to be judged without being played.
 #[derive(Clone, Debug)]
 pub struct JudgedStroke {
-    /// Tells this question's answer from those to earlier ones.
+    /// Identifies the answer to this request.
     pub id: u64,
     /// The table.
     pub table: Table,
-    /// Where the balls lie.
+    /// Positions of the balls.
     pub layout: Layout,
     /// What counts as a point.
     pub rule: Rule,
-    /// Who plays, and what is in doubt.
+    /// The player's skill, and how uncertain the table and the positions are.
     pub shooter: Shooter,
-    /// What the player means.
+    /// The stroke that the player intends.
     pub cue: CueInputs,
-    /// Set when the answer is no longer wanted.
+    /// Set when the answer is no longer needed.
     pub cancel: Arc<AtomicBool>,
 }
 
-/// A model shot, the exercise's or the coach's, ready to be shown.
+/// A model shot, of the exercise or the coach, ready for display.
 #[derive(Clone, Debug)]
 pub struct ModelShot {
-    /// The stroke, and how often the player makes it.
+    /// The stroke and the player's success rate at it.
     pub advice: Advice,
     /// Whether it is the exercise's own; otherwise it is the coach's.
     pub is_own: bool,
-    /// What happens if it is played as meant.
+    /// The shot if played without errors.
     pub shot: Arc<Shot>,
 }
 
-/// What came of a stroke.
+/// Result of a played stroke.
 #[derive(Clone, Debug)]
 pub struct AttemptOutcome {
-    /// The session with this attempt.
+    /// The session including this attempt.
     pub session: Session,
-    /// What came of it.
+    /// The result of the attempt.
     pub played: Played,
-    /// The shot as it was played; `None` where the tip slipped off.
+    /// The shot as it was played; `None` after a miscue.
     pub shot: Option<Arc<Shot>>,
-    /// Where the balls lie for the next attempt; `None` when the session is over.
+    /// Table and layout of the next attempt; `None` when the session is over.
     pub next: Option<(Table, Layout)>,
 }
 
-/// What the user has, read from the disk.
+/// The user's records, loaded from the disk.
 #[derive(Clone, Debug)]
 pub struct LoadedRecords {
     /// Sessions, the oldest first.
     pub sessions: Vec<Session>,
-    /// Own positions.
+    /// The user's own positions.
     pub positions: Vec<Exercise>,
-    /// The skill that was kept.
+    /// The saved skill.
     pub skill: Option<Skill>,
-    /// What could not be read, a sentence each.
+    /// Messages about what could not be read.
     pub troubles: Vec<String>,
 }
 
-/// What has come of a task.
+/// Report of a task.
 #[derive(Clone, Debug)]
 pub enum DrillReport {
-    /// Of [`DrillTask::Load`].
+    /// Result of [`DrillTask::Load`].
     Loaded(Box<LoadedRecords>),
-    /// Of [`DrillTask::Advise`]: with the question's number; `None` where no point was found.
+    /// Result of [`DrillTask::Advise`], with the identifier of the request; `None` if no point was found.
     ModelShot(u64, Result<Option<ModelShot>, String>),
-    /// Of [`DrillTask::Play`]: the session's identity, what came of it, and whether it could be saved.
+    /// Result of [`DrillTask::Play`]: the session's identifier, the outcome, and whether it could be saved.
     Played(String, Result<Box<AttemptOutcome>, String>, Result<(), String>),
-    /// How often the player makes what was meant: the session's identity, the number of the attempt, the share.
+    /// The player's success rate at an intended stroke: the session's identifier, the number of the attempt, the rate.
     Judged(String, usize, f64),
-    /// Of [`DrillTask::Judge`], with the question's number.
+    /// Result of [`DrillTask::Judge`], with the identifier of the request.
     StrokeJudged(u64, SuccessRate),
-    /// Of [`DrillTask::Save`].
+    /// Result of [`DrillTask::Save`].
     Saved(Box<Session>, Result<(), String>),
-    /// Of [`DrillTask::Play`] and [`DrillTask::Save`] where another program has changed the session: how it stands now, without
-    /// what was to be played or saved.
+    /// Result of [`DrillTask::Play`] or [`DrillTask::Save`] if another program has changed the session: its present state, without the
+    /// stroke or the change.
     Changed(Box<Session>),
-    /// Of [`DrillTask::SavePosition`]: whether it is saved, or the name is taken.
+    /// Result of [`DrillTask::SavePosition`]: `true` if saved, `false` if the name is taken.
     PositionSaved(Box<Exercise>, Result<bool, String>),
-    /// Of [`DrillTask::RemovePosition`].
+    /// Result of [`DrillTask::RemovePosition`].
     PositionRemoved(String, Result<(), String>),
-    /// Of [`DrillTask::Estimate`], with its number: the skill, where it is more than a bound, with a sentence on how sure that is,
-    /// or why nothing is known.
+    /// Result of [`DrillTask::Estimate`], with its number: the skill, unless only a bound is known, and a sentence on how certain it is; or
+    /// why nothing is known.
     Estimated(u64, Result<(Option<Skill>, String), String>),
-    /// Of [`DrillTask::KeepSkill`].
+    /// Result of [`DrillTask::KeepSkill`].
     SkillKept(Skill, Result<(), String>),
-    /// Of [`DrillTask::Film`]: with the shot's number in the match.
+    /// Result of [`DrillTask::Film`], with the shot's number in the match.
     Filmed(u32, Result<Box<FilmReplay>, String>),
 }

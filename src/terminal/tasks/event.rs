@@ -1,4 +1,4 @@
-//! Everything that happens to the program: input, signals, and what has come of its tasks.
+//! Events of the program: input, signals, and reports of background tasks.
 
 use crossterm::event::Event as TerminalEvent;
 
@@ -7,25 +7,25 @@ use crate::{
     terminal::{CalibrationReport, CoachAnswer, DrillReport, Seen, SettingsReport, TrainingReport},
 };
 
-/// Something that the screen has to deal with.
+/// An event that the screen has to handle.
 #[derive(Debug)]
 pub enum Event {
-    /// A key, a resize or another report of the terminal.
+    /// A key press, a resize or another event of the terminal.
     Input(TerminalEvent),
-    /// The terminal gives no input any more.
+    /// The terminal's input has ended.
     InputEnded,
     /// A signal.
     Signal(Signal),
-    /// The coach has answered.
+    /// An answer of the coach.
     Answer(CoachAnswer),
     /// A report from the training page's background tasks.
     Training(TrainingReport),
-    /// Something else is seen of somebody else's table.
+    /// A change of another player's table.
     Shown(Seen),
-    /// Something has come of a task of the drill screens.
+    /// A report from a task of the drill screens.
     Drill(DrillReport),
-    /// Something has come of a task of the settings.
+    /// A report from a task of the settings.
     Settings(SettingsReport),
-    /// Something has come of a task of the calibration's page.
+    /// A report from a task of the calibration page.
     Calibration(CalibrationReport),
 }

@@ -1,4 +1,4 @@
-//! Background tasks of the pages, each kind on a thread of its own: the screen never waits.
+//! Background tasks of the pages, each kind on its own thread, so that the screen never waits.
 
 pub mod advice;
 pub mod calibration;
@@ -43,12 +43,12 @@ use crate::{
 
 pub use practice::PracticeWorker;
 
-/// Time between two looks at a run that is followed.
+/// Polling interval of a followed run.
 const FOLLOW_INTERVAL: Duration = Duration::from_millis(100);
-/// Time between two looks at the list of runs.
+/// Polling interval of the list of runs.
 const LIST_INTERVAL: Duration = Duration::from_secs(2);
 
-/// Does what is wanted and sends what comes of it to the screen.
+/// Runs background tasks and sends their reports to the screen.
 #[derive(Debug)]
 pub struct Tasks {
     to_screen: Sender<Event>,
@@ -60,22 +60,22 @@ pub struct Tasks {
     pub coach: Worker<Box<CoachJob>>,
     /// The thread that plays strokes and writes files for the drills.
     practice: Worker<DrillTask>,
-    /// The thread of the settings' file.
+    /// The thread of the settings file.
     pub settings: Worker<SettingsTask>,
-    /// The thread that keeps what is measured at a table, and that of what follows from it.
-    kept: Worker<CalibrationTask>,
-    judged: Worker<CalibrationTask>,
-    /// Threads that write something, each once.
+    /// The thread that saves measurements at a table, and the thread that evaluates them.
+    calibration_writer: Worker<CalibrationTask>,
+    calibration_evaluator: Worker<CalibrationTask>,
+    /// Short-lived threads that write something.
     writing: Vec<JoinHandle<()>>,
-    /// Set when answers are no longer wanted.
+    /// Set when answers are no longer needed.
     is_closing: Arc<AtomicBool>,
 }
 
 impl Tasks {
-    /// Nothing is wanted yet. A screen that is gone needs no answers.
+    /// Starts the worker threads, without subscriptions. Reports to a closed screen are dropped.
     ///
     /// # Errors
-    /// A thread that could not be started, here and below.
+    /// Fails if a thread cannot be started, here and below.
     pub fn new(to_screen: Sender<Event>) -> io::Result<Self> {
         let is_closing: Arc<AtomicBool> = Arc::default();
         let (answers, mut coach) = (to_screen.clone(), CoachWorker::default());
@@ -104,30 +104,30 @@ impl Tasks {
             coach,
             practice,
             settings: Worker::start("settings", set)?,
-            kept: Worker::start("calibration", calibrate())?,
-            judged: Worker::of_the_newest("calibrate", calibrate())?,
+            calibration_writer: Worker::start("calibration", calibrate())?,
+            calibration_evaluator: Worker::newest_only("calibrate", calibrate())?,
             writing: Vec::new(),
             is_closing,
             to_screen,
         })
     }
 
-    /// Starts to find out what is wanted now, and stops what is not wanted any more.
+    /// Starts the polls that `subscriptions` adds and stops those that it removes.
     ///
     /// # Errors
-    /// A thread that could not be started.
+    /// Fails if a thread cannot be started.
     pub fn subscribe(&mut self, subscriptions: Subscriptions) -> io::Result<()> {
         let before = std::mem::replace(&mut self.subscriptions, subscriptions);
         let (now, to_screen) = (&self.subscriptions, &self.to_screen);
-        renew(&mut self.list, [&before.runs, &now.runs], |folder| {
+        restart_if_changed(&mut self.list, [&before.runs, &now.runs], |folder| {
             Poll::start("runs", LIST_INTERVAL, to_screen.clone(), list(folder))
         })?;
-        renew(&mut self.shown, [&before.shown, &now.shown], |folder| {
+        restart_if_changed(&mut self.shown, [&before.shown, &now.shown], |folder| {
             let mut onlooker = Onlooker::new(folder);
             Poll::start("onlooker", FOLLOW_INTERVAL, to_screen.clone(), move || onlooker.look().map(Event::Shown))
         })?;
         for (n, slot) in FollowSlot::ALL.into_iter().enumerate() {
-            renew(&mut self.followed[n], [&before.followed[n], &now.followed[n]], |folder| {
+            restart_if_changed(&mut self.followed[n], [&before.followed[n], &now.followed[n]], |folder| {
                 let look = follow(slot, folder, to_screen.clone())?;
                 Poll::start("follower", FOLLOW_INTERVAL, to_screen.clone(), look)
             })?;
@@ -135,8 +135,8 @@ impl Tasks {
         Ok(())
     }
 
-    /// The screen has taken an event: its sender may look again. Events never pile up before a slow screen.
-    pub fn taken(&self, event: &Event) {
+    /// Confirms that the screen has handled an event, so that its sender may poll again. Events never pile up if the screen is slow.
+    pub fn acknowledge(&self, event: &Event) {
         let poll = match event {
             Event::Shown(_) => &self.shown,
             Event::Training(TrainingReport::Runs(_)) => &self.list,
@@ -145,51 +145,51 @@ impl Tasks {
             _ => &None,
         };
         if let Some(poll) = poll {
-            poll.taken();
+            poll.acknowledge();
         }
     }
 
-    /// Does tasks of the drill screens, one after the other. What takes long and writes nothing keeps no others waiting.
+    /// Queues tasks of the drill screens. A long task that writes nothing gets its own thread, so that it does not delay the others.
     ///
     /// # Errors
-    /// As [`Tasks::new`].
+    /// Like [`Tasks::new`].
     pub fn practise(&self, tasks: Vec<DrillTask>) -> io::Result<()> {
         for task in tasks {
             if matches!(task, DrillTask::Estimate(..)) {
                 let (to_screen, mut practice) = (self.to_screen.clone(), PracticeWorker::default());
                 thread::Builder::new().name("estimate".into()).spawn(move || practice.work(task, &to_screen))?;
             } else {
-                // A thread that has ended has sent its last report.
+                // A worker that has ended has already sent its last report.
                 self.practice.give(task);
             }
         }
         Ok(())
     }
 
-    /// Does tasks of the calibration's page. What is found out of the newest entries keeps no others waiting.
+    /// Queues tasks of the calibration page. Evaluations run on another thread than writes, and do not delay them.
     pub fn calibrate(&self, tasks: Vec<CalibrationTask>) {
         for task in tasks {
-            let worker = if task.writes() { &self.kept } else { &self.judged };
+            let worker = if task.writes() { &self.calibration_writer } else { &self.calibration_evaluator };
             worker.give(task);
         }
     }
 
-    /// Waits until what the player has noted, set or asked of a run is on the disk: the screen may close before.
+    /// Waits until everything that the player has noted, set or requested of a run is on the disk. The screen may close before.
     pub fn finish(self) {
         self.is_closing.store(true, Ordering::Relaxed);
         self.practice.finish();
-        self.kept.finish();
+        self.calibration_writer.finish();
         self.settings.finish();
         for thread in self.writing {
-            // A panic there was reported when it happened.
+            // A panic of the thread was reported when it happened.
             let _ = thread.join();
         }
     }
 
-    /// Starts a process that trains.
+    /// Starts a training process.
     ///
     /// # Errors
-    /// As [`Tasks::new`].
+    /// Like [`Tasks::new`].
     pub fn train(&self, launch: Launch) -> io::Result<()> {
         let (hand_over, started) = channel::<Result<Trainer, TrainerFailure>>();
         let Launch { arguments, folder } = launch;
@@ -197,25 +197,25 @@ impl Tasks {
             let failure = started.recv().ok()?.and_then(trainer::wait).err()?;
             Some(TrainingReport::TrainerFailed(folder, failure))
         })?;
-        // Not on the thread, which may not come to it before the screen closes. It waits for this.
+        // Start it here: the thread might not get to it before the screen closes. The thread waits for this.
         let _ = hand_over.send(trainer::start(&arguments));
         Ok(())
     }
 
-    /// Asks a run for something.
+    /// Sends a request to a run.
     ///
     /// # Errors
-    /// As [`Tasks::new`].
+    /// Like [`Tasks::new`].
     pub fn send(&mut self, request: Request, folder: PathBuf) -> io::Result<()> {
         self.write("request", move || {
             Some(TrainingReport::Sent(request, request.send(&folder).map_err(|error| error.to_string())))
         })
     }
 
-    /// Keeps a policy under a name.
+    /// Saves a policy under a name.
     ///
     /// # Errors
-    /// As [`Tasks::new`].
+    /// Like [`Tasks::new`].
     pub fn keep(&mut self, keeping: Keeping) -> io::Result<()> {
         self.write("keep", move || {
             let outcome = keeping.keep();
@@ -223,10 +223,10 @@ impl Tasks {
         })
     }
 
-    /// Reads the policy of the run in `folder`.
+    /// Loads the policy of the run in `folder`.
     ///
     /// # Errors
-    /// As [`Tasks::new`].
+    /// Like [`Tasks::new`].
     pub fn load_policy(&self, folder: PathBuf) -> io::Result<()> {
         self.spawn("policy", move || {
             let policy = training::load_policy(&folder);
@@ -235,7 +235,7 @@ impl Tasks {
         Ok(())
     }
 
-    /// Does what writes something: the program does not end before.
+    /// Runs work that writes something; the program waits for it before it ends.
     fn write(&mut self, name: &str, work: impl FnOnce() -> Option<TrainingReport> + Send + 'static) -> io::Result<()> {
         self.writing.retain(|thread| !thread.is_finished());
         let thread = self.spawn(name, work)?;
@@ -251,33 +251,33 @@ impl Tasks {
         let to_screen = self.to_screen.clone();
         thread::Builder::new().name(name.into()).spawn(move || {
             if let Some(report) = work() {
-                // A screen that is gone needs no answer.
+                // A closed screen needs no answer.
                 let _ = to_screen.send(Event::Training(report));
             }
         })
     }
 }
 
-/// Where another folder is wanted than before, or none, ends the poll and starts one for that.
-fn renew(
+/// If the folder has changed, ends the poll and starts one for the new folder, if there is one.
+fn restart_if_changed(
     poll: &mut Option<Poll>,
     [before, now]: [&Option<PathBuf>; 2],
     start: impl FnOnce(PathBuf) -> io::Result<Poll>,
 ) -> io::Result<()> {
     if before != now {
-        // What is dropped stops.
+        // Dropping a poll stops it.
         *poll = None;
         *poll = now.clone().map(start).transpose()?;
     }
     Ok(())
 }
 
-/// Lists the runs, and reports where anything has changed.
+/// Lists the runs, and reports changes.
 fn list(folder: PathBuf) -> impl FnMut() -> Option<Event> {
     let (mut runs, mut before) = (RunsFolder::new(&folder), None);
     move || {
         let found = match runs.look() {
-            // Nothing has ever been trained.
+            // No run was ever started.
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Listing::default()),
             found => found.map_err(|error| format!("{}: {error}", folder.display())),
         };
@@ -289,10 +289,10 @@ fn list(folder: PathBuf) -> impl FnMut() -> Option<Event> {
     }
 }
 
-/// Follows a run. For the one that is watched, its shots are recorded too, and whether it has a policy is reported.
+/// Follows a run. For the main run, its shots are also recorded, and it is reported whether the run has a policy.
 ///
 /// # Errors
-/// A thread that could not be started.
+/// Fails if a thread cannot be started.
 fn follow(
     slot: FollowSlot,
     folder: PathBuf,
@@ -307,7 +307,7 @@ fn follow(
         if slot == FollowSlot::Main {
             let has_policy = folder.join(POLICY).exists();
             if had_policy.replace(has_policy) != Some(has_policy) {
-                // A screen that is gone needs no news.
+                // A closed screen needs no news.
                 let _ = to_screen.send(Event::Training(TrainingReport::HasPolicy(folder.clone(), has_policy)));
             }
         }
@@ -324,10 +324,10 @@ fn follow(
     })
 }
 
-/// Records the shots of the run in `folder`.
+/// Starts a worker that records the shots of the run in `folder`.
 fn recorder(folder: PathBuf, to_screen: Sender<Event>) -> io::Result<Worker<(Examples, Table)>> {
-    Worker::of_the_newest("recorder", move |(examples, table): (Examples, Table)| {
-        // A screen that is gone needs no shots.
+    Worker::newest_only("recorder", move |(examples, table): (Examples, Table)| {
+        // A closed screen needs no shots.
         let _ =
             to_screen.send(Event::Training(TrainingReport::Recorded(folder.clone(), Reel::record(&examples, &table))));
     })

@@ -1,4 +1,4 @@
-//! Looking on while somebody else plays: their table as they show it, with its shot recorded here.
+//! Following another player: reads the table that they share and simulates its shot.
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
@@ -12,50 +12,50 @@ use crate::{
     },
 };
 
-/// Longest time that somebody else's shot may take to compute, most events and steps of its contacts, and its longest
-/// duration, s: theirs may be a table that is stiff or slippery beyond any use.
-const LONGEST: Duration = Duration::from_secs(2);
-const MOST: u32 = 20_000;
-const LONGEST_SHOT: f64 = 120.0;
+/// Bounds for simulating another player's shot: computing time, number of events and of contact steps, and duration, s. Their table may be
+/// unusably stiff or slippery.
+const MAX_TIME: Duration = Duration::from_secs(2);
+const MAX_EVENTS: u32 = 20_000;
+const MAX_DURATION: f64 = 120.0;
 
-/// What is seen of somebody else's table.
+/// The result of reading another player's table.
 pub type Seen = Sight<SeenTable>;
 
-/// What is said where the table of the player `name` is [`Sight::Damaged`].
+/// The message if the table of the player `name` is [`Sight::Damaged`].
 pub fn damage_words(name: &str) -> String {
     format!("The table of {name} cannot be read: it is damaged, or of another version of carom.")
 }
 
-/// Somebody else's table.
+/// Another player's table.
 #[derive(Clone, Debug)]
 pub struct SeenTable {
-    /// What they show.
+    /// The shared view.
     pub shown: ShownTable,
-    /// How long ago they have written it.
+    /// Its age when read.
     pub age: Duration,
-    /// The shot, recorded; nothing where there is none, or it cannot be played.
+    /// The simulated shot; `None` if there is none or it cannot be simulated.
     pub shot: Option<Arc<Shot>>,
 }
 
-/// What a recorded shot is made of.
-type Made = (Table, Layout, CueInputs, bool);
+/// The inputs of a simulated shot.
+type ShotInputs = (Table, Layout, CueInputs, bool);
 
-/// Somebody who looks on.
+/// A reader of another player's table.
 #[derive(Debug)]
 pub struct Onlooker {
     folder: PathBuf,
     before: Option<Seen>,
-    /// The shot that was recorded last, and what it is made of.
-    shot: Option<(Made, Option<Arc<Shot>>)>,
+    /// The inputs and the result of the last simulation.
+    shot: Option<(ShotInputs, Option<Arc<Shot>>)>,
 }
 
 impl Onlooker {
-    /// One who looks at what is shown in `folder`.
+    /// Creates a reader of the table shared in `folder`.
     pub const fn new(folder: PathBuf) -> Self {
         Self { folder, before: None, shot: None }
     }
 
-    /// What is seen now, where that is something else than before.
+    /// Reads the table; `None` if nothing has changed.
     pub fn look(&mut self) -> Option<Seen> {
         let sight = ShownTable::look(&self.folder);
         let is_known = match (&sight, &self.before) {
@@ -79,28 +79,29 @@ impl Onlooker {
         Some(seen)
     }
 
-    /// The shot, recorded once.
+    /// Simulates the shot, unless it is the same as the last one.
     fn record(&mut self, shown: &ShownTable) -> Option<Arc<Shot>> {
         let shot = shown.shot?;
-        let made = (shown.table.clone(), shown.layout, shot.cue, shot.solved);
+        let inputs = (shown.table.clone(), shown.layout, shot.cue, shot.solved);
         if let Some((known, shot)) = &self.shot
-            && *known == made
+            && *known == inputs
         {
             return shot.clone();
         }
-        let (table, layout, cue, solved) = &made;
+        let (table, layout, cue, solved) = &inputs;
         let source = if shot.author == Author::Player { "their own" } else { "the coach" };
         let recording = recorded(table, layout, cue);
         let shot = recording.map(|recording| Arc::new(Shot::of(table, recording, *cue, *solved, source)));
-        self.shot = Some((made, shot.clone()));
+        self.shot = Some((inputs, shot.clone()));
         shot
     }
 }
 
-/// The shot, if it can be played within bounds.
+/// Simulates the shot; `None` if it exceeds a bound.
 fn recorded(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Recording> {
-    let (recording, is_over) = Recording::within_bounds(table, layout, Start::Stroke(cue), LONGEST, MOST).ok()?;
-    (!is_over && recording.is_finite() && recording.duration() <= LONGEST_SHOT).then_some(recording)
+    let (recording, is_over) =
+        Recording::within_bounds(table, layout, Start::Stroke(cue), MAX_TIME, MAX_EVENTS).ok()?;
+    (!is_over && recording.is_finite() && recording.duration() <= MAX_DURATION).then_some(recording)
 }
 
 #[cfg(test)]
@@ -152,6 +153,6 @@ mod tests {
         let start = Instant::now();
         let cue = CueInputs::parse("0,0,0,40,100").unwrap();
         assert!(recorded(&slippery, &Layout::opening(&slippery), &cue).is_none());
-        assert!(start.elapsed() < 5 * LONGEST, "{:?}", start.elapsed());
+        assert!(start.elapsed() < 5 * MAX_TIME, "{:?}", start.elapsed());
     }
 }

@@ -1,4 +1,4 @@
-//! Polling on a thread, as long as its answers are wanted.
+//! Polling on a thread, until the poll is dropped.
 
 use std::{
     io,
@@ -13,24 +13,24 @@ use std::{
 
 use crate::terminal::tasks::event::Event;
 
-/// Looks without news after which they come less often: a run that has ended seldom changes.
-const PATIENT_LOOKS: u32 = 30;
-/// Time between two looks then, at least.
-const PATIENT_INTERVAL: Duration = Duration::from_millis(500);
+/// Number of polls without news after which polling slows down: a finished run seldom changes.
+const IDLE_POLLS: u32 = 30;
+/// Smallest interval after slowing down.
+const IDLE_INTERVAL: Duration = Duration::from_millis(500);
 
-/// A thread that looks for news; dropping it ends the thread.
+/// A polling thread; dropping the value ends it.
 #[derive(Debug)]
 pub struct Poll {
     stop: Arc<AtomicBool>,
-    /// Whether the last event waits for the screen still.
+    /// Whether the screen has not yet handled the last event.
     waiting: Arc<AtomicBool>,
 }
 
 impl Poll {
-    /// Calls `look` every `interval` and sends what it finds.
+    /// Calls `look` every `interval` and sends its events.
     ///
     /// # Errors
-    /// A thread that could not be started.
+    /// Fails if the thread cannot be started.
     pub fn start(
         name: &str,
         interval: Duration,
@@ -40,26 +40,26 @@ impl Poll {
         let poll = Self { stop: Arc::default(), waiting: Arc::default() };
         let (stop, waiting) = (Arc::clone(&poll.stop), Arc::clone(&poll.waiting));
         thread::Builder::new().name(name.into()).spawn(move || {
-            let mut without = 0;
+            let mut idle_polls = 0;
             while !stop.load(Ordering::Relaxed) {
                 if !waiting.load(Ordering::Acquire) {
-                    without += 1;
+                    idle_polls += 1;
                     if let Some(event) = look() {
-                        without = 0;
+                        idle_polls = 0;
                         waiting.store(true, Ordering::Release);
                         if to_screen.send(event).is_err() {
                             break;
                         }
                     }
                 }
-                thread::sleep(if without < PATIENT_LOOKS { interval } else { interval.max(PATIENT_INTERVAL) });
+                thread::sleep(if idle_polls < IDLE_POLLS { interval } else { interval.max(IDLE_INTERVAL) });
             }
         })?;
         Ok(poll)
     }
 
-    /// The last event has arrived.
-    pub fn taken(&self) {
+    /// Confirms that the last event was handled.
+    pub fn acknowledge(&self) {
         self.waiting.store(false, Ordering::Release);
     }
 }
@@ -84,10 +84,10 @@ mod tests {
         let patience = Duration::from_secs(20);
         assert!(receiver.recv_timeout(patience).is_ok());
         assert!(receiver.recv_timeout(Duration::from_millis(50)).is_err(), "not before they are taken");
-        poll.taken();
+        poll.acknowledge();
         assert!(receiver.recv_timeout(patience).is_ok());
         drop(poll);
-        // The thread ends, and the channel with it.
+        // The thread ends and closes the channel.
         assert!(
             receiver
                 .recv_timeout(patience)

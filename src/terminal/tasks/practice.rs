@@ -1,4 +1,4 @@
-//! Practice: strokes are played and judged, and files written, one thing after the other on a thread of its own.
+//! Tasks of the drill screens: strokes are played and judged and files written, in order, on one thread.
 
 use std::{
     collections::HashMap,
@@ -21,24 +21,24 @@ use crate::{
     },
 };
 
-/// How long the coach looks for a stroke where the exercise has none: a player sees a position for longer before striking.
+/// Thinking time of the coach if the exercise has no stroke of its own: less than a player looks at a position before a stroke.
 const BUDGET: Duration = Duration::from_millis(300);
 
-/// Does tasks of the drill screens.
+/// Worker for the tasks of the drill screens.
 #[derive(Debug, Default)]
 pub struct PracticeWorker {
     store: Option<Store>,
     coach: Option<Coach>,
-    /// The advice on the model shot, and the number of the question.
+    /// The latest model shot, with the identifier of its request.
     model_shot: Option<(u64, Advice)>,
-    /// The session that was played last: it knows of strokes that were judged meanwhile.
+    /// The session played last, with the success rates that were computed since.
     last: Option<Session>,
-    /// How many attempts of each session are known to be on the disk.
-    safe: HashMap<String, usize>,
+    /// Number of attempts of each session known to be on the disk.
+    saved_attempts: HashMap<String, usize>,
 }
 
 impl PracticeWorker {
-    /// Does `task` on this thread, and hands what comes of it to `reply`. A panic in a simulation becomes a sentence.
+    /// Runs `task` on this thread and passes its reports to `reply`. A panic in a simulation becomes an error message.
     pub fn run(&mut self, task: DrillTask, reply: &mut dyn FnMut(DrillReport)) {
         let failed = "the program failed on this position; move a ball a little and try again";
         match task {
@@ -76,7 +76,7 @@ impl PracticeWorker {
                     Some(Err(StoreError::Taken(_))) => Ok(false),
                     Some(Err(error)) => Err(error.to_string()),
                     Some(Ok(())) => Ok(true),
-                    None => Err(UNKNOWN.to_owned()),
+                    None => Err(NO_STORE.to_owned()),
                 };
                 reply(DrillReport::PositionSaved(exercise, saved));
             }
@@ -102,33 +102,33 @@ impl PracticeWorker {
         }
     }
 
-    /// The same with the screen's channel for answers.
+    /// Runs `task` and sends its reports to the screen.
     pub(super) fn work(&mut self, task: DrillTask, to_screen: &Sender<Event>) {
         self.run(task, &mut |report| {
-            // A screen that is gone needs no answer; what is to be kept is on the disk.
+            // A closed screen needs no answer; what has to be saved is on the disk.
             let _ = to_screen.send(Event::Drill(report));
         });
     }
 
     fn with_store(&self, work: impl FnOnce(&Store) -> Result<(), StoreError>) -> Result<(), String> {
-        let store = self.store.as_ref().ok_or(UNKNOWN)?;
+        let store = self.store.as_ref().ok_or(NO_STORE)?;
         work(store).map_err(|error| error.to_string())
     }
 
-    /// Saves a session that had these attempts before; gives why it is not saved, or how it stands if another program has
-    /// changed it.
+    /// Saves a session whose attempts before the change were `before`. Returns the error if it cannot be saved, or its present state if
+    /// another program has changed it.
     fn save(&mut self, session: &Session, before: &[Attempt]) -> Result<Result<(), String>, Box<Session>> {
-        let Some(store) = &self.store else { return Ok(Err(UNKNOWN.to_owned())) };
-        // Where a session is gone on with that an earlier program has left, the disk may have refused some of it.
-        let safe = self.safe.entry(session.id.clone()).or_default();
-        match store.save(session, before, *safe) {
+        let Some(store) = &self.store else { return Ok(Err(NO_STORE.to_owned())) };
+        // If a session of an earlier program is continued, the disk may have refused some of it.
+        let saved_attempts = self.saved_attempts.entry(session.id.clone()).or_default();
+        match store.save(session, before, *saved_attempts) {
             Err(StoreError::Changed(stored)) => {
-                *safe = stored.attempts.len();
+                *saved_attempts = stored.attempts.len();
                 Err(stored)
             }
             Err(error) => Ok(Err(error.to_string())),
             Ok(()) => {
-                *safe = session.attempts.len();
+                *saved_attempts = session.attempts.len();
                 Ok(Ok(()))
             }
         }
@@ -164,16 +164,16 @@ impl PracticeWorker {
         model_shot.transpose()
     }
 
-    /// The coach for this table, made when it is first needed.
+    /// The coach for this table, created at first use.
     fn coach(&mut self, table: &Table) -> &Coach {
         let known = self.coach.take().filter(|coach| coach.table() == table);
         self.coach.insert(known.unwrap_or_else(|| Coach::new(table.clone())))
     }
 
-    /// Plays a stroke. The attempt is on the disk before its result is reported; how good the stroke was comes after that.
+    /// Plays a stroke. The attempt is on the disk before its result is reported; its success rate is computed afterwards.
     fn play(&mut self, task: PlayTask, reply: &mut dyn FnMut(DrillReport)) {
         let PlayTask { mut session, meant, with_hint, advice_id } = task;
-        self.remember(&mut session);
+        self.add_known_rates(&mut session);
         let place = session.position().ok().flatten();
         let rule = session.exercise().map(|exercise| exercise.rule);
         let (played, (table, layout), rule) = match (session.play(meant, with_hint), place, rule) {
@@ -182,7 +182,7 @@ impl PracticeWorker {
             _ => return,
         };
         let number = session.attempts.len() - 1;
-        // With the cue raised where it had to be.
+        // With the cue raised if it had to be.
         let meant = session.attempts[number].meant.unwrap_or(meant);
         if let Some((_, advice)) = self.model_shot.as_ref().filter(|(id, _)| *id == advice_id) {
             session.attempts[number].advised = Some(advice.cue);
@@ -190,7 +190,7 @@ impl PracticeWorker {
         }
         let saved = match self.save(&session, &session.attempts[..number]) {
             Ok(saved) => saved,
-            // The balls may lie elsewhere by now: the stroke is not told.
+            // The balls may have other positions by now, so the stroke is not reported.
             Err(stored) => return reply(DrillReport::Changed(stored)),
         };
         let shot = (!played.miscue).then(|| Shot::new(&table, &layout, played.stroke, played.made, "player"));
@@ -200,14 +200,14 @@ impl PracticeWorker {
         reply(DrillReport::Played(session.id.clone(), Ok(outcome), saved));
         let share = chance(session.shooter(), rule, &table, &layout, &meant).rate;
         session.attempts[number].chance = Some(share);
-        // An error of the disk has just been reported, and who has gone on with the session may do so without the share.
+        // A disk error was just reported, and a user who has continued the session may do so without the rate.
         let _ = self.save(&session, &session.attempts);
         reply(DrillReport::Judged(session.id.clone(), number, share));
         self.last = Some(session);
     }
 
-    /// Strokes that were judged after the screen had sent the session on.
-    fn remember(&self, session: &mut Session) {
+    /// Adds the success rates that were computed after the screen had sent the session.
+    fn add_known_rates(&self, session: &mut Session) {
         let Some(last) = self.last.as_ref().filter(|last| last.id == session.id) else { return };
         for (attempt, known) in session.attempts.iter_mut().zip(&last.attempts) {
             attempt.chance = attempt.chance.or(known.chance);
@@ -215,10 +215,10 @@ impl PracticeWorker {
     }
 }
 
-/// Message before the first look at the disk; it is never shown, because that look comes first.
-const UNKNOWN: &str = "it is not known where to write";
+/// Message before the first load; never shown, because loading is the first task.
+const NO_STORE: &str = "it is not known where to write";
 
-/// The player's skill, and how sure that is.
+/// Estimates the player's skill and describes how certain it is.
 fn estimated(sessions: &[Session]) -> Result<(Option<Skill>, String), String> {
     let found = estimate(sessions).map_err(|error| error.to_string())?;
     let Estimate { skill, attempts, shots, .. } = found;

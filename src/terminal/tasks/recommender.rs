@@ -1,4 +1,4 @@
-//! Asking the coach on a thread of its own, so that the screen never waits.
+//! Runs queries to the coach; on a worker thread, so that the screen never waits.
 
 use std::{
     ops::Range,
@@ -23,102 +23,102 @@ use crate::{
     terminal::{Advice, CoachQuery, Effort, Proposal, Shot, ShotAnalysis},
 };
 
-/// Least time between two better shots that are reported: each moves all paths on the screen, which is 3 KB on a slow link, and
-/// nobody follows more of them.
-const TELLING: Duration = Duration::from_millis(250);
+/// Smallest interval between two reports of better shots. Each report moves all paths on the screen, which is 3 KB on a slow link, and
+/// nobody can follow more of them.
+const REPORT_INTERVAL: Duration = Duration::from_millis(250);
 
-/// Time that a search is given where simulations are to end it.
-const NO_HURRY: Duration = Duration::from_secs(3600);
+/// Time budget of a search that ends after a number of simulations.
+const UNLIMITED_TIME: Duration = Duration::from_secs(3600);
 
 /// Columns and rows of a map: three sub-pixels a row on the largest panels.
 const CELLS: usize = 61;
 
-/// How far the map of direction and speed reaches to either side, in the player's standard errors, of which hardly any
-/// stroke is off by more than three; for a perfect player an expert's count.
+/// Half the width of the map of direction and speed, in the player's standard errors; hardly any stroke is off by more than three. A
+/// perfect player gets the map of an expert.
 const REACH: f64 = 5.0;
 
-/// How far the map of the tip reaches beyond where the tip slips off: its edge is to be seen.
+/// Size of the map of tips relative to the miscue limit, so that the limit is visible.
 const RIM: f64 = 1.1;
 
-/// Attempts whose ends are shown: enough to see the cloud, few enough to see through it.
+/// Number of attempts whose final positions are shown: enough for the shape of the cloud, few enough to see through.
 const ATTEMPTS: usize = 100;
 
-/// A question to the coach.
+/// A query to the coach.
 #[derive(Clone, Debug)]
 pub struct CoachJob {
-    /// Tells this question's answers from those to earlier questions.
+    /// Identifies the answers to this query.
     pub id: u64,
     /// The table.
     pub table: Table,
-    /// Where the balls lie.
+    /// Positions of the balls.
     pub layout: Layout,
-    /// Whose advice is asked.
+    /// The policy and the terms of the query.
     pub query: CoachQuery,
-    /// Shots of the coach's former answer to the same question.
+    /// Shots of the coach's earlier answer to the same query.
     pub former: Vec<CueInputs>,
-    /// Which shot is to be studied; without one the coach is to find one.
+    /// The shot to analyse; `None` to search for one.
     pub shot: Option<CueInputs>,
-    /// What was found, where it is to be said why that shot leads.
+    /// The recommendation, if the answer has to explain why its shot is best.
     pub found: Option<Arc<Recommendation>>,
-    /// A stroke of the player's own and the attempts at it, as [`judge`] counts them: how often it is made is all that is asked then.
+    /// A stroke of the player's own and the range of attempts at it, as counted by [`judge`]: only its success rate is computed then.
     pub stroke: Option<(CueInputs, Range<usize>)>,
     /// Time that the coach may think.
     pub budget: Duration,
     /// Seed of the coach's random numbers.
     pub seed: u64,
-    /// Set when nobody waits for the answer any more.
+    /// Set when the answer is no longer needed.
     pub cancel: Arc<AtomicBool>,
 }
 
-/// What the coach says to a question.
+/// An answer of the coach.
 #[derive(Clone, Debug)]
 pub struct CoachAnswer {
-    /// The question's number.
+    /// Identifier of the query.
     pub id: u64,
-    /// What it says.
+    /// Content of the answer.
     pub news: CoachNews,
 }
 
-/// What the coach says, bit by bit.
+/// Content of an answer; a query may get several.
 #[derive(Clone, Debug)]
 pub enum CoachNews {
-    /// A better shot than any before; the search goes on.
+    /// A better shot than all before; the search continues.
     Better(Proposal),
-    /// The end of the search.
+    /// The result of the search.
     Advice(Advice),
-    /// Why there is no advice.
+    /// Why there is no recommendation.
     Refused(String),
-    /// Why the recommended shot leads.
+    /// Why the recommended shot is best.
     Why(Box<Why>),
-    /// What a closer look at a shot has shown.
+    /// The analysis of a shot.
     Study(Arc<ShotAnalysis>),
-    /// How often the player makes the stroke of the question.
+    /// The success rate of the player's own stroke.
     Judged(SuccessRate),
-    /// The end of the study: the advice on where the shot leaves the balls, if there is any.
+    /// The end of an analysis: the advice for the layout after the shot, if any.
     Next(Option<Advice>),
 }
 
-/// The coach, made when it is first asked: reading its networks must not delay the first picture.
+/// The coach, created at the first query: reading its networks must not delay the first frame.
 #[derive(Debug, Default)]
 pub struct CoachWorker {
     coach: Option<(CoachQuery, Coach)>,
-    /// Simulations that end a search instead of time.
+    /// Number of simulations after which a search ends, instead of a time.
     simulations: Option<u64>,
 }
 
 impl CoachWorker {
-    /// One whose answers do not depend on time: so many simulations end a search.
+    /// Creates a worker whose answers do not depend on time: each search ends after `simulations` simulations.
     pub const fn unhurried(simulations: u64) -> Self {
         Self { coach: None, simulations: Some(simulations) }
     }
 
-    /// Answers a question on this thread; `tell` hears everything as soon as it is known. A panic becomes a sentence.
+    /// Answers a query on this thread; `tell` receives each part as soon as it is known. A panic becomes an error message.
     pub fn answer(&mut self, job: &CoachJob, mut tell: impl FnMut(CoachAnswer)) {
         let mut tell = |news| tell(CoachAnswer { id: job.id, news });
         if let Some((cue, attempts)) = &job.stroke {
             let CoachJob { table, layout, query, seed, .. } = job;
             let judged = || judge(query.shooter(), query.rule, table, layout, cue, attempts.clone(), *seed);
-            // Where it fails, it is not known.
+            // On failure the rate stays unknown.
             if let Ok(made) = catch_unwind(AssertUnwindSafe(judged)) {
                 tell(CoachNews::Judged(made));
             }
@@ -126,7 +126,7 @@ impl CoachWorker {
         }
         if let Some(cue) = job.shot {
             let study = || self.study(job, &cue, &mut tell);
-            // Nobody asked for it: where it fails, there is nothing to see.
+            // The user did not request the analysis, so a failure is silent.
             let next = catch_unwind(AssertUnwindSafe(study)).unwrap_or(None);
             return tell(CoachNews::Next(next));
         }
@@ -145,20 +145,20 @@ impl CoachWorker {
             plan,
             jumps,
             first,
-            budget: if self.simulations.is_some() { NO_HURRY } else { job.budget },
+            budget: if self.simulations.is_some() { UNLIMITED_TIME } else { job.budget },
             simulations: self.simulations.unwrap_or(u64::MAX),
             seed: job.seed,
             former: job.former.clone(),
             cancel: Arc::clone(&job.cancel),
             ..Request::default()
         };
-        let (is_hurried, mut told) = (self.simulations.is_none(), None);
+        let (is_hurried, mut last_report) = (self.simulations.is_none(), None);
         let tell = |better: &Improvement| {
-            if is_hurried && told.is_some_and(|told: Instant| told.elapsed() < TELLING) {
+            if is_hurried && last_report.is_some_and(|last_report: Instant| last_report.elapsed() < REPORT_INTERVAL) {
                 return;
             }
-            told = Some(Instant::now());
-            // A shot that cannot be shown is not reported; the answer will say why.
+            last_report = Some(Instant::now());
+            // A shot that cannot be displayed is not reported; the answer will say why.
             let Ok(shot) = Shot::new(&job.table, layout, better.cue, true, "search") else { return };
             tell(Proposal {
                 shot: Arc::new(shot),
@@ -172,12 +172,12 @@ impl CoachWorker {
         proposals(job, layout, found)
     }
 
-    /// Looks at a shot closely, then at the layout after it.
+    /// Analyses a shot, then the layout after it.
     fn study(&mut self, job: &CoachJob, cue: &CueInputs, tell: &mut dyn FnMut(CoachNews)) -> Option<Advice> {
         if let Some(found) = job.found.as_deref().filter(|_| !job.cancel.load(Ordering::Relaxed)) {
             let CoachJob { table, layout, query, .. } = job;
             let why = why(query.shooter(), query.rule, table, layout, found, job.seed);
-            // A reason that cannot be found is left out.
+            // If no reason is found, it is left out.
             if let Ok(why) = why {
                 tell(CoachNews::Why(Box::new(why)));
             }
@@ -186,14 +186,14 @@ impl CoachWorker {
         let study = study(job, cue, &recording)?;
         let makes_point = study.margins.is_some();
         tell(CoachNews::Study(Arc::new(study)));
-        // After a miss it is the other's turn.
+        // After a miss it is the opponent's turn.
         if !makes_point {
             return None;
         }
         self.advice(job, &recording.final_layout(), &mut |_| {}).ok()
     }
 
-    /// The coach for the question's table, with its policy.
+    /// The coach for the query's table and policy.
     fn coach(&mut self, job: &CoachJob) -> &Coach {
         let fits =
             |(query, coach): &(CoachQuery, Coach)| *coach.table() == job.table && query.has_policy_of(&job.query);
@@ -209,7 +209,7 @@ impl CoachWorker {
     }
 }
 
-/// What the coach has found, ready to be shown.
+/// Converts the coach's result for display.
 fn proposals(job: &CoachJob, layout: &Layout, found: Recommendation) -> Result<Advice, String> {
     let proposal = |cue, solved, source: Source, made, risk, next| {
         let shot = Shot::new(&job.table, layout, cue, solved, source.to_string()).map_err(|error| error.to_string())?;
@@ -226,24 +226,24 @@ fn proposals(job: &CoachJob, layout: &Layout, found: Recommendation) -> Result<A
     Ok(Advice { proposals, seed: job.seed, effort, found: found.solved.then(|| Arc::new(found)) })
 }
 
-/// Looks at a shot closely, which was recorded; breaks off between two parts where nobody waits any more.
+/// Analyses a recorded shot; stops between two parts if the answer is no longer needed.
 fn study(job: &CoachJob, cue: &CueInputs, recording: &Recording) -> Option<ShotAnalysis> {
     let CoachJob { table, layout, query, .. } = job;
     let CoachQuery { rule, skill, .. } = query;
     let sensitivity = Sensitivity::new(*rule, table, layout, query.shooter().doubts());
-    let go_on = || (!job.cancel.load(Ordering::Relaxed)).then_some(());
+    let unless_cancelled = || (!job.cancel.load(Ordering::Relaxed)).then_some(());
     let margins = sensitivity.margins(cue);
-    go_on()?;
+    unless_cancelled()?;
     let centre = CueInputs { a: 0.0, b: 0.0, ..*cue };
     let face = 1e3 * table.radius * RIM * table.miscue_limit.sqrt();
     let tip = sensitivity.map(cue, &centre, (Input::Side, face), (Input::Height, face), CELLS);
-    go_on()?;
+    unless_cancelled()?;
     let hand = skill.at(cue);
     let usual = if skill.is_perfect() { Skill::EXPERT } else { hand };
     let span = (Input::Direction, REACH * usual.phi.to_degrees());
     let aim = sensitivity.map(cue, cue, span, (Input::Speed, REACH * usual.speed), CELLS);
-    go_on()?;
+    unless_cancelled()?;
     let scatter = scatter(query.shooter(), *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
     let system = margins.and_then(|_| guide(table, recording));
-    go_on().map(|()| ShotAnalysis { margins, tip, aim, hand, scatter, system })
+    unless_cancelled().map(|()| ShotAnalysis { margins, tip, aim, hand, scatter, system })
 }

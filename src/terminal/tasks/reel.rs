@@ -1,4 +1,4 @@
-//! Shots on held-out layouts, recorded to be replayed.
+//! Replays: recorded shots on held-out layouts.
 
 use crate::{
     learning::run::examples::{Example, Examples},
@@ -6,26 +6,26 @@ use crate::{
     terminal::Shot,
 };
 
-/// A set of shots, recorded.
+/// A set of recorded shots.
 #[derive(Debug)]
 pub struct Reel {
-    /// Shots practised before the measurement that they are of.
+    /// Training shots played before the measurement of this set.
     pub after: u64,
     /// The shots.
     pub shots: Vec<ReplayShot>,
 }
 
-/// A shot of a set.
+/// A shot of the set.
 #[derive(Debug)]
 pub struct ReplayShot {
-    /// What was measured.
+    /// The measured shot.
     pub example: Example,
-    /// What happens in it; none where it cannot be played.
+    /// The recording; `None` if the shot cannot be simulated.
     pub shot: Option<Shot>,
 }
 
 impl Reel {
-    /// Records a set on `table`. That may take seconds where balls press each other for long: not for the screen's thread.
+    /// Simulates a set on `table`. This may take seconds if balls press on each other for long, so it must not run on the screen's thread.
     pub fn record(examples: &Examples, table: &Table) -> Self {
         let record = |example: &Example| {
             let Example { layout, cue, reward } = *example;
@@ -34,7 +34,7 @@ impl Reel {
         Self { after: examples.after, shots: examples.shots.iter().map(record).collect() }
     }
 
-    /// Whether `other` was recorded from the same shots.
+    /// Whether `other` contains the same shots.
     pub fn is_of(&self, other: &Self) -> bool {
         let [examples, others] = [self, other].map(|reel| reel.shots.iter().map(|shot| &shot.example));
         self.after == other.after && examples.eq(others)

@@ -1,4 +1,4 @@
-//! Processes that train. They are on their own: neither the end of the screen nor that of its terminal reaches them.
+//! Training processes. They are independent: closing the screen or its terminal does not stop them.
 
 use std::{
     ffi::OsString,
@@ -12,26 +12,25 @@ use crate::{
     terminal::TrainerFailure,
 };
 
-/// Bytes at the end of what a process says in which its last sentence is looked for.
+/// Number of bytes at the end of a process' output that are searched for its last message.
 const LAST_BYTES: i64 = 4096;
 
-/// A process that trains, and the file of what it says.
+/// A training process and the file with its output.
 pub type Trainer = (Child, File);
 
 /// Starts this program with `arguments`.
 ///
 /// # Errors
-/// Where it cannot be started.
+/// Fails if the process cannot be started.
 pub fn start(arguments: &[OsString]) -> Result<Trainer, TrainerFailure> {
     let start = || {
         let program = std::env::current_exe()?;
-        // What it says goes to a file that has no name. A pipe would break with the end of this screen, and a write to
-        // it would then end the training.
-        let said = tempfile::tempfile()?;
+        // Its output goes to a file without a name. A pipe would break when the screen closes, and the next write would end the training.
+        let output = tempfile::tempfile()?;
         let mut command = Command::new(program);
-        command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(said.try_clone()?);
-        // Signals of the terminal go to a group of processes: not to this one.
-        Ok((platform::own_group(&mut command).spawn()?, said))
+        command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(output.try_clone()?);
+        // The terminal sends signals to a process group; this process gets its own.
+        Ok((platform::own_group(&mut command).spawn()?, output))
     };
     start().map_err(|error: std::io::Error| TrainerFailure {
         process: None,
@@ -39,27 +38,27 @@ pub fn start(arguments: &[OsString]) -> Result<Trainer, TrainerFailure> {
     })
 }
 
-/// Waits until it ends.
+/// Waits until the process ends.
 ///
 /// # Errors
-/// Where it fails: with its own sentence where it says one.
-pub fn wait((mut process, said): Trainer) -> Result<(), TrainerFailure> {
+/// Fails if the process fails, with its own message if it has printed one.
+pub fn wait((mut process, output): Trainer) -> Result<(), TrainerFailure> {
     let failure = {
         let process = Some(process.id());
         move |sentence| TrainerFailure { process, sentence }
     };
     match process.wait() {
-        // One that was stopped can go on, and its page says so.
+        // A stopped run can be resumed, and its page shows that.
         Ok(status) if status.success() || status.code() == Some(i32::from(UNFINISHED)) => Ok(()),
         Ok(status) => {
-            let killed = || format!("the process that trains has ended: {status}");
-            Err(failure(last_sentence(said).unwrap_or_else(killed)))
+            let killed = || format!("the training process has ended: {status}");
+            Err(failure(last_sentence(output).unwrap_or_else(killed)))
         }
         Err(error) => Err(failure(format!("the training cannot be watched: {error}"))),
     }
 }
 
-/// The last sentence in a file that says why the program has failed; what it says while it trains is none.
+/// The last error message of the program in a file; its other output does not count.
 fn last_sentence(mut file: File) -> Option<String> {
     let length = i64::try_from(file.metadata().ok()?.len()).ok()?;
     file.seek(SeekFrom::End(-length.min(LAST_BYTES))).ok()?;

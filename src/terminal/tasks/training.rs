@@ -15,79 +15,79 @@ use crate::{
     terminal::Reel,
 };
 
-/// Why a run's networks are of no use to the coach.
+/// Why the coach cannot use a run's networks.
 pub const NO_POLICY: &str = "the run has no networks for the coach: they come with the first measurement, and the \
                              thesis' agents have none";
 
-/// Which of the two runs that can be followed at once.
+/// One of the two runs that can be followed at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FollowSlot {
-    /// The one that is watched.
+    /// The run on the screen.
     Main,
-    /// The one that it is compared with.
+    /// The run compared with it.
     Compared,
 }
 
 impl FollowSlot {
-    /// Both.
+    /// Both slots.
     pub const ALL: [Self; 2] = [Self::Main, Self::Compared];
 }
 
-/// What is to be found out again and again, as long as it is wanted.
+/// What is polled, for as long as a page needs it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Subscriptions {
     /// The folder whose runs are listed.
     pub runs: Option<PathBuf>,
-    /// The runs that are followed, in the order of [`FollowSlot::ALL`].
+    /// The followed runs, in the order of [`FollowSlot::ALL`].
     pub followed: [Option<PathBuf>; 2],
-    /// The folder in which somebody else shows their table.
+    /// The folder in which another player shares their table.
     pub shown: Option<PathBuf>,
 }
 
-/// A process that trains, to be started.
+/// A training process to be started.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Launch {
-    /// What follows the program's name on its command line.
+    /// Its command-line arguments.
     pub arguments: Vec<OsString>,
     /// The run's folder.
     pub folder: PathBuf,
 }
 
 impl Launch {
-    /// Going on with the run in `folder`.
+    /// Resumes the run in `folder`.
     pub fn resume(folder: &Path) -> Self {
         let arguments = vec!["train".into(), "--resume".into(), folder.into()];
         Self { arguments, folder: folder.to_owned() }
     }
 }
 
-/// How a process that trains has failed.
+/// Failure of a training process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TrainerFailure {
-    /// The process, where it could be started.
+    /// The process ID, if it could be started.
     pub process: Option<u32>,
-    /// Why it has failed, in a sentence.
+    /// The reason, in a sentence.
     pub sentence: String,
 }
 
-/// A policy to be kept under a name.
+/// A policy to be saved under a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keeping {
     /// The policy's file.
     pub from: PathBuf,
-    /// Where policies are kept.
+    /// Folder of the saved policies.
     pub folder: PathBuf,
     /// The name.
     pub name: String,
-    /// Whether a policy that has the name already may be replaced.
+    /// Whether an existing policy of this name may be replaced.
     pub replace: bool,
 }
 
 impl Keeping {
-    /// Keeps it; `false` where its name is taken.
+    /// Saves the policy; `false` if its name is taken.
     ///
     /// # Errors
-    /// A sentence where there is none, or the copy cannot be written.
+    /// A message if there is no policy, or the copy cannot be written.
     pub fn keep(&self) -> Result<bool, String> {
         if !self.from.exists() {
             return Err(NO_POLICY.to_owned());
@@ -100,10 +100,10 @@ impl Keeping {
     }
 }
 
-/// The policy of the run in `folder`, for the coach.
+/// Loads the policy of the run in `folder` for the coach.
 ///
 /// # Errors
-/// A sentence where there is none, or none that can be used.
+/// A message if there is none, or it cannot be used.
 pub fn load_policy(folder: &Path) -> Result<Arc<Policy>, String> {
     let path = folder.join(POLICY);
     if !path.exists() {
@@ -112,22 +112,22 @@ pub fn load_policy(folder: &Path) -> Result<Arc<Policy>, String> {
     Policy::load(&path).map(Arc::new).map_err(|error| error.to_string())
 }
 
-/// A report from the training page's background tasks. Where it failed, a sentence says why.
+/// A report from the training page's background tasks. Errors are sentences.
 #[derive(Debug)]
 pub enum TrainingReport {
-    /// The runs there are.
+    /// The list of runs.
     Runs(Result<Listing, String>),
-    /// News of the run in a folder that is followed.
+    /// News of the followed run in a folder.
     Followed(FollowSlot, PathBuf, Box<Update>),
     /// The latest shots of the run in a folder, recorded.
     Recorded(PathBuf, Reel),
-    /// The process that was to train in a folder has failed.
+    /// The training process for a folder has failed.
     TrainerFailed(PathBuf, TrainerFailure),
-    /// Whether the run in a folder that is followed has a policy by now.
+    /// Whether the followed run in a folder has a policy by now.
     HasPolicy(PathBuf, bool),
-    /// A run was asked for something.
+    /// A request was sent to a run.
     Sent(Request, Result<(), String>),
-    /// A policy was to be kept: whether it is, or its name is taken.
+    /// Result of saving a policy: `true` if saved, `false` if its name is taken.
     Kept(Keeping, Result<bool, String>),
     /// The policy of the run in a folder.
     Policy(PathBuf, Result<Arc<Policy>, String>),

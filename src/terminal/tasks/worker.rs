@@ -1,4 +1,4 @@
-//! A thread that works on what it is given, one thing after the other.
+//! Worker threads with a task queue.
 
 use std::{
     io,
@@ -6,7 +6,7 @@ use std::{
     thread::{self, JoinHandle},
 };
 
-/// The way to such a thread. Dropping it ends the thread after its work.
+/// Handle of a worker thread. Dropping it ends the thread after its queued tasks.
 #[derive(Debug)]
 pub struct Worker<T> {
     queue: Sender<T>,
@@ -14,21 +14,21 @@ pub struct Worker<T> {
 }
 
 impl<T: Send + 'static> Worker<T> {
-    /// Starts a thread that does `work` with all that it is given.
+    /// Starts a thread that runs `work` on each task in order.
     ///
     /// # Errors
-    /// A thread that could not be started.
+    /// Fails if the thread cannot be started.
     pub fn start(name: &str, mut work: impl FnMut(T) + Send + 'static) -> io::Result<Self> {
         let (queue, tasks) = channel();
         let thread = thread::Builder::new().name(name.into()).spawn(move || tasks.into_iter().for_each(&mut work))?;
         Ok(Self { queue, thread })
     }
 
-    /// Starts a thread that does `work` with the newest of what has come meanwhile, and drops the rest.
+    /// Starts a thread that runs `work` on the newest queued task and drops the older ones.
     ///
     /// # Errors
-    /// A thread that could not be started.
-    pub fn of_the_newest(name: &str, mut work: impl FnMut(T) + Send + 'static) -> io::Result<Self> {
+    /// Fails if the thread cannot be started.
+    pub fn newest_only(name: &str, mut work: impl FnMut(T) + Send + 'static) -> io::Result<Self> {
         let (queue, tasks) = channel();
         let thread = thread::Builder::new().name(name.into()).spawn(move || {
             while let Ok(task) = tasks.recv() {
@@ -38,15 +38,15 @@ impl<T: Send + 'static> Worker<T> {
         Ok(Self { queue, thread })
     }
 
-    /// Gives it something to do; `false` if the thread is gone.
+    /// Queues a task; returns `false` if the thread has ended.
     pub fn give(&self, task: T) -> bool {
         self.queue.send(task).is_ok()
     }
 
-    /// Waits until everything is done.
+    /// Waits until all queued tasks are done.
     pub fn finish(self) {
         drop(self.queue);
-        // A panic there was reported when it happened.
+        // A panic of the thread was reported when it happened.
         let _ = self.thread.join();
     }
 }
@@ -59,7 +59,7 @@ mod tests {
     #[test]
     fn of_all_that_comes_during_its_work_only_the_newest_is_worked_on() {
         let ((begun, begins), (go_on, may_go_on)) = (channel(), channel());
-        let worker = Worker::of_the_newest("newest", move |task: u32| {
+        let worker = Worker::newest_only("newest", move |task: u32| {
             begun.send(task).unwrap();
             may_go_on.recv().unwrap();
         })

@@ -9,32 +9,32 @@ use ratatui::{
 
 use crate::terminal::Glyphs;
 
-/// Half blocks by the bits of their upper (1) and lower (2) half.
+/// Half blocks, indexed by the bits of the upper (1) and lower (2) half.
 const HALVES: [char; 4] = [' ', '▀', '▄', '█'];
 /// Most sub-pixels of a cell: those of an octant.
 const MOST: usize = 8;
 
-/// A sub-pixel's colour; where a cell holds more than two colours those with more weight stay.
+/// Colour of a sub-pixel. If a cell has more than two colours, those with the most weight are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ink {
-    /// Its colour.
+    /// The colour.
     pub color: Color,
-    /// How much a sub-pixel of it counts.
+    /// Weight of one sub-pixel of this colour.
     pub weight: u8,
 }
 
-/// Sub-pixels over a rectangle of cells, all of the ground's colour at first.
+/// Sub-pixels over a rectangle of cells, initially all in the ground colour.
 #[derive(Clone, Debug)]
 pub struct Canvas {
     area: Rect,
-    /// Sub-pixels a cell, across and down.
+    /// Sub-pixels per cell, across and down.
     grid: (u16, u16),
     ground: Color,
     pixels: Vec<Ink>,
 }
 
 impl Canvas {
-    /// A canvas of `ground` over `area`; letters have no sub-pixels and are drawn elsewhere.
+    /// Creates a canvas of the colour `ground` over `area`. Letters have no sub-pixels and are drawn without a canvas.
     pub fn new(area: Rect, glyphs: Glyphs, ground: Color) -> Self {
         let grid = sub_pixels(glyphs);
         let count = usize::from(area.width * grid.0) * usize::from(area.height * grid.1);
@@ -46,7 +46,7 @@ impl Canvas {
         (i32::from(self.area.width * self.grid.0), i32::from(self.area.height * self.grid.1))
     }
 
-    /// Colours the sub-pixel at `x`, `y`, if it is on the canvas.
+    /// Colours the sub-pixel at `x`, `y` if it is on the canvas.
     pub fn set(&mut self, x: i32, y: i32, ink: Ink) {
         let (width, height) = self.size();
         if (0..width).contains(&x) && (0..height).contains(&y) {
@@ -76,7 +76,7 @@ impl Canvas {
     }
 }
 
-/// Sub-pixels a cell, across and down.
+/// Sub-pixels per cell, across and down.
 pub const fn sub_pixels(glyphs: Glyphs) -> (u16, u16) {
     match glyphs {
         Glyphs::Octant => (2, 4),
@@ -86,8 +86,8 @@ pub const fn sub_pixels(glyphs: Glyphs) -> (u16, u16) {
     }
 }
 
-/// The block character, its colour and the colour behind it. Where there is ground in the cell it lies behind, and only
-/// the heaviest other colour stays before it: a ball without its last corner is better than one with a foreign spot.
+/// Returns the block character with its foreground and background colours. If the cell has ground in it, the ground is the background, and
+/// only the heaviest other colour is kept: a ball without its last corner looks better than one with a foreign spot.
 fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
     let mut found = [(ground, 0_u16); MOST];
     let mut kinds = 0;
@@ -99,13 +99,13 @@ fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
         });
         found[index].1 += u16::from(ink.weight);
     }
-    // A stable sort: the one met first wins a tie, always the same.
+    // The sort is stable, so the first colour wins a tie and the result is deterministic.
     found[..kinds].sort_by_key(|&(_, weight)| std::cmp::Reverse(weight));
     let front = found[0].0;
     let has_ground = inks.iter().any(|ink| ink.color == ground);
     match (kinds, has_ground) {
         (0, _) => return (' ', ground, ground),
-        // Not a blank on the ball's colour: most neighbours have the ground behind them, and each change costs bytes.
+        // Not a blank on the ball's colour: most neighbours have the ground as background, and each colour change costs bytes.
         (1, false) => return ('█', front, ground),
         _ => {}
     }
@@ -151,7 +151,7 @@ mod tests {
         };
         let all: std::collections::BTreeSet<char> = (0..256).map(character).collect();
         assert_eq!(all.len(), 256);
-        // Octants are numbered row by row from the upper left; shapes that were there before are not among them.
+        // Octants are numbered row by row from the upper left. Shapes that Unicode already had are not among them.
         for (octants, expected) in [
             (&[3][..], '\u{1CD00}'),
             (&[2, 3], '\u{1CD01}'),

@@ -1,4 +1,4 @@
-//! The panel of the shot's events: what has happened, what comes next and when.
+//! The panel of the shot's events: past ones, and the next ones with their times.
 
 use ratatui::{layout::Rect, text::Span};
 
@@ -15,15 +15,15 @@ use crate::{
     },
 };
 
-/// Where an event's time ends, where its words begin, and the decimals of its time: in a wide panel and in a narrow one.
+/// Column where an event's time ends, column where its words start, and decimals of its time: in a wide and in a narrow panel.
 const COLUMNS: (u16, u16, usize) = (7, 9, 3);
 const NARROW_COLUMNS: (u16, u16, usize) = (6, 7, 2);
-/// Columns from which on there is room for the longest words.
+/// Panel width from which the longest words fit, columns.
 const WIDE: u16 = 29;
-/// Columns of an event's words and of how soon it comes.
+/// Columns of an event's words and its countdown.
 const WAIT: u16 = 34;
 
-/// What happens, in no more than `room` columns if there are words so short; of a jump also how high and how far.
+/// Describes the event, in at most `room` columns if possible; for a jump, with its height and length if they fit.
 fn words_of(event: Event, recording: &Recording, unit: LengthUnit, room: usize, ui: &Ui) -> String {
     let words = event_words(event.kind, ui.theme.cue_ball);
     let Some(jump) = recording.jump_begun_by(&event) else { return words };
@@ -34,8 +34,8 @@ fn words_of(event: Event, recording: &Recording, unit: LengthUnit, room: usize, 
     all.into_iter().find(|words| words.len() <= room).unwrap_or(words)
 }
 
-/// Draws the panel: the stroke, then those events of a recorded shot that are `listed`, called `name`, with the one at `time` marked
-/// and in view. No time: the shot is not being watched.
+/// Draws the panel `name`: the stroke, then the `listed` events of a recorded shot, with the event at `time` marked and in view. If `time`
+/// is `None`, the shot is not playing.
 pub fn draw_events(
     name: &str,
     listed: Option<(&Recording, &[Event])>,
@@ -60,8 +60,8 @@ pub fn draw_events(
     let first = present.saturating_sub(rows / 3).min((events.len() + 1).saturating_sub(rows));
     for (n, row) in (first..=events.len()).zip(inner.y..inner.bottom()) {
         let event = n.checked_sub(1).map(|n| events[n]);
-        let told = |event: Event| (event.time, words_of(event, recording, unit, room, ui));
-        let (at, words) = event.map_or((0.0, "stroke".to_owned()), told);
+        let row_of = |event: Event| (event.time, words_of(event, recording, unit, room, ui));
+        let (at, words) = event.map_or((0.0, "stroke".to_owned()), row_of);
         let words = if is_narrow {
             words.trim_end_matches(" rail").replace("contact begins", "touches").replace("contact ends", "is free")
         } else {

@@ -1,4 +1,4 @@
-//! A picture that says of each place what is there: in sub-pixels, or in letters where there are none.
+//! A picture defined by a function of position: in sub-pixels, or in letters on terminals without them.
 
 use glam::DVec2;
 use ratatui::{
@@ -11,20 +11,20 @@ use crate::terminal::{
     ui::{Canvas, Ink, Theme, Ui, canvas::sub_pixels},
 };
 
-/// What is at a place.
+/// Content of a picture at a position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// Its colour in sub-pixels.
+    /// Colour in sub-pixels.
     pub ink: Ink,
-    /// Its sign where letters are drawn.
+    /// Character if letters are drawn.
     pub letter: char,
-    /// That sign's style.
+    /// Style of that character.
     pub style: Style,
 }
 
-/// Paints `area` with what `mark` says of each place: right and up from the middle, -1 to 1, and half the height of a cell
-/// where letters are drawn, nought where sub-pixels are. Where it says nothing is the colour `ground`, or what was there
-/// before if letters are drawn.
+/// Paints `area` with the result of `mark` at each position. Its arguments are x to the right and y up from the middle, -1 to 1, and half
+/// the height of a cell if letters are drawn (zero for sub-pixels). For `None`, sub-pixels get the colour `ground`; in letters, the old
+/// content stays.
 pub fn draw_field(area: Rect, ground: Color, ui: &mut Ui, mark: impl Fn(f64, f64, f64) -> Option<Mark>) {
     let place = |at: i32, size: i32| f64::from(2 * at + 1) / f64::from(size) - 1.0;
     if ui.caps.glyphs == Glyphs::Letters {
@@ -50,26 +50,24 @@ pub fn draw_field(area: Rect, ground: Color, ui: &mut Ui, mark: impl Fn(f64, f64
     canvas.paint(ui.buffer);
 }
 
-/// The largest face of a ball in a panel. A row is as high as two columns are wide: a circle is twice as many columns as
-/// rows.
+/// The largest ball face that fits into a panel. A row is as high as two columns are wide, so a circle has twice as many columns as rows.
 pub fn face_in(inner: Rect) -> Rect {
     let rows = inner.height.min(inner.width / 2);
     Rect::new(inner.x + (inner.width - 2 * rows) / 2, inner.y, 2 * rows, rows)
 }
 
-/// A spot in a picture. It is made of whole sub-pixels, so that it has the same shape wherever it lies; where letters are
-/// drawn it is one cell.
+/// A spot in a picture. It consists of whole sub-pixels, so that its shape is the same everywhere; in letters it is one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dot {
     middle: DVec2,
-    /// Half of its width and height.
+    /// Half the width and height.
     half: DVec2,
-    /// Lower left and upper right corner of the cells that it has a part of.
+    /// Lower left and upper right corners of the cells that the spot touches.
     cells: [DVec2; 2],
 }
 
 impl Dot {
-    /// A spot of `radius` at `place` of the picture in `area`, both with the picture's half as the unit.
+    /// Creates a spot of `radius` at `place` in the picture in `area`; both in units of half the picture.
     pub fn new(place: DVec2, radius: f64, area: Rect, caps: Capabilities) -> Self {
         let (across, down) = sub_pixels(caps.glyphs);
         let grid = DVec2::new(f64::from(across), f64::from(down));
@@ -85,19 +83,19 @@ impl Dot {
         }
     }
 
-    /// Whether the spot covers a place.
+    /// Whether the spot covers a position.
     pub fn covers(&self, x: f64, y: f64) -> bool {
         ((DVec2::new(x, y) - self.middle) / self.half).length_squared() <= 1.0
     }
 
-    /// Whether a place is in a cell with a part of the spot.
+    /// Whether a position is in a cell that the spot touches.
     pub fn shares_cell(&self, x: f64, y: f64) -> bool {
         let [from, to] = self.cells;
         (from.x..to.x).contains(&x) && (from.y..to.y).contains(&y)
     }
 }
 
-/// The sign of the place that a picture is about: where the tip meets the ball, the stroke.
+/// The mark of a picture's subject: the tip contact or the stroke.
 pub fn spot_mark(theme: &Theme, weight: u8) -> Mark {
     let style = theme.accent().add_modifier(Modifier::REVERSED);
     Mark { ink: Ink { color: theme.tip, weight }, letter: 'X', style }

@@ -1,21 +1,21 @@
-//! Where the table lies on the screen: the mapping between metres and cells, and the room beside the table.
+//! Layout of the table on the screen: the mapping between metres and cells, and the space next to the table.
 
 use glam::DVec2;
 use ratatui::layout::Rect;
 
 use crate::table::Table;
 
-/// Columns of a rail beside the cloth, each side; above and below it is one row, which is as thick.
+/// Columns of the rail at each side of the cloth; the rails above and below have one row, which is as thick.
 pub const RAIL_COLUMNS: u16 = 2;
 /// Rows of a rail above and below the cloth.
 pub const RAIL_ROWS: u16 = 1;
-/// Columns that are as wide as one row is high.
+/// Number of columns that are as wide as one row is high.
 const CELL_ASPECT: f64 = 2.0;
 
-/// The cloth's place on the screen and the scale of the table on it.
+/// Position of the cloth on the screen, and the scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mapping {
-    /// The cells of the cloth, without the rails.
+    /// Cells of the cloth, without the rails.
     pub bed: Rect,
     /// Length and width of the playing area, m.
     extent: DVec2,
@@ -24,8 +24,8 @@ pub struct Mapping {
 }
 
 impl Mapping {
-    /// The largest table to scale inside `area`, rails included, at its top and in the middle of its width. Where the
-    /// area has no room for a rail and a row of cloth, the bed is empty.
+    /// The largest table that fits into `area` to scale, rails included: at the top and horizontally centred. The bed is empty if there is
+    /// no room for the rails and a row of cloth.
     pub fn fit(table: &Table, area: Rect) -> Self {
         let columns = area.width.saturating_sub(2 * RAIL_COLUMNS);
         let rows = area.height.saturating_sub(2 * RAIL_ROWS);
@@ -37,7 +37,7 @@ impl Mapping {
         Self { bed, extent: DVec2::new(table.length, table.width), radius: table.radius }
     }
 
-    /// The cells of cloth and rails together.
+    /// Cells of cloth and rails together.
     pub fn outer(&self) -> Rect {
         let Rect { x, y, width, height } = self.bed;
         Rect::new(
@@ -53,17 +53,17 @@ impl Mapping {
         DVec2::new(f64::from(self.bed.width), f64::from(self.bed.height)) / self.extent
     }
 
-    /// A place on the table in cells from the bed's upper left corner; the fraction says where in the cell.
+    /// Converts a position on the table to cells from the bed's upper left corner; the fraction is the position inside the cell.
     pub fn to_cells(&self, place: DVec2) -> DVec2 {
         DVec2::new(place.x + 0.5 * self.extent.x, 0.5 * self.extent.y - place.y) * self.scale()
     }
 
-    /// Whether a place is over the bed.
+    /// Whether a position is over the bed.
     pub fn is_on_bed(&self, place: DVec2) -> bool {
         (2.0 * place.abs()).cmple(self.extent).all()
     }
 
-    /// The screen cell at a place on the table, or the nearest one on the bed.
+    /// The screen cell at a position on the table, or the nearest one on the bed.
     pub fn to_cell(&self, place: DVec2) -> (u16, u16) {
         let at = self.to_cells(place);
         let column = (at.x as u16).min(self.bed.width.saturating_sub(1));
@@ -71,7 +71,7 @@ impl Mapping {
         (self.bed.x + column, self.bed.y + row)
     }
 
-    /// The place on the table at the middle of a screen cell, m; `None` outside the bed.
+    /// The position on the table at the centre of a screen cell, m; `None` outside the bed.
     pub fn to_metres(&self, column: u16, row: u16) -> Option<DVec2> {
         self.bed.contains((column, row).into()).then(|| {
             let cell = DVec2::new(f64::from(column - self.bed.x) + 0.5, f64::from(row - self.bed.y) + 0.5);
@@ -80,7 +80,7 @@ impl Mapping {
         })
     }
 
-    /// The same for the nearest cell of the bed; `None` only where there is no bed.
+    /// Like [`Self::to_metres`], but for the nearest cell of the bed; `None` only if the bed is empty.
     pub fn nearest_metres(&self, column: u16, row: u16) -> Option<DVec2> {
         let Rect { x, y, width, height } = self.bed;
         let nearest = |at: u16, from: u16, count: u16| at.clamp(from, from + count.saturating_sub(1));
@@ -93,8 +93,8 @@ impl Mapping {
     }
 }
 
-/// Divides `area` into the table's room, a column to its right as high as the table, and `below` rows under both. The column gets
-/// the columns that the table does not need, within `widths` (least and most, with the blank before it).
+/// Splits `area` into the area of the table, a column to its right of the same height, and `below` free rows under both. The column takes
+/// the width that the table does not need, within `widths` (smallest and largest, including the blank before it).
 pub fn with_column(table: &Table, area: Rect, below: u16, widths: (u16, u16)) -> (Rect, Rect) {
     let room = Rect { width: area.width.saturating_sub(widths.0), height: area.height.saturating_sub(below), ..area };
     let outer = Mapping::fit(table, room).outer();

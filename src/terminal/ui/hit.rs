@@ -1,4 +1,5 @@
-//! The shooter's view of the first object ball: how much of it the cue ball covers where they meet; while a shot plays, the spin instead.
+//! The shooter's view of the first object ball, with the part that the cue ball covers at impact. While a shot plays, the spin is shown
+//! instead.
 
 use ratatui::{layout::Rect, style::Modifier, text::Span};
 
@@ -11,13 +12,13 @@ use crate::{
     },
 };
 
-/// Rows of the words, and rows of a panel up to which only the title tells how full the ball is hit.
+/// Rows of the words, and the panel height up to which the fullness is shown only in the title.
 const WORDS: u16 = 3;
 const LOW: u16 = 5;
-/// Sign of the part of the object ball behind the cue ball.
+/// Character for the part of the object ball behind the cue ball.
 const BEHIND: char = '#';
 
-/// Draws how the cue ball spins while a shot plays, else how it meets the first object ball.
+/// Draws the cue ball's spin while a shot plays, otherwise its hit on the first object ball.
 pub fn draw_spin_or_hit(spin: Option<Spin>, meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     match spin {
         Some(spin) => draw_spin(&spin, area, ui),
@@ -25,12 +26,13 @@ pub fn draw_spin_or_hit(spin: Option<Spin>, meeting: Option<Meeting>, area: Rect
     }
 }
 
-/// Draws the panel: how the object ball is met, or what is met before it. Where two strokes may be meant, the title says `whose` it is.
+/// Draws the panel: the hit on the object ball, or what the cue ball meets before it. If two strokes are shown, the title says `whose` it
+/// is.
 pub fn draw_hit_panel(whose: Option<&str>, meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     let is_low = area.height <= LOW + 1;
     let title = |words: &str| whose.map_or_else(|| capital(words), |whose| format!("{whose} {words}"));
     let title = match meeting.filter(|_| is_low) {
-        // A share by itself looks like a chance.
+        // A percentage alone could be taken for a success rate.
         Some(Meeting::Ball(hit)) => Span::styled(title(&format!("{} % full", percent(&hit))), ui.theme.accent()),
         _ => Span::styled(title("hit"), ui.theme.text()),
     };
@@ -67,7 +69,7 @@ fn words_without_ball(meeting: Option<Meeting>, theme: &Theme) -> Vec<String> {
     }
 }
 
-/// Writes each line in the middle.
+/// Writes each line centred.
 fn draw_words(lines: &[String], area: Rect, ui: &mut Ui) {
     for (text, row) in lines.iter().zip(area.y..area.bottom()) {
         let indent = area.width.saturating_sub(text.len() as u16) / 2;
@@ -75,19 +77,19 @@ fn draw_words(lines: &[String], area: Rect, ui: &mut Ui) {
     }
 }
 
-/// Draws both balls on a piece of cloth in the upper middle of `area`, as large as fits even if one only grazes the other;
-/// gives the cloth.
+/// Draws both balls on a piece of cloth, centred at the top of `area`. The size leaves room even for a grazing hit. Returns the area of the
+/// cloth.
 fn draw_hit(hit: &Hit, area: Rect, ui: &mut Ui) -> Rect {
-    // A diameter in columns; a row is as high as two of them.
+    // Diameter in columns; a row is as high as two columns are wide.
     let diameter = (area.width / 2).min(2 * area.height);
     let rows = diameter.div_ceil(2);
     let cloth = Rect { x: area.x + (area.width - 2 * diameter) / 2, width: 2 * diameter, height: rows, ..area };
     if cloth.is_empty() {
         return cloth;
     }
-    // In radii; the middle of the two is the middle of the picture.
-    let apart = 2.0 * (1.0 - hit.fullness).clamp(0.0, 1.0);
-    let cue = if hit.left { -0.5 * apart } else { 0.5 * apart };
+    // In ball radii; the midpoint of the two balls is the middle of the picture.
+    let offset = 2.0 * (1.0 - hit.fullness).clamp(0.0, 1.0);
+    let cue = if hit.left { -0.5 * offset } else { 0.5 * offset };
     let per_half = f64::from(2 * rows) / f64::from(diameter);
     let (ink, letters) = (|color, weight| Ink { color, weight }, ui.theme.letters());
     draw_field(cloth, ui.theme.cloth, ui, |x, y, _| {
@@ -111,7 +113,7 @@ mod tests {
     use crate::terminal::Capabilities;
     use glam::DVec2;
 
-    /// The picture in letters, a line a row, and how many of them are `letter`.
+    /// One row of the picture in letters, and the number of cells with `letter`.
     fn drawn(fullness: f64, left: bool, letter: char) -> (String, usize) {
         let area = Rect::new(0, 0, 40, 10);
         let hit = Hit { ball: 2, place: DVec2::ZERO, fullness, left };

@@ -1,4 +1,4 @@
-//! A line of text that is typed: the words of a search, a name, a value.
+//! A single-line text field: for search words, names and values.
 
 use crossterm::event::{
     KeyCode::{Backspace, Char, Delete, End, Home, Left, Right},
@@ -9,7 +9,7 @@ use unicode_segmentation::UnicodeSegmentation;
 
 use crate::terminal::ui::{Ui, columns, ending};
 
-/// What the user gives: a key, or text from the clipboard.
+/// Input to a text field: a key press, or text from the clipboard.
 #[derive(Clone, Copy, Debug)]
 pub enum Typed<'a> {
     /// A key that was pressed.
@@ -18,17 +18,17 @@ pub enum Typed<'a> {
     Paste(&'a str),
 }
 
-/// What a key does to a line of text.
+/// Edit operation of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Edit {
     Insert(char),
-    Move(Way),
-    Delete(Way),
+    Move(Movement),
+    Delete(Movement),
 }
 
-/// A way from the cursor.
+/// Cursor movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
+enum Movement {
     Left,
     Right,
     WordLeft,
@@ -37,43 +37,43 @@ enum Way {
     End,
 }
 
-/// A line of text with a cursor. Its keys are those of most terminal programs; Up, Down, Tab, Enter and Esc mean nothing to it.
+/// A line of text with a cursor. Its keys are those of most terminal programs; it ignores Up, Down, Tab, Enter and Esc.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextField {
     text: String,
-    /// Where the next letter goes, bytes.
+    /// Byte offset at which the next character is inserted.
     cursor: usize,
-    /// Most bytes of the text.
+    /// Longest text, bytes.
     limit: usize,
-    /// Whether the text is offered: then the first letter takes its place, and any other key keeps it.
+    /// Whether the text is a suggestion: the first typed character replaces it, any other key keeps it.
     is_offered: bool,
 }
 
 impl TextField {
-    /// An empty line that takes `limit` bytes.
+    /// Creates an empty field for at most `limit` bytes.
     pub const fn new(limit: usize) -> Self {
         Self { text: String::new(), cursor: 0, limit, is_offered: false }
     }
 
-    /// The same with `text` in it, as far as that fits, and the cursor behind it.
+    /// Inserts `text`, as far as it fits, with the cursor after it.
     #[must_use]
     pub fn with(mut self, text: &str) -> Self {
         self.insert(text);
         self
     }
 
-    /// The same with `text` in it that may be taken, changed or typed over.
+    /// Inserts `text` as a suggestion, which the user can accept, edit or replace by typing.
     #[must_use]
     pub fn offering(self, text: &str) -> Self {
         Self { is_offered: true, ..self.with(text) }
     }
 
-    /// What is typed.
+    /// The text of the field.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Takes what was typed; `false` where a key means nothing here.
+    /// Handles input; returns `false` if the field does not use the key.
     pub fn take(&mut self, typed: Typed) -> bool {
         let is_text = match typed {
             Typed::Paste(text) => !text.is_empty(),
@@ -88,19 +88,19 @@ impl TextField {
             Typed::Key(key) => match Edit::of(key) {
                 None => return false,
                 Some(Edit::Insert(letter)) => self.insert(letter.encode_utf8(&mut [0; 4])),
-                Some(Edit::Move(way)) => self.cursor = self.at(way),
-                Some(Edit::Delete(way)) => {
-                    let end = self.at(way);
-                    let gone = self.cursor.min(end)..self.cursor.max(end);
-                    self.cursor = gone.start;
-                    self.text.drain(gone);
+                Some(Edit::Move(movement)) => self.cursor = self.at(movement),
+                Some(Edit::Delete(movement)) => {
+                    let end = self.at(movement);
+                    let removed = self.cursor.min(end)..self.cursor.max(end);
+                    self.cursor = removed.start;
+                    self.text.drain(removed);
                 }
             },
         }
         true
     }
 
-    /// Puts `text` before the cursor, as far as there is room: a line's end is a blank, other control characters are refused.
+    /// Inserts `text` at the cursor, as far as there is room. Line breaks and tabs become blanks; other control characters are dropped.
     fn insert(&mut self, text: &str) {
         for letter in text.chars() {
             let letter = if matches!(letter, '\n' | '\r' | '\t') { ' ' } else { letter };
@@ -111,25 +111,26 @@ impl TextField {
         }
     }
 
-    /// Where that way leads from the cursor.
-    fn at(&self, way: Way) -> usize {
+    /// The cursor position after the movement, a byte offset.
+    fn at(&self, movement: Movement) -> usize {
         let (before, after) = self.text.split_at(self.cursor);
         let (word, gap) = (char::is_alphanumeric, |letter: char| !letter.is_alphanumeric());
-        match way {
-            Way::Left => before.grapheme_indices(true).next_back().map_or(0, |(start, _)| start),
-            Way::Right => self.cursor + after.graphemes(true).next().map_or(0, str::len),
-            Way::WordLeft => before.trim_end_matches(gap).trim_end_matches(word).len(),
-            Way::WordRight => self.text.len() - after.trim_start_matches(gap).trim_start_matches(word).len(),
-            Way::Start => 0,
-            Way::End => self.text.len(),
+        match movement {
+            Movement::Left => before.grapheme_indices(true).next_back().map_or(0, |(start, _)| start),
+            Movement::Right => self.cursor + after.graphemes(true).next().map_or(0, str::len),
+            Movement::WordLeft => before.trim_end_matches(gap).trim_end_matches(word).len(),
+            Movement::WordRight => self.text.len() - after.trim_start_matches(gap).trim_start_matches(word).len(),
+            Movement::Start => 0,
+            Movement::End => self.text.len(),
         }
     }
 
-    /// Draws the line into the row `area`: all of it where there is room, or the part around the cursor, which is reversed.
+    /// Draws the field into the row `area`: all of the text if there is room, otherwise the part around the cursor. The cursor is in
+    /// reverse video.
     pub fn draw(&self, area: Rect, ui: &mut Ui) {
         let width = usize::from(area.width);
         let (before, after) = self.text.split_at(self.cursor);
-        // What comes next is to be seen as well.
+        // Keep some of the text after the cursor visible.
         let ahead = columns(after).max(1).min(width / 3 + 1);
         let shown = ending(before, width.saturating_sub(ahead));
         let hidden = before.len() - shown.len();
@@ -146,29 +147,29 @@ impl Edit {
         let by_word = key.modifiers == KeyModifiers::CONTROL || key.modifiers == KeyModifiers::ALT;
         Some(match key.code {
             Char(letter) if (key.modifiers - KeyModifiers::SHIFT).is_empty() => Self::Insert(letter),
-            Char('w') if key.modifiers == KeyModifiers::CONTROL => Self::Delete(Way::WordLeft),
-            Char('u') if key.modifiers == KeyModifiers::CONTROL => Self::Delete(Way::Start),
-            // What many terminals send for Alt with an arrow.
-            Char('b') if key.modifiers == KeyModifiers::ALT => Self::Move(Way::WordLeft),
-            Char('f') if key.modifiers == KeyModifiers::ALT => Self::Move(Way::WordRight),
-            Left if by_word => Self::Move(Way::WordLeft),
-            Right if by_word => Self::Move(Way::WordRight),
-            Backspace if by_word => Self::Delete(Way::WordLeft),
-            Delete if by_word => Self::Delete(Way::WordRight),
+            Char('w') if key.modifiers == KeyModifiers::CONTROL => Self::Delete(Movement::WordLeft),
+            Char('u') if key.modifiers == KeyModifiers::CONTROL => Self::Delete(Movement::Start),
+            // Many terminals send this for Alt with an arrow key.
+            Char('b') if key.modifiers == KeyModifiers::ALT => Self::Move(Movement::WordLeft),
+            Char('f') if key.modifiers == KeyModifiers::ALT => Self::Move(Movement::WordRight),
+            Left if by_word => Self::Move(Movement::WordLeft),
+            Right if by_word => Self::Move(Movement::WordRight),
+            Backspace if by_word => Self::Delete(Movement::WordLeft),
+            Delete if by_word => Self::Delete(Movement::WordRight),
             _ if !key.modifiers.is_empty() => return None,
-            Left => Self::Move(Way::Left),
-            Right => Self::Move(Way::Right),
-            Home => Self::Move(Way::Start),
-            End => Self::Move(Way::End),
-            Backspace => Self::Delete(Way::Left),
-            Delete => Self::Delete(Way::Right),
+            Left => Self::Move(Movement::Left),
+            Right => Self::Move(Movement::Right),
+            Home => Self::Move(Movement::Start),
+            End => Self::Move(Movement::End),
+            Backspace => Self::Delete(Movement::Left),
+            Delete => Self::Delete(Movement::Right),
             _ => return None,
         })
     }
 }
 
 impl Typed<'_> {
-    /// The letters that are typed; none for keys that do something else.
+    /// The typed characters; empty for keys that type none.
     pub fn letters(&self) -> String {
         match self {
             Self::Paste(text) => (*text).to_owned(),
@@ -180,7 +181,7 @@ impl Typed<'_> {
     }
 }
 
-/// Whether a key is one of a line of text.
+/// Whether a text field uses the key.
 pub fn is_typed(key: &KeyEvent) -> bool {
     Edit::of(key).is_some()
 }
@@ -193,7 +194,7 @@ mod tests {
     use super::*;
     use crate::terminal::Capabilities;
 
-    /// `text` with a bar where the cursor is, after these keys.
+    /// The text with a bar at the cursor, after these keys.
     fn after(text: &str, keys: &[(KeyModifiers, KeyCode)]) -> String {
         let mut field = TextField::new(100).with(text);
         for (modifiers, code) in keys {
@@ -203,7 +204,7 @@ mod tests {
         format!("{before}|{after}")
     }
 
-    /// What is seen of a field of `width` columns, and the columns that are reversed.
+    /// The visible text of a field of `width` columns, and the columns in reverse video.
     fn drawn(field: &TextField, width: u16) -> (String, Vec<u16>) {
         let area = Rect::new(0, 0, width, 1);
         let buffer = crate::terminal::ui::drawn(area, Capabilities::NO_COLOUR, |ui| field.draw(area, ui));

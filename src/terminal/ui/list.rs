@@ -1,4 +1,4 @@
-//! Lists with a mark that has to be seen.
+//! Lists that keep the selected row visible.
 
 use std::ops::Range;
 
@@ -6,40 +6,39 @@ use ratatui::layout::Rect;
 
 use super::Ui;
 
-/// The lines that are shown of a list of `count`, where there are `rows`: the marked one is in the middle, as far as the
-/// list's ends let it.
+/// The visible rows of a list of `count` entries in `rows` rows: the selected one is in the middle unless the list ends before.
 fn in_view(mark: usize, count: usize, rows: usize) -> Range<usize> {
     let first = mark.saturating_sub(rows / 2).min(count.saturating_sub(rows));
     first..count.min(first + rows)
 }
 
-/// The lines that are shown in `area` of a list of `count`, each with its row of the screen.
+/// The visible entries of a list of `count` in `area`, each with its screen row.
 pub fn shown(mark: usize, count: usize, area: Rect) -> impl Iterator<Item = (usize, u16)> {
     in_view(mark, count, usize::from(area.height)).zip(area.y..)
 }
 
-/// The line of such a list that is shown in the row `y` of the screen.
+/// The entry of such a list at the screen row `y`.
 pub fn line_at(mark: usize, count: usize, area: Rect, y: u16) -> Option<usize> {
     shown(mark, count, area).find(|(_, row)| *row == y).map(|(line, _)| line)
 }
 
-/// Draws the sign of the mark at the beginning of a row, if it `is_marked`.
+/// Draws the selection mark at the start of a row if it `is_marked`.
 pub fn draw_mark(is_marked: bool, x: u16, y: u16, ui: &mut Ui) {
     if is_marked {
         ui.buffer.set_string(x, y, ui.caps.pick("▸", ">"), ui.theme.accent());
     }
 }
 
-/// A row of a list whose entries stand below headings.
+/// A row of a list with headings.
 #[derive(Clone, Copy, Debug)]
 enum Row<T> {
-    /// What the entries below it have in common.
+    /// A heading for the entries below it.
     Heading(&'static str),
-    /// Something that can be marked, with its place among all entries.
+    /// An entry, with its index among all entries.
     Entry(usize, T),
 }
 
-/// A list whose entries stand below headings, with a mark among the entries.
+/// A list with headings and a selected entry.
 #[derive(Clone, Debug)]
 pub struct Grouped<T> {
     rows: Vec<Row<T>>,
@@ -47,7 +46,7 @@ pub struct Grouped<T> {
 }
 
 impl<T> Grouped<T> {
-    /// The list of `entries`, each below the heading that `title` says.
+    /// Creates the list of `entries`, grouped under the headings that `title` returns.
     pub fn new(entries: impl IntoIterator<Item = T>, mark: usize, title: impl Fn(&T) -> &'static str) -> Self {
         let (mut rows, mut last) = (Vec::new(), None);
         for (place, entry) in entries.into_iter().enumerate() {
@@ -60,13 +59,13 @@ impl<T> Grouped<T> {
         Self { rows, mark }
     }
 
-    /// The rows that are shown in `area`, the marked entry among them, each with its row of the screen.
+    /// The rows visible in `area`, the selected entry among them, each with its screen row.
     fn shown(&self, area: Rect) -> impl Iterator<Item = (&Row<T>, u16)> {
         let marked = self.rows.iter().position(|row| matches!(row, Row::Entry(place, _) if *place == self.mark));
         shown(marked.unwrap_or(0), self.rows.len(), area).map(|(line, y)| (&self.rows[line], y))
     }
 
-    /// The place of the entry that is shown in the row `y` of the screen.
+    /// Index of the entry at the screen row `y`.
     pub fn entry_at(&self, area: Rect, y: u16) -> Option<usize> {
         match self.shown(area).find(|(_, row)| *row == y)?.0 {
             Row::Heading(_) => None,
@@ -74,8 +73,8 @@ impl<T> Grouped<T> {
         }
     }
 
-    /// Draws what is shown in `area`; `draw` draws an entry into its row, behind the sign of the mark, and is told whether it is
-    /// marked.
+    /// Draws the visible rows in `area`. `draw` draws an entry into its row, to the right of the selection mark; its second argument is
+    /// whether the entry is selected.
     pub fn draw(&self, area: Rect, ui: &mut Ui, draw: impl Fn(&T, bool, Rect, &mut Ui)) {
         for (row, y) in self.shown(area) {
             match row {

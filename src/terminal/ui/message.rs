@@ -2,50 +2,50 @@
 
 use crate::storage::without_numbers;
 
-/// What kind of news a message is.
+/// Tone of a message, which sets its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
-    /// Neither good nor bad.
+    /// Neutral.
     Plain,
     /// Something has worked.
     Good,
-    /// An answer that is not what one had hoped for.
+    /// A disappointing answer.
     Poor,
-    /// Something was refused or has failed: where it is news it becomes a toast.
+    /// Something was refused or has failed; a new one becomes a toast.
     Warning,
 }
 
 /// A sentence for the status line or a toast.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// What kind of news it is.
+    /// Tone of the message.
     pub tone: Tone,
     /// The sentence.
     pub text: String,
 }
 
 impl Message {
-    /// Neither good nor bad news.
+    /// Creates a neutral message.
     pub fn plain(text: impl Into<String>) -> Self {
         Self { tone: Tone::Plain, text: text.into() }
     }
 
-    /// Good news.
+    /// Creates a message of success.
     pub fn good(text: impl Into<String>) -> Self {
         Self { tone: Tone::Good, text: text.into() }
     }
 
-    /// A bad answer.
+    /// Creates a message with a disappointing answer.
     pub fn poor(text: impl Into<String>) -> Self {
         Self { tone: Tone::Poor, text: text.into() }
     }
 
-    /// A refusal or a failure.
+    /// Creates a message of a refusal or a failure.
     pub fn warning(text: impl Into<String>) -> Self {
         Self { tone: Tone::Warning, text: without_numbers(text.into()) }
     }
 
-    /// The same news, with other words before it.
+    /// Puts `words` and a colon before the text.
     #[must_use]
     pub fn prefixed(self, words: &str) -> Self {
         Self { text: format!("{words}: {}", self.text), ..self }

@@ -1,4 +1,4 @@
-//! What pages draw with: the drawing context, and the parts that several of them have.
+//! Drawing for the pages: the drawing context, and widgets that several pages share.
 
 pub mod canvas;
 pub mod chart;
@@ -49,32 +49,32 @@ use crate::terminal::{
     keymap::{Binding, chord_of, keys_text},
 };
 
-/// The drawing context: where to draw, with which colours and characters, and the user's own keys to name.
+/// The drawing context: the buffer, the colours and characters, and the user's own key bindings.
 #[derive(Debug)]
 pub struct Ui<'a> {
     /// The colours.
     pub theme: &'a Theme,
     /// What the terminal can show.
     pub caps: Capabilities,
-    /// Keys of the user's own.
+    /// The user's own key bindings.
     pub keys: &'a Keys,
     /// The cells of the screen.
     pub buffer: &'a mut Buffer,
 }
 
 impl Ui<'_> {
-    /// What stands between two parts of a title.
+    /// The separator between two parts of a title.
     pub fn dash(&self) -> Span<'static> {
         Span::styled(separator(self.caps), self.theme.faint())
     }
 
-    /// The first key that does `action` by this table; empty where none does.
+    /// The first key bound to `action` in this table; empty if there is none.
     pub fn key_of<A: PartialEq, W>(&self, table: &[Binding<A, W>], action: &A) -> String {
         keys_text(chord_of(table, action).and_then(|chord| self.keys.keys_for(chord).next()), self.caps)
     }
 }
 
-/// What `draw` draws into an empty `area`, in the colours and characters of `caps`.
+/// Returns what `draw` draws into an empty `area`, with the colours and characters of `caps`.
 #[cfg(test)]
 pub fn drawn(area: ratatui::layout::Rect, caps: Capabilities, draw: impl FnOnce(&mut Ui)) -> Buffer {
     let (theme, keys, mut buffer) = (Theme::new(caps.depth), Keys::default(), Buffer::empty(area));

@@ -1,4 +1,4 @@
-//! What pages and their panels have in common: a header, titles, frames, paragraphs, and words where there is nothing to show.
+//! Widgets that pages and panels share: headers, titles, frames, paragraphs, and texts for empty panels.
 
 use ratatui::{
     layout::{
@@ -16,8 +16,8 @@ use crate::terminal::{
     ui::{Theme, Ui, columns, cut, shorten, wrap, write_right},
 };
 
-/// Draws the first row of a page behind the tabs: what it is, more about that, and what stands at its right end. Where there is no
-/// room, the last parts of `more` go first.
+/// Draws the first row of a page, to the right of the tabs: its title, details, and a text at the right end. If there is no room, the last
+/// parts of `more` are dropped first.
 pub fn draw_header(title: &str, more: &str, right: &Span, area: Rect, ui: &mut Ui) {
     let taken = if right.content.is_empty() { 0 } else { right.width() + 2 };
     let room = usize::from(area.width).saturating_sub(taken);
@@ -30,18 +30,18 @@ pub fn draw_header(title: &str, more: &str, right: &Span, area: Rect, ui: &mut U
     write_right(ui.buffer, area.x, area.right(), area.y, &right.content, right.style);
 }
 
-/// What stands between two parts of a header.
+/// The separator between two parts of a header.
 pub const fn separator(caps: Capabilities) -> &'static str {
     caps.pick(" · ", " - ")
 }
 
-/// A value that keys step through, between their signs while it `is_marked`.
+/// A value that keys step through, between arrows if it `is_marked`.
 pub fn stepper<'a>(value: Span<'a>, is_marked: bool, ui: &Ui) -> [Span<'a>; 3] {
     let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
     [Span::styled(left, ui.theme.faint()), value, Span::styled(right, ui.theme.faint())]
 }
 
-/// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
+/// Draws a panel's first row, a rule with its title, and returns the rest of the panel.
 pub fn draw_title<'a>(title: impl Into<Line<'a>>, area: Rect, ui: &mut Ui) -> Rect {
     if area.is_empty() {
         return area;
@@ -57,17 +57,17 @@ pub fn draw_title<'a>(title: impl Into<Line<'a>>, area: Rect, ui: &mut Ui) -> Re
     below_title(area)
 }
 
-/// What a panel's title leaves of it.
+/// The part of a panel below its title.
 pub const fn below_title(area: Rect) -> Rect {
     Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
 }
 
-/// The left `width` columns of `area`, and the others behind a blank one.
+/// Splits `area` into its left `width` columns and the rest, with a blank column between them.
 pub fn split(width: u16, area: Rect) -> [Rect; 2] {
     Layout::horizontal([Length(width), Fill(1)]).spacing(1).areas(area)
 }
 
-/// The frame where there are only plain characters.
+/// Border characters for ASCII terminals.
 const ASCII_FRAME: border::Set = border::Set {
     top_left: "+",
     top_right: "+",
@@ -79,13 +79,13 @@ const ASCII_FRAME: border::Set = border::Set {
     horizontal_bottom: "-",
 };
 
-/// `block` with a frame of characters that the terminal has.
+/// Gives `block` border characters that the terminal has.
 pub fn frame(block: Block, caps: Capabilities) -> Block {
     if caps.unicode { block } else { block.border_set(ASCII_FRAME) }
 }
 
-/// Writes lines of text from the top of `area`, wrapped to its width, each paragraph in its style; one that has no room says
-/// so by its end. Gives the first row that is left.
+/// Writes paragraphs from the top of `area`, each in its style, wrapped to the width. A paragraph without enough room ends with an
+/// ellipsis. Returns the first free row.
 pub fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui) -> u16 {
     let width = usize::from(area.width);
     let mut row = area.y;
@@ -102,21 +102,21 @@ pub fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui)
     row
 }
 
-/// Says in a panel why it is empty: after a blank row, a line a row.
+/// Writes in a panel why it is empty: one line per row, after a blank row.
 pub fn draw_nothing(lines: &[&str], inner: Rect, ui: &mut Ui) {
     for (text, row) in lines.iter().zip(inner.y + 1..inner.bottom()) {
         ui.buffer.set_stringn(inner.x + 1, row, text, usize::from(inner.width.saturating_sub(1)), ui.theme.faint());
     }
 }
 
-/// Draws lines from the top of `area`, as many as it has rows.
+/// Draws lines from the top of `area`, as many as there are rows.
 pub fn draw_lines<'a>(lines: impl IntoIterator<Item = Line<'a>>, area: Rect, ui: &mut Ui) {
     for (line, row) in lines.into_iter().zip(area.y..area.bottom()) {
         ui.buffer.set_line(area.x, row, &line, area.width);
     }
 }
 
-/// A name in so many columns, and what it has.
+/// A line with a name, padded to `columns` columns, and its value.
 pub fn pair(name: &str, columns: usize, value: impl Into<String>, theme: &Theme) -> Line<'static> {
     Line::from(vec![Span::styled(format!("{name:<columns$}"), theme.faint()), Span::styled(value.into(), theme.text())])
 }

@@ -1,4 +1,4 @@
-//! The side view of a jump: height over way, with the balls and noses that the ball passes.
+//! Side view of a jump: height against distance, with the balls and cushion noses that the ball passes.
 
 use glam::DVec2;
 use ratatui::{
@@ -15,25 +15,25 @@ use crate::{
     },
     terminal::{
         Glyphs,
-        shot::profile::{Obstacle, Passed, Profile},
+        shot::profile::{Obstacle, PassedObstacle, Profile},
         ui::{Canvas, Ink, Ui, canvas::sub_pixels, columns, draw_title, write_right},
     },
 };
 
-/// Columns left of the plot: a height, and the axis.
+/// Columns left of the plot: the height label and the axis.
 const LEFT: u16 = 7;
-/// Rows of a side view that is taken from the table: a title, four of the plot, and the axis.
+/// Rows of a side view placed below the table: a title, four rows of the plot, and the axis.
 const ROWS: u16 = 6;
 
-/// What ends a scale, in units of a power of ten.
-const ENDS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 15.0];
+/// Ends of the height scale, in units of a power of ten.
+const SCALE_ENDS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 15.0];
 
-/// What is drawn in the plot, from below, and how much of a cell's two colours each is worth.
+/// Weights of what shares a cell (see [`Ink`]), in drawing order from the back.
 const OBSTACLE_WEIGHT: u8 = 3;
 const COURSE_WEIGHT: u8 = 5;
 const BALL_WEIGHT: u8 = 32;
 
-/// Divides the room of a table, beside which panels begin at the row `panels`, into the table's and that of a side view below it.
+/// Splits the area of a table, next to which panels start at the row `panels`, into the table's area and that of a side view below it.
 pub fn side_view_below(table: Rect, panels: u16) -> (Rect, Rect) {
     let Rect { x, y, width, height } = table;
     let bottom = panels.max(y + ROWS).min(y + height.max(ROWS));
@@ -41,7 +41,7 @@ pub fn side_view_below(table: Rect, panels: u16) -> (Rect, Rect) {
     (Rect { height: side.y - y, ..table }, side)
 }
 
-/// Draws the jump, with the ball where it is at `time`, s. Both scales are their own: heights are drawn larger than ways.
+/// Draws the jump, with the ball at its position at `time`, s. Height and distance have different scales: heights are enlarged.
 pub fn draw_profile(profile: &Profile, time: Option<f64>, unit: LengthUnit, area: Rect, ui: &mut Ui) {
     Clear.render(area, ui.buffer);
     ui.buffer.set_style(area, ui.theme.text());
@@ -82,10 +82,10 @@ pub fn draw_profile(profile: &Profile, time: Option<f64>, unit: LengthUnit, area
             Obstacle::Nose(_) => ("nose", ui.theme.faint()),
         };
         let width = columns(words) as u16;
-        let middle = plot.x + (passed.way / scale.x * f64::from(plot.width)) as u16;
+        let middle = plot.x + (passed.distance / scale.x * f64::from(plot.width)) as u16;
         let last = plot.right().saturating_sub(columns(&end) as u16 + 1 + width);
         let x = middle.saturating_sub(width / 2).max(plot.x);
-        // A name that has no room beside another is left out; the mark stays.
+        // If there is no room for a name, it is left out; its obstacle is still drawn.
         if x >= free && x <= last {
             ui.buffer.set_string(x, ground, words, style);
             free = x + width + 1;
@@ -96,19 +96,19 @@ pub fn draw_profile(profile: &Profile, time: Option<f64>, unit: LengthUnit, area
 /// The next round number above a height, m.
 fn end_of_scale(height: f64) -> f64 {
     let power = 10_f64.powf(height.max(1e-4).log10().floor());
-    let end = ENDS.into_iter().find(|end| end * power >= 1.02 * height);
-    end.unwrap_or(ENDS[ENDS.len() - 1]) * power
+    let end = SCALE_ENDS.into_iter().find(|end| end * power >= 1.02 * height);
+    end.unwrap_or(SCALE_ENDS[SCALE_ENDS.len() - 1]) * power
 }
 
-fn obstacle_color(passed: &Passed, ui: &Ui) -> Color {
+fn obstacle_color(passed: &PassedObstacle, ui: &Ui) -> Color {
     match passed.what {
         Obstacle::Ball(ball) => ui.theme.signs[ball],
         Obstacle::Nose(_) => ui.theme.wood,
     }
 }
 
-/// Half of the width of an obstacle, m: a ball's own, as the height of its top tells.
-fn half_width(passed: &Passed) -> f64 {
+/// Half the width of an obstacle, m. A ball's top is one diameter high.
+fn half_width(passed: &PassedObstacle) -> f64 {
     match passed.what {
         Obstacle::Ball(_) => 0.5 * passed.top,
         Obstacle::Nose(_) => 0.0,
@@ -119,19 +119,19 @@ fn in_blocks(profile: &Profile, time: Option<f64>, plot: Rect, scale: DVec2, ui:
     let glyphs = ui.caps.glyphs;
     let (across, down) = sub_pixels(glyphs);
     let (width, height) = (f64::from(plot.width * across), f64::from(plot.height * down));
-    let to_pixel = |way: f64, up: f64| {
-        ((way / scale.x * (width - 1.0)).round() as i32, ((1.0 - up / scale.y) * (height - 1.0)).round() as i32)
+    let to_pixel = |distance: f64, up: f64| {
+        ((distance / scale.x * (width - 1.0)).round() as i32, ((1.0 - up / scale.y) * (height - 1.0)).round() as i32)
     };
     let to_metres =
         |x: i32, y: i32| scale * DVec2::new(f64::from(x) / (width - 1.0), 1.0 - f64::from(y) / (height - 1.0));
     let mut canvas = Canvas::new(plot, glyphs, ui.theme.background);
     for passed in &profile.passed {
         let half = DVec2::new(half_width(passed), 0.5 * passed.top);
-        let middle = DVec2::new(passed.way, half.y);
+        let middle = DVec2::new(passed.distance, half.y);
         let ((left, bottom), (right, top)) =
-            (to_pixel(passed.way - half.x, 0.0), to_pixel(passed.way + half.x, passed.top));
+            (to_pixel(passed.distance - half.x, 0.0), to_pixel(passed.distance + half.x, passed.top));
         for (x, y) in (left..=right).flat_map(|x| (top..=bottom).map(move |y| (x, y))) {
-            // A nose is a line, a ball an oval, since the scales differ.
+            // A nose is a line. A ball is an ellipse, since the two scales differ.
             if half.x == 0.0 || ((to_metres(x, y) - middle) / half).length() <= 1.0 {
                 canvas.set(x, y, Ink { color: obstacle_color(passed, ui), weight: OBSTACLE_WEIGHT });
             }
@@ -139,11 +139,11 @@ fn in_blocks(profile: &Profile, time: Option<f64>, plot: Rect, scale: DVec2, ui:
     }
     let course = Ink { color: ui.theme.accent, weight: COURSE_WEIGHT };
     for point in &profile.points {
-        let (x, y) = to_pixel(point.way, point.height);
+        let (x, y) = to_pixel(point.distance, point.height);
         canvas.set(x, y, course);
     }
     if let Some(point) = time.and_then(|time| profile.at(time)) {
-        let (x, y) = to_pixel(point.way, point.height);
+        let (x, y) = to_pixel(point.distance, point.height);
         let ink = Ink { color: ui.theme.signs[profile.jump.ball], weight: BALL_WEIGHT };
         for (right, up) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             canvas.set(x + right, y - up, ink);
@@ -153,9 +153,9 @@ fn in_blocks(profile: &Profile, time: Option<f64>, plot: Rect, scale: DVec2, ui:
 }
 
 fn in_letters(profile: &Profile, time: Option<f64>, plot: Rect, scale: DVec2, ui: &mut Ui) {
-    let to_cell = |way: f64, up: f64| {
+    let to_cell = |distance: f64, up: f64| {
         let part = |share: f64, cells: u16| (share.clamp(0.0, 1.0) * f64::from(cells - 1)).round() as u16;
-        (plot.x + part(way / scale.x, plot.width), plot.bottom() - 1 - part(up / scale.y, plot.height))
+        (plot.x + part(distance / scale.x, plot.width), plot.bottom() - 1 - part(up / scale.y, plot.height))
     };
     let letters = ui.theme.letters();
     let mut put = |at: (u16, u16), sign: char, color: Color| {
@@ -168,16 +168,16 @@ fn in_letters(profile: &Profile, time: Option<f64>, plot: Rect, scale: DVec2, ui
             Obstacle::Nose(_) => ('|', theme.text),
         };
         let (half, (_, top)) = (half_width(passed), to_cell(0.0, passed.top));
-        let ((left, _), (right, _)) = (to_cell(passed.way - half, 0.0), to_cell(passed.way + half, 0.0));
+        let ((left, _), (right, _)) = (to_cell(passed.distance - half, 0.0), to_cell(passed.distance + half, 0.0));
         for x in left..=right {
             (top..plot.bottom()).for_each(|y| put((x, y), sign, color));
         }
     }
     for point in &profile.points {
-        put(to_cell(point.way, point.height), '*', theme.accent);
+        put(to_cell(point.distance, point.height), '*', theme.accent);
     }
     if let Some(point) = time.and_then(|time| profile.at(time)) {
-        put(to_cell(point.way, point.height), letters[profile.jump.ball], theme.signs[profile.jump.ball]);
+        put(to_cell(point.distance, point.height), letters[profile.jump.ball], theme.signs[profile.jump.ball]);
     }
 }
 
@@ -196,7 +196,7 @@ mod tests {
         },
     };
 
-    /// The picture of a jump over yellow, row by row.
+    /// The rows of the picture of a jump over yellow, and its buffer.
     fn picture(time: Option<f64>, caps: Capabilities) -> (Vec<String>, Buffer) {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 -0.2,0 0.9,0.5", &table).unwrap();

@@ -1,4 +1,4 @@
-//! The panel of the cue ball's spin while a shot plays: a face, and words.
+//! The spin panel, shown while a shot plays: the cue ball's face and words.
 
 use ratatui::layout::Rect;
 
@@ -8,12 +8,12 @@ use crate::terminal::{
     words::fixed,
 };
 
-/// Rows and columns of the words, and rows up to which they stand beside the face.
+/// Rows and columns of the words, and the panel height up to which they are next to the face.
 const WORDS: u16 = 3;
 const WORDS_WIDTH: u16 = 9;
 const LOW: u16 = 5;
 
-/// Draws the panel. The spot is where a level cue would have had to meet the ball to give it this spin at this speed.
+/// Draws the panel. The spot marks where a level cue would have to hit the ball to give it this spin at this speed.
 pub fn draw_spin(spin: &Spin, area: Rect, ui: &mut Ui) {
     let inner = draw_title("Spin", area, ui);
     let is_low = inner.height <= LOW;
@@ -24,7 +24,7 @@ pub fn draw_spin(spin: &Spin, area: Rect, ui: &mut Ui) {
     });
     let has_spin = !spin.word.is_empty();
     draw_face(has_spin.then_some(spin.mark), None, face, ui);
-    // Whole numbers, for which few pictures change.
+    // Whole numbers: few frames change them.
     let side = fixed(spin.side.abs(), 0);
     let words = match side.as_str() {
         _ if !has_spin => ["at rest".to_owned(), String::new(), String::new()],
@@ -41,7 +41,7 @@ pub fn draw_spin(spin: &Spin, area: Rect, ui: &mut Ui) {
         if is_low {
             let room = usize::from(inner.right() - face.right());
             let text = if room > text.len() { text } else { text.trim_end_matches(" side") };
-            // The last column stays free where that is possible.
+            // The last column stays free if possible.
             write_right(ui.buffer, face.right(), inner.right() - u16::from(room > text.len()), row, text, style);
         } else {
             let indent = inner.width.saturating_sub(text.len() as u16) / 2;

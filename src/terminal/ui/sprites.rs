@@ -1,4 +1,4 @@
-//! The balls as small pictures in sub-pixels: always the same shape, wherever the ball lies.
+//! Sprites of the balls in sub-pixels. The shape is always the same, wherever the ball lies.
 
 use glam::DVec2;
 
@@ -7,17 +7,17 @@ use crate::terminal::{
     ui::{Canvas, Ink, canvas::sub_pixels},
 };
 
-/// A ball is drawn a little larger than it is, since its corners are cut.
+/// Factor by which a ball is drawn larger than it is, to make up for its cut corners.
 const ROUNDED: f64 = 1.1;
-/// The smallest shape in sextants that looks round: anything smaller is a cross or a block. On a table of 60 columns it is
-/// almost twice the ball; the physics keeps the true size.
+/// The smallest shape in sextants that looks round: anything smaller is a cross or a block. On a table of 60 columns it is almost twice the
+/// size of the ball; the physics uses the true size.
 const LEAST_SEXTANTS: (i32, i32) = (5, 4);
-/// The same in octants, whose sub-pixels are square.
+/// The smallest shape in octants, whose sub-pixels are square.
 const LEAST_OCTANTS: (i32, i32) = (5, 5);
-/// The smallest shape in half blocks that can be seen.
+/// The smallest visible shape in half blocks.
 const LEAST_HALVES: (i32, i32) = (2, 2);
 
-/// A ball's picture.
+/// Sprite of a ball, in sub-pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sprite {
     width: i32,
@@ -25,7 +25,7 @@ pub struct Sprite {
 }
 
 impl Sprite {
-    /// The picture of a ball at the scale of `mapping`.
+    /// The sprite of a ball at the scale of `mapping`.
     pub fn new(mapping: &Mapping, glyphs: Glyphs) -> Self {
         let drawn = mapping.ball_columns() * ROUNDED;
         let (across, down) = sub_pixels(glyphs);
@@ -34,14 +34,14 @@ impl Sprite {
             Glyphs::Sextant => LEAST_SEXTANTS,
             Glyphs::Half | Glyphs::Letters => LEAST_HALVES,
         };
-        // A row is as high as two columns are wide. The width follows from the height, or rounding both would make some
-        // balls ovals.
+        // A row is as high as two columns are wide. The width is derived from the height, because rounding both would turn some balls into
+        // ovals.
         let height = (drawn * f64::from(down) / 2.0).round();
         let width = (height * 2.0 * f64::from(across) / f64::from(down)).round();
         Self { width: (width as i32).max(least.0), height: (height as i32).max(least.1) }
     }
 
-    /// The picture of a ball that is so high, m, which is nearer to the eye: larger by a sub-pixel, by two from a ball's height on.
+    /// The sprite of a ball at this height above the cloth, m: larger by one sub-pixel, by two from a ball's diameter on.
     #[must_use]
     pub fn raised(self, height: f64, radius: f64, glyphs: Glyphs) -> Self {
         let (across, down) = sub_pixels(glyphs);
@@ -50,7 +50,7 @@ impl Sprite {
         Self { width: (width.round() as i32).max(self.width + 1), height: larger }
     }
 
-    /// Half of the picture's width in metres, at most.
+    /// Half the larger side of the sprite, m.
     pub fn reach(self, mapping: &Mapping, glyphs: Glyphs) -> f64 {
         let (across, down) = sub_pixels(glyphs);
         let scale = mapping.scale();
@@ -58,7 +58,7 @@ impl Sprite {
         half(self.width, across, scale.x).max(half(self.height, down, scale.y))
     }
 
-    /// Whether the sub-pixel belongs to the ball, counted from the picture's upper left corner.
+    /// Whether the sub-pixel belongs to the ball, counted from the sprite's upper left corner.
     fn covers(self, x: i32, y: i32) -> bool {
         let offset = |at: i32, size: i32| f64::from(2 * at + 1 - size) / f64::from(size);
         (0..self.width).contains(&x)
@@ -73,7 +73,7 @@ impl Sprite {
         let at = mapping.to_cells(place) * DVec2::new(f64::from(width), f64::from(height)) / bed;
         let x = (at.x - 0.5 * f64::from(self.width)).round() as i32;
         let y = (at.y - 0.5 * f64::from(self.height)).round() as i32;
-        // A ball at a cushion is drawn on the cloth even where it is enlarged.
+        // An enlarged ball at a cushion is still drawn entirely on the cloth.
         (x.clamp(0, (width - self.width).max(0)), y.clamp(0, (height - self.height).max(0)))
     }
 
@@ -82,12 +82,12 @@ impl Sprite {
         self.each(canvas, mapping, place, ink, |_, _| true);
     }
 
-    /// Whether the outline differs from the ball.
+    /// Whether the sprite is large enough for its outline to differ from the full ball.
     pub fn has_hole(self) -> bool {
         self.width.min(self.height) >= 3
     }
 
-    /// Draws the ball's outline: a ball that is not there yet. A picture that is too small for a hole is left out.
+    /// Draws the ball's outline, for a position that the ball does not have yet. A sprite too small for an outline is left out.
     pub fn stamp_ring(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink) {
         if !self.has_hole() {
             return;

@@ -1,4 +1,4 @@
-//! The row above the keys: what has just happened, or a question.
+//! The status line above the key hints: the latest message, or a question.
 
 use ratatui::{
     layout::Rect,
@@ -7,20 +7,18 @@ use ratatui::{
 
 use crate::terminal::ui::{Message, TextField, Tone, Ui, columns, cut, wrap};
 
-/// Most rows that a long sentence on the status line may take, and a question with what was answered wrongly.
+/// Most rows of a message on the status line, and of a question with the reason why an answer was refused.
 const STATUS_ROWS: u16 = 3;
 const QUESTION_ROWS: u16 = 8;
-/// Columns that a text which is typed has at least; where a question leaves fewer, it has a row of its own.
+/// Smallest width of an answer field, columns; if the question leaves less room, the field gets its own row.
 const FIELD: u16 = 20;
 
-/// Draws a sentence into the row `area`; one that is longer takes some rows above it as well.
-/// Gives the first of them.
+/// Draws a message into the row `area`; a longer one also takes rows above it. Returns the first of its rows.
 pub fn draw_status(message: &Message, area: Rect, ui: &mut Ui) -> u16 {
     draw_rows(message, None, STATUS_ROWS, area, ui)
 }
 
-/// Draws a question like a sentence, and behind it what is typed; its end, which is answered, is to be seen however long it
-/// is.
+/// Draws a question like a message, followed by the answer field. Its end stays visible even if the question is long.
 pub fn draw_question(question: &Message, typed: Option<&TextField>, area: Rect, ui: &mut Ui) -> u16 {
     draw_rows(question, typed, QUESTION_ROWS, area, ui)
 }

@@ -1,4 +1,4 @@
-//! The numbers of a stroke that the player sets: where it is aimed, where the tip meets the ball, how fast, and the cue.
+//! Rows with the numbers of a stroke that the player sets: aim, tip contact, speed and cue elevation.
 
 use crate::{
     coach::Units,
@@ -6,7 +6,7 @@ use crate::{
     terminal::{Capabilities, ui::tip_rows, words::fixed},
 };
 
-/// The numbers of a stroke with a ball of this `radius`, m, and what they are called.
+/// Names and values of a stroke on a ball of this `radius`, m.
 pub fn stroke_rows(cue: &CueInputs, units: Units, radius: f64, caps: Capabilities) -> [(&'static str, String); 5] {
     let degree = caps.pick("°", " deg");
     let [side, height] = tip_rows(cue, units.tip, radius);

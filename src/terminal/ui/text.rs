@@ -1,7 +1,6 @@
-//! Text in columns of the terminal: measured, wrapped, cut, or set to the right.
+//! Text measured in terminal columns: measured, wrapped, cut or right-aligned.
 //!
-//! A column is not a character: Hangul and emoji take two, a combining mark none. What belongs together is never taken
-//! apart.
+//! A column is not a character: Hangul and emoji take two columns, a combining mark none. Grapheme clusters are never split.
 
 use ratatui::{
     buffer::{Buffer, CellWidth},
@@ -11,31 +10,31 @@ use unicode_segmentation::UnicodeSegmentation;
 
 use crate::{printing, terminal::Capabilities};
 
-/// Columns that drawing `text` takes.
+/// Columns that `text` takes on the screen.
 pub fn columns(text: &str) -> usize {
     text.graphemes(true).map(grapheme_columns).sum()
 }
 
-/// Columns of one character with all that belongs to it; control characters are not drawn.
+/// Columns of one grapheme cluster; control characters are not drawn and take none.
 pub fn grapheme_columns(grapheme: &str) -> usize {
     if grapheme.contains(char::is_control) { 0 } else { usize::from(grapheme.cell_width()) }
 }
 
-/// As much of the beginning of `text` as fits into `room` columns.
+/// The longest start of `text` that fits into `room` columns.
 pub fn beginning(text: &str, room: usize) -> &str {
     let mut fits = filling(room);
     let end = text.grapheme_indices(true).find(|(_, grapheme)| !fits(grapheme));
     &text[..end.map_or(text.len(), |(end, _)| end)]
 }
 
-/// As much of the end of `text` as fits into `room` columns.
+/// The longest end of `text` that fits into `room` columns.
 pub fn ending(text: &str, room: usize) -> &str {
     let mut fits = filling(room);
     let last_hidden = text.grapheme_indices(true).rev().find(|(_, grapheme)| !fits(grapheme));
     &text[last_hidden.map_or(0, |(start, grapheme)| start + grapheme.len())..]
 }
 
-/// Whether one character after the other still fits into `room` columns with those before it.
+/// Returns a counter that tells, grapheme by grapheme, whether the text so far still fits into `room` columns.
 fn filling(room: usize) -> impl FnMut(&str) -> bool {
     let mut taken = 0;
     move |grapheme| {
@@ -44,7 +43,7 @@ fn filling(room: usize) -> impl FnMut(&str) -> bool {
     }
 }
 
-/// The first `rows` lines; the last of them says by its end if there are more.
+/// Keeps the first `rows` lines; if lines were dropped, the last one ends with an ellipsis.
 pub fn cut(mut lines: Vec<String>, rows: usize, width: usize, caps: Capabilities) -> Vec<String> {
     if lines.len() <= rows {
         return lines;
@@ -57,18 +56,18 @@ pub fn cut(mut lines: Vec<String>, rows: usize, width: usize, caps: Capabilities
     lines
 }
 
-/// The words of `text` in one line of at most `room` columns, which says by its end if there are more.
+/// Shortens `text` to one line of at most `room` columns, with an ellipsis if words were dropped.
 pub fn shorten(text: &str, room: usize, caps: Capabilities) -> String {
     cut(wrap(&spell(text, caps), room), 1, room, caps).swap_remove(0)
 }
 
-/// The words of `text` in lines of at most `width` columns; a longer word begins a line and is broken, behind a `/` of a path where it
-/// has one. A character that is wider than that stands alone.
+/// Wraps the words of `text` into lines of at most `width` columns. A longer word starts a new line and is broken, after a `/` of a path if
+/// there is one. A character wider than `width` gets its own line.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     wrap_by(text, |_| width)
 }
 
-/// The same in lines of which each is as wide as `width` says of its number.
+/// Wraps text into lines whose width is a function of the line number.
 pub fn wrap_by(text: &str, width: impl Fn(usize) -> usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut taken = 0;
@@ -107,7 +106,7 @@ pub fn wrap_by(text: &str, width: impl Fn(usize) -> usize) -> Vec<String> {
     lines
 }
 
-/// The text in characters that the terminal has.
+/// Replaces characters that the terminal does not have.
 pub fn spell(text: &str, caps: Capabilities) -> String {
     if caps.unicode {
         return text.to_owned();
@@ -115,7 +114,7 @@ pub fn spell(text: &str, caps: Capabilities) -> String {
     printing::spelt(text).replace('\u{e9}', "e")
 }
 
-/// The end of `text`, as much as fits into `room` columns: the ends of names differ where their beginnings do not.
+/// The end of `text` that fits into `room` columns, after an ellipsis: names often differ only at their ends.
 pub fn end_of(text: &str, room: usize, caps: Capabilities) -> String {
     if columns(text) <= room {
         return text.to_owned();
@@ -124,7 +123,7 @@ pub fn end_of(text: &str, room: usize, caps: Capabilities) -> String {
     format!("{more}{}", ending(text, room - columns(more)))
 }
 
-/// Writes `text` so that it ends before column `end`, but never left of `start`.
+/// Writes `text` right-aligned before column `end`, but never left of `start`.
 pub fn write_right(buffer: &mut Buffer, start: u16, end: u16, row: u16, text: &str, style: Style) {
     let x = end.saturating_sub(columns(text) as u16).max(start);
     buffer.set_stringn(x, row, text, usize::from(end.saturating_sub(x)), style);
@@ -176,7 +175,7 @@ mod tests {
             text in "([a-z ]|[가-힣]|[\u{1f3b1}\u{301}\u{200d}\u{fe0f}\u{ff9e}]|\\PC){0,60}", width in 2..30_usize,
         ) {
             let lines = wrap(&text, width);
-            // A few scripts have characters that are wider than two columns, which cannot be divided.
+            // A few scripts have characters wider than two columns, which cannot be split.
             let widest = text.graphemes(true).map(grapheme_columns).max().unwrap_or(0).max(width);
             for line in &lines {
                 prop_assert!(columns(line) <= widest, "{line:?} is {} wide", columns(line));

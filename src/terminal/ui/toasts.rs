@@ -1,45 +1,45 @@
-//! Refusals and failures as toasts: each is shown for as long as it takes to read, and kept to be read again.
+//! Toasts for refusals and failures: each is shown for as long as it takes to read, and kept in the list of messages.
 
 use std::collections::VecDeque;
 
 use crate::storage::without_numbers;
 
-/// Most toasts that are shown at once; before another one the oldest goes.
+/// Most toasts shown at once; a further one replaces the oldest.
 const SHOWN: usize = 3;
-/// Most sentences that are kept.
+/// Most messages kept.
 const KEPT: usize = 200;
-/// Letters that people read in a second, the slow ones too.
+/// Reading speed, characters per second, of slow readers.
 const READING: f64 = 15.0;
-/// Seconds until one looks at the answer to a key, and at something that comes by itself.
+/// Seconds until the user notices the answer to a key, and a toast that appears on its own.
 const LOOKING: (f64, f64) = (3.0, 8.0);
 
-/// A sentence that is shown for a while.
+/// A message shown for a limited time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Toast {
-    /// The sentence.
+    /// The message.
     pub text: String,
-    /// Whether it answers a key: then it goes with the next one that does something.
+    /// Whether it answers a key: such a toast disappears with the next key that does something.
     is_answer: bool,
-    /// Whether it is among the messages.
+    /// Whether it is in the list of messages.
     pub is_kept: bool,
-    /// Seconds until it goes.
+    /// Seconds until it disappears.
     left: f64,
 }
 
-/// The toasts that are shown, and the messages before them.
+/// The toasts on the screen, and all earlier messages.
 #[derive(Debug, Default)]
 pub struct Toasts {
-    /// The oldest first.
+    /// Toasts on the screen, the oldest first.
     pub shown: Vec<Toast>,
     past: VecDeque<String>,
     unwritten: Vec<String>,
 }
 
 impl Toasts {
-    /// Shows the first of some sentences that came by themselves together; the others are kept to be read.
+    /// Shows the first of several messages that arrived together, and keeps the others in the list.
     pub fn push_first(&mut self, sentences: &[String]) {
         let Some((first, more)) = sentences.split_first() else { return };
-        // The newest stands first: so they are read in their order.
+        // The list shows the newest first; adding them in reverse keeps their order.
         for text in more.iter().rev() {
             let text = without_numbers(text.clone());
             if !self.past.contains(&text) {
@@ -50,7 +50,7 @@ impl Toasts {
         self.push(format!("{first}{end}"), false);
     }
 
-    /// Shows `text`; one that is shown already is shown for longer.
+    /// Shows `text`; if it is already visible, restarts its time.
     pub fn push(&mut self, text: String, is_answer: bool) {
         let text = without_numbers(text);
         let (answer, news) = LOOKING;
@@ -66,13 +66,13 @@ impl Toasts {
         self.shown.push(Toast { text, is_answer, is_kept: true, left });
     }
 
-    /// Shows the answer to a key alone, which is not kept: nobody reads it again.
-    pub fn push_for_now(&mut self, text: String) {
+    /// Shows an answer to a key without keeping it in the list.
+    pub fn push_unlisted(&mut self, text: String) {
         let left = text.chars().count() as f64 / READING + LOOKING.0;
         self.shown.push(Toast { text, is_answer: true, is_kept: false, left });
     }
 
-    /// Keeps it to be read again; what a key that is held down says over and over is one message.
+    /// Adds a message to the list. Repetitions, as from a key that is held down, are added once.
     fn keep(&mut self, text: String) {
         if self.past.front() == Some(&text) {
             return;
@@ -82,27 +82,27 @@ impl Toasts {
         self.unwritten.push(text);
     }
 
-    /// All sentences since the start, the newest first.
+    /// All kept messages, the newest first.
     pub fn past(&self) -> impl ExactSizeIterator<Item = &str> {
         self.past.iter().map(String::as_str)
     }
 
-    /// The messages since the last call, for the log.
+    /// Takes the messages since the last call, for the log.
     pub fn take_unwritten(&mut self) -> Vec<String> {
         std::mem::take(&mut self.unwritten)
     }
 
-    /// Somebody goes on: the answers to keys have been read.
+    /// Removes the answers to keys: the user has gone on, so they have been read.
     pub fn go_on(&mut self) {
         self.shown.retain(|toast| !toast.is_answer);
     }
 
-    /// Nothing is to be shown any more.
+    /// Removes all toasts from the screen.
     pub fn clear(&mut self) {
         self.shown.clear();
     }
 
-    /// Lets `seconds` pass.
+    /// Advances the time by `seconds`.
     pub fn tick(&mut self, seconds: f64) {
         self.shown.retain_mut(|toast| {
             toast.left -= seconds;
@@ -110,7 +110,7 @@ impl Toasts {
         });
     }
 
-    /// Seconds until one of them goes; `None` where none is shown.
+    /// Seconds until the next toast disappears; `None` if none is shown.
     pub fn left(&self) -> Option<f64> {
         self.shown.iter().map(|toast| toast.left).min_by(f64::total_cmp)
     }

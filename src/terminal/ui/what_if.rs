@@ -1,4 +1,4 @@
-//! The panel of a stroke of the player's own: how often it is made, what comes of it, and how it differs from the coach's, if there is one.
+//! The panel of the player's own stroke: its success rate, its outcome, and its difference from the coach's, if there is one.
 
 use ratatui::{layout::Rect, text::Span};
 
@@ -11,7 +11,7 @@ use crate::{
     },
 };
 
-/// Draws the panel of a stroke beside a shot of the `advisor`, of which the player makes the share `made`, where that is known.
+/// Draws the panel of a stroke next to a shot of the `advisor`. `made` is the player's success rate at that shot, if known.
 pub fn draw_what_if(what_if: &WhatIf, advisor: &'static str, made: Option<f64>, units: Units, area: Rect, ui: &mut Ui) {
     let cue_ball = ui.theme.cue_ball;
     let mut title = vec![Span::styled("You", ui.theme.ball(0))];

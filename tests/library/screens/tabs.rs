@@ -104,7 +104,7 @@ fn a_match_against_the_coach_begins_from_anywhere_and_goes_on_where_it_was_left(
     assert!(matches!(begun.goal, Goal::Match { against_coach: true, .. }), "{begun:?}");
     let again = player.press("F5 F9");
     assert_eq!(session(&again).id, begun.id);
-    Player::new().press(": a g a i n s t Enter").is_silent_on("What can be done here");
+    Player::new().press(": a g a i n s t Enter").is_silent_on(" Commands ");
     let left = again.press("Left Enter Enter");
     let mut next = Player::new();
     next.app = next.app.with_saved_session(left.app.saved_session());

@@ -1,4 +1,4 @@
-//! The command palette: a box over the screen with what can be done there.
+//! Draws the command palette: a box over the screen with the commands available there.
 
 use ratatui::{
     layout::Rect,
@@ -12,34 +12,34 @@ use crate::terminal::{
     ui::{Message, Ui, draw_status, frame, list, shorten, write_right},
 };
 
-/// Columns of the box at most, and beside it at least; its rows at most.
+/// Largest width of the box, its smallest margin at either side, and its largest height; in cells.
 const WIDTH: u16 = 100;
 const BESIDE: u16 = 3;
 const HEIGHT: u16 = 28;
-/// Rows of the box that are no commands: its frame, and what is typed.
+/// Rows of the box that are not commands: its frame and the input.
 const FRAME: u16 = 3;
-/// Rows that stay free for the sentence on the marked command, and the keys.
+/// Rows that stay free for the status line and the keys.
 const BELOW: u16 = 3;
 /// Columns of the keys.
 const KEYS: u16 = 16;
-/// Columns of the counts beside what is typed.
+/// Columns of the counts next to the input.
 const COUNTS: u16 = 13;
 
-/// Draws the palette over the screen in `area`, which has the smallest size at least; gives the first row of what stands
-/// below it.
+/// Draws the palette over the screen in `area`, which must have at least the smallest size. Returns the first row of the status line below
+/// it.
 pub fn draw(app: &App, command_palette: &CommandPalette, area: Rect, ui: &mut Ui) -> u16 {
     let all = app.commands();
     let count = all.len();
     let found = command_palette.found(all);
-    // What is typed does not change the height: a box that jumps cannot be read.
+    // The height does not depend on the input: a box that jumps is hard to read.
     let height = (count as u16 + FRAME).min(HEIGHT).min(area.height - BELOW - 1);
     let width = WIDTH.min(area.width - 2 * BESIDE);
     let place = Rect::new(area.x + (area.width - width) / 2, area.y + 1, width, height);
-    // Scraps of what lies below, cut off in the middle, say nothing.
+    // Blank out the page below: cut-off fragments of it would only distract.
     let below = Rect { y: area.y + 1, height: area.height - 2, ..area };
     Clear.render(below, ui.buffer);
     ui.buffer.set_style(below, ui.theme.text());
-    let title = Span::styled(" What can be done here ", ui.theme.text());
+    let title = Span::styled(" Commands ", ui.theme.text());
     let frame = frame(Block::bordered(), ui.caps).border_style(ui.theme.faint()).title(title);
     let inner = frame.inner(place);
     frame.render(place, ui.buffer);
@@ -58,12 +58,12 @@ pub fn draw(app: &App, command_palette: &CommandPalette, area: Rect, ui: &mut Ui
     draw_status(&status_line(app, found.get(mark)), status, ui)
 }
 
-/// Draws one command: its keys, what it does, and why it may not be used now.
+/// Draws one command: its keys, its description, and the reason if it is disabled.
 fn draw_command(app: &App, command: &Command, is_marked: bool, area: Rect, ui: &mut Ui) {
     let reason = app.disabled_reason(command.when);
     let (keys, words) =
         if reason.is_some() { (ui.theme.faint(), ui.theme.faint()) } else { (ui.theme.accent(), ui.theme.text()) };
-    // The mark has to be read, whatever may be done.
+    // The selected row has to be readable even if it is disabled.
     let words = if is_marked { ui.theme.text() } else { words };
     let text = sentence(command, reason);
     let room = usize::from(area.width.saturating_sub(KEYS + 4));
@@ -75,12 +75,12 @@ fn draw_command(app: &App, command: &Command, is_marked: bool, area: Rect, ui: &
     }
 }
 
-/// What a command does, and why not now.
+/// The description of a command, with the reason if it is disabled.
 fn sentence(command: &Command, reason: Option<&str>) -> String {
     reason.map_or_else(|| command.description.to_owned(), |reason| format!("{}: {reason}", command.description))
 }
 
-/// What the status line says: the marked command in full.
+/// The status line: the selected command in full.
 fn status_line(app: &App, marked: Option<&Command>) -> Message {
     marked.map_or_else(
         || Message::plain("no matching command"),

@@ -1,4 +1,4 @@
-//! What the words of players mean: the glossary of the documentation as a page over the screen.
+//! Overlay with the glossary of players' terms, rendered from the documentation.
 
 use ratatui::text::{Line, Span};
 
@@ -7,10 +7,10 @@ use crate::terminal::{
     ui::{spell, wrap},
 };
 
-/// The one place where the words are explained.
+/// The glossary in the documentation, the only place where the terms are explained.
 const GLOSSARY: &str = include_str!("../../../../docs/glossary.md");
 
-/// A paragraph of it.
+/// Kind of a paragraph.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Heading,
@@ -18,7 +18,7 @@ enum Kind {
     Text,
 }
 
-/// The lines of the page, of at most `width` columns.
+/// Lines of the page, at most `width` columns wide.
 pub fn lines(app: &App, width: usize) -> Vec<Line<'static>> {
     let (theme, caps) = (app.theme(), app.caps);
     let mut lines = Vec::new();
@@ -36,7 +36,7 @@ pub fn lines(app: &App, width: usize) -> Vec<Line<'static>> {
     lines
 }
 
-/// The paragraphs of a page of the documentation below its title, without the signs of Markdown; a row of a table is one.
+/// Splits a Markdown page, without its title, into paragraphs of plain text; each row of a table is one.
 fn paragraphs(markdown: &str) -> Vec<(Kind, String)> {
     let mut all: Vec<(Kind, String)> = Vec::new();
     let mut goes_on = false;
@@ -48,7 +48,7 @@ fn paragraphs(markdown: &str) -> Vec<(Kind, String)> {
         } else if let Some(item) = text.strip_prefix("- ") {
             (Kind::Item, item.to_owned())
         } else if text.starts_with("|-") {
-            // What stands above it names the columns.
+            // The row above it holds the column names.
             all.pop();
             continue;
         } else if let Some(row) = text.strip_prefix("| ") {

@@ -1,5 +1,5 @@
-//! The pages that lie over a screen: every key with what it does, read from the table of keys, and a few words on what is
-//! drawn; all that was refused or has failed so far; or the glossary.
+//! Overlays over a screen: the help, generated from the key tables, with notes on what is drawn; the list of all refusals and failures so
+//! far; and the glossary.
 
 use ratatui::{
     layout::Rect,
@@ -20,44 +20,42 @@ use crate::{
 /// Columns of the keys.
 const KEYS: usize = 22;
 
-/// Each is a paragraph.
+/// Notes of each page; each entry is a paragraph.
 const COACH_NOTES: [&str; 6] = [
-    "Places are measured from the middle of the table, x to the right, y up; diamonds from the lower left corner, 0 to 8 along \
+    "Positions are measured from the centre of the table, x to the right, y up; diamonds from the lower left corner, 0 to 8 along \
      the long rails and 0 to 4 up the short ones, as the corners say. 1, 2, 3 on the rails are the cue ball's cushions. A kiss is \
      an unwanted collision; its percentage says in how many strokes it spoils the point. The dots are the predicted paths; rings are \
      where the cue ball first meets each ball and where the balls stop. While a shot plays, a ball trails bright dots for 0.4 s; \
-     those before them are pale. On a small screen the balls are drawn larger than they are; they roll \
-     and touch at their true size.",
+     older dots are pale. On a small screen the balls are drawn larger than they are; they roll and touch at their true size.",
     "Chances are those of the player in the first row, from attempts that took no part in the choice, with their 95 % \
      interval. Shots that are made less than half as often as the best are not listed.",
-    "Margins: how far one input may be off while the others are as meant, beside the player's standard errors. The maps show \
-     what comes of the stroke over two inputs, left and right as the shooter sees them; the ring is twice the standard \
+    "Margins: how far one input may be off while the others are exact, next to the player's standard errors. The maps show \
+     the outcome of the stroke over two inputs, left and right as the shooter sees them; the ring is twice the standard \
      errors.",
-    "The plan: dots show where the balls stop in 100 attempts, as far as they make the point, and the cue ball's way in the \
-     next shot, if all goes as meant.",
+    "The plan: dots show where the balls stop in those of 100 attempts that make the point, and the cue ball's path in the \
+     next shot, if both are played exactly.",
     "Tip: the cue ball from behind the cue; in its grey part the tip would slip off. Side and height are counted in tips, a tenth \
-     of the ball's radius each, 3 mm: three tips of left at 10 o'clock is 9 mm left of the middle and somewhat above it. Running side \
-     makes the way off the first cushion longer, reverse side shorter. Table lengths: how far a ball would run that is struck so in the \
-     middle; once up the table and back is two. Hit: the first object ball as the cue \
-     ball comes on, and how much of it that covers. Spin, while a shot plays: the cue ball from behind along its way, with the \
-     place where a level cue would have to meet it to give it the spin that it has at its speed; a rolling ball has it two \
-     fifths above the middle.",
+     of the ball's radius each, 3 mm: three tips of left at 10 o'clock is 9 mm left of the centre and somewhat above it. Running side \
+     makes the path off the first cushion longer, reverse side shorter. Table lengths: how far a ball would run if struck at this \
+     speed in the centre; once up the table and back is two. Hit: the first object ball as seen from the cue ball, and how much of it \
+     the cue ball covers. Spin, while a shot plays: the cue ball from behind along its path, with the point where a level cue would \
+     have to hit it to give it its present spin and speed; for a rolling ball that is two fifths above the centre.",
     "a, b are in ball radii, V0 and w0 what the stroke gives the ball: (x, y) and (x, y, z).",
 ];
 
 const SETTINGS_NOTES: [&str; 3] = [
     "Changes take effect at once and are saved in the file named above; its comments, order and unknown keys stay. What another \
      program changes there is read and never overwritten.",
-    "A setting without a mark is as it is by default. carom config prints all of them, with what each means and accepts.",
-    "A key of your own works like the key that you choose for it, on every page. Only y and n always answer questions.",
+    "A setting without a mark has its default. carom config prints all settings, with their meanings and accepted values.",
+    "A key of your own works like the key that you choose for it, on every page. Questions are always answered by y and n.",
 ];
 
 const TRAINING_NOTES: [&str; 4] = [
-    "Training goes on in a process of its own: it needs neither this screen nor this terminal.",
-    "Held-out figures are of the agent's own choice on layouts that it has not trained on, with Wilson's 95 % interval. \
-     Shots of a run that trains are replayed once, as they were measured.",
-    "A chart shows the smallest and largest value where many lines share a column, so that no peak is lost; what is no \
-     number is a gap. Smoothing is over shots, and never looks ahead.",
+    "Training runs in its own process: it needs neither this screen nor this terminal.",
+    "Held-out figures are for the agent's own choice on layouts that it has not trained on, with Wilson's 95 % interval. \
+     Shots of a running training are replayed once, as they were measured.",
+    "A chart shows the smallest and largest value where many lines share a column, so that no peak is lost; non-finite \
+     values are gaps. Smoothing is over shots, and never looks ahead.",
     "The quantities and their keys:",
 ];
 
@@ -92,7 +90,7 @@ const CALIBRATION_NOTES: [&str; 5] = [
     "Every entry is on the disk at once, in the file that carom calibrate goes on with as well. Both may be open at the same time.",
 ];
 
-/// What the help says of the picture at `place`.
+/// Notes of the help in the context `place`.
 fn notes(place: KeyContext) -> Vec<String> {
     let notes: &[&str] = match place {
         KeyContext::Coach | KeyContext::OwnStroke | KeyContext::Follow => &COACH_NOTES,
@@ -110,7 +108,7 @@ fn notes(place: KeyContext) -> Vec<String> {
     notes.iter().map(ToString::to_string).collect()
 }
 
-/// Draws the page `what` from its line `top` on; gives the first row of what stands below it.
+/// Draws the overlay `what`, scrolled to line `top`. Returns the first row below its text.
 pub fn draw(app: &App, what: Overlay, top: u16, parts: &PageArea, ui: &mut Ui) -> u16 {
     let (page, lines) = (page(parts.screen), lines(app, what, parts.screen));
     let last = lines.len().saturating_sub(usize::from(page.height));
@@ -126,12 +124,12 @@ pub fn draw(app: &App, what: Overlay, top: u16, parts: &PageArea, ui: &mut Ui) -
     page.bottom()
 }
 
-/// The first line of the page when it is scrolled to its end.
+/// The topmost line when the overlay is scrolled to its end.
 pub fn end(app: &App, what: Overlay, area: Rect) -> u16 {
     lines(app, what, area).len().saturating_sub(usize::from(page(area).height)) as u16
 }
 
-/// The lines' part of the screen.
+/// The part of the screen that shows the lines.
 const fn page(area: Rect) -> Rect {
     Rect::new(area.x + 2, area.y + 2, area.width.saturating_sub(4), area.height.saturating_sub(4))
 }
@@ -145,7 +143,7 @@ fn lines(app: &App, what: Overlay, area: Rect) -> Vec<Line<'static>> {
     }
 }
 
-/// What was refused or has failed so far, the newest first.
+/// All refusals and failures so far, the newest first.
 fn messages(app: &App, width: usize) -> Vec<Line<'static>> {
     let (theme, caps) = (app.theme(), app.caps);
     let mut lines = vec![Line::styled("Messages, the newest first", theme.good()), Line::default()];

@@ -1,4 +1,4 @@
-//! The last row: the keys that may be used now.
+//! The last row of the screen: hints for the enabled keys.
 
 use ratatui::{
     layout::Rect,
@@ -12,11 +12,11 @@ use crate::terminal::{
     ui::{Theme, Ui},
 };
 
-/// Columns between two hints, and where that makes room for all of them.
+/// Columns between two hints, and the smaller gap used if it makes all of them fit.
 const GAP: usize = 3;
 const CLOSE: usize = 2;
 
-/// Draws the keys that may be used now, as many as fit.
+/// Draws hints for the enabled keys, as many as fit.
 pub fn draw_hints(app: &App, area: Rect, ui: &mut Ui) {
     let all = bindings(app.place());
     let mut hints: Vec<(&Bound, Line)> = all
@@ -24,14 +24,14 @@ pub fn draw_hints(app: &App, area: Rect, ui: &mut Ui) {
         .filter(|binding| app.disabled_reason(binding.when).is_none())
         .filter_map(|binding| Some((binding, hint(app, binding, ui.theme)?)))
         .collect();
-    // A blank at either end.
+    // One blank at either end.
     let room = usize::from(area.width.saturating_sub(2));
     let width = |hints: &[(&Bound, Line)], gap: usize| {
         hints.iter().map(|(_, line)| line.width() + gap).sum::<usize>().saturating_sub(gap)
     };
     let mut gap = GAP;
-    // The keys of the program itself stay to the last, but for the command palette's and the way from the coach to another
-    // screen; the others go from the end.
+    // If there is no room for all, hints are dropped from the end. Those of the program stay longest, except the command palette and the
+    // coach's keys for other screens.
     let is_palette = |binding: &Bound| binding.keys[0].1 == Action::OpenPalette;
     let stays = |binding: &Bound| {
         binding.section == Section::Program && !matches!(binding.when, Condition::Coach(_)) && !is_palette(binding)
@@ -60,8 +60,8 @@ fn hint(app: &App, binding: &Bound, theme: &Theme) -> Option<Line<'static>> {
     Some(Line::from(vec![Span::styled(keys, theme.accent()), Span::styled(format!(" {words}"), theme.faint())]))
 }
 
-/// A key that does the work of `chord` here: where letters are typed, none of the user's own; where a key or an answer is asked
-/// for, which has no other meaning there, `chord` itself.
+/// The key to display for `chord` in this context. Where letters are typed, user-defined keys that would type a character are skipped.
+/// Where a key or an answer is requested, user-defined keys do not apply and `chord` itself is returned.
 fn working(app: &App, chord: Chord) -> Option<Chord> {
     let place = app.place();
     if matches!(place, KeyContext::Settings(SettingsContext::Pressing) | KeyContext::Question { is_typed: false }) {

@@ -1,4 +1,4 @@
-//! The screen as a whole: the open page between tabs and keys, and what lies over it.
+//! The whole screen: the open page between the tabs and the key hints, and the overlays on top.
 
 mod command_palette;
 mod glossary;
@@ -23,20 +23,20 @@ pub use self::{
     target::{Pointed, pointed_at},
 };
 
-/// Columns and rows below which there is no room for the table and its panels.
+/// Smallest screen, columns and rows, with room for the table and its panels.
 pub const SMALLEST: (u16, u16) = (80, 24);
 
-/// Whether there is no room for any page.
+/// Whether the screen is too small for every page.
 pub const fn is_too_small(area: Rect) -> bool {
     area.width < SMALLEST.0 || area.height < SMALLEST.1
 }
 
-/// The parts of the screen that are the open page's.
+/// The areas of the screen that belong to the open page.
 pub fn page_area(app: &App, area: Rect) -> PageArea {
     PageArea::new(area, tabs::rest(app, Rect { height: 1, ..area }))
 }
 
-/// Draws a page with its status line, or what it asks; gives the first row of that.
+/// Draws a page with its status line or its question. Returns the first row of that line.
 fn draw_page(page: &dyn Page, area: &PageArea, ui: &mut Ui) -> u16 {
     let status = page.draw(area, ui);
     match page.asked(ui.caps) {
@@ -45,7 +45,7 @@ fn draw_page(page: &dyn Page, area: &PageArea, ui: &mut Ui) -> u16 {
     }
 }
 
-/// Draws the screen that `app` is at.
+/// Draws the screen of `app`.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let ui = &mut Ui { theme: &app.theme(), caps: app.caps, keys: app.keys(), buffer };
     ui.buffer.set_style(area, ui.theme.text());
@@ -56,7 +56,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let parts = page_area(app, area);
     draw_tabs(app, Rect { height: 1, ..area }, ui);
     draw_hints(app, Rect { y: area.bottom() - 1, height: 1, ..area }, ui);
-    // Whatever is to be read or answered begins there; toasts stay above it.
+    // First row of what the user has to read or answer; toasts stay above it.
     let mut foot = match app.overlay {
         Some((overlay, top)) => help::draw(app, overlay, top, &parts, ui),
         None => draw_page(app.page(), &parts, ui),
@@ -64,9 +64,9 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     if let Some(command_palette) = &app.command_palette {
         foot = command_palette::draw(app, command_palette, area, ui);
     }
-    // The page of messages begins with what would be told over it.
+    // The list of messages starts with the kept toasts, so they are not drawn over it as well.
     let is_told = |toast: &&Toast| !toast.is_kept || app.overlay != Some((Overlay::Messages, 0));
-    // The first row is the header's.
+    // The first row belongs to the header.
     let room = Rect::new(area.x, area.y + 1, area.width, foot.saturating_sub(area.y + 1));
     draw_toasts(app.toasts.shown.iter().filter(is_told), room, ui);
 }

@@ -1,21 +1,20 @@
-//! The tabs at the beginning of the first row: the screens that there are, the open one reversed.
+//! The tabs at the start of the first row: the available screens, with the open one in reverse video.
 
 use ratatui::{layout::Rect, style::Modifier, text::Span};
 
 use crate::terminal::{App, PageId, app::bindings::chord_of_tab, keymap::keys_text, ui::Ui};
 
-/// Columns of the screen from which on neighbours do not share a blank, so that the open tab has its own on either side, and
-/// from which on each tab has its key.
+/// Screen width, columns, from which tabs no longer share a blank with their neighbours, and from which each tab shows its key.
 const LOOSE: u16 = 100;
 const WIDE: u16 = 120;
-/// Columns from which on the calibration has its tab although it is not open: it is not needed every day.
+/// Screen width from which the calibration has a tab even if it is not open: it is seldom needed.
 const ROOMY: u16 = 140;
-/// The program's name, where there are no tabs.
+/// The program's name, shown if there are no tabs.
 const NAME: &str = " carom ";
 
-/// Where each tab stands in the row `area`, with its key where there is room, and its title.
+/// Each tab with its area in the row `area` and its key, if there is room for it.
 pub fn tabs(app: &App, area: Rect) -> Vec<(PageId, Rect, String)> {
-    if app.stands_alone() {
+    if app.is_only_screen() {
         return Vec::new();
     }
     let mut x = area.x;
@@ -43,7 +42,7 @@ pub fn draw_tabs(app: &App, area: Rect, ui: &mut Ui) {
     for (screen, place, key) in tabs {
         let is_open = screen == app.screen;
         let (faint, text) = if is_open { (open, open) } else { (ui.theme.faint(), ui.theme.text()) };
-        // A blank that is the neighbour's too stays as it is: the neighbour's name would touch the open tab.
+        // A blank shared with a neighbour keeps its style: otherwise the neighbour's name would touch the open tab.
         if is_open && area.width >= LOOSE {
             ui.buffer.set_string(place.x, place.y, " ".repeat(usize::from(place.width)), text);
         }
@@ -55,7 +54,7 @@ pub fn draw_tabs(app: &App, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// What the tabs leave of the row `area`.
+/// The part of the row `area` that the tabs leave free.
 pub fn rest(app: &App, area: Rect) -> Rect {
     let last = tabs(app, area).into_iter().next_back();
     let end = last.map_or(area.x + NAME.len() as u16, |(_, place, _)| place.right()).min(area.right());

@@ -1,11 +1,11 @@
-//! What the mouse can point at.
+//! Mouse targets on the screen.
 
 use ratatui::layout::{Position, Rect};
 
 use super::{is_too_small, page_area, tabs::tabs};
 use crate::terminal::{App, KeyContext, PageId, pages::Target};
 
-/// Something on the screen that answers to the mouse.
+/// Something on the screen that reacts to the mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pointed {
     /// The tab of a screen.
@@ -14,7 +14,7 @@ pub enum Pointed {
     Page(Target),
 }
 
-/// What is drawn at a cell of the screen in `area`, nothing lying over it.
+/// Finds the target at a cell of the screen in `area`, assuming that no overlay is open.
 pub fn pointed_at(app: &App, area: Rect, at: Position) -> Option<Pointed> {
     if is_too_small(area) {
         return None;

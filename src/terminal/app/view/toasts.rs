@@ -1,4 +1,4 @@
-//! Refusals and failures in boxes over the lower right of the picture, the newest lowest.
+//! Draws toasts: boxes with refusals and failures at the lower right of the picture, the newest lowest.
 
 use ratatui::{
     layout::Rect,
@@ -11,12 +11,12 @@ use crate::terminal::{
     ui::{Ui, columns, cut, frame, wrap},
 };
 
-/// Columns of a box at most, and at most of a hundred of the screen's.
+/// Largest width of a box: in columns, and in per cent of the screen's width.
 const WIDTH: (u16, u16) = (64, 60);
-/// Most lines of one sentence; all of it is among the messages.
+/// Most lines of one toast; the list of messages shows all of it.
 const LINES: usize = 6;
 
-/// Draws the toasts, the oldest first, at the bottom of `area`, as many of the newest as its lower half has room for.
+/// Draws the toasts, given oldest first, at the bottom of `area`: as many of the newest as fit into its lower half.
 pub fn draw_toasts<'a>(toasts: impl DoubleEndedIterator<Item = &'a Toast>, area: Rect, ui: &mut Ui) {
     let most = WIDTH.0.min(area.width * WIDTH.1 / 100);
     let mut bottom = area.bottom();

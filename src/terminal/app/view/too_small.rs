@@ -1,4 +1,4 @@
-//! The page for a terminal that has no room for the screens: which size it has and which it needs.
+//! The page for a terminal that is too small: its present size and the size required.
 
 use ratatui::{
     layout::Rect,
@@ -10,18 +10,18 @@ use super::SMALLEST;
 
 use crate::terminal::ui::Ui;
 
-/// Columns of a line of it at most.
+/// Largest width of a line, columns.
 const WIDTH: u16 = 46;
 
-/// Draws the page; it still says as much as fits where there is hardly any room.
+/// Draws the page, as much of it as fits even in a tiny window.
 pub fn draw(area: Rect, ui: &mut Ui) {
     let (width, height) = SMALLEST;
     let times = ui.caps.pick("×", "x");
-    // Both sizes come first: the end may have no room. Ctrl-C quits whatever work keys were given.
+    // Both sizes come first, since the end may be cut off. Ctrl-C quits even if the user has bound it to something else.
     let sizes =
         format!("The window is {}{times}{}; at least {width}{times}{height} is needed.", area.width, area.height);
     let lines = vec![Line::styled(sizes, ui.theme.warning()), Line::styled("Ctrl-C quits.", ui.theme.faint())];
-    // The sentence takes two rows where one has no room.
+    // The sentence wraps to two rows if one is too narrow.
     let rows = 3.min(area.height);
     let top = area.y + (area.height - rows) / 2;
     let left = area.x + area.width.saturating_sub(WIDTH) / 2;

@@ -1,13 +1,13 @@
-//! Keys and reports that come as control sequences (ECMA-48 5.4; xterm's and kitty's lists of keys).
+//! Keys and reports sent as control sequences (ECMA-48 5.4; key lists of xterm and kitty).
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
 use crate::terminal::host::input::{
-    keys::{held, key, with},
+    keys::{key, modifiers_and_kind, with},
     mouse,
 };
 
-/// What `ESC [ parameters last` says; `None` where it is unknown, or an answer to another program.
+/// Decodes `ESC [ parameters last`; `None` if it is unknown, or an answer to a query of another program.
 pub fn event(parameters: &[u8], last: u8) -> Option<Event> {
     let text = std::str::from_utf8(parameters).ok()?;
     if let Some(report) = text.strip_prefix('<') {
@@ -21,18 +21,18 @@ pub fn event(parameters: &[u8], last: u8) -> Option<Event> {
         b'I' if text.is_empty() => Some(Event::FocusGained),
         b'O' if text.is_empty() => Some(Event::FocusLost),
         b'Z' => modified(KeyCode::BackTab, numbers.next()).map(|event| with(event, KeyModifiers::SHIFT)),
-        // The cursor's place, which ends alike, has its row first.
+        // A report of the cursor position has the same final byte, but its first number is a row.
         b'R' if !matches!(first, "" | "1") => None,
         _ => letter(last).filter(|_| matches!(first, "" | "1")).and_then(|code| modified(code, numbers.next())),
     }
 }
 
-/// What `ESC O last` says.
+/// Decodes `ESC O last`.
 pub fn ss3(last: u8) -> Option<Event> {
     letter(last).map(key)
 }
 
-/// Keys that a letter stands for.
+/// Keys identified by a letter.
 const fn letter(last: u8) -> Option<KeyCode> {
     Some(match last {
         b'A' => KeyCode::Up,
@@ -46,7 +46,7 @@ const fn letter(last: u8) -> Option<KeyCode> {
     })
 }
 
-/// Keys that a number stands for, and xterm's `27 ; held ; character`.
+/// Keys identified by a number, and xterm's `27 ; modifiers ; character`.
 fn numbered<'a>(first: &str, mut rest: impl Iterator<Item = &'a str>) -> Option<Event> {
     let code = match first.parse::<u8>().ok()? {
         1 | 7 => KeyCode::Home,
@@ -61,26 +61,26 @@ fn numbered<'a>(first: &str, mut rest: impl Iterator<Item = &'a str>) -> Option<
         number @ 28..=29 => KeyCode::F(number - 15),
         number @ 31..=34 => KeyCode::F(number - 17),
         27 => {
-            let held = rest.next();
-            return unicode(rest.next()?, held);
+            let modifiers = rest.next();
+            return unicode(rest.next()?, modifiers);
         }
         _ => return None,
     };
     modified(code, rest.next())
 }
 
-/// A key by its character's number, as kitty and others name it.
+/// A key identified by the code point of its character, as in kitty's protocol.
 fn unicode(first: &str, second: Option<&str>) -> Option<Event> {
     let mut numbers = first.split(':').map(|number| number.parse().ok().and_then(char::from_u32));
     let character = numbers.next()??;
-    let (mut modifiers, kind) = held(second)?;
+    let (mut modifiers, kind) = modifiers_and_kind(second)?;
     let code = match character {
         '\u{1b}' => KeyCode::Esc,
         '\r' | '\u{e046}' => KeyCode::Enter,
         '\t' if modifiers.contains(KeyModifiers::SHIFT) => KeyCode::BackTab,
         '\t' => KeyCode::Tab,
         '\u{7f}' | '\u{8}' => KeyCode::Backspace,
-        // Keys without a character have numbers from the private area.
+        // Keys without a character have code points from the private use area.
         character if character.is_control() || ('\u{e000}'..='\u{f8ff}').contains(&character) => return None,
         character => {
             let shifted = numbers.next().flatten().filter(|_| modifiers.contains(KeyModifiers::SHIFT));
@@ -94,6 +94,6 @@ fn unicode(first: &str, second: Option<&str>) -> Option<Event> {
 }
 
 fn modified(code: KeyCode, parameter: Option<&str>) -> Option<Event> {
-    let (modifiers, kind): (_, KeyEventKind) = held(parameter)?;
+    let (modifiers, kind): (_, KeyEventKind) = modifiers_and_kind(parameter)?;
     Some(Event::Key(KeyEvent::new_with_kind(code, modifiers, kind)))
 }

@@ -1,4 +1,4 @@
-//! From bytes to events, one byte after the other.
+//! Decodes input bytes into events, one byte at a time.
 
 use std::time::Duration;
 
@@ -11,16 +11,16 @@ use crate::terminal::host::input::{
     paste::{self, Paste},
 };
 
-/// Silence after which an escape character was the key.
-const LONE_ESCAPE: Duration = Duration::from_millis(30);
-/// Silence after which the rest of a sequence will not come any more.
-const CUT: Duration = Duration::from_millis(100);
-/// Longest parameters that mean something to anybody, bytes.
+/// Silence after which an escape character counts as the Esc key.
+const ESCAPE_TIMEOUT: Duration = Duration::from_millis(30);
+/// Silence after which the rest of a sequence no longer counts as coming.
+const SEQUENCE_TIMEOUT: Duration = Duration::from_millis(100);
+/// Longest meaningful parameters, bytes.
 const LONGEST: usize = 64;
 
 const ESCAPE: u8 = 0x1b;
 
-/// What has been begun.
+/// State of the decoder: the sequence begun.
 #[derive(Debug, Default)]
 enum State {
     #[default]
@@ -33,16 +33,16 @@ enum State {
     Console,
     /// After `ESC O`.
     Ss3,
-    /// After `ESC [ M`: three bytes of an old mouse's report.
+    /// After `ESC [ M`: a mouse report of three bytes in the oldest form.
     Mouse(Vec<u8>),
-    /// A string that a terminal answers with, up to its terminator: what introduced it, whether anything came since, and
-    /// whether the last of that was an escape character.
+    /// A reply string of the terminal, up to its terminator: its introducer, whether it has any content, and whether its last byte was an
+    /// escape character.
     Reply {
         introducer: u8,
         has_content: bool,
         escape: bool,
     },
-    /// A character of several bytes, behind an escape character or not.
+    /// A multi-byte character, with or without a preceding escape character.
     Character {
         bytes: Vec<u8>,
         is_alt: bool,
@@ -50,18 +50,18 @@ enum State {
     Paste(Paste),
 }
 
-/// Makes events of bytes.
+/// Decoder of input bytes.
 #[derive(Debug, Default)]
 pub struct Decoder {
     state: State,
-    /// Whether the last paste has lost its end: what comes next may be more of it.
+    /// Whether the last paste lost its end marker, so that the next bytes may belong to it.
     cut_paste: bool,
 }
 
 impl Decoder {
-    /// Takes in what was read at once.
+    /// Decodes the bytes of one read.
     pub fn feed(&mut self, bytes: &[u8], events: &mut Vec<Event>) {
-        // A paste that stood still on its way is no row of keys.
+        // The rest of a stalled paste must not be taken for keys.
         if std::mem::take(&mut self.cut_paste) && matches!(self.state, State::Ground) && paste::has_end(bytes) {
             self.state = State::Paste(Paste::default());
         }
@@ -101,18 +101,18 @@ impl Decoder {
         }
     }
 
-    /// How long to wait for more before [`Decoder::silence`]; `None` where nothing has been begun.
-    pub fn patience(&self) -> Option<Duration> {
+    /// Time to wait for more bytes before calling [`Decoder::on_timeout`]; `None` if no sequence has begun.
+    pub fn timeout(&self) -> Option<Duration> {
         match &self.state {
             State::Ground => None,
-            State::Escape => Some(LONE_ESCAPE),
-            State::Paste(paste) => Some(paste.patience()),
-            _ => Some(CUT),
+            State::Escape => Some(ESCAPE_TIMEOUT),
+            State::Paste(paste) => Some(paste.timeout()),
+            _ => Some(SEQUENCE_TIMEOUT),
         }
     }
 
-    /// Nothing has come for as long as [`Decoder::patience`] said: what was begun is all there is.
-    pub fn silence(&mut self, events: &mut Vec<Event>) {
+    /// Ends the sequence begun, because no byte arrived for [`Decoder::timeout`].
+    pub fn on_timeout(&mut self, events: &mut Vec<Event>) {
         match std::mem::take(&mut self.state) {
             State::Escape => events.push(key(KeyCode::Esc)),
             State::Csi(parameters) if parameters.is_empty() => events.push(alt(b'[')),
@@ -127,7 +127,7 @@ impl Decoder {
     }
 }
 
-/// A byte that begins something.
+/// Handles a byte that begins a key or a sequence.
 fn ground(byte: u8, is_alt: bool, events: &mut Vec<Event>) -> State {
     match byte {
         ESCAPE => return State::Escape,
@@ -139,10 +139,10 @@ fn ground(byte: u8, is_alt: bool, events: &mut Vec<Event>) -> State {
     State::Ground
 }
 
-/// A byte that does not belong to what was begun: that is dropped, and this one counts.
+/// Drops the sequence begun and handles a byte that does not belong to it.
 fn abandon(byte: u8, events: &mut Vec<Event>) -> State {
     match byte {
-        // Their only meaning is to end a sequence.
+        // These bytes only end a sequence.
         0x18 | 0x1a => State::Ground,
         0..0x20 => ground(byte, false, events),
         _ => State::Ground,
@@ -154,7 +154,7 @@ fn after_escape(byte: u8, events: &mut Vec<Event>) -> State {
         b'[' => State::Csi(Vec::new()),
         b'O' => State::Ss3,
         b']' | b'P' | b'X' | b'^' | b'_' => State::Reply { introducer: byte, has_content: false, escape: false },
-        // Two keys, and the second may begin a sequence. Ctrl-C has to be heard whatever came before.
+        // Two keys, of which the second may begin a sequence. Ctrl-C must work after any byte.
         ESCAPE | 0x03 => {
             events.push(key(KeyCode::Esc));
             ground(byte, false, events)
@@ -166,7 +166,7 @@ fn after_escape(byte: u8, events: &mut Vec<Event>) -> State {
 fn in_csi(mut parameters: Vec<u8>, byte: u8, events: &mut Vec<Event>) -> State {
     match byte {
         0x20..=0x3f => {
-            // One more than means anything, so that it is known to mean nothing.
+            // Keep one byte more than is meaningful, so that overlong parameters are recognized.
             if parameters.len() <= LONGEST {
                 parameters.push(byte);
             }
@@ -197,7 +197,7 @@ fn in_reply(introducer: u8, has_content: bool, escape: bool, byte: u8, events: &
     match byte {
         b'\\' if escape => State::Ground,
         0x07 => State::Ground,
-        // The terminator's first half, or the next sequence.
+        // First half of the terminator, or start of the next sequence.
         ESCAPE if !escape => State::Reply { introducer, has_content, escape: true },
         _ if escape => after_escape(byte, events),
         0..0x20 => abandon(byte, events),
@@ -214,7 +214,7 @@ fn in_character(mut bytes: Vec<u8>, is_alt: bool, byte: u8, events: &mut Vec<Eve
             State::Ground
         }
         Err(error) if error.error_len().is_none() => State::Character { bytes, is_alt },
-        // The byte that broke it may be a key of its own.
+        // The invalid byte may be a key of its own.
         Err(_) if byte < 0x80 => ground(byte, false, events),
         Err(_) => State::Ground,
     }

@@ -1,13 +1,13 @@
-//! Keys that are characters, and what modifies them.
+//! Keys of characters, and modifiers.
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
-/// A key alone.
+/// A press of a key without modifiers.
 pub fn key(code: KeyCode) -> Event {
     Event::Key(code.into())
 }
 
-/// The same key while `modifiers` are held as well.
+/// Adds `modifiers` to a key event.
 pub fn with(mut event: Event, modifiers: KeyModifiers) -> Event {
     if let Event::Key(key) = &mut event {
         key.modifiers |= modifiers;
@@ -15,18 +15,18 @@ pub fn with(mut event: Event, modifiers: KeyModifiers) -> Event {
     event
 }
 
-/// A key that is held with Alt.
+/// A key pressed with Alt.
 pub fn alt(byte: u8) -> Event {
     with(character(char::from(byte)), KeyModifiers::ALT)
 }
 
-/// The key of a character. That it is upper case says that Shift is held.
+/// The key of a character. An upper-case letter implies Shift.
 pub fn character(character: char) -> Event {
     let modifiers = if character.is_uppercase() { KeyModifiers::SHIFT } else { KeyModifiers::NONE };
     Event::Key(KeyEvent::new(KeyCode::Char(character), modifiers))
 }
 
-/// The key of a control character, if it is one.
+/// The key of a control character; `None` if the byte is not one.
 pub fn control(byte: u8) -> Option<Event> {
     let with_control =
         |character: u8| Event::Key(KeyEvent::new(KeyCode::Char(char::from(character)), KeyModifiers::CONTROL));
@@ -42,8 +42,8 @@ pub fn control(byte: u8) -> Option<Event> {
     })
 }
 
-/// What is held, and whether the key goes down, repeats or goes up: the parameter `1 + mask` or `1 + mask:kind`.
-pub fn held(parameter: Option<&str>) -> Option<(KeyModifiers, KeyEventKind)> {
+/// Decodes the modifiers and the kind of event (press, repeat or release) from the parameter `1 + mask` or `1 + mask:kind`.
+pub fn modifiers_and_kind(parameter: Option<&str>) -> Option<(KeyModifiers, KeyEventKind)> {
     let Some(parameter) = parameter.filter(|text| !text.is_empty()) else {
         return Some((KeyModifiers::NONE, KeyEventKind::Press));
     };

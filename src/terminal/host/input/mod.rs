@@ -1,7 +1,7 @@
-//! What comes from the terminal: bytes, made into keys, pastes and reports of the mouse.
+//! Terminal input: decodes bytes into keys, pastes and mouse reports.
 //!
-//! crossterm's own reader waits for the end of a sequence for as long as it takes, and takes every later key for a part of it:
-//! one that is cut makes the screen deaf. This one gives up after a silence, and a control character ends whatever was begun.
+//! crossterm's own reader waits for the end of a sequence without a time limit and takes all later keys as part of it, so that a truncated
+//! sequence blocks all input. This decoder gives up after a silence, and a control character ends any sequence.
 
 mod csi;
 mod decoder;

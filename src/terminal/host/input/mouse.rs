@@ -1,8 +1,8 @@
-//! Reports of the mouse, in the form that is asked for and the one of terminals that do not know it.
+//! Mouse reports, in the SGR form that the program requests and in the oldest form, for terminals without SGR.
 
 use crossterm::event::{Event, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
-/// The form that the program asks for: `button ; column ; row`, and a letter that tells a release.
+/// Decodes the SGR form: `button ; column ; row`, and a final letter that marks a release.
 pub fn sgr(parameters: &str, last: u8) -> Option<Event> {
     let [button, column, row] = numbers(parameters)?;
     let (kind, modifiers) = button_of(u8::try_from(button).ok()?)?;
@@ -14,7 +14,7 @@ pub fn sgr(parameters: &str, last: u8) -> Option<Event> {
     event(kind, modifiers, column, row)
 }
 
-/// The oldest form: three bytes, from 32 on.
+/// Decodes the oldest form: three bytes, each offset by 32.
 pub fn old(button: u8, column: u8, row: u8) -> Option<Event> {
     let (kind, modifiers) = button_of(button.checked_sub(32)?)?;
     event(kind, modifiers, u16::from(column.checked_sub(32)?), u16::from(row.checked_sub(32)?))
@@ -26,13 +26,13 @@ fn numbers(parameters: &str) -> Option<[u16; 3]> {
     numbers.next().is_none().then_some(three)
 }
 
-/// Terminals count from 1.
+/// Builds the event; terminals count from 1.
 fn event(kind: MouseEventKind, modifiers: KeyModifiers, column: u16, row: u16) -> Option<Event> {
     let (column, row) = (column.checked_sub(1)?, row.checked_sub(1)?);
     Some(Event::Mouse(MouseEvent { kind, column, row, modifiers }))
 }
 
-/// Bits 0, 1, 6 and 7 name the button, 2 to 4 what is held, and 5 tells a motion.
+/// Bits 0, 1, 6 and 7 are the button, bits 2 to 4 the modifiers, and bit 5 marks a motion.
 fn button_of(bits: u8) -> Option<(MouseEventKind, KeyModifiers)> {
     let button = (bits & 0b11) | ((bits & 0b1100_0000) >> 4);
     let moves = bits & 0b10_0000 != 0;

@@ -1,4 +1,4 @@
-//! A bracketed paste on its way: text that is no row of keys, whatever it says.
+//! A bracketed paste while it arrives: its bytes are text and never keys.
 
 use std::time::Duration;
 
@@ -6,28 +6,28 @@ use crossterm::event::Event;
 
 use crate::terminal::host::input::keys::control;
 
-/// What ends it.
+/// Marker of the end of a paste.
 const END: &[u8] = b"\x1b[201~";
-/// Silence after which it has lost its end. Links stand still for some tenths of a second; a hand needs longer.
-const LOST: Duration = Duration::from_secs(1);
-/// Silence after which a Ctrl-C at the end was typed: in text that is pasted more follows, its end at least.
-const TYPED: Duration = Duration::from_millis(100);
-/// Longest text that is kept, bytes; no field takes as much.
+/// Silence after which the end marker counts as lost. Links stall for some tenths of a second; typing takes longer.
+const END_TIMEOUT: Duration = Duration::from_secs(1);
+/// Silence after which a Ctrl-C at the end counts as typed: in pasted text more would follow, at least the end marker.
+const CTRL_C_TIMEOUT: Duration = Duration::from_millis(100);
+/// Longest text kept, bytes; every field accepts less.
 const LONGEST: usize = 1 << 20;
 
 const CTRL_C: u8 = 0x03;
 
-/// The text so far.
+/// The text received so far.
 #[derive(Debug, Default)]
 pub struct Paste {
     text: Vec<u8>,
-    /// Bytes of the end that have come.
+    /// Number of bytes of the end marker received.
     ended: usize,
     last: u8,
 }
 
 impl Paste {
-    /// Takes in a byte; the whole text once its end has come.
+    /// Adds a byte; returns the whole text after the end marker.
     pub fn push(&mut self, byte: u8) -> Option<String> {
         self.last = byte;
         if byte == END[self.ended] {
@@ -36,7 +36,7 @@ impl Paste {
         }
         let begun = std::mem::take(&mut self.ended);
         self.keep(&END[..begun]);
-        // The end begins with a byte that it has nowhere else.
+        // The marker's first byte occurs in it only once.
         if byte == END[0] {
             self.ended = 1;
         } else {
@@ -54,23 +54,23 @@ impl Paste {
         String::from_utf8_lossy(&self.text).into_owned()
     }
 
-    /// How long to wait for more.
-    pub const fn patience(&self) -> Duration {
-        if self.is_broken_off() { TYPED } else { LOST }
+    /// Time to wait for more bytes.
+    pub const fn timeout(&self) -> Duration {
+        if self.is_broken_off() { CTRL_C_TIMEOUT } else { END_TIMEOUT }
     }
 
-    /// Whether a Ctrl-C was the last that came.
+    /// Whether the last byte was a Ctrl-C.
     pub const fn is_broken_off(&self) -> bool {
         self.last == CTRL_C
     }
 
-    /// What it is where nothing more comes.
+    /// The event if no more bytes arrive.
     pub fn cut(self) -> Event {
         control(CTRL_C).filter(|_| self.is_broken_off()).unwrap_or_else(|| Event::Paste(self.words()))
     }
 }
 
-/// Whether the end of a paste is among `bytes`.
+/// Whether `bytes` contain the end marker of a paste.
 pub fn has_end(bytes: &[u8]) -> bool {
     bytes.windows(END.len()).any(|window| window == END)
 }

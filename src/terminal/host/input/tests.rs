@@ -1,16 +1,16 @@
-//! What must hold of the decoder, on whatever bytes.
+//! Properties of the decoder for arbitrary bytes.
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use proptest::prelude::*;
 
 use crate::terminal::host::input::Decoder;
 
-/// The events of bytes that come at once, with the silence behind them.
+/// The events of bytes that arrive together, followed by silence.
 fn decode(bytes: &[u8]) -> Vec<Event> {
     let (mut decoder, mut events) = (Decoder::default(), Vec::new());
     decoder.feed(bytes, &mut events);
-    while decoder.patience().is_some() {
-        decoder.silence(&mut events);
+    while decoder.timeout().is_some() {
+        decoder.on_timeout(&mut events);
     }
     events
 }
@@ -107,12 +107,12 @@ fn a_paste_is_text_whatever_comes_before_and_within() {
 fn a_paste_that_lost_its_end_is_heard_and_its_rest_is_no_row_of_keys() {
     let (mut decoder, mut events) = (Decoder::default(), Vec::new());
     decoder.feed(b"\x1b[200~one", &mut events);
-    decoder.silence(&mut events);
+    decoder.on_timeout(&mut events);
     decoder.feed(b"qqq\x1b[201~", &mut events);
     assert_eq!(events, [Event::Paste("one".into()), Event::Paste("qqq".into())]);
     events.clear();
     decoder.feed(b"\x1b[200~one", &mut events);
-    decoder.silence(&mut events);
+    decoder.on_timeout(&mut events);
     decoder.feed(b"q", &mut events);
     assert_eq!(events, [Event::Paste("one".into()), key(KeyCode::Char('q'), KeyModifiers::NONE)]);
 }
@@ -152,12 +152,12 @@ proptest! {
     fn whatever_was_begun_ctrl_c_is_heard(bytes in pieces()) {
         let (mut decoder, mut events) = (Decoder::default(), Vec::new());
         decoder.feed(&bytes, &mut events);
-        // All is waited for that a person would notice; two tenths of a second are promised.
+        // The decoder may wait at most 0.1 s here; the program promises 0.2 s, which a person would hardly notice.
         decoder.feed(b"\x03", &mut events);
         let mut waited = std::time::Duration::ZERO;
-        while let Some(patience) = decoder.patience() {
-            waited += patience;
-            decoder.silence(&mut events);
+        while let Some(timeout) = decoder.timeout() {
+            waited += timeout;
+            decoder.on_timeout(&mut events);
         }
         prop_assert_eq!(events.last(), Some(&ctrl_c()));
         prop_assert!(waited.as_millis() <= 100, "{waited:?}");
@@ -169,8 +169,8 @@ proptest! {
         for byte in &bytes {
             decoder.feed(&[*byte], &mut events);
         }
-        while decoder.patience().is_some() {
-            decoder.silence(&mut events);
+        while decoder.timeout().is_some() {
+            decoder.on_timeout(&mut events);
         }
         prop_assert_eq!(events, decode(&bytes));
     }

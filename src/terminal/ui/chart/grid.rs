@@ -1,6 +1,6 @@
-//! Dots in layers over a rectangle of cells, and how they become characters. Charts have a grid of their own beside the
-//! table's [`Canvas`](crate::terminal::ui::canvas::Canvas), because a cell of braille holds eight dots of one colour: of the
-//! layers that meet in it only the uppermost is shown, or one curve would be taken for the other.
+//! A grid of dots in layers over a rectangle of cells, and its conversion to characters. Charts do not use the table's
+//! [`Canvas`](crate::terminal::ui::canvas::Canvas), because a braille cell holds eight dots of one colour: only the uppermost layer of a
+//! cell is shown, otherwise one curve could be taken for the other.
 
 use ratatui::{
     buffer::Cell,
@@ -15,14 +15,14 @@ use crate::terminal::{
     ui::{Theme, Ui},
 };
 
-/// What dots are part of, from the lowest to the uppermost.
+/// Layers, from the lowest to the uppermost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layer {
-    /// Lines at the ticks.
+    /// Grid lines at the ticks.
     Lines,
-    /// All values of the compared run, behind their mean.
+    /// Raw values of the compared run, behind its mean.
     OtherBand,
-    /// All values of the run itself, behind their mean.
+    /// Raw values of the run itself, behind its mean.
     OwnBand,
     /// The compared run.
     Other,
@@ -43,13 +43,13 @@ impl Layer {
         }
     }
 
-    /// Style in characters that show one layer a cell.
+    /// Style for character sets that show one layer per cell.
     fn style(self, theme: &Theme) -> Style {
         let style = theme.text().fg(self.color(theme));
         if theme.is_mono() && self != Self::Own { style.add_modifier(Modifier::DIM) } else { style }
     }
 
-    /// The mark where a cell is one dot; nothing for what would be taken for a curve.
+    /// The character if a cell is one dot; `None` for layers that could be taken for a curve.
     const fn mark(self, unicode: bool) -> Option<char> {
         match (self, unicode) {
             (Self::Own, true) => Some('•'),
@@ -62,14 +62,14 @@ impl Layer {
     }
 }
 
-/// Which characters show the dots.
+/// Character sets for the dots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Dots {
-    /// Two by four a cell.
+    /// Two by four dots per cell.
     Braille,
-    /// One by two a cell, each in its own colour.
+    /// One by two dots per cell, each in its own colour.
     Halves,
-    /// One a cell.
+    /// One dot per cell.
     Marks,
 }
 
@@ -77,7 +77,7 @@ impl Dots {
     fn of(caps: Capabilities, theme: &Theme) -> Self {
         match caps.glyphs {
             Glyphs::Octant | Glyphs::Sextant if caps.unicode => Self::Braille,
-            // Half blocks tell two curves apart by colours alone.
+            // Half blocks distinguish two curves only by colour.
             Glyphs::Half if caps.unicode && !theme.is_mono() => Self::Halves,
             _ => Self::Marks,
         }
@@ -98,9 +98,9 @@ pub struct Grid {
     area: Rect,
     dots: Dots,
     unicode: bool,
-    /// Whether lines at the ticks can be distinguished from curves.
+    /// Whether grid lines can be distinguished from curves.
     lined: bool,
-    /// For each layer and cell the dots that are set, the bits row by row.
+    /// The dots that are set, for each layer and cell: one bit per dot, row by row.
     cells: [Vec<u8>; Layer::ALL.len()],
 }
 
@@ -118,12 +118,12 @@ impl Grid {
         (i32::from(self.area.width) * i32::from(across), i32::from(self.area.height) * i32::from(down))
     }
 
-    /// The row of cells in which a row of dots lies, from the top of the grid.
+    /// The row of cells that contains a row of dots, from the top of the grid.
     pub fn row_of(&self, y: i32) -> u16 {
         (y / i32::from(self.dots.size().1)) as u16
     }
 
-    /// The column of cells in which a column of dots lies, from the left of the grid.
+    /// The column of cells that contains a column of dots, from the left of the grid.
     pub fn column_of(&self, x: i32) -> u16 {
         (x / i32::from(self.dots.size().0)) as u16
     }
@@ -140,7 +140,7 @@ impl Grid {
         if top > bottom {
             return;
         }
-        // Cell by cell: thousands of runs make up a curve.
+        // Cell by cell for speed: a curve consists of thousands of runs.
         for row in top / down..=bottom / down {
             let lines = (top - row * down).max(0)..=(bottom - row * down).min(down - 1);
             let bits = lines.fold(0, |bits, line| bits | 1 << (line * across + x % across));
@@ -149,7 +149,7 @@ impl Grid {
         }
     }
 
-    /// Sets a thin line of dots at row `y`, so far apart that it stays behind everything else.
+    /// Sets a sparse line of dots at row `y`, faint enough to stay behind everything else.
     pub fn set_line(&mut self, y: i32) {
         if !self.lined {
             return;
@@ -179,7 +179,7 @@ impl Grid {
         let Some(layer) = self.uppermost(index, u8::MAX) else { return };
         match self.dots {
             Dots::Braille => {
-                // Its dots are the bits, row by row.
+                // The bits are the dots of the character, row by row.
                 cell.set_char(BRAILLE[usize::from(self.cells[layer as usize][index])]).set_style(layer.style(theme));
             }
             Dots::Halves if layer == Layer::Lines => {
@@ -205,7 +205,7 @@ impl Grid {
     }
 }
 
-/// Two cells of a layer, as they look beside text.
+/// A sample of a layer for a legend, two cells wide.
 pub fn sample(layer: Layer, caps: Capabilities, theme: &Theme) -> Span<'static> {
     let mark = match Dots::of(caps, theme) {
         Dots::Marks => layer.mark(caps.unicode).unwrap_or(' '),

@@ -1,18 +1,18 @@
-//! Numbers as labels: short, and with the same unit and decimals along an axis.
+//! Number labels: short, and with a common unit and number of decimals along an axis.
 
 use crate::terminal::{
     ui::chart::step::{Step, power_of_ten},
     words::fixed,
 };
 
-/// From here on down and up numbers are written with an exponent.
+/// Magnitudes outside this range are written with an exponent.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e15;
-/// Powers of ten with a letter.
+/// Powers of ten with a unit letter.
 const LETTERS: [(i32, &str); 4] = [(12, "T"), (9, "G"), (6, "M"), (3, "k")];
 /// Most decimals of a number without a letter, and of one with a letter.
 const DECIMALS: (i32, i32) = (4, 2);
 
-/// What the labels of an axis have in common.
+/// Number format that the labels of an axis share.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit {
     power: i32,
@@ -21,7 +21,7 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// The unit for numbers up to `largest`, positive or negative, that differ by `step`.
+    /// The unit for values of magnitude up to `largest` that are `step` apart.
     pub fn new(largest: f64, step: Step) -> Self {
         let largest = largest.abs();
         let decimals = |power: i32| (power - step.power()).max(0);
@@ -36,7 +36,7 @@ impl Unit {
             .map_or(unit(0, Some("")), |(power, letter)| unit(power, Some(letter)))
     }
 
-    /// `value` in this unit. Zero has none.
+    /// Formats `value` in this unit. Zero has no unit.
     pub fn label(&self, value: f64) -> String {
         if value == 0.0 {
             return "0".to_owned();
@@ -50,7 +50,7 @@ impl Unit {
     }
 }
 
-/// `value` with three digits or four, on its own.
+/// Formats a single `value` with three or four digits.
 pub fn compact(value: f64) -> String {
     let size = value.abs();
     match size {

@@ -1,4 +1,4 @@
-//! A quantity of a training run over the shots played, as a curve that shows every peak.
+//! Charts: a quantity of a training run over the number of shots, as a curve that shows every peak.
 
 mod grid;
 mod label;
@@ -27,64 +27,64 @@ use crate::{
     },
 };
 
-/// Columns left of the plot: the labels and the axis. Always as many, so that the plot stays where it is.
+/// Columns left of the plot for labels and axis; constant, so that the plot never moves.
 const LEFT: u16 = LABEL_WIDTH as u16 + 1;
-/// Columns of a plot that are worth labels beside it.
+/// Smallest plot width with labels, columns.
 const LEAST_PLOT: u16 = 6;
 
-/// Whose values a curve shows.
+/// Which run a curve belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SeriesId {
     /// The run itself.
     Own,
-    /// The one it is compared with.
+    /// The run compared with it.
     Other,
 }
 
-/// One run's values.
+/// The values of one run.
 #[derive(Clone, Copy, Debug)]
 pub struct Curve<'a> {
-    /// The values in the order of their shots.
+    /// The values, ordered by shots.
     pub points: &'a [Point],
-    /// All values of the quantity that were not finite, which the title names.
+    /// Counts of the non-finite values of the quantity, shown in the title.
     pub non_finite: NonFinite,
-    /// Whose they are.
+    /// The run they belong to.
     pub whose: SeriesId,
 }
 
-/// What a chart shows, and how.
+/// The data and options of a chart.
 #[derive(Clone, Copy, Debug)]
 pub struct Chart<'a> {
-    /// The quantity.
+    /// The name of the quantity.
     pub title: &'a str,
-    /// One run's values, or two runs'.
+    /// The values of one or two runs.
     pub curves: &'a [Curve<'a>],
     /// Shots at the left and the right edge, see [`whole`].
     pub shots: (f64, f64),
-    /// The ends of the scale of values; without them, those of what is to be seen.
+    /// The ends of the value axis; if `None`, chosen from the visible values.
     pub values: Option<(f64, f64)>,
-    /// Whether the scale is logarithmic.
+    /// Whether the value axis is logarithmic.
     pub log: bool,
-    /// The length of the exponential mean as a share of the range of shots; 0 shows the values alone.
+    /// Length of the exponential mean as a fraction of the visible range of shots; 0 turns smoothing off.
     pub smoothing: f64,
-    /// Whether keys act on this chart.
+    /// Whether this chart has the keyboard focus.
     pub selected: bool,
-    /// Whether the last row has the labels of shots.
+    /// Whether the last row shows labels of shots.
     pub with_shots: bool,
-    /// What a shot is called there.
+    /// The unit shown there.
     pub unit: &'a str,
-    /// A remark: in place of the curve where there is nothing to show yet, else in the title if there is room.
+    /// A note: shown in place of the curve while there are no data, otherwise in the title if there is room.
     pub note: Option<&'a str>,
 }
 
 impl Chart<'_> {
-    /// The curves from the lowest to the uppermost.
+    /// The curves in drawing order, the uppermost last.
     fn ordered(&self) -> impl DoubleEndedIterator<Item = &Curve<'_>> {
         let of = |whose| self.curves.iter().filter(move |curve| curve.whose == whose);
         of(SeriesId::Other).chain(of(SeriesId::Own))
     }
 
-    /// Over how many shots the curves are smoothed, if they are.
+    /// Smoothing length in shots, or `None` if the curves are not smoothed.
     fn length(&self) -> Option<f64> {
         let length = self.smoothing * (self.shots.1 - self.shots.0);
         (length > 0.0 && length.is_finite()).then_some(length)
@@ -94,12 +94,12 @@ impl Chart<'_> {
         self.curves.iter().any(|curve| !curve.points.is_empty())
     }
 
-    /// Whether a point reaches into the range of shots.
+    /// Whether a point overlaps the visible range of shots.
     fn shows(&self, point: &Point) -> bool {
         point.shots.1 as f64 >= self.shots.0 && point.shots.0 as f64 <= self.shots.1
     }
 
-    /// The scale for what is to be seen; where nothing is, for what lies around.
+    /// The scale for the visible values; if there are none, for all values.
     fn scale(&self) -> Option<Scale> {
         let points = || self.curves.iter().flat_map(|curve| curve.points);
         let ends = |(low, high): (f64, f64), (min, max): (f64, f64)| (low.min(min), high.max(max));
@@ -112,7 +112,7 @@ impl Chart<'_> {
     }
 }
 
-/// The smallest and the largest value of a point that its scale can show.
+/// Smallest and largest value of a point that the scale can show.
 fn values(point: &Point, log: bool) -> Option<(f64, f64)> {
     let span = point.finite?;
     if !log {
@@ -122,17 +122,17 @@ fn values(point: &Point, log: bool) -> Option<(f64, f64)> {
     Some((min, span.max))
 }
 
-/// The range of shots that shows all of a run that has played `shots` of `planned`: from 0 to the next of 1, 2 and 5 times
-/// a power of ten, or to the plan where that comes first. It grows seldom, because each time everything is drawn again.
+/// The range of shots that shows a whole run of `shots` out of `planned` shots: from 0 to the next of 1, 2 and 5 times a power of ten, or
+/// to the planned number if that is smaller. It changes seldom, because each change redraws everything.
 pub fn whole(shots: u64, planned: Option<u64>) -> (f64, f64) {
-    /// Shots that the smallest range shows.
+    /// Size of the smallest range, shots.
     const FIRST: u64 = 1000;
     let next = Step::at_least(shots.max(FIRST) as f64).value();
     let planned = planned.filter(|planned| *planned >= shots.max(1)).map(|planned| planned as f64);
     (0.0, planned.map_or(next, |planned| planned.min(next)))
 }
 
-/// A piece of a curve, for a legend.
+/// A sample of a curve for a legend.
 pub fn curve_mark(whose: SeriesId, theme: &Theme, caps: Capabilities) -> Span<'static> {
     let layer = match whose {
         SeriesId::Own => Layer::Own,
@@ -141,8 +141,8 @@ pub fn curve_mark(whose: SeriesId, theme: &Theme, caps: Capabilities) -> Span<'s
     grid::sample(layer, caps, theme)
 }
 
-/// Draws `chart` into `area`: its title in the first row, the labels of values to the left of the plot, and those of shots
-/// in the last row if they are asked for.
+/// Draws `chart` into `area`: its title in the first row, the value labels left of the plot, and the labels of shots in the last row if
+/// requested.
 pub fn draw_chart(chart: &Chart, area: Rect, ui: &mut Ui) {
     let area = area.intersection(ui.buffer.area);
     if area.is_empty() {
@@ -183,11 +183,11 @@ pub fn draw_chart(chart: &Chart, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// A range that one can divide by.
+/// Returns a finite range with a positive length.
 fn sound(shots: (f64, f64)) -> (f64, f64) {
     let start = if shots.0.is_finite() { shots.0.clamp(-1e18, 1e18) } else { 0.0 };
     let end = if shots.1.is_finite() { shots.1.clamp(-1e18, 1e18) } else { 0.0 };
-    // Beyond 2^53 one more shot would change nothing.
+    // Above 2^53, adding one shot would not change the number.
     if end - start >= 1.0 { (start, end) } else { (start, start + 1.0_f64.max(start.abs() * 1e-9)) }
 }
 
@@ -206,7 +206,7 @@ fn draw_curves(chart: &Chart, scale: Scale, grid: &mut Grid) {
     }
 }
 
-/// The axis of values with its labels, left of the plot, and the lines behind the curves.
+/// Draws the value axis with its labels, and the grid lines.
 fn draw_values(scale: Option<&Scale>, plot: Rect, grid: &mut Grid, ui: &mut Ui) {
     let axis = plot.x - 1;
     for row in plot.y..plot.bottom() {
@@ -221,7 +221,7 @@ fn draw_values(scale: Option<&Scale>, plot: Rect, grid: &mut Grid, ui: &mut Ui) 
     }
 }
 
-/// The labels of shots below the plot.
+/// Draws the labels of shots below the plot.
 fn draw_shots(chart: &Chart, area: Rect, plot: Rect, grid: &Grid, ui: &mut Ui) {
     let (mut free, mut first) = (area.x, None);
     for tick in shot_ticks(chart.shots, plot.width) {

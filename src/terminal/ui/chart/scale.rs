@@ -1,4 +1,4 @@
-//! The axis of values: a range of round numbers that changes seldom while data come in, and its ticks.
+//! The value axis: a range with round ends that changes seldom while data arrive, and its ticks.
 
 use crate::terminal::ui::chart::{label::Unit, step::Step};
 
@@ -6,14 +6,14 @@ use crate::terminal::ui::chart::{label::Unit, step::Step};
 pub const LABEL_WIDTH: usize = 6;
 /// Largest magnitude that is drawn, so that no range overflows.
 const LARGEST: f64 = 1e300;
-/// Below this a value is taken for zero.
+/// Smaller magnitudes are treated as zero.
 const SMALLEST: f64 = 1e-300;
-/// Rows between two labels, at least, and labels on an axis, at most.
-const APART: f64 = 1.9;
-const LABELS: f64 = 12.0;
-/// Decades from which on a logarithmic range ends at whole ones.
+/// Smallest distance between two labels, rows, and largest number of labels on an axis.
+const LABEL_SPACING: f64 = 1.9;
+const MAX_LABELS: f64 = 12.0;
+/// Number of decades above which a logarithmic range ends at whole decades.
 const FEW_DECADES: f64 = 2.0;
-/// Decades between two labels of a logarithmic range, to choose from.
+/// Possible distances between two labels of a logarithmic range, decades.
 const DECADES: [i32; 8] = [1, 2, 3, 5, 10, 20, 50, 100];
 
 /// A range of values.
@@ -21,22 +21,22 @@ const DECADES: [i32; 8] = [1, 2, 3, 5, 10, 20, 50, 100];
 pub struct Scale {
     low: f64,
     high: f64,
-    /// The unit of the ends; `None` is a logarithmic scale.
+    /// The step that the ends are multiples of; `None` for a logarithmic scale.
     step: Option<Step>,
 }
 
-/// A value with its label.
+/// A tick with its label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Where it lies between the bottom (0) and the top (1).
+    /// Position between the bottom (0) and the top (1).
     pub at: f64,
-    /// Its label, empty where none fits.
+    /// The label, empty if none fits.
     pub label: String,
 }
 
 impl Scale {
-    /// The scale for values from `min` to `max`, both finite. The ends are multiples of a step of 1, 2 or 5 times a power
-    /// of ten that goes two to five times into the range: growing data change it seven times a decade.
+    /// Creates a linear scale for values from `min` to `max`, both finite. The ends are multiples of a step of 1, 2 or 5 times a power of
+    /// ten, and the range is two to five steps long. Growing data change the range seven times per decade.
     pub fn linear(min: f64, max: f64) -> Self {
         let round = |value: f64| if value.abs() < SMALLEST { 0.0 } else { value.clamp(-LARGEST, LARGEST) };
         let (mut low, mut high) = (round(min), round(max));
@@ -55,7 +55,7 @@ impl Scale {
             let ends = [step.times(step.count_down(low)), step.times(step.count_up(high))];
             let unit = Unit::new(ends[0].abs().max(ends[1].abs()), step);
             let narrow = |value: &f64| unit.label(*value).len() <= LABEL_WIDTH;
-            // Exponents of three digits after a minus fit no range; such ends go without a label.
+            // Exponents of three digits after a minus sign never fit; such ends get no label.
             if ends.iter().all(narrow) || step.value() > high.max(-low) {
                 return Self { low: ends[0], high: ends[1], step: Some(step) };
             }
@@ -63,8 +63,8 @@ impl Scale {
         }
     }
 
-    /// The logarithmic scale for values from `min` to `max`, both positive: whole decades, or 1, 2 and 5 times powers of
-    /// ten where there are few.
+    /// Creates a logarithmic scale for values from `min` to `max`, both positive. It ends at whole decades, or at 1, 2 or 5 times a power
+    /// of ten if the range is short.
     pub fn logarithmic(min: f64, max: f64) -> Self {
         let round = |value: f64| value.clamp(SMALLEST, LARGEST);
         let (mut low, mut high) = (Step::at_most(round(min)), Step::at_least(round(max)));
@@ -78,17 +78,17 @@ impl Scale {
         Self { low: low.value(), high: high.value(), step: None }
     }
 
-    /// Where `value` lies: 0 is the bottom, 1 the top; `None` where a logarithmic scale has no place for it.
+    /// Position of `value`: 0 is the bottom, 1 the top; `None` if a logarithmic scale cannot show it.
     pub fn place(&self, value: f64) -> Option<f64> {
         if self.step.is_some() {
-            // Halves, because the difference of the ends' may overflow.
+            // Halves, because the difference of the ends may overflow.
             Some((value / 2.0 - self.low / 2.0) / (self.high / 2.0 - self.low / 2.0))
         } else {
             (value > 0.0).then(|| (value.log10() - self.low.log10()) / self.decades())
         }
     }
 
-    /// The ticks of a plot of `rows` rows, upwards.
+    /// The ticks of a plot of `rows` rows, from the bottom up.
     pub fn ticks(&self, rows: u16) -> Vec<Tick> {
         match rows {
             0 => Vec::new(),
@@ -98,7 +98,7 @@ impl Scale {
                     Some(step) => self.linear_ticks(step, rows),
                     None => self.logarithmic_ticks(rows),
                 };
-                // Two ends say more than one of them and something between.
+                // Two labelled ends are more useful than one end and a value in between.
                 let reach = ticks.last().map_or(0.0, |last| last.at) - ticks.first().map_or(0.0, |first| first.at);
                 if ticks.len() < 2 || (ticks.len() == 2 && reach < 0.99) { self.ends() } else { ticks }
             }
@@ -113,7 +113,7 @@ impl Scale {
             let narrow = |value| unit.label(value).len() <= LABEL_WIDTH;
             f64::from(rows - 1) * share(step) >= spacing(rows) && narrow(self.low) && narrow(self.high)
         };
-        // Large plots have room for finer ones than the range is made of.
+        // Large plots have room for finer steps than that of the ends.
         let mut step = step.previous().previous();
         while !fits(step) && share(step) < 1.0 {
             step = step.next();
@@ -139,7 +139,7 @@ impl Scale {
         ticks
     }
 
-    /// The length of a logarithmic range; as a difference, because the quotient of the ends may overflow.
+    /// Length of a logarithmic range in decades; a difference of logarithms, because the quotient of the ends may overflow.
     fn decades(&self) -> f64 {
         self.high.log10() - self.low.log10()
     }
@@ -157,14 +157,14 @@ impl Scale {
     }
 }
 
-/// Rows between two labels of a plot of `rows` rows, at least.
+/// Smallest distance between two labels in a plot of `rows` rows.
 fn spacing(rows: u16) -> f64 {
-    APART.max(f64::from(rows) / LABELS)
+    LABEL_SPACING.max(f64::from(rows) / MAX_LABELS)
 }
 
-/// The ticks of shots between the ends of `shots` for a plot of `width` columns: far enough apart for their labels.
+/// The ticks for shots between the ends of `shots` in a plot of `width` columns, far enough apart for their labels.
 pub fn shot_ticks(shots: (f64, f64), width: u16) -> Vec<Tick> {
-    /// Columns between two labels, at least.
+    /// Smallest gap between two labels, columns.
     const GAP: usize = 3;
     let range = shots.1 - shots.0;
     let mut step = Step::at_least((range / f64::from(width.max(1))).max(1.0));
@@ -173,7 +173,7 @@ pub fn shot_ticks(shots: (f64, f64), width: u16) -> Vec<Tick> {
         let ends = [step.count_up(shots.0), step.count_down(shots.1)];
         let widest = ends.into_iter().map(|count| unit.label(step.times(count)).len()).max().unwrap_or(0);
         let columns = f64::from(width.saturating_sub(1)) * (step.value() / range);
-        if columns >= ((widest + GAP) as f64).max(f64::from(width) / LABELS) || step.value() > range {
+        if columns >= ((widest + GAP) as f64).max(f64::from(width) / MAX_LABELS) || step.value() > range {
             let tick = |count| {
                 let value = step.times(count);
                 Tick { at: (value - shots.0) / range, label: unit.label(value) }
@@ -277,7 +277,7 @@ mod tests {
             rows in 1_u16..60,
             log: bool,
         ) {
-            // Half of the cases with both ends of one size, which is where labels grow long.
+            // In half of the cases both ends have similar magnitudes, which gives long labels.
             let other = if rows % 2 == 0 { other } else { one * (1.0 + near * 1e-3) };
             let (one, other) = if log { (one.abs().max(1e-320), other.abs().max(1e-320)) } else { (one, other) };
             let (min, max) = (one.min(other).max(-f64::MAX), one.max(other).min(f64::MAX));
@@ -289,7 +289,7 @@ mod tests {
                 prop_assert!(!sound(value) || (-1e-6..=1.0 + 1e-6).contains(&place), "{} in {:?}", place, scale);
             }
             let ticks = scale.ticks(rows);
-            prop_assert!(!ticks.is_empty() && ticks.len() <= LABELS as usize + 1, "{:?}", ticks);
+            prop_assert!(!ticks.is_empty() && ticks.len() <= MAX_LABELS as usize + 1, "{:?}", ticks);
             let differ = |one: &Tick, next: &Tick| one.label != next.label || one.label.is_empty();
             prop_assert!(ticks.is_sorted_by(|one, next| one.at < next.at && differ(one, next)), "{:?}", ticks);
             for tick in &ticks {

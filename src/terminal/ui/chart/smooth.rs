@@ -2,13 +2,14 @@
 
 use crate::learning::run::history::Point;
 
-/// The exponential mean over `length` shots at the end of each point, from the points' means; `None` where a point has
-/// none. A point counts for the shots since the one before, so that a line and several weigh alike. Only what came
-/// before counts, so that the curve stays as drawn when more comes, and the start is not drawn towards zero: the mean is
-/// divided by the weight that it has collected, as Kingma & Ba, "Adam" (2015), section 3 do.
+/// Exponential mean over `length` shots at the end of each point, computed from the means of the points; `None` for a point without one.
+///
+/// A point is weighted by the number of shots since the previous one, so that thinned and full data give the same curve. The mean uses past
+/// points only, so that a drawn curve never changes. It is divided by the collected weight, so that the start is not biased towards zero
+/// (Kingma & Ba, "Adam", 2015, section 3).
 pub fn smooth(points: &[Point], length: f64) -> Vec<Option<f64>> {
     let ends = || points.iter().filter(|point| point.finite.is_some()).map(|point| point.shots.1);
-    // What the first point counts for is not known; as much as the second will do.
+    // The weight of the first point is unknown; that of the second is used.
     let first = ends().zip(ends().skip(1)).next().map_or(1, |(first, second)| second - first);
     let (mut sum, mut weight, mut before) = (0.0, 0.0, None);
     let mut next = |point: &Point| {

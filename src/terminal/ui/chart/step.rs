@@ -1,4 +1,4 @@
-//! Round numbers: 1, 2 and 5 times powers of ten, as the steps of axes and their labels.
+//! Round numbers, 1, 2 and 5 times powers of ten, as steps of axes and labels.
 
 /// 1, 2 or 5 times a power of ten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -7,11 +7,11 @@ pub struct Step {
     power: i32,
 }
 
-/// How far off a round number may be by rounding alone, as a share of it.
+/// Relative tolerance for rounding errors of round numbers.
 const ROUNDING: f64 = 1e-9;
 
 impl Step {
-    /// The largest step that is at most `value`, which has to be positive and finite.
+    /// The largest step not above `value`, which must be positive and finite.
     pub fn at_most(value: f64) -> Self {
         let mut power = value.log10().floor() as i32;
         let mut lead = value / power_of_ten(power);
@@ -26,18 +26,18 @@ impl Step {
         Self { digit, power }
     }
 
-    /// The smallest step that is at least `value`, which has to be positive and finite.
+    /// The smallest step not below `value`, which must be positive and finite.
     pub fn at_least(value: f64) -> Self {
         let below = Self::at_most(value);
         if below.value() >= value * (1.0 - ROUNDING) { below } else { below.next() }
     }
 
-    /// The power of ten itself.
+    /// The step 10^`power`.
     pub const fn decade(power: i32) -> Self {
         Self { digit: 1, power }
     }
 
-    /// The next larger one.
+    /// The next larger step.
     #[must_use]
     pub const fn next(self) -> Self {
         match self.digit {
@@ -47,7 +47,7 @@ impl Step {
         }
     }
 
-    /// The next smaller one.
+    /// The next smaller step.
     #[must_use]
     pub const fn previous(self) -> Self {
         match self.digit {
@@ -57,35 +57,35 @@ impl Step {
         }
     }
 
-    /// The number.
+    /// The value of the step.
     pub fn value(self) -> f64 {
         self.times(1)
     }
 
-    /// The number `count` times.
+    /// `count` times the step.
     pub fn times(self, count: i64) -> f64 {
         let whole = (count * i64::from(self.digit)) as f64;
-        // Dividing rounds once where multiplying by a tenth would round twice: 3 / 10 is 0.3.
+        // Dividing rounds once, multiplying by a tenth would round twice: 3 / 10 is 0.3.
         if self.power < 0 { whole / power_of_ten(-self.power) } else { whole * power_of_ten(self.power) }
     }
 
-    /// How many steps fit below `value`, rounded down; more than a label could ever show is cut off.
+    /// `value` in steps, rounded down; saturates far above what a label could show.
     pub fn count_down(self, value: f64) -> i64 {
         (value / self.value() + ROUNDING).floor() as i64
     }
 
-    /// The same, rounded up.
+    /// `value` in steps, rounded up.
     pub fn count_up(self, value: f64) -> i64 {
         (value / self.value() - ROUNDING).ceil() as i64
     }
 
-    /// The power of ten of its digit.
+    /// The power of ten of the step.
     pub const fn power(self) -> i32 {
         self.power
     }
 }
 
-/// 10 to the `power`.
+/// 10^`power`.
 pub fn power_of_ten(power: i32) -> f64 {
     if power < 0 { 1.0 / 10_f64.powi(-power) } else { 10_f64.powi(power) }
 }

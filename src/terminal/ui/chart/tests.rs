@@ -1,4 +1,4 @@
-//! Charts as text: their axes, gaps, bands, and what they do in little room.
+//! Charts as text: axes, gaps, bands, and behaviour in small areas.
 
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng as _};
@@ -15,12 +15,12 @@ use crate::{
     terminal::{Capabilities, Depth, Glyphs, Keys, host::backend::AnsiBackend, ui},
 };
 
-/// A point of one line.
+/// A point from one line of metrics.
 pub fn line(shots: u64, value: f64) -> Point {
     stretch((shots, shots), &[value])
 }
 
-/// A point of several lines.
+/// A point from several lines of metrics.
 fn stretch(shots: (u64, u64), values: &[f64]) -> Point {
     let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     let count = |is: fn(&&f64) -> bool| values.iter().filter(is).count() as u64;
@@ -171,7 +171,7 @@ fn a_run_without_data_and_one_with_a_single_point() {
 fn the_whole_run_is_shown_by_a_range_that_grows_in_steps() {
     let ends = [(0, None), (1000, None), (1001, None), (210_000, None), (210_000, Some(300_000))];
     assert_eq!(ends.map(|(shots, planned)| whole(shots, planned).1), [1e3, 1e3, 2e3, 5e5, 3e5]);
-    // A plan that is far, short, or overtaken.
+    // Planned numbers that are far away, short, or already exceeded.
     let plans = [(210_000, Some(5_000_000)), (100, Some(400)), (700_000, Some(600_000)), (5, Some(0))];
     assert_eq!(plans.map(|(shots, planned)| whole(shots, planned).1), [5e5, 400.0, 1e6, 1e3]);
     assert!(whole(u64::MAX, Some(u64::MAX)).1 >= 1e19);
@@ -220,7 +220,7 @@ fn a_part_of_a_curve_is_the_same_curve_cut_off() {
         let curves = [curve(points, SeriesId::Own)];
         picture(&Chart { shots: (3000.0, 5000.0), ..chart("", &curves) }, (60, 12), Capabilities::TRUE_COLOUR)
     };
-    // One point beyond either end, as the history gives them.
+    // One point beyond either end, as the history returns them.
     let plot = |text: &str| text.lines().skip(1).collect::<Vec<_>>().join("\n");
     assert_eq!(plot(&frame(&all)), plot(&frame(&all[119..202])));
 }
@@ -260,7 +260,7 @@ proptest! {
     }
 }
 
-/// Line `n` of a run that gets better, with noise.
+/// Metrics line `n` of a run that improves, with noise.
 fn record(n: u64, random: &mut Xoshiro256PlusPlus) -> Record {
     let learnt = 1.0 - (-(n as f64) / 1500.0).exp();
     let mut noise = |size: f64| size * (random.random::<f64>() + random.random::<f64>() - 1.0);

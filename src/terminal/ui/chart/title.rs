@@ -1,4 +1,4 @@
-//! A chart's first row: what it shows and how, what is wrong with the data, and the last value.
+//! The title row of a chart: its quantity and options, problems in the data, and the last value.
 
 use ratatui::{
     layout::Rect,
@@ -18,9 +18,9 @@ use crate::{
     },
 };
 
-/// What is left out first where the row is too short.
+/// Priority of a part; the lowest is dropped first if the row is too short.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Need {
+enum Priority {
     Note,
     Smoothing,
     Log,
@@ -30,32 +30,32 @@ enum Need {
     Title,
 }
 
-/// Between two parts on the right.
+/// Gap between two parts at the right.
 const GAP: &str = "  ";
 
 /// A part of the row.
 struct Part {
-    need: Need,
+    priority: Priority,
     text: String,
     style: Style,
 }
 
-/// Draws the row over a rule.
+/// Draws the title row over a rule.
 pub fn draw_chart_title(chart: &Chart, area: Rect, ui: &mut Ui) {
     let width = usize::from(area.width);
     let rule = ui.caps.pick("─", "-");
     ui.buffer.set_stringn(area.x, area.y, rule.repeat(width), width, ui.theme.rule());
     let (mut left, mut right) = (left(chart, ui.theme, ui.caps), right(chart, ui.theme, ui.caps));
-    let taken = |parts: &[Part], gap: usize| {
+    let width_of = |parts: &[Part], gap: usize| {
         let texts: usize = parts.iter().map(|part| Span::raw(&part.text).width()).sum();
         texts + gap * parts.len().saturating_sub(1)
     };
-    // The beginning of the rule, and a blank on either side of both texts.
-    while taken(&left, 0) + 3 + taken(&right, GAP.len()) + usize::from(!right.is_empty()) * 2 > width {
-        let least = left.iter().chain(&right).map(|part| part.need).min();
-        let Some(need) = least.filter(|need| *need < Need::Title) else { break };
-        left.retain(|part| part.need != need);
-        right.retain(|part| part.need != need);
+    // The start of the rule, and a blank at either side of both texts.
+    while width_of(&left, 0) + 3 + width_of(&right, GAP.len()) + usize::from(!right.is_empty()) * 2 > width {
+        let least = left.iter().chain(&right).map(|part| part.priority).min();
+        let Some(priority) = least.filter(|priority| *priority < Priority::Title) else { break };
+        left.retain(|part| part.priority != priority);
+        right.retain(|part| part.priority != priority);
     }
     let mut x = ui.buffer.set_stringn(area.x + u16::from(width > 1), area.y, " ", width.min(1), ui.theme.text()).0;
     let mut write = |x: u16, text: &str, style: Style| {
@@ -67,7 +67,7 @@ pub fn draw_chart_title(chart: &Chart, area: Rect, ui: &mut Ui) {
     }
     write(x, " ", ui.theme.text());
     if !right.is_empty() {
-        let mut x = area.right().saturating_sub(taken(&right, GAP.len()) as u16 + 2).max(x);
+        let mut x = area.right().saturating_sub(width_of(&right, GAP.len()) as u16 + 2).max(x);
         for (n, part) in right.iter().enumerate() {
             x = write(x, if n == 0 { " " } else { GAP }, ui.theme.text());
             x = write(x, &part.text, part.style);
@@ -83,16 +83,17 @@ fn left(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
         (true, false) => theme.accent(),
         (false, _) => theme.text(),
     };
-    let mut parts = vec![Part { need: Need::Title, text: chart.title.to_owned(), style }];
-    let mut add = |need, text: &str| parts.push(Part { need, text: format!("{dot}{text}"), style: theme.faint() });
+    let mut parts = vec![Part { priority: Priority::Title, text: chart.title.to_owned(), style }];
+    let mut add =
+        |priority, text: &str| parts.push(Part { priority, text: format!("{dot}{text}"), style: theme.faint() });
     if chart.log {
-        add(Need::Log, "log");
+        add(Priority::Log, "log");
     }
     if chart.length().is_some() {
-        add(Need::Smoothing, &format!("smooth {} %", (1000.0 * chart.smoothing).round() / 10.0));
+        add(Priority::Smoothing, &format!("smooth {} %", (1000.0 * chart.smoothing).round() / 10.0));
     }
     if let Some(note) = chart.note.filter(|_| chart.has_points()) {
-        add(Need::Note, note);
+        add(Priority::Note, note);
     }
     parts
 }
@@ -105,19 +106,20 @@ fn right(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
             (SeriesId::Other, false) => theme.text().fg(theme.curves[1]),
             (SeriesId::Other, true) => theme.text().add_modifier(Modifier::DIM),
         };
-        let mut add = |need, text: String| parts.extend((!text.is_empty()).then_some(Part { need, text, style }));
-        add(Need::NotPositive, not_positive_words(curve, chart, caps));
-        add(Need::NonFinite, non_finite_words(curve.non_finite, caps));
+        let mut add =
+            |priority, text: String| parts.extend((!text.is_empty()).then_some(Part { priority, text, style }));
+        add(Priority::NotPositive, not_positive_words(curve, chart, caps));
+        add(Priority::NonFinite, non_finite_words(curve.non_finite, caps));
     }
     let own = chart.curves.iter().find(|curve| curve.whose == SeriesId::Own);
     let last = own.and_then(|own| own.points.iter().rfind(|point| point.shots.0 as f64 <= chart.shots.1));
     if let Some((text, style)) = last.map(|last| value(last, theme, caps)) {
-        parts.push(Part { need: Need::Value, text, style });
+        parts.push(Part { priority: Priority::Value, text, style });
     }
     parts
 }
 
-/// The last value, or what stands in its place.
+/// The last value, or a symbol if it is not finite.
 fn value(point: &Point, theme: &Theme, caps: Capabilities) -> (String, Style) {
     let infinity = caps.pick("∞", "inf");
     match (point.finite, point.non_finite) {
@@ -128,7 +130,7 @@ fn value(point: &Point, theme: &Theme, caps: Capabilities) -> (String, Style) {
     }
 }
 
-/// The values that are not finite, if there are any.
+/// Counts of the non-finite values; empty if there are none.
 fn non_finite_words(non_finite: NonFinite, caps: Capabilities) -> String {
     let (infinity, times) = (caps.pick("∞", "inf"), caps.pick("×", "x"));
     let counts = [("NaN", "", non_finite.nan), ("", infinity, non_finite.above), ("-", infinity, non_finite.below)];
@@ -136,7 +138,7 @@ fn non_finite_words(non_finite: NonFinite, caps: Capabilities) -> String {
     named.map(|(sign, name, count)| format!("{sign}{name} {times}{count}")).collect::<Vec<_>>().join(" ")
 }
 
-/// The values in the range of shots that a logarithmic scale leaves out, if there are any.
+/// Count of the visible values that a logarithmic scale cannot show; empty if there are none.
 fn not_positive_words(curve: &Curve, chart: &Chart, caps: Capabilities) -> String {
     let visible = curve.points.iter().filter(|point| chart.log && chart.shows(point));
     let count: u64 = visible.filter_map(|point| point.finite).map(|span| span.not_positive).sum();

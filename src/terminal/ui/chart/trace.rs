@@ -1,4 +1,4 @@
-//! A curve as runs of dots: no hole between neighbours, and no peak lost.
+//! Curves as runs of dots, without holes between neighbours and without losing a peak.
 
 use crate::{
     learning::run::history::Point,
@@ -9,16 +9,16 @@ use crate::{
     },
 };
 
-/// Where a point lies, in columns and rows of dots, with fractions.
+/// Position of a point, in columns and rows of dots, with fractions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Mark {
     /// First and last column.
     x: (f64, f64),
-    /// The rows of the largest value, the mean and the smallest.
+    /// Rows of the largest value, the mean and the smallest value.
     y: [f64; 3],
 }
 
-/// What a plot shows: the shots from its left to its right edge, and the values from its bottom to its top.
+/// The visible ranges of a plot.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     /// Shots at the left and right edge.
@@ -28,7 +28,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Draws every value of `points`: from the smallest to the largest of each, and joined where nothing interrupts.
+    /// Draws all values of `points`: a bar from the smallest to the largest of each, joined with its neighbours except across gaps.
     pub fn draw_values(&self, points: &[Point], layer: Layer, grid: &mut Grid) {
         let marks: Vec<_> = points.iter().map(|point| self.mark(point, grid)).collect();
         draw(&marks, layer, grid);
@@ -44,7 +44,7 @@ impl Frame {
         draw(&marks, layer, grid);
     }
 
-    /// The row of dots of a share of the height, from the bottom.
+    /// The row of dots at a fraction of the height, measured from the bottom.
     pub fn row_at(share: f64, grid: &Grid) -> f64 {
         (1.0 - share) * f64::from(grid.size().1 - 1)
     }
@@ -52,7 +52,7 @@ impl Frame {
     fn mark(&self, point: &Point, grid: &Grid) -> Option<Mark> {
         let span = point.finite?;
         let top = self.row(span.max, grid)?;
-        // Of values that a logarithmic scale cannot show, those that it can are shown.
+        // If a logarithmic scale cannot show all values of the point, those that it can are shown.
         let middle = self.row(span.mean, grid).unwrap_or(top);
         let bottom = self.row(span.min, grid).unwrap_or(middle);
         let x = (self.column(point.shots.0, grid), self.column(point.shots.1, grid));
@@ -68,7 +68,7 @@ impl Frame {
     }
 }
 
-/// Draws marks that follow one another; `None` interrupts.
+/// Draws successive marks; `None` is a gap.
 fn draw(marks: &[Option<Mark>], layer: Layer, grid: &mut Grid) {
     let mut before: Option<Mark> = None;
     for (n, mark) in marks.iter().enumerate() {
@@ -83,8 +83,8 @@ fn draw(marks: &[Option<Mark>], layer: Layer, grid: &mut Grid) {
     }
 }
 
-/// Fills a mark's columns from its largest value to its smallest. One without neighbours gets a second row and column
-/// where dots are small, so that it is seen.
+/// Fills a mark's columns from its largest to its smallest value. With small dots, a mark without neighbours gets an extra row and column
+/// to be visible.
 fn block(mark: &Mark, alone: bool, layer: Layer, grid: &mut Grid) {
     let width = grid.size().0;
     let (first, last) = (dot(mark.x.0), dot(mark.x.1));
@@ -95,7 +95,7 @@ fn block(mark: &Mark, alone: bool, layer: Layer, grid: &mut Grid) {
     }
 }
 
-/// Joins two points by dots of which each touches the next.
+/// Joins two points without a hole.
 fn join(from: (f64, f64), to: (f64, f64), layer: Layer, grid: &mut Grid) {
     let width = grid.size().0;
     let (first, last) = (dot(from.0), dot(to.0));
@@ -105,17 +105,17 @@ fn join(from: (f64, f64), to: (f64, f64), layer: Layer, grid: &mut Grid) {
         from.1 + (to.1 - from.1) * share
     };
     for x in first.max(0)..=last.min(width - 1) {
-        // Half a column to either side; neighbours round the same number at their common edge.
+        // Half a column to either side; neighbouring columns round the same number at their common edge.
         let left = if x == first { from.1 } else { at(f64::from(x) - 0.5) };
         let right = if x == last { to.1 } else { at(f64::from(x) + 0.5) };
         grid.set_run(layer, x, dot(left.min(right)), dot(left.max(right)));
     }
 }
 
-/// The whole dot; numbers far outside stay outside.
+/// Rounds to a dot; numbers far outside the grid stay outside.
 fn dot(place: f64) -> i32 {
     const FAR: i32 = 1_000_000;
     let far = f64::from(FAR);
-    // Cutting off a positive number rounds without a call of the mathematics library, which there would be thousands of.
+    // Truncating a positive number rounds without a call into the mathematics library; there would be thousands of calls.
     (place.clamp(-far, far) + far + 0.5) as i32 - FAR
 }

@@ -1,4 +1,4 @@
-//! Numbers at the rails: of the cue ball's cushions, where it meets them, and from where on diamonds are counted.
+//! Numbers on the rails: the order of the cue ball's cushions, and the diamond counts at the corners.
 
 use glam::DVec2;
 use ratatui::style::Modifier;
@@ -10,11 +10,10 @@ use crate::{
     terminal::{Glyphs, Mapping, ui::Ui},
 };
 
-/// Cushions that have a number: a figure is a cell.
+/// Most cushions that get a number: each number must be one digit.
 const NUMBERED: usize = 9;
 
-/// Writes 1, 2, 3 … on the cushions that the cue ball meets before the second object ball, outside the cloth, where no ball is
-/// hidden.
+/// Writes 1, 2, 3 … where the cue ball meets cushions before the second object ball: outside the cloth, so that no ball is hidden.
 pub fn draw_cushions(words: &ShotWords, table: &Table, mapping: &Mapping, ui: &mut Ui) {
     let back = if ui.caps.glyphs == Glyphs::Letters { ui.theme.background } else { ui.theme.cushion };
     let style = ui.theme.accent().bg(back).add_modifier(Modifier::BOLD);
@@ -24,7 +23,7 @@ pub fn draw_cushions(words: &ShotWords, table: &Table, mapping: &Mapping, ui: &m
     }
 }
 
-/// Writes how many diamonds away the lower left corner is, from which they are counted, at that corner and at both beside it.
+/// Writes 0 at the lower left corner, where the diamonds are counted from, and the number of diamonds at the two corners next to it.
 pub fn draw_counts(table: &Table, mapping: &Mapping, ui: &mut Ui) {
     let bed = mapping.bed;
     let back = if ui.caps.glyphs == Glyphs::Letters { ui.theme.background } else { ui.theme.wood };
@@ -36,10 +35,10 @@ pub fn draw_counts(table: &Table, mapping: &Mapping, ui: &mut Ui) {
     }
 }
 
-/// How far a number gives way to another, in cells, the nearest first: one for each that may be there.
+/// Offsets along the rail, in cells, tried for a number whose cell is taken, nearest first: one for each number.
 const WAYS: [i16; NUMBERED] = [0, 1, -1, 2, -2, 3, -3, 4, -4];
 
-/// The cells of the numbers, each of its own: where one is taken, the next gives way along its rail.
+/// The cells of the numbers, all different: a number whose cell is taken moves along its rail.
 fn cells<'a>(cushions: impl Iterator<Item = &'a Cushion>, table: &Table, mapping: &Mapping) -> Vec<(u16, u16)> {
     let bed = mapping.bed;
     let mut taken = Vec::new();

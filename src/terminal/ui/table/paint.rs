@@ -1,4 +1,4 @@
-//! The cloth as it is painted: in sub-pixels, or in letters where there are none.
+//! Painting of the cloth: in sub-pixels, or in letters on terminals without them.
 
 use glam::DVec2;
 use ratatui::style::{Color, Modifier, Style};
@@ -14,26 +14,26 @@ use crate::{
     },
 };
 
-/// Columns across a ball from which on its letter has room for brackets.
+/// Ball width in columns from which its letter gets brackets.
 const BRACKET_COLUMNS: f64 = 2.0;
-/// The signs of the balls' paths, white, yellow and red, and of their trails.
+/// Characters of the balls' paths (white, yellow, red) and of their trails.
 const DOTS: [char; BALLS] = ['·', '+', '×'];
 const PLAIN_DOTS: [char; BALLS] = ['.', '+', 'x'];
 const TRAIL: [char; 2] = ['•', '*'];
-/// That of another shot's way.
+/// Characters of the second shot's path.
 const OTHER: [char; 2] = ['=', '='];
 
-/// Those of a way through the air, and of the shadow of a ball there.
+/// Characters of a path in the air, and of the shadow of a ball in the air.
 const ALOFT: char = '\'';
 const SHADOW: [char; 2] = ['○', 'o'];
 
 /// Weights of what shares a cell (see [`Ink`]).
 const DOT_WEIGHT: u8 = 3;
 const RING_WEIGHT: u8 = 4;
-/// More than that of all other sub-pixels of a cell together: a ball is to be whole, whatever passes by.
+/// More than all other sub-pixels of a cell together: a ball stays whole, whatever shares its cells.
 const BALL_WEIGHT: u8 = 32;
 
-/// Draws the cloth with all that is on it.
+/// Draws the cloth with everything on it.
 pub fn paint(picture: &TablePicture, ui: &mut Ui) {
     match ui.caps.glyphs {
         Glyphs::Letters => in_letters(picture, ui),
@@ -41,7 +41,7 @@ pub fn paint(picture: &TablePicture, ui: &mut Ui) {
     }
 }
 
-/// A path's colour: a trail has its ball's, and what is past sinks into the cloth.
+/// Colour of a path: a trail has its ball's colour, and the past path fades into the cloth.
 fn path_color(theme: &Theme, ball: usize, age: Age) -> Color {
     match age {
         Age::Ahead => theme.paths[ball],
@@ -73,7 +73,7 @@ fn in_blocks(picture: &TablePicture, ui: &mut Ui) {
         ring(&mut canvas, ghost.place, path_color(theme, ghost.ball, ghost.age));
     }
     for (ball, place) in picture.view.film.into_iter().flatten().enumerate() {
-        // A picture that is too small for a hole is paler instead.
+        // A sprite too small for an outline is drawn in a paler colour instead.
         if picture.sprite.has_hole() {
             ring(&mut canvas, place, theme.balls[ball]);
         } else {
@@ -153,7 +153,7 @@ mod tests {
 
     const AREA: Rect = Rect::new(0, 0, 64, 17);
 
-    /// The table at `time` of a shot on a table that lets balls fly, and the shot.
+    /// The table at `time` of a shot on a table where balls can fly, with the shot and the mapping.
     fn flown(layout: &str, cue: &str, time: f64, caps: Capabilities) -> (Buffer, Shot, Mapping) {
         let table = Table::default();
         let layout = Layout::parse(layout, &table).unwrap();

@@ -1,4 +1,4 @@
-//! What there is to draw on the cloth and where: the paths, the balls that are not there, and the cue.
+//! The objects drawn on the cloth and their positions: the paths, the balls, their ghosts, and the cue.
 
 use glam::DVec2;
 
@@ -11,32 +11,32 @@ use crate::{
     },
 };
 
-/// Columns from one dot of a path to the next, and where a dot is as wide as a column.
+/// Distance of the dots of a path, in columns: in most character sets, and in half blocks, where a dot is one column wide.
 const DOT_COLUMNS: f64 = 1.8;
 const HALF_DOT_COLUMNS: f64 = 2.6;
-/// Length of the cue that is drawn before the stroke, m, and the distance of its dots: it is to be a line.
+/// Length of the cue drawn before the stroke, m, and the distance of its dots, m: close enough to look like a line.
 const CUE_LENGTH: f64 = 0.4;
 const CUE_DOTS: f64 = 0.008;
-/// Dots of a dash of another shot's way, and as many that are left out after it: a tenth of a metre each.
+/// Number of dots in a dash of the second shot's path, and in the gap after it: a tenth of a metre each.
 const DASH: usize = 4;
-/// How near dots come to a ball that is not there, against one that is: there is no fourth colour.
+/// Distance that dots keep from a ghost, relative to the distance from a ball: a dot next to a ring would need a third colour in the cell.
 const GHOST_CLEAR: f64 = 0.95;
-/// How long a ball's way counts as its trail, s.
+/// Time for which a ball's recent path counts as its trail, s.
 const TRAIL: f64 = 0.4;
 
-/// Where a part of a path stands against the present.
+/// Time of a part of a path relative to the present.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Age {
-    /// The ball has not come there yet.
+    /// The ball has not reached it yet.
     Ahead,
-    /// It has just been there.
+    /// The ball has just passed it.
     Trail,
-    /// It is past.
+    /// The ball passed it earlier.
     Past,
 }
 
 impl Age {
-    /// What happens at `event` as seen at `time`, both s since the stroke.
+    /// The age of an `event` as seen at `time`, both s since the stroke.
     fn at(event: f64, time: f64) -> Self {
         match time - event {
             since if since < 0.0 => Self::Ahead,
@@ -46,7 +46,7 @@ impl Age {
     }
 }
 
-/// A ball that is not there: the cue ball at a contact, or a ball where it comes to rest.
+/// A ghost: the cue ball at a contact, or a ball at its final position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ghost {
     pub ball: usize,
@@ -54,18 +54,18 @@ pub struct Ghost {
     pub age: Age,
 }
 
-/// What is drawn of a table, with where the balls are.
+/// A view of a table with the computed positions of the balls.
 pub struct TablePicture<'a> {
     pub view: &'a TableView<'a>,
     pub caps: Capabilities,
     pub mapping: Mapping,
-    /// Seconds since the stroke, none while balls are placed.
+    /// Seconds since the stroke; zero while balls are placed.
     pub time: f64,
-    /// Where the balls are drawn, or the shadows of those in the air.
+    /// Drawn positions of the balls, or of the shadows of those in the air.
     pub balls: [DVec2; BALLS],
-    /// How high they are, m; nought of hops that nobody sees.
+    /// Heights of the balls, m; zero for hops too small to see.
     pub heights: [f64; BALLS],
-    /// Which of them have left the table.
+    /// Which balls have left the table.
     pub off_table: [bool; BALLS],
     pub sprite: Sprite,
     /// Distance from a ball from which on something else can be drawn, m.
@@ -73,17 +73,17 @@ pub struct TablePicture<'a> {
 }
 
 impl TablePicture<'_> {
-    /// Whether no ball hides a place.
+    /// Whether no ball hides a position.
     pub fn is_clear(&self, place: DVec2) -> bool {
         self.balls.iter().all(|ball| ball.distance(place) > self.clear)
     }
 
-    /// Half of a ball's picture, m.
+    /// Half the width of a ball's sprite, m.
     fn reach(&self) -> f64 {
         self.sprite.reach(&self.mapping, self.caps.glyphs)
     }
 
-    /// Whether the picture of one of these balls, or a ring in place of one, reaches into the cell of a place.
+    /// Whether the sprite of one of these balls, or a ring in its place, reaches into the cell of a position.
     pub fn has_picture(&self, place: DVec2, balls: &[DVec2]) -> bool {
         let (column, row) = self.mapping.to_cell(place);
         let Some(middle) = self.mapping.to_metres(column, row) else { return false };
@@ -91,7 +91,7 @@ impl TablePicture<'_> {
         balls.iter().any(|ball| ball.clamp(middle - half, middle + half).distance(*ball) < self.reach())
     }
 
-    /// Where the picture of a ball in the air stands: above its shadow by its height, and by enough to be seen apart.
+    /// Position of the sprite of a ball in the air: above its shadow by its height, and by at least enough to be seen separately.
     pub fn lifted(&self, ball: usize) -> DVec2 {
         let rows = match self.caps.glyphs {
             Glyphs::Letters => 1.0,
@@ -102,18 +102,18 @@ impl TablePicture<'_> {
         self.balls[ball] + if height > 0.0 { DVec2::new(0.0, height + least) } else { DVec2::ZERO }
     }
 
-    /// What else is drawn: a ball that is not there may touch one that is.
+    /// The extra marks to draw. An outline of a ball may touch a ball, a dot may not.
     pub fn spots(&self) -> impl Iterator<Item = &Spot> {
         self.view.spots.iter().filter(|spot| spot.is_ball || self.is_clear(spot.place))
     }
 
-    /// Whether a dot of a path is drawn at `place` over the table, where it is the `number`th: a way through the air is broken.
+    /// Whether the dot with this `number` of a path is drawn over the table. A path in the air is dashed.
     fn is_drawn(&self, number: usize, dot: &Dot) -> bool {
         let is_kept = !dot.is_aloft() || number.is_multiple_of(2) || self.caps.glyphs == Glyphs::Letters;
         is_kept && self.mapping.is_on_bed(dot.place) && self.is_clear(dot.place)
     }
 
-    /// Calls `draw` with each dot of the predicted paths that no ball and no ghost hides.
+    /// Calls `draw` with each visible dot of the predicted paths, that is, hidden by no ball and no ghost.
     pub fn each_dot(&self, mut draw: impl FnMut(usize, &Dot, Age)) {
         let Some(shot) = self.view.shot else { return };
         let columns = if self.caps.glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
@@ -131,22 +131,21 @@ impl TablePicture<'_> {
         }
     }
 
-    /// Calls `draw` with each dot of the cue ball's way in the other shot, in dashes, that no ball hides.
+    /// Calls `draw` with each dot of the cue ball's path in the second shot, dashed, that no ball hides.
     pub fn each_other_dot(&self, mut draw: impl FnMut(DVec2)) {
         let dots = self.view.other.map_or(&[][..], |shot| &shot.paths[0]);
         let dashes = dots.chunks(DASH).step_by(2).flatten().enumerate();
         dashes.filter(|(number, dot)| self.is_drawn(*number, dot)).for_each(|(_, dot)| draw(dot.place));
     }
 
-    /// Where balls will be: the cue ball at its first contact with each object ball, and all balls that move where they come
-    /// to rest.
+    /// The ghosts: the cue ball at its first contact with each object ball, and the final positions of all balls that move.
     pub fn ghosts(&self) -> Vec<Ghost> {
         let Some(shot) = self.view.shot.filter(|_| self.view.film.is_none()) else { return Vec::new() };
-        // A ring that a picture would cut is no ring.
+        // A ring that a sprite would cut is left out.
         let clear = self.clear.max(2.0 * self.reach());
         let is_clear = |place: DVec2, ball: usize| self.balls[ball].distance(place) > clear;
         let contacts = shot.contacts.iter().filter_map(|contact| {
-            // Pictures that are larger than the balls are to touch where the balls do.
+            // Enlarged sprites should touch where the balls do.
             let way = contact.place - contact.other;
             let place = contact.other + way.normalize_or(DVec2::X) * way.length().max(2.0 * self.reach());
             let is_clear = (0..BALLS).all(|ball| ball == contact.ball || is_clear(place, ball));
@@ -157,8 +156,7 @@ impl TablePicture<'_> {
         contacts.chain(ends.map(|(ball, place)| Ghost { ball, place, age: Age::Ahead })).collect()
     }
 
-    /// Calls `draw` along the cue, as far as it is over the cloth, and with the sign of its direction, as long as it has not
-    /// struck.
+    /// Before the stroke, calls `draw` along the part of the cue that is over the cloth, with the character of its direction.
     pub fn each_cue_dot(&self, mut draw: impl FnMut(DVec2, char)) {
         let Some(shot) = self.view.shot.filter(|_| self.view.time == 0.0) else { return };
         let ahead = DVec2::from_angle(shot.cue.phi);
@@ -169,15 +167,15 @@ impl TablePicture<'_> {
         places.for_each(|place| draw(place, sign));
     }
 
-    /// The balls, the selected one last, so that it lies on top. One that takes no part lies far beyond the table, and not just
-    /// beside it, as an enlarged picture may.
+    /// The balls in drawing order, the selected one last, on top. A ball that takes no part lies far beyond the table, not just next to it
+    /// as an enlarged sprite may; it is left out.
     pub fn order(&self) -> impl Iterator<Item = usize> {
         let selected = self.view.front;
         let all = [(selected + 1) % BALLS, (selected + 2) % BALLS, selected];
         all.into_iter().filter(|ball| !self.off_table[*ball] && self.mapping.is_on_bed(0.5 * self.balls[*ball]))
     }
 
-    /// The same, those in the air after those on the cloth, the highest last.
+    /// The balls in drawing order, those in the air after those on the cloth, the highest last.
     pub fn upwards(&self) -> Vec<usize> {
         let mut balls: Vec<usize> = self.order().collect();
         balls.sort_by(|one, other| self.heights[*one].total_cmp(&self.heights[*other]));
@@ -185,7 +183,7 @@ impl TablePicture<'_> {
     }
 }
 
-/// The sign of a line in this direction: of the four that there are, the one whose slope is nearest on the screen.
+/// The line character of a direction: of the four available, the one with the nearest slope on the screen.
 pub fn cue_sign(direction: DVec2, caps: Capabilities) -> char {
     let signs = caps.pick(['─', '╱', '│', '╲'], ['-', '/', '|', '\\']);
     // A row is as high as two columns are wide.
@@ -203,7 +201,7 @@ mod tests {
             Shot,
             ui::{
                 drawn,
-                table::{CLEAR_PICTURES, CLEAR_RADII, apart},
+                table::{CLEAR_PICTURES, CLEAR_RADII, separated},
             },
         },
     };
@@ -221,7 +219,7 @@ mod tests {
             let sprite = Sprite::new(&mapping, Glyphs::Sextant);
             let reach = sprite.reach(&mapping, Glyphs::Sextant);
             let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
-            let balls = apart(shot.recording.positions(time), 2.0 * reach);
+            let balls = separated(shot.recording.positions(time), 2.0 * reach);
             let (heights, off_table) = ([0.0; BALLS], [false; BALLS]);
             let lying =
                 TablePicture { view: &view, caps: ui.caps, mapping, time, balls, heights, off_table, sprite, clear };

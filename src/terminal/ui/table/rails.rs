@@ -1,4 +1,4 @@
-//! The rails around the cloth: wood outside, the cushion's rubber inside, sights, and where the selected ball lies.
+//! The rails around the cloth: wood outside, rubber inside, the sights, and pointers to the selected ball.
 
 use glam::DVec2;
 use ratatui::{
@@ -12,7 +12,7 @@ use crate::terminal::{
     ui::{Ui, geometry::RAIL_COLUMNS},
 };
 
-/// Draws the rails, the sights at every `diamond`, m, and pointers to `marked`, a place on the table.
+/// Draws the rails, the sights at every `diamond`, m, and pointers to `marked`, a position on the table.
 pub fn draw_rails(mapping: &Mapping, diamond: f64, marked: Option<DVec2>, ui: &mut Ui) {
     if ui.caps.glyphs == Glyphs::Letters {
         draw_lines(mapping, ui);
@@ -50,7 +50,7 @@ fn draw_blocks(mapping: &Mapping, ui: &mut Ui) {
     }
 }
 
-/// The rails where there are no blocks to paint with.
+/// Draws the rails as lines, for terminals without block characters.
 fn draw_lines(mapping: &Mapping, ui: &mut Ui) {
     let (bed, background) = (mapping.bed, ui.theme.background);
     let wood = if ui.theme.is_mono() { Color::Reset } else { ui.theme.faint };
@@ -84,7 +84,7 @@ fn draw_sights(mapping: &Mapping, diamond: f64, ui: &mut Ui) {
             break;
         }
         for x in [bed.x + column.min(bed.width - 1), bed.right() - 1 - column.min(bed.width - 1)] {
-            // The one in the middle would be two.
+            // The sight in the middle would be drawn twice.
             if 2 * column == bed.width && x < bed.x + column {
                 continue;
             }
@@ -105,7 +105,7 @@ fn draw_sights(mapping: &Mapping, diamond: f64, ui: &mut Ui) {
     }
 }
 
-/// Marks in the cushions, or between the signs of the rails, where the lines through `place` meet them.
+/// Draws marks on the rails, level with `place` in both directions.
 fn draw_pointers(mapping: &Mapping, place: DVec2, ui: &mut Ui) {
     let (bed, (x, y)) = (mapping.bed, mapping.to_cell(place));
     if ui.caps.glyphs == Glyphs::Letters {
@@ -120,7 +120,7 @@ fn draw_pointers(mapping: &Mapping, place: DVec2, ui: &mut Ui) {
         }
         return;
     }
-    // The wood or the sight in the cell's outer half stays.
+    // The wood or the sight in the outer half of the cell stays.
     for y in [bed.y - 1, bed.bottom()] {
         ui.buffer[(x, y)].set_bg(ui.theme.mark);
     }
@@ -130,7 +130,7 @@ fn draw_pointers(mapping: &Mapping, place: DVec2, ui: &mut Ui) {
     }
 }
 
-/// The block that is nearest to `row` inside its cell.
+/// The block character nearest to the fraction of `row` inside its cell.
 fn part_of_row(row: f64, glyphs: Glyphs) -> char {
     let part = |parts: f64| (row.fract() * parts) as usize;
     match glyphs {

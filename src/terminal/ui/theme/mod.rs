@@ -1,4 +1,4 @@
-//! The colours of everything on the screen, brought down to what the terminal has.
+//! Colours of everything on the screen, reduced to what the terminal supports.
 
 mod themes;
 
@@ -28,11 +28,11 @@ pub const ANSI: [Color; 16] = [
     Color::White,
 ];
 
-/// Colours by their purpose. In monochrome all of them are [`Color::Reset`]: crossterm under `NO_COLOR` turns bold and
-/// reverse off with every colour command, so that only letters and modifiers may tell things apart.
+/// Colours by purpose. In monochrome all of them are [`Color::Reset`]: under `NO_COLOR`, crossterm turns bold and reverse video off with
+/// every colour command, so only letters and modifiers may distinguish things.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Theme {
-    /// The terminal's depth, for which the colours are made.
+    /// Colour depth that the colours are made for.
     pub depth: Depth,
     /// Behind the panels.
     pub background: Color,
@@ -44,7 +44,7 @@ pub struct Theme {
     pub rule: Color,
     /// Keys, the selected ball, the present event.
     pub accent: Color,
-    /// The selected ball's place on the rails.
+    /// Pointers on the rails to the selected ball.
     pub mark: Color,
     /// A point.
     pub good: Color,
@@ -64,36 +64,36 @@ pub struct Theme {
     pub cue_ball: CueBall,
     /// The cue ball, the opponent's and the red ball.
     pub balls: [Color; 3],
-    /// Their signs among words, which have to be seen on the background.
+    /// Colours of their signs in text, visible on the background.
     pub signs: [Color; 3],
-    /// The sign of the cue ball's way among words.
+    /// Colour of the sign for the cue ball's path, in text.
     pub way_sign: Color,
-    /// The dots of their paths.
+    /// The dots of the balls' paths.
     pub paths: [Color; 3],
-    /// The dots of the cue ball's way in the shot after this one.
+    /// The dots of the cue ball's path in the next shot.
     pub way: Color,
-    /// The cue ball's face, where the tip does not meet it.
+    /// The cue ball's face, except the tip contact.
     pub face: Color,
     /// The part of the face where the tip would slip off.
     pub miscue: Color,
-    /// The tip's contact.
+    /// The tip contact.
     pub tip: Color,
-    /// The curves of a run and of the one that it is compared with.
+    /// The curves of a run and of the run compared with it.
     pub curves: [Color; 2],
-    /// All values of the two, behind their smoothed curves.
+    /// The raw values of both runs, behind their smoothed curves.
     pub bands: [Color; 2],
-    /// Outcomes of a stroke: none at all, no ball met, one, both with too few cushions, a point.
+    /// Outcomes of a stroke: no result, no ball hit, one ball hit, both hit with too few cushions, a point.
     pub outcomes: [Color; 5],
-    /// The outline of the player's errors over them.
+    /// The outline of the player's errors, drawn over the outcomes.
     pub outline: Color,
-    /// The lines behind the curves.
+    /// The grid lines behind the curves.
     pub grid: Color,
-    /// What makes words stand out beside their colour.
+    /// Modifier for emphasized words, in addition to their colour.
     pub strong: Modifier,
 }
 
 impl Theme {
-    /// The dark theme for `depth`.
+    /// Creates the dark theme for `depth`.
     pub fn new(depth: Depth) -> Self {
         let ink = |rgb, index, ansi| resolve(depth, rgb, index, ansi);
         let balls = [
@@ -144,29 +144,29 @@ impl Theme {
         }
     }
 
-    /// The same for who plays with `cue_ball`: the balls keep their colours, whichever comes first.
+    /// Adapts the theme to the player's cue ball: the balls keep their colours, but their order changes.
     #[must_use]
     pub fn with_cue_ball(&self, cue_ball: CueBall) -> Self {
         if cue_ball == self.cue_ball {
             return *self;
         }
-        // Changing twice changes nothing.
+        // Applying it twice gives the original order.
         let [balls, signs, paths] =
             [self.balls, self.signs, self.paths].map(|colours| CueBall::Yellow.ordered(colours));
         Self { cue_ball, balls, signs, paths, face: balls[0], ..*self }
     }
 
-    /// What the balls are called.
+    /// Names of the balls.
     pub const fn names(&self) -> [&'static str; 3] {
         self.cue_ball.names()
     }
 
-    /// Their letters.
+    /// Letters of the balls.
     pub fn letters(&self) -> [char; 3] {
         self.cue_ball.ordered(['W', 'Y', 'R'])
     }
 
-    /// Whether nothing but letters and modifiers tells things apart.
+    /// Whether only letters and modifiers distinguish things.
     pub fn is_mono(&self) -> bool {
         self.depth == Depth::Mono
     }
@@ -186,12 +186,12 @@ impl Theme {
         self.text().fg(self.rule)
     }
 
-    /// Style of keys and of what is selected.
+    /// Style of keys and of the selection.
     pub fn accent(&self) -> Style {
         self.text().fg(self.accent).add_modifier(self.strong)
     }
 
-    /// Style of good news.
+    /// Style of success messages.
     pub fn good(&self) -> Style {
         self.text().fg(self.good).add_modifier(self.strong)
     }
@@ -201,13 +201,14 @@ impl Theme {
         self.text().fg(self.warning).add_modifier(self.strong)
     }
 
-    /// Style of the letter of `ball` on the table: dark on the ball's own colour, which the cloth would swallow as a letter's.
+    /// Style of the letter of `ball` on the table: dark on the ball's colour. A letter in the ball's colour would be hard to see on the
+    /// cloth.
     pub fn ball_letter(&self, ball: usize) -> Style {
         let ink = resolve(self.depth, 0x0010_1418, 16, Color::Black);
         if self.is_mono() { Style::new() } else { Style::new().fg(ink).bg(self.balls[ball]) }
     }
 
-    /// The colour of a path that the ball has run: half of the path's, half of the cloth's.
+    /// Colour of a path that the ball has already run: midway between the path's colour and the cloth's.
     pub fn past(&self, ball: usize) -> Color {
         match (self.paths[ball], self.cloth) {
             (Color::Rgb(r, g, b), Color::Rgb(cloth_r, cloth_g, cloth_b)) => {
@@ -219,7 +220,7 @@ impl Theme {
         }
     }
 
-    /// The shadow of a ball in the air: half of the cloth's light.
+    /// Colour of the shadow of a ball in the air: half the brightness of the cloth.
     pub const fn shadow(&self) -> Color {
         match self.cloth {
             Color::Rgb(r, g, b) => Color::Rgb(r / 2, g / 2, b / 2),
@@ -229,20 +230,21 @@ impl Theme {
         }
     }
 
-    /// Style of the sign of `ball` among words.
+    /// Style of the sign of `ball` in text.
     pub fn ball(&self, ball: usize) -> Style {
         self.text().fg(self.signs[ball])
     }
 
-    /// That sign: on paper, where it has another colour than the ball, the white one is an outline.
+    /// The sign of a ball in text. For the white ball it is an outline if its sign has another colour than the ball, as on a light
+    /// background.
     pub fn ball_sign(&self, ball: usize) -> char {
         let is_white = self.letters()[ball] == 'W';
         if is_white && self.signs[ball] != self.balls[ball] { '○' } else { '●' }
     }
 }
 
-/// One colour of the theme at `depth`: 24 bits, xterm's number, or one of the 16. The second and third are chosen by eye:
-/// the nearest in numbers turns wood grey and yellow orange.
+/// One colour of the theme at `depth`: 24 bits, xterm's number, or one of the 16. The second and third are chosen by eye, because the
+/// numerically nearest ones turn wood grey and yellow orange.
 fn resolve(depth: Depth, rgb: u32, index: u8, ansi: Color) -> Color {
     let [_, r, g, b] = rgb.to_be_bytes();
     match depth {

@@ -1,4 +1,4 @@
-//! Whether the colours can be read and distinguished, at every depth, and by people who see fewer of them.
+//! Checks that colours are readable and distinguishable at every depth, also for colour-blind people.
 
 use ratatui::style::{Color, Modifier};
 
@@ -7,7 +7,7 @@ use crate::terminal::{
     ui::{Theme, theme::ANSI},
 };
 
-/// The 16 colours as terminals have them, in the order of their codes: the Linux console (and VGA), xterm, Visual Studio Code.
+/// The 16 ANSI colours of common terminals, in the order of their codes: Linux console (and VGA), xterm, Visual Studio Code.
 const SIXTEEN: [[u32; 16]; 3] = [
     [
         0x00_0000, 0xaa_0000, 0x00_aa00, 0xaa_5500, 0x00_00aa, 0xaa_00aa, 0x00_aaaa, 0xaa_aaaa, 0x55_5555, 0xff_5555,
@@ -23,8 +23,8 @@ const SIXTEEN: [[u32; 16]; 3] = [
     ],
 ];
 
-/// What is left of linear colours for those who lack no cones, the long, the middle or the short ones (Machado, Oliveira and
-/// Fernandes 2009, severity 1).
+/// Transformations of linear colours for normal vision, and for missing long, middle or short cones (Machado, Oliveira and Fernandes 2009,
+/// severity 1).
 const EYES: [[[f64; 3]; 3]; 4] = [
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
     [[0.152_286, 1.052_583, -0.204_868], [0.114_503, 0.786_281, 0.099_216], [-0.003_882, -0.048_116, 1.051_998]],
@@ -32,18 +32,18 @@ const EYES: [[[f64; 3]; 3]; 4] = [
     [[1.255_528, -0.076_749, -0.178_779], [-0.078_411, 0.930_809, 0.147_602], [0.004_733, 0.691_367, 0.303_900]],
 ];
 
-/// The themes that have colours, at every depth that has some.
+/// The themes with colours, at every depth with colours.
 fn themes() -> impl Iterator<Item = (ThemeName, Theme)> {
     let names = ThemeName::ALL.into_iter().filter(|name| *name != ThemeName::Mono);
     names.flat_map(|name| [Depth::True, Depth::Indexed, Depth::Ansi].map(|depth| (name, Theme::of(name, depth))))
 }
 
-/// The number among the 16 colours, if it is one of them.
+/// Index among the 16 ANSI colours, or `None`.
 fn code(color: Color) -> Option<usize> {
     ANSI.iter().position(|code| *code == color)
 }
 
-/// Linear red, green and blue of a colour on a terminal that has these 16.
+/// Linear red, green and blue of a colour on a terminal with these 16 colours.
 fn linear(color: Color, sixteen: &[u32; 16]) -> [f64; 3] {
     let bytes = match color {
         Color::Rgb(r, g, b) => [r, g, b],
@@ -63,7 +63,7 @@ fn linear(color: Color, sixteen: &[u32; 16]) -> [f64; 3] {
     })
 }
 
-/// Contrast of two colours as the Web Content Accessibility Guidelines 2.1 define it, 1 to 21.
+/// Contrast of two colours as defined by the Web Content Accessibility Guidelines 2.1, 1 to 21.
 fn contrast(one: Color, other: Color, sixteen: &[u32; 16]) -> f64 {
     let luminance = |color| {
         let [r, g, b] = linear(color, sixteen);
@@ -73,7 +73,7 @@ fn contrast(one: Color, other: Color, sixteen: &[u32; 16]) -> f64 {
     (one.max(other) + 0.05) / (one.min(other) + 0.05)
 }
 
-/// Distance of two colours in CIELAB as these eyes see them; 2 is the least that can be seen side by side.
+/// Distance of two colours in CIELAB as seen by these eyes; 2 is the smallest visible difference side by side.
 fn distance(one: Color, other: Color, sixteen: &[u32; 16], eyes: &[[f64; 3]; 3]) -> f64 {
     let lab = |color| {
         let rgb = linear(color, sixteen);
@@ -87,7 +87,7 @@ fn distance(one: Color, other: Color, sixteen: &[u32; 16], eyes: &[[f64; 3]; 3])
     lab(one).iter().zip(lab(other)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The pairs of `group` that are not so far apart on one of the terminals.
+/// The pairs of `group` that are closer than `least` on one of the terminals.
 fn too_near(what: &str, theme: &Theme, group: &[Color], least: f64, eyes: &[[f64; 3]; 3]) -> Vec<String> {
     let mut found = Vec::new();
     for (n, one) in group.iter().enumerate() {
@@ -115,13 +115,13 @@ fn text_can_be_read_in_every_theme_at_every_depth() {
         let least = match (name, theme.depth) {
             (ThemeName::HighContrast, Depth::Ansi) => 5.0,
             (ThemeName::HighContrast, _) => 7.0,
-            // The user's own grey decides.
+            // The user's palette decides about grey.
             (_, Depth::Ansi) => 3.9,
             _ => 4.5,
         };
         for style in [theme.text(), theme.faint(), theme.accent(), theme.good(), theme.warning()] {
             let color = style.fg.unwrap();
-            // Many terminals show bold words in the brighter one of the 16.
+            // Many terminals show bold text in the brighter variant of the 16 colours.
             let bold = style.add_modifier.contains(Modifier::BOLD);
             let brighter = code(color).filter(|code| bold && *code < 8).map(|code| ANSI[code + 8]);
             for color in [color].into_iter().chain(brighter) {

@@ -1,4 +1,4 @@
-//! The themes to choose from: what each changes of the dark one.
+//! The available themes, defined by their differences from the dark one.
 
 use std::{fmt, str::FromStr};
 
@@ -9,7 +9,7 @@ use crate::terminal::{
     ui::{Theme, theme::resolve},
 };
 
-/// The name of a choice of colours.
+/// Name of a theme.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ThemeName {
     /// Light on dark.
@@ -19,19 +19,19 @@ pub enum ThemeName {
     Light,
     /// White and pure colours on black.
     HighContrast,
-    /// Colours that people tell apart who see no red, green or blue (Okabe and Ito 2008).
+    /// Colours that people with any colour blindness can distinguish (Okabe and Ito 2008).
     ColourBlind,
-    /// None: letters and modifiers alone.
+    /// No colours: only letters and modifiers.
     Mono,
 }
 
-/// A name that no theme has.
+/// Error for an unknown theme name.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("there is no theme \"{0}\"; use dark, light, high-contrast, colour-blind or mono")]
 pub struct UnknownTheme(String);
 
 impl ThemeName {
-    /// All of them.
+    /// All themes.
     pub const ALL: [Self; 5] = [Self::Dark, Self::Light, Self::HighContrast, Self::ColourBlind, Self::Mono];
 
     /// Name in the configuration and on the screen.
@@ -45,7 +45,7 @@ impl ThemeName {
         }
     }
 
-    /// The next one, and the first after the last.
+    /// The next theme, wrapping at the end.
     #[must_use]
     pub fn next(self) -> Self {
         let place = Self::ALL.iter().position(|one| *one == self).unwrap_or(0);
@@ -68,7 +68,7 @@ impl FromStr for ThemeName {
 }
 
 impl Theme {
-    /// The colours of a theme for `depth`. The table itself looks the same in light and dark.
+    /// Creates a theme for `depth`. The table itself looks the same in the light and the dark theme.
     pub fn of(name: ThemeName, depth: Depth) -> Self {
         match name {
             ThemeName::Dark => Self::new(depth),
@@ -91,7 +91,7 @@ fn light(depth: Depth) -> Theme {
         accent: ink(0x0094_4f00, 94, Color::Magenta),
         good: ink(0x0016_6b30, 22, Color::Blue),
         warning: ink(0x00b4_2a1e, 124, Color::Red),
-        // A white ball and a yellow one are seen on the cloth alone.
+        // A white and a yellow ball would not be visible on the light background.
         signs: [
             ink(0x0022_282e, 235, Color::Black),
             ink(0x00ad_7b00, 136, Color::Yellow),
@@ -111,7 +111,7 @@ fn light(depth: Depth) -> Theme {
         ],
         outline: ink(0x0022_282e, 235, Color::Black),
         grid: ink(0x00cf_d2d4, 252, Color::Gray),
-        // Many terminals show bold words in the brighter one of the 16 colours, which is too pale here.
+        // Many terminals show bold text in the brighter variant of the 16 colours, which is too pale here.
         strong: if depth == Depth::Ansi { Modifier::empty() } else { Modifier::BOLD },
         ..dark
     }

@@ -1,5 +1,4 @@
-//! Words on the cloth: whose way is whose, where a stroke of the player's own is drawn beside the coach's, and what there is to see at
-//! a place.
+//! Words on the cloth: names of the two paths if the player's own stroke is drawn with the coach's, and a note at a position.
 
 use std::{collections::HashSet, f64::consts::FRAC_PI_4};
 
@@ -11,20 +10,20 @@ use crate::terminal::{
     ui::{Ui, columns, table::picture::TablePicture},
 };
 
-/// Distance of the two ways from which on the words stand there, m: two balls.
-const APART: f64 = 0.12;
-/// How far from the middle of a ball the mark of a place that it hides may stand, and the distance of two tries, m.
+/// Distance of the two paths from which on they are labelled, m: two balls.
+const LABEL_DISTANCE: f64 = 0.12;
+/// Largest distance from a ball's centre of a mark for a position that the ball hides, and the distance between two tries, m.
 const FARTHEST: f64 = 0.3;
 const STEP: f64 = 0.005;
 
-/// Writes the words, each where nothing else is.
+/// Writes the words, each in free cells.
 pub fn draw_words(picture: &TablePicture, ui: &mut Ui) {
-    name_ways(picture, ui);
+    label_paths(picture, ui);
     draw_note(picture, ui);
 }
 
-/// Writes whose each way is, where the two lie apart; nothing where they never do.
-fn name_ways(picture: &TablePicture, ui: &mut Ui) {
+/// Labels each path where the two are apart; draws nothing if they never are.
+fn label_paths(picture: &TablePicture, ui: &mut Ui) {
     let Some((own, other)) = picture.view.shot.zip(picture.view.other) else { return };
     if own.cue == other.cue {
         return;
@@ -37,7 +36,7 @@ fn name_ways(picture: &TablePicture, ui: &mut Ui) {
         [("you", own, other, theme.paths[0]), (picture.view.other_name, other, own, theme.way)]
     {
         let width = columns(text) as u16;
-        let is_apart = |place: DVec2| from.iter().all(|dot| dot.place.distance(place) > APART);
+        let is_apart = |place: DVec2| from.iter().all(|dot| dot.place.distance(place) > LABEL_DISTANCE);
         let apart = way.iter().filter(|dot| is_apart(dot.place)).map(|dot| picture.mapping.to_cell(dot.place));
         let starts = apart.flat_map(|cell| beside(cell, width, 1));
         let Some(cells) = free(picture, width, starts, &taken) else { continue };
@@ -46,14 +45,14 @@ fn name_ways(picture: &TablePicture, ui: &mut Ui) {
     }
 }
 
-/// Marks the place of the view's note, and writes that beside it.
+/// Marks the position of the view's note and writes its text next to it.
 fn draw_note(picture: &TablePicture, ui: &mut Ui) {
     let Some((place, text)) = picture.view.note.filter(|(place, _)| picture.mapping.is_on_bed(*place)) else { return };
     let mark = beside_balls(picture, place);
     let (cell, color) = (picture.mapping.to_cell(mark.unwrap_or(place)), ui.theme.mark);
     let balls: Cells = ball_cells(picture).collect();
     if mark.is_some() {
-        // The letters of ways are others.
+        // The paths use other letters.
         write(if ui.caps.glyphs == Glyphs::Letters { "*" } else { "\u{d7}" }, &[cell], color, ui);
     }
     let mut taken = balls.clone();
@@ -61,7 +60,7 @@ fn draw_note(picture: &TablePicture, ui: &mut Ui) {
         taken.insert(picture.mapping.to_cell(dot.place));
     });
     let width = columns(text) as u16;
-    // Rather over a way than far off.
+    // Covering a path is better than being far from the mark.
     let tries = [(&taken, 1), (&balls, 1), (&balls, 3)];
     let found = tries.into_iter().find_map(|(taken, rows)| free(picture, width, beside(cell, width, rows), taken));
     if let Some(cells) = found {
@@ -69,8 +68,8 @@ fn draw_note(picture: &TablePicture, ui: &mut Ui) {
     }
 }
 
-/// Where a place can be marked: there, or where a ball hides it, beside that ball on the same side of it, rather not on a ring. A ball
-/// that lies still where another comes to it hides their contact. `None` where other balls or the cushion leave no room.
+/// Where to mark a position: there, or if a ball hides it, next to that ball on the same side, preferably not on a ring. (A resting ball
+/// hides its contact with an arriving ball.) `None` if other balls or the cushion leave no room.
 fn beside_balls(picture: &TablePicture, place: DVec2) -> Option<DVec2> {
     if picture.is_clear(place) {
         return Some(place);
@@ -92,13 +91,13 @@ type Cells = HashSet<(u16, u16)>;
 /// The cells of the balls and of the ghosts.
 fn ball_cells(picture: &TablePicture) -> impl Iterator<Item = (u16, u16)> {
     let balls = picture.balls.into_iter().chain(picture.ghosts().into_iter().map(|ghost| ghost.place));
-    // A ball may reach into the rows and columns beside its middle.
+    // A ball may extend into the neighbouring rows and columns.
     balls.map(|place| picture.mapping.to_cell(place)).flat_map(|(x, y)| {
         (x.saturating_sub(2)..=x + 2).flat_map(move |x| (y.saturating_sub(1)..=y + 1).map(move |y| (x, y)))
     })
 }
 
-/// Where words of so many columns may begin beside a cell, the nearest first, up to so many rows away.
+/// Possible starts for a text of `width` columns near a cell, the nearest first, up to `rows` rows away.
 fn beside((x, y): (u16, u16), width: u16, rows: u16) -> impl Iterator<Item = (u16, u16)> {
     let (right, left) = (Some(x + 2), x.checked_sub(width + 1));
     let middle = x.saturating_sub(width / 2);
@@ -107,7 +106,7 @@ fn beside((x, y): (u16, u16), width: u16, rows: u16) -> impl Iterator<Item = (u1
     in_row(y).chain((1..=rows).flat_map(move |by| y.checked_sub(by).into_iter().chain([y + by]).flat_map(around)))
 }
 
-/// The cells of words of so many columns at the first of these starts at which nothing else is.
+/// The cells of a text of `width` columns at the first free start.
 fn free(
     picture: &TablePicture,
     width: u16,
@@ -141,7 +140,7 @@ mod tests {
         },
     };
 
-    /// The table with a note at a place, and without.
+    /// The table with a note at a position, and without.
     fn noted(layout: &Layout, place: DVec2, area: Rect, caps: Capabilities) -> [Buffer; 2] {
         let table = Table::default();
         [Some((place, "kiss 7 %")), None].map(|note| {
@@ -167,7 +166,7 @@ mod tests {
                     let at = mapping.to_metres(mark.x, mark.y).unwrap();
                     assert!((at - red).dot(way) > 0.0, "{columns} {turn}: on the side that the other comes from");
                     assert!(at.distance(red) < 0.25, "{columns} {turn}: {at}");
-                    // The picture of the ball is whole.
+                    // The sprite of the ball must stay whole.
                     let is_of_ball = |buffer: &Buffer, at| {
                         let cell = &buffer[at];
                         if caps == Capabilities::ASCII {
