@@ -95,7 +95,7 @@ impl Segment {
             }
             let slide = slide_on_slope(constants.sliding, constants.tilt, state.velocity, u);
             segment.half_acceleration = slide.half_acceleration;
-            (segment, slide.lasts)
+            (segment, slide.duration)
         } else if speed_squared > 0.0 {
             segment.roll(constants)
         } else {
@@ -116,7 +116,7 @@ impl Segment {
         if !constants.level {
             let roll = roll_on_slope(&constants.rolling, constants.tilt, self.velocity);
             self.half_acceleration = roll.half_acceleration;
-            return (self, roll.lasts);
+            return (self, roll.duration);
         }
         let (deceleration, end) = constants.rolling.band(speed);
         self.half_acceleration = self.velocity * (-0.5 * deceleration / speed);

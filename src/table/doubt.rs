@@ -1,4 +1,4 @@
-//! How well a table is known: standard deviations and correlations of its constants, and other laws that its rails may follow.
+//! Uncertainty of a table: standard deviations and correlations of its constants, and alternative rail models.
 
 use std::{collections::BTreeMap, sync::LazyLock};
 
@@ -10,60 +10,60 @@ use crate::statistics::cholesky;
 const MATCH: &str = include_str!("match_doubt.toml");
 const UNKNOWN: &str = include_str!("unknown_doubt.toml");
 
-/// How well a table's constants are known: the TOML section `[doubt]`. They are taken to be normally distributed around
-/// the table's own values; a constant that is not named is certain.
+/// Uncertainty of a table's constants: the TOML section `[doubt]`. The constants are normally distributed around the table's own values. A
+/// constant that is not listed is certain.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableDoubt {
-    /// Standard deviations by the names of the constants (`mu_s`, `rail.height`, …), in the units of the table's file.
+    /// Standard deviation by the name of the constant (`mu_s`, `rail.height`, …), in the units of the table's file.
     #[serde(default)]
     pub deviations: BTreeMap<String, f64>,
-    /// Correlations of two of them; those that are not named are 0.
+    /// Correlations of pairs of constants; 0 for pairs that are not listed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlations: Vec<(String, String, f64)>,
-    /// Laws of the rails that the real ones may follow in place of the table's own.
+    /// Rail models that the real rails may follow instead of the table's own model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub laws: Vec<OtherLaw>,
 }
 
-/// A law that the rails may follow in place of the table's own.
+/// A rail model that the real rails may follow instead of the table's own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OtherLaw {
-    /// The law.
+    /// The model.
     pub model: RailModel,
-    /// How likely it is. The table's own law has what all others leave of 1.
+    /// Probability of this model. The table's own model has the rest, up to a total of 1.
     pub weight: f64,
-    /// The constants with which this law comes nearest to what is known of the table; of those that are not named the table's own
-    /// are taken.
+    /// Constants with which this model fits the known data of the table best. Constants that are not listed keep the table's own values.
     #[serde(default)]
     pub values: BTreeMap<String, f64>,
-    /// Standard deviations in place of the table's own law's; of constants that are not named those.
+    /// Standard deviations that replace those of the table's own model. Constants that are not listed keep those.
     #[serde(default)]
     pub deviations: BTreeMap<String, f64>,
-    /// Correlations; those of the table's own law do not count.
+    /// Correlations; those of the table's own model do not apply.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlations: Vec<(String, String, f64)>,
 }
 
-/// How much of a constant's variance the others must leave open for correlations to be those of something.
+/// Smallest share of a constant's variance that the other constants must leave unexplained. Below it, the correlation matrix is not
+/// accepted as positive definite.
 const LEAST_LEFT: f64 = 1e-9;
 
-/// A constant that can be in doubt.
+/// A constant of a table that can be uncertain.
 #[derive(Debug)]
 pub(super) struct Constant {
     pub(super) name: &'static str,
     pub(super) get: fn(&Table) -> Option<f64>,
     set: fn(&mut Table, f64),
-    /// Values that draws are kept within.
+    /// Smallest and largest value that a draw can have.
     limits: (f64, f64),
 }
 
-/// Of a slope, m/s². Who draws or looks for one keeps it below the steepest that the table may have, besides.
+/// Limits of one component of the tilt, m/s². Callers that draw or fit a tilt also keep it below the steepest slope that the table accepts.
 const LEAN: (f64, f64) = (-1.0, 1.0);
 
-/// All of them. A constant that a table's model does not have is left out there. Draws take them in this order: new ones come
-/// last.
+/// All constants that can be uncertain. A constant that a table's models do not have is skipped. A sampler draws them in this order, so
+/// that new ones must be appended at the end.
 pub(super) const CONSTANTS: [Constant; 22] = [
     constant("e_rail", |table| Some(table.rail_restitution), |table, value| table.rail_restitution = value, (0.0, 1.0)),
     constant("mu_rail", |table| Some(table.rail_friction), |table, value| table.rail_friction = value, (0.0, 0.99)),
@@ -137,7 +137,7 @@ const fn constant(
     Constant { name, get, set, limits }
 }
 
-/// What a rail has of its own, by its place in [`Rail::ALL`]: its friction, or how much it gives back.
+/// Returns the constant for the friction or the restitution of one single rail; `RAIL` is its index in [`Rail::ALL`].
 const fn own<const RAIL: usize, const FRICTION: bool>(name: &'static str) -> Constant {
     const fn field<const FRICTION: bool>(own: &mut OneRail) -> &mut Option<f64> {
         if FRICTION { &mut own.mu } else { &mut own.e }
@@ -153,24 +153,24 @@ const fn own<const RAIL: usize, const FRICTION: bool>(name: &'static str) -> Con
     )
 }
 
-/// Why a doubt is refused.
+/// Why a `[doubt]` section is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum DoubtError {
-    /// A name that no constant has.
+    /// The name of no known constant.
     #[error("the doubt names \"{0}\", which is no constant that can be in doubt; accepted are {accepted}", accepted = names())]
     Unknown(String),
-    /// A standard deviation that is none.
+    /// A negative or infinite standard deviation, or NaN.
     #[error("the doubt has {0} = {1}; accepted is a standard deviation from 0 in the unit of the table's file")]
     Deviation(String, f64),
-    /// A value that a constant cannot have: both as text, and what is accepted.
+    /// A value that the constant cannot have: the assignment and the accepted range, both as text.
     #[error("the doubt has {0} under another law of the rails; accepted are numbers {1}")]
     Value(String, String),
-    /// A weight that no law can have.
+    /// The total weight of the alternative rail models, which is negative or not below 1.
     #[error(
         "the doubt gives its laws of rails the weight {0} in all; accepted are weights from 0 that come to less than 1"
     )]
     Weight(f64),
-    /// Correlations that no distribution has.
+    /// Correlations that do not form a positive definite matrix.
     #[error("the correlations of the doubt contradict each other at \"{0}\"; accepted is a positive definite matrix")]
     Correlations(String),
 }
@@ -180,10 +180,11 @@ fn names() -> String {
 }
 
 impl TableDoubt {
-    /// What is not known of `table`: what its file says, or else for `match` what the fit to the film has left open, nothing
-    /// for the tables of the thesis' equations, and for any other what real tables differ by.
+    /// Returns the uncertainty of `table`. If its file has a `[doubt]` section, that is used. Otherwise it is what the fit to the filmed
+    /// shots leaves open for `match`, no uncertainty for the tables of the thesis' equations, and the spread among real tables for any
+    /// other table.
     pub fn of(table: &Table) -> Self {
-        // Read once: the coach asks at every question. A test reads them all.
+        // Parsed once, because the coach needs it for every query. A test parses all of them.
         static KNOWN: LazyLock<Vec<(Table, TableDoubt)>> = LazyLock::new(|| {
             let judged = JUDGED.iter().filter_map(|name| Some((Table::preset(name).ok()?, TableDoubt::default())));
             judged.chain([(Table::default(), toml::from_str(MATCH).unwrap_or_default())]).collect()
@@ -193,12 +194,12 @@ impl TableDoubt {
         table.doubt.as_ref().or_else(known).unwrap_or(&OTHER).clone()
     }
 
-    /// The value of a constant; `None` where the table's models do not have it, or the name is unknown.
+    /// Returns the value of a constant; `None` if the table's models do not have it or the name is unknown.
     pub fn value(table: &Table, name: &str) -> Option<f64> {
         CONSTANTS.iter().find(|constant| constant.name == name).and_then(|constant| (constant.get)(table))
     }
 
-    /// `table` with this value of a constant, kept within its limits; unchanged where its models do not have it.
+    /// Returns `table` with a new value of a constant, clamped to its limits; unchanged if the table's models do not have it.
     #[must_use]
     pub fn with_value(table: &Table, name: &str, value: f64) -> Table {
         let mut table = table.clone();
@@ -208,12 +209,12 @@ impl TableDoubt {
         table
     }
 
-    /// Whether nothing is in doubt.
+    /// Whether no constant and no rail model is uncertain.
     pub fn is_certain(&self) -> bool {
         self.laws.is_empty() && self.deviations.values().all(|deviation| *deviation == 0.0)
     }
 
-    /// The same without any doubt about constants of these names.
+    /// Returns the same uncertainty with the constants that `is_known` accepts made certain.
     #[must_use]
     pub fn without(&self, is_known: impl Fn(&str) -> bool) -> Self {
         let mut doubt = self.clone();
@@ -226,7 +227,7 @@ impl TableDoubt {
         doubt
     }
 
-    /// What is in doubt where the rails of `table` follow another law: the table with that law, and its constants' doubt.
+    /// Returns `table` with the alternative rail model `law`, and the uncertainty of that table's constants.
     pub(super) fn under(&self, law: &OtherLaw, table: &Table) -> (Table, Self) {
         let mut other = table.clone();
         other.rail.model = law.model;
@@ -234,7 +235,7 @@ impl TableDoubt {
         other.rail.kappa = table.rail.kappa.filter(|_| law.model == RailModel::Smooth);
         for constant in &CONSTANTS {
             if let Some(value) = law.values.get(constant.name) {
-                // A constant that the table's own law does not have is one of the other's.
+                // The alternative model may have a constant that the table's own model lacks.
                 constant.give(&mut other, *value);
             }
         }
@@ -246,7 +247,7 @@ impl TableDoubt {
     /// Checks every name and number.
     ///
     /// # Errors
-    /// Where one cannot be.
+    /// The first name or number that is not accepted.
     pub fn validate(&self) -> Result<(), DoubtError> {
         let unknown = |name: &&String| !CONSTANTS.iter().any(|constant| constant.name == **name);
         let values = self.laws.iter().flat_map(|law| law.values.keys());
@@ -285,10 +286,10 @@ impl TableDoubt {
         })
     }
 
-    /// The lower triangle L of the covariance `L Lᵀ` of these constants by rows.
+    /// Returns the lower triangular Cholesky factor `L` of the covariance matrix `L Lᵀ` of these constants, row by row.
     ///
     /// # Errors
-    /// Where the correlations contradict each other.
+    /// Fails if the correlation matrix is not positive definite.
     pub fn factor(&self, names: &[&str]) -> Result<Vec<Vec<f64>>, DoubtError> {
         let correlation = |row: usize, column: usize| {
             let (row, column) = (names[row], names[column]);
@@ -312,14 +313,15 @@ impl TableDoubt {
 }
 
 impl Constant {
-    /// Gives a table this value, within the limits; one whose models do not have the constant stays as it is.
+    /// Sets the constant to `value`, clamped to the limits. Does nothing if the table's models do not have the constant.
     pub(super) fn change(&self, table: &mut Table, value: f64) {
         if (self.get)(table).is_some() {
             self.give(table, value);
         }
     }
 
-    /// Gives a table this value, within the limits; where its own lies beyond them, up to that.
+    /// Sets the constant to `value`, clamped to the limits. If the table's present value lies outside them, the range extends to that
+    /// value.
     fn give(&self, table: &mut Table, value: f64) {
         let own = (self.get)(table).unwrap_or(value);
         (self.set)(table, value.clamp(self.limits.0.min(own), self.limits.1.max(own)));
@@ -351,8 +353,8 @@ mod tests {
     #[test]
     fn a_doubt_that_cannot_be_is_refused_by_name() {
         let doubt = |text: &str| toml::from_str::<TableDoubt>(text).unwrap().validate().unwrap_err().to_string();
-        let said = doubt("deviations = { mu_x = 0.1 }");
-        assert!(said.contains("mu_x") && said.contains("mu_rail"), "{said}");
+        let message = doubt("deviations = { mu_x = 0.1 }");
+        assert!(message.contains("mu_x") && message.contains("mu_rail"), "{message}");
         assert!(doubt("deviations = { mu_s = -0.1 }").contains("mu_s = -0.1"));
         assert!(doubt("deviations = { mu_s = nan }").contains("mu_s = NaN"));
         let pair = "deviations = { mu_s = 0.1, mu_r = 0.1 }\ncorrelations = [[\"mu_s\", \"mu_r\", ";

@@ -1,35 +1,35 @@
-//! What is wrong with the values of a table's models, if anything.
+//! Validation of the constants of a table's models.
 
 use super::{Rail, RailModel, Table, models::Fade};
 
-/// The steepest slope that courses are computed for, as a share of `mu_r g`, which is where balls would roll by themselves, and of `mu_s g`,
-/// below which slides do not end by themselves.
+/// Steepest accepted slope, as a share of `mu_r g` and of `mu_s g`. At `mu_r g` balls would start to roll by themselves; at `mu_s g` a
+/// slide would never end.
 const STEEPEST: f64 = 0.2;
 
-/// Whether this coefficient of friction can be one of a cushion or of two balls.
+/// Whether `value` is an acceptable coefficient of friction of a cushion or between two balls.
 ///
-/// On a ball that the cloth does not let slip, a push `N` on its side and a friction `f` up or down there act like
-/// `5/7 (N ± f)`: from `f = N` on, friction presses a contact together by more than its push parts it, and forces that obey
-/// all laws are not unique or do not exist (Painlevé 1895).
+/// Consider a ball that the cloth does not let slip, with a push `N` on its side and vertical friction `f` at that contact. They act like
+/// `5/7 (N ± f)`: from `f = N` on, friction presses the contact together more strongly than the push separates it. Contact forces that obey
+/// all laws are then not unique or do not exist (Painlevé's paradox, 1895).
 pub(super) fn rubs(value: f64) -> bool {
     (0.0..1.0).contains(&value)
 }
 
-/// What [`rubs`] accepts.
+/// The values that [`rubs`] accepts, for error messages.
 pub(super) const RUBS: &str = "0 to below 1, where the forces of a contact are unique";
 
-/// The largest `mu_s` that goes with rails of this model. In the steps of Mathavan's law the friction of a rougher cloth would drive the
-/// ball: it would gain energy.
+/// Returns the largest `mu_s` that is accepted with this rail model. With a rougher cloth, the integration steps of Mathavan's model would
+/// let friction drive the ball, which would gain energy.
 pub(super) const fn roughest(model: RailModel) -> f64 {
     if matches!(model, RailModel::Mathavan) { 1.0 } else { f64::INFINITY }
 }
 
-/// The steepest slope that is accepted, m/s².
+/// Returns the steepest accepted slope, m/s².
 pub fn steepest_tilt(table: &Table) -> f64 {
     STEEPEST * table.rolling_friction.min(table.sliding_friction) * table.gravity
 }
 
-/// The keys of what a rail may have of its own.
+/// TOML keys of the constants that a single rail can override.
 const OWN: [(Rail, [&str; 3]); 4] = [
     (Rail::Left, ["rail.left.e", "rail.left.mu", "rail.left.height"]),
     (Rail::Right, ["rail.right.e", "rail.right.mu", "rail.right.height"]),
@@ -37,7 +37,7 @@ const OWN: [(Rail, [&str; 3]); 4] = [
     (Rail::Top, ["rail.top.e", "rail.top.mu", "rail.top.height"]),
 ];
 
-/// The first value that cannot be, with its key and what would be accepted.
+/// Returns the first invalid value, with its key and the accepted range.
 pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> {
     let Table { rail, radius, .. } = table;
     let restitution = |value: f64| (0.0..=1.0).contains(&value);
@@ -45,7 +45,7 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
         let Fade { from, slope, least } = *fade;
         (0.0..=100.0).contains(&from) && (0.0..=10.0).contains(&slope) && restitution(least)
     };
-    // The nose touches the ball between its equator and well below its top.
+    // The nose touches the ball between the equator and a height well below the ball's top.
     let height = |value: f64| (*radius..=1.6 * *radius).contains(&value);
     let mut checks = vec![
         (
@@ -58,7 +58,7 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
         (
             "tilt",
             table.tilt.length(),
-            // Courses on a slope are right to its first order: at this limit to two thousandths of the way.
+            // Trajectories on a slope are correct to first order in the slope: at this limit to 0.2 % of the path length.
             table.tilt.length() <= steepest_tilt(table),
             "at most a fifth of mu_r g and of mu_s g in m/s²; a table that slopes by 1 mm a metre has 0.0098",
         ),
