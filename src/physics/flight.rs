@@ -60,17 +60,17 @@ impl Cloth {
 
     /// Applies the impact of a ball on the cloth. The normal impulse per mass is `(1 + e_c) |v_z|`. The friction impulse is `mu_c` times
     /// that, opposite to the slip, limited by the no-slip value of two sevenths of the slip. Does nothing to a ball that moves upwards.
-    pub fn answer(&self, radius: f64, ball: &mut SpatialState) {
+    pub fn respond(&self, radius: f64, ball: &mut SpatialState) {
         if ball.velocity.z >= 0.0 {
             return;
         }
         let push = -(1.0 + self.restitution) * ball.velocity.z;
         ball.velocity.z *= -self.restitution;
-        self.rub(radius, push, ball);
+        self.apply_friction(radius, push, ball);
     }
 
     /// Applies the friction impulse on a ball that is pressed into the cloth by the impulse `push` per mass, m/s.
-    pub fn rub(&self, radius: f64, push: f64, ball: &mut SpatialState) {
+    pub fn apply_friction(&self, radius: f64, push: f64, ball: &mut SpatialState) {
         let u = slip(radius, ball.velocity.truncate(), ball.spin);
         let size = u.length();
         let friction = (self.friction * push).min(2.0 / 7.0 * size);
@@ -105,11 +105,11 @@ mod tests {
             spin: DVec3::new(0.0, 0.0, 7.0),
         };
         let mut fast = falling(3.0);
-        cloth().answer(RADIUS, &mut fast);
+        cloth().respond(RADIUS, &mut fast);
         assert!(fast.velocity.abs_diff_eq(DVec3::new(3.0 - 0.2 * 1.5, 0.0, 0.5), 1e-15), "{fast:?}");
         assert!((fast.spin - DVec3::new(0.0, 2.5 / RADIUS * 0.3, 7.0)).length() < 1e-12, "{fast:?}");
         let mut slow = falling(0.5);
-        cloth().answer(RADIUS, &mut slow);
+        cloth().respond(RADIUS, &mut slow);
         assert!(slip(RADIUS, slow.velocity.truncate(), slow.spin).length() < 1e-15);
         assert!((slow.velocity.x - 5.0 / 7.0 * 0.5).abs() < 1e-15);
     }
@@ -123,10 +123,10 @@ mod tests {
                 spin: DVec3::new(turns, turns, 3.0),
             };
             let before = ball.specific_energy(RADIUS, 9.81);
-            cloth().answer(RADIUS, &mut ball);
+            cloth().respond(RADIUS, &mut ball);
             assert!(ball.specific_energy(RADIUS, 9.81) < before);
             let rising = ball;
-            cloth().answer(RADIUS, &mut ball);
+            cloth().respond(RADIUS, &mut ball);
             assert_eq!(ball, rising);
         }
     }

@@ -198,8 +198,8 @@ fn passes_by(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64
     };
     let Some(hops) = flies.hops() else { return false };
     let state = hops.state_after(now - flies.start);
-    let way = Triangle::between(state.position.truncate(), state.velocity.truncate(), hops.last_velocity, horizon);
-    way.clears(lies.position, constants.diameter + constants.tolerance.surely_apart)
+    let triangle = Triangle::between(state.position.truncate(), state.velocity.truncate(), hops.last_velocity, horizon);
+    triangle.clears(lies.position, constants.diameter + constants.tolerance.surely_apart)
 }
 
 /// Returns when two balls collide, at least one of which is in the air, within `horizon` seconds of time `now`.

@@ -13,7 +13,7 @@ use super::{
     contacts::{PAIRS_OF, is_in_corner, put_at_cushion},
     cushions::cushion_ahead,
     engine::{Ball, ContactMode, Engine},
-    guards::MOST_TURNS,
+    guards::MAX_ITERATIONS,
     predict::Ahead,
     savings::Savings,
 };
@@ -37,8 +37,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let near = (constants.diameter + constants.tolerance.touching).powi(2);
         let mut ball = self.balls[index].alone();
         loop {
-            self.turns += 1;
-            if self.turns > MOST_TURNS {
+            self.iterations += 1;
+            if self.iterations > MAX_ITERATIONS {
                 break;
             }
             let Ball { segment, lasts, rail_after, rail, .. } = &ball;
@@ -74,14 +74,15 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.observer.segment(index, segment, next);
             }
             *now = next;
-            let flow = kind.map_or(ControlFlow::Continue(()), |kind| self.tell(next, kind));
+            let flow = kind.map_or(ControlFlow::Continue(()), |kind| self.report(next, kind));
             let (ahead, rail) = cushion_ahead::<S>(constants, &after, lasts_after);
             let rail_after = if let Ahead::Meeting(after) = ahead { after } else { f64::INFINITY };
             ball = Ball { segment: after, lasts: lasts_after, rail_after, rail, mode: ContactMode::Free };
             let Segment { position, velocity, half_acceleration, .. } = ball.segment;
-            let way = Triangle::new(position, velocity, half_acceleration, ball.ends() - next);
-            let clears =
-                |other| S::COURSES_APART && way.clears(other, constants.diameter + constants.tolerance.surely_apart);
+            let triangle = Triangle::new(position, velocity, half_acceleration, ball.ends() - next);
+            let clears = |other| {
+                S::COURSES_APART && triangle.clears(other, constants.diameter + constants.tolerance.surely_apart)
+            };
             if flow.is_break() || ahead == Ahead::Pressed || !(clears(others[0]) & clears(others[1])) {
                 if ahead == Ahead::Pressed {
                     self.set(index, ball.segment, ball.lasts);

@@ -179,13 +179,13 @@ mod tests {
     #[test]
     fn a_course_that_bends_around_a_ball_clears_it_and_one_that_grazes_it_does_not() {
         let (v, k) = (DVec2::new(1.0, 0.0), DVec2::new(0.0, 0.5));
-        let way = Triangle::new(DVec2::ZERO, v, k, 1.0);
+        let triangle = Triangle::new(DVec2::ZERO, v, k, 1.0);
         // The trajectory ends at (1, 0.5) and passes (0.5, 0.125).
-        assert!(way.clears(DVec2::new(0.5, -0.1), 0.06));
-        assert!(way.clears(DVec2::new(-0.1, 0.0), 0.06));
-        assert!(way.clears(DVec2::new(1.1, 0.6), 0.06));
-        assert!(!way.clears(DVec2::new(0.5, 0.07), 0.06));
-        assert!(!way.clears(DVec2::new(1.0, 0.55), 0.06));
+        assert!(triangle.clears(DVec2::new(0.5, -0.1), 0.06));
+        assert!(triangle.clears(DVec2::new(-0.1, 0.0), 0.06));
+        assert!(triangle.clears(DVec2::new(1.1, 0.6), 0.06));
+        assert!(!triangle.clears(DVec2::new(0.5, 0.07), 0.06));
+        assert!(!triangle.clears(DVec2::new(1.0, 0.55), 0.06));
     }
 
     #[test]

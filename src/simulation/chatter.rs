@@ -31,7 +31,7 @@ const MOST_PULL: f64 = 8.0;
 const GRIPPED_SLIP: f64 = 7.0;
 
 /// Number of slow bounces of one contact that are reported individually; later ones belong to its chatter.
-const TOLD: u32 = 4;
+const REPORTED_BOUNCES: u32 = 4;
 
 /// Flights that shrink by less than this ratio do not indicate a chatter that ends.
 const SLOWEST_SHRINKING: f64 = 0.99;
@@ -105,7 +105,7 @@ impl Chatters {
         }
         bounces.shrinking = flight / bounces.flight;
         (bounces.last, bounces.flight) = (now, flight);
-        bounces.count > TOLD
+        bounces.count > REPORTED_BOUNCES
     }
 
     /// Records that a contact begins to rest; after a pause, this counts as a bounce.
@@ -133,7 +133,7 @@ impl Chatters {
         for (other, place) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
             let bounces = self.0[place];
             ends[other] = ends[other].max(bounces.last + pause);
-            if bounces.count > TOLD {
+            if bounces.count > REPORTED_BOUNCES {
                 ends[other] = ends[other].max(bounces.last + bounces.longest_pause());
             }
         }
@@ -272,16 +272,18 @@ mod tests {
     use super::*;
 
     /// Returns how many bounces with these flights after them are reported, and when the last flight is over, s.
-    fn told(chatters: &mut Chatters, contact: &Contact, flights: impl Iterator<Item = f64>) -> (u32, f64) {
-        flights.fold((0, 0.0), |(told, now), flight| (told + u32::from(!chatters.bounce(contact, now)), now + flight))
+    fn reported(chatters: &mut Chatters, contact: &Contact, flights: impl Iterator<Item = f64>) -> (u32, f64) {
+        flights.fold((0, 0.0), |(reported, now), flight| {
+            (reported + u32::from(!chatters.bounce(contact, now)), now + flight)
+        })
     }
 
     #[test]
     fn bounces_are_told_until_they_are_a_chatter() {
         let mut chatters = Chatters::new();
         let flights = (1..=40).map(|bounce| 0.1 * 0.9_f64.powi(bounce));
-        let (told, now) = told(&mut chatters, &Contact::of_balls(0, 1), flights);
-        assert_eq!(told, TOLD);
+        let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
+        assert_eq!(reported, REPORTED_BOUNCES);
         assert!(chatters.ends(1, 0.0)[0] > now && chatters.ends(2, 0.0)[0] < now);
         assert!(chatters.ends(0, 0.0)[1] < now + 1.0);
     }
@@ -295,8 +297,8 @@ mod tests {
             let pause = move |bounce: i32| if bounce == 11 { 0.9 * longest } else { 0.0 };
             (0..12).map(move |bounce| longest * 0.3_f64.powi(bounce) + pause(bounce))
         });
-        let (told, now) = told(&mut chatters, &Contact::of_balls(0, 1), flights);
-        assert_eq!(told, TOLD);
+        let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
+        assert_eq!(reported, REPORTED_BOUNCES);
         assert!(chatters.ends(0, 0.0)[1] > now && chatters.ends(0, 0.0)[1] < now + 0.2);
     }
 
@@ -304,8 +306,8 @@ mod tests {
     #[test]
     fn bounces_that_come_back_after_ever_shorter_pauses_are_one_chatter() {
         let flights = (1..=50).flat_map(|round| [0.0, 0.0, 6e-3 * 0.9_f64.powi(round)]);
-        let (told, _) = told(&mut Chatters::new(), &Contact::of_balls(0, 2), flights);
-        assert!(told <= 4 * TOLD, "{told} of 150 bounces are told");
+        let (reported, _) = reported(&mut Chatters::new(), &Contact::of_balls(0, 2), flights);
+        assert!(reported <= 4 * REPORTED_BOUNCES, "{reported} of 150 bounces are reported");
     }
 
     /// A ball spins against a cushion, and another one approaches from behind: at this speed the bounces end within some microseconds.

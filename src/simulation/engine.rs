@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
     chatter::Chatters,
-    guards::{MOST_IN_THE_AIR, MOST_RESTING, MOST_TURNS, MOST_TURNS_WITHOUT_REST, MOST_WITHOUT_REST},
+    guards::{AIR_BUDGET, BUDGET_WITHOUT_REST, MAX_ITERATIONS, MAX_ITERATIONS_WITHOUT_REST, RESTING_BUDGET},
     resting::Resting,
     savings::{All, Savings},
 };
@@ -133,7 +133,7 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     /// Whether a prediction has found balls that press on each other but are not yet in `resting`.
     pub(super) pressed: bool,
     /// Iterations of the event loops so far: events and steps.
-    pub(super) turns: u32,
+    pub(super) iterations: u32,
     /// Time of the last impact, s, and the number of impacts at that moment.
     pub(super) last_impact: f64,
     pub(super) rounds: u32,
@@ -165,7 +165,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             ended: None,
             next_step: f64::INFINITY,
             pressed: false,
-            turns: 0,
+            iterations: 0,
             last_impact: f64::NEG_INFINITY,
             rounds: 0,
             effort: Effort::default(),
@@ -199,12 +199,12 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         if S::ALONE && S::KEPT_PREDICTIONS && flow.is_continue() && self.moves_alone(0) {
             flow = self.play_alone(0, &mut now);
         }
-        let mut most_turns = MOST_TURNS;
-        while flow.is_continue() && self.turns < most_turns {
-            self.turns += 1;
+        let mut max_iterations = MAX_ITERATIONS;
+        while flow.is_continue() && self.iterations < max_iterations {
+            self.iterations += 1;
             if self.resting_budget_spent() {
                 flow = self.begin_micro_collisions(now);
-                most_turns = MOST_TURNS_WITHOUT_REST;
+                max_iterations = MAX_ITERATIONS_WITHOUT_REST;
                 if flow.is_break() {
                     break;
                 }
@@ -220,7 +220,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
                 && self.balls.iter().any(|ball| ball.mode == ContactMode::Bouncing)
             {
                 let nothing = source == usize::MAX || self.only_rolls_out(source);
-                flow = self.tell_free(now, nothing);
+                flow = self.report_free(now, nothing);
             }
             if flow.is_break()
                 || source == usize::MAX
@@ -263,10 +263,10 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         // For a bouncing ball, this is reported when its contact is known to have ended.
         let bounces = self.balls[index].mode == ContactMode::Bouncing;
         if ended == Motion::Sliding && !bounces {
-            self.tell(now, EventKind::SlidingRolling(index))?;
+            self.report(now, EventKind::SlidingRolling(index))?;
         }
         if segment.motion == Motion::Stationary && !bounces {
-            self.tell(now, EventKind::RollingStationary(index))?;
+            self.report(now, EventKind::RollingStationary(index))?;
         }
         self.set(index, segment, lasts);
         self.look_ahead_of(now, index)
@@ -294,19 +294,19 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
 
     /// Whether the work of resting contacts exceeds its budget.
     pub(super) fn resting_budget_spent(&self) -> bool {
-        self.micro_collisions.is_none() && self.effort.spent() > MOST_RESTING
+        self.micro_collisions.is_none() && self.effort.spent() > RESTING_BUDGET
     }
 
     /// Whether the work of the shot exceeds its budget.
     pub(super) fn is_exhausted(&self) -> bool {
         let in_air = self.effort_in_air.spent();
-        self.micro_collisions.is_some() && self.effort.spent() + in_air > MOST_WITHOUT_REST || in_air > MOST_IN_THE_AIR
+        self.micro_collisions.is_some() && self.effort.spent() + in_air > BUDGET_WITHOUT_REST || in_air > AIR_BUDGET
     }
 
     /// Exhausts the budget of the shot.
     #[cfg(test)]
     pub(super) fn exhaust(&self) {
-        self.effort_in_air.add(MOST_IN_THE_AIR + 1);
+        self.effort_in_air.add(AIR_BUDGET + 1);
     }
 
     pub(super) fn state(&self, index: usize, now: f64) -> BallState {
@@ -315,17 +315,17 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     }
 
     #[inline(always)]
-    pub(super) fn tell(&mut self, time: f64, kind: EventKind) -> ControlFlow<()> {
+    pub(super) fn report(&mut self, time: f64, kind: EventKind) -> ControlFlow<()> {
         let flow = self.observer.event(Event { time, kind });
         if S::EARLY_END { flow } else { ControlFlow::Continue(()) }
     }
 
     /// Reports that a ball rolls, is at rest or is in the air: its motion has not been reported for a while.
-    pub(super) fn tell_motion(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+    pub(super) fn report_motion(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         match self.balls[index].segment.motion {
-            Motion::Rolling => self.tell(now, EventKind::SlidingRolling(index)),
-            Motion::Stationary => self.tell(now, EventKind::RollingStationary(index)),
-            Motion::Flying => self.tell(now, EventKind::Jumps(index)),
+            Motion::Rolling => self.report(now, EventKind::SlidingRolling(index)),
+            Motion::Stationary => self.report(now, EventKind::RollingStationary(index)),
+            Motion::Flying => self.report(now, EventKind::Jumps(index)),
             _ => ControlFlow::Continue(()),
         }
     }
@@ -336,7 +336,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             return ControlFlow::Continue(());
         }
         self.balls[index].mode = ContactMode::Bouncing;
-        self.tell(now, EventKind::ContactBegins(index))
+        self.report(now, EventKind::ContactBegins(index))
     }
 
     /// Passes a finished segment to an observer that records.

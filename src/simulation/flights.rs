@@ -44,7 +44,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             Some(cloth) if !low || state.velocity.z > self.constants.tolerance.slowest_in_air => cloth,
             _ => {
                 self.launch(index, now, &state.seen_from_above());
-                return if was_low { ControlFlow::Continue(()) } else { self.tell_landing(index, now) };
+                return if was_low { ControlFlow::Continue(()) } else { self.report_landing(index, now) };
             }
         };
         let hops = Hops::new(&self.constants, &cloth, state);
@@ -62,16 +62,16 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             self.balls[index].mode = ContactMode::Bouncing;
             return ControlFlow::Continue(());
         }
-        if was_low { self.tell(now, EventKind::Jumps(index)) } else { ControlFlow::Continue(()) }
+        if was_low { self.report(now, EventKind::Jumps(index)) } else { ControlFlow::Continue(()) }
     }
 
     /// Reports that a ball stays on the cloth, and its motion there unless it slides. Reports nothing if its departure was not reported.
-    fn tell_landing(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+    fn report_landing(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         if self.balls[index].mode != ContactMode::Free {
             return ControlFlow::Continue(());
         }
-        self.tell(now, EventKind::Lands(index))?;
-        self.tell_motion(index, now)
+        self.report(now, EventKind::Lands(index))?;
+        self.report_motion(index, now)
     }
 
     /// Whether a ball in the air would overlap another one if it were put on the cloth at its position.
@@ -88,7 +88,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let Some(end) = self.balls[index].segment.hops().map(Hops::end) else { return ControlFlow::Continue(()) };
         self.end_segment(index, now);
         self.launch(index, now, &end);
-        self.tell_landing(index, now)?;
+        self.report_landing(index, now)?;
         self.look_ahead_of(now, index)?;
         if S::ALONE && S::KEPT_PREDICTIONS && self.moves_alone(index) {
             return self.play_alone(index, time);
@@ -108,7 +108,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     ) -> ControlFlow<()> {
         self.end_segment(index, now);
         let rail = self.balls[index].rail;
-        self.tell(now, EventKind::BallRail(index, rail))?;
+        self.report(now, EventKind::BallRail(index, rail))?;
         self.lift(index, now, state, climb)?;
         self.look_ahead(now, self.with_freed(freed, only(index)))
     }
@@ -135,15 +135,15 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let segment =
                 Segment { start: now, motion: Motion::OffTable, ..Segment::at_rest(state.seen_from_above().position) };
             self.set(index, segment, f64::INFINITY);
-            self.tell(now, EventKind::LeavesTable(index))?;
+            self.report(now, EventKind::LeavesTable(index))?;
             return self.look_ahead_of(now, index);
         }
         let slowest = c.tolerance.slowest_in_air;
         let approach = cushion.resolve_in_space(c.radius, slowest, to_nose.normalize(), &mut state);
-        self.answer(&mut state);
+        self.respond(&mut state);
         let contact = Contact::with_cushion(index, rail.normal());
-        let told = self.is_told(now, &contact, approach);
-        self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
+        let reported = self.is_reported(now, &contact, approach);
+        self.report_impact(now, EventKind::BallRail(index, rail), reported)?;
         self.launch_in_space(index, now, &state)?;
         self.look_ahead_of(now, index)
     }
@@ -174,11 +174,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for index in [first, second] {
             self.end_segment(index, now);
         }
-        let told = self.is_told(now, &Contact::of_balls(first, second), approach);
-        self.tell_impact(now, EventKind::BallBall(first, second), told)?;
+        let reported = self.is_reported(now, &Contact::of_balls(first, second), approach);
+        self.report_impact(now, EventKind::BallBall(first, second), reported)?;
         for (index, state) in [(first, &one), (second, &other)] {
             self.launch_in_space(index, now, state)?;
-            if !told && self.is_on_cloth(index) {
+            if !reported && self.is_on_cloth(index) {
                 self.begin_contact(index, now)?;
             }
         }
@@ -186,7 +186,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Whether an impact in the air is reported. It is not if it is one of many by which a ball slides off another one or off a nose.
-    fn is_told(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
+    fn is_reported(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
         approach > self.constants.tolerance.slow_bounce
             || !self.chatters.get_or_insert_with(|| Box::new(Chatters::new())).bounce(contact, now)
     }
@@ -198,7 +198,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let rounding = if falls > 0.0 { f64::EPSILON * (self.constants.radius + MOMENT * now * falls) } else { 0.0 };
         if state.position.z <= rounding {
             state.position.z = 0.0;
-            self.answer(state);
+            self.respond(state);
             if state.velocity.z <= self.constants.tolerance.slowest_in_air {
                 state.velocity.z = 0.0;
             }
@@ -206,9 +206,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Applies the response of the cloth to a ball on it that was struck downwards.
-    fn answer(&self, state: &mut SpatialState) {
+    fn respond(&self, state: &mut SpatialState) {
         if let Some(cloth) = self.cloth.filter(|_| state.position.z <= 0.0) {
-            cloth.answer(self.constants.radius, state);
+            cloth.respond(self.constants.radius, state);
         }
     }
 }
@@ -219,15 +219,15 @@ mod tests {
 
     use super::*;
     use crate::{
-        simulation::{All, Constants, End, Event, guards::MOST_TURNS},
+        simulation::{All, Constants, End, Event, guards::MAX_ITERATIONS},
         table::{Flight, Layout, Table},
     };
 
     /// Kinds of all events and bounces.
     #[derive(Default)]
-    struct Told(Vec<EventKind>);
+    struct Events(Vec<EventKind>);
 
-    impl Observer for Told {
+    impl Observer for Events {
         fn event(&mut self, event: Event) -> ControlFlow<()> {
             self.0.push(event.kind);
             ControlFlow::Continue(())
@@ -242,14 +242,14 @@ mod tests {
     fn given_up_at(place: DVec2) -> Vec<EventKind> {
         let table = Table { flight: Some(Flight::default()), ..Table::default() };
         let layout = Layout::new([DVec2::ZERO, DVec2::new(0.5, 0.1), DVec2::new(-0.5, 0.1)]);
-        let mut told = Told::default();
-        let mut engine = Engine::<All, Told>::new(&table, &layout, &mut told);
+        let mut reported = Events::default();
+        let mut engine = Engine::<All, Events>::new(&table, &layout, &mut reported);
         let velocity = DVec3::new(0.3, 0.0, -0.2);
         let state = SpatialState { position: place.extend(0.05), velocity, spin: DVec3::ZERO };
         assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
         engine.exhaust();
         assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
-        told.0
+        reported.0
     }
 
     /// Releases a ball that leans on another's top, at `angle` from the vertical, rad, with a velocity, m/s. Returns the number of events
@@ -257,15 +257,15 @@ mod tests {
     fn let_go(table: &Table, angle: f64, velocity: impl Fn(DVec3) -> DVec3) -> (usize, End) {
         let other = DVec2::new(0.3, 0.2);
         let layout = Layout::new([DVec2::ZERO, other, DVec2::new(-0.5, 0.1)]);
-        let mut told = Told::default();
-        let mut engine = Engine::<All, Told>::new(table, &layout, &mut told);
+        let mut reported = Events::default();
+        let mut engine = Engine::<All, Events>::new(table, &layout, &mut reported);
         let n = DVec3::new(angle.sin(), 0.0, angle.cos());
         let position = other.extend(0.0) + 2.0 * table.radius * n;
         let flow = engine.launch_in_space(0, 0.0, &SpatialState { position, velocity: velocity(n), spin: DVec3::ZERO });
         assert!(flow.is_continue() && engine.look_ahead_of(0.0, 0).is_continue());
         let time = engine.play_on(flow);
         let end = engine.finish(time);
-        (told.0.len(), end)
+        (reported.0.len(), end)
     }
 
     /// If the cloth absorbed the speed that a soft blow gives the lower ball, and the upper ball's rising speed were taken from its
@@ -297,7 +297,7 @@ mod tests {
     fn a_ball_that_is_put_on_anothers_top_ends_the_shot_where_it_is() {
         let (count, end) = let_go(&Table::default(), 1e-9, |_| DVec3::ZERO);
         let [upper, lower, _] = end.balls;
-        assert!(count < MOST_TURNS as usize && end.time < 1.0, "{count} {end:?}");
+        assert!(count < MAX_ITERATIONS as usize && end.time < 1.0, "{count} {end:?}");
         assert!(upper.position.distance(lower.position) < 1e-10, "{end:?}");
         assert!(upper.velocity.length() < 1e-12 && lower.velocity.length() < 1e-12, "{end:?}");
     }

@@ -11,17 +11,17 @@ pub const STEP: u64 = 14_000;
 
 /// Budget of a step of a resting contact. When it is spent, all resting contacts of the shot are given up. Most steps take about a
 /// hundredth of it.
-pub const MOST_STEP: u64 = 6_000_000;
+pub const STEP_BUDGET: u64 = 6_000_000;
 
 /// Budget of resting contacts and chatters; when it is spent, resting contacts are disabled: see [`super::micro_collisions`].
-pub const MOST_RESTING: u64 = 36_000_000;
+pub const RESTING_BUDGET: u64 = 36_000_000;
 
 /// Budget after resting contacts are disabled (including impacts in the air). When it is spent, the shot is ended, which is not physics: a
 /// ball in another contact stands still from then on, and the energy audit of the stability table shows the missing energy.
-pub const MOST_WITHOUT_REST: u64 = 64_000_000;
+pub const BUDGET_WITHOUT_REST: u64 = 64_000_000;
 
 /// Budget of impacts in the air alone, which micro-collisions would not reduce.
-pub const MOST_IN_THE_AIR: u64 = 85_000_000;
+pub const AIR_BUDGET: u64 = 85_000_000;
 
 /// Multiplications for the bounce of a chatter. If bounces lose nothing, a pressed ball bounces until its spin has decayed; these bounces
 /// and their iterations of the general loop must fit into the budget of resting contacts.
@@ -34,12 +34,12 @@ pub const IMPACT_IN_THE_AIR: u64 = 3300;
 /// resting contacts. This is a guard, not physics, for motion in the air that repeats without end. A shot takes about ten iterations, one
 /// with a chatter about a hundred. A bounce takes up to five: its own, and the ends of sliding and of rolling of two balls. A smaller limit
 /// would end shots before resting contacts are disabled.
-pub const MOST_TURNS: u32 = 120_000;
-const _: () = assert!(MOST_TURNS as u64 > 5 * MOST_RESTING / BOUNCE);
+pub const MAX_ITERATIONS: u32 = 120_000;
+const _: () = assert!(MAX_ITERATIONS as u64 > 5 * RESTING_BUDGET / BOUNCE);
 
 /// The same limit after resting contacts are disabled.
-pub const MOST_TURNS_WITHOUT_REST: u32 = 250_000;
-const _: () = assert!(MOST_TURNS_WITHOUT_REST as u64 > 5 * MOST_WITHOUT_REST / BOUNCE);
+pub const MAX_ITERATIONS_WITHOUT_REST: u32 = 250_000;
+const _: () = assert!(MAX_ITERATIONS_WITHOUT_REST as u64 > 5 * BUDGET_WITHOUT_REST / BOUNCE);
 
 #[cfg(test)]
 mod tests {

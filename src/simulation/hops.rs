@@ -39,7 +39,7 @@ pub struct Hops {
     direction: DVec2,
     slip: f64,
     /// Friction impulse per mass of the first landing, m/s.
-    rub: f64,
+    friction_impulse: f64,
     /// Index, from zero, of the landing at which the slip becomes zero; `None` if the ball still slides after the last hop.
     sticks: Option<u32>,
     /// Duration of flight and hops, s.
@@ -59,7 +59,7 @@ impl Hops {
         let first = if climb > 0.0 { (climb + landing) / g } else { 2.0 * height / (landing - climb) };
         let u = slip(radius, start.velocity.truncate(), start.spin);
         let size = u.length();
-        let rub = friction * (1.0 + e) * landing;
+        let friction_impulse = friction * (1.0 + e) * landing;
         let mut hops = Self {
             start: *start,
             cloth: *cloth,
@@ -68,7 +68,7 @@ impl Hops {
             landing,
             direction: if size > 0.0 { u / size } else { DVec2::ZERO },
             slip: size,
-            rub,
+            friction_impulse,
             sticks: None,
             duration: 0.0,
             last_velocity: DVec2::ZERO,
@@ -77,7 +77,7 @@ impl Hops {
         hops.duration = hops.first + hops.per_speed() * landing * e / (1.0 - e);
         hops.last_velocity = match hops.sticks {
             Some(_) => hops.rolling(),
-            None => hops.rubbed(rub / (1.0 - e)).0,
+            None => hops.rubbed(friction_impulse / (1.0 - e)).0,
         };
         hops
     }
@@ -113,7 +113,7 @@ impl Hops {
 
     /// Returns the first landing at which friction would remove the remaining slip.
     fn sticking(&self) -> Option<u32> {
-        let least = self.slip / (3.5 * self.rub);
+        let least = self.slip / (3.5 * self.friction_impulse);
         let e = self.cloth.restitution;
         // NaN if there is neither slip nor friction.
         if least.is_nan() || least <= 1.0 {
@@ -143,7 +143,7 @@ impl Hops {
         if self.sticks.is_some_and(|last| landings > last) {
             return self.rolls();
         }
-        self.rubbed(self.rub * self.powers(landings))
+        self.rubbed(self.friction_impulse * self.powers(landings))
     }
 
     fn rolls(&self) -> (DVec2, DVec3) {
@@ -163,12 +163,12 @@ impl Hops {
         let velocity = self.start.velocity.truncate();
         let slides = self.sticks.map_or(landing, |last| last.min(landing));
         let sum = self.powers(slides);
-        let rubbed = self.rub * sum * self.powers(slides + 1) / (1.0 + e);
-        let mut way = e * (sum * velocity - rubbed * self.direction);
+        let rubbed = self.friction_impulse * sum * self.powers(slides + 1) / (1.0 + e);
+        let mut displacement = e * (sum * velocity - rubbed * self.direction);
         if landing > slides {
-            way += self.decayed(slides + 1) * self.powers(landing - slides) * self.rolling();
+            displacement += self.decayed(slides + 1) * self.powers(landing - slides) * self.rolling();
         }
-        self.touchdown() + self.per_speed() * self.landing * way
+        self.touchdown() + self.per_speed() * self.landing * displacement
     }
 
     /// Returns the position of the first landing, m.
@@ -184,8 +184,12 @@ impl Hops {
             (self.place(last) + self.per_speed() * self.landing * rest * self.rolling(), self.rolls())
         } else {
             let sum = 1.0 / (1.0 - e);
-            let way = e * sum * (self.start.velocity.truncate() - self.rub * sum / (1.0 + e) * self.direction);
-            (self.touchdown() + self.per_speed() * self.landing * way, self.rubbed(self.rub * sum))
+            let displacement =
+                e * sum * (self.start.velocity.truncate() - self.friction_impulse * sum / (1.0 + e) * self.direction);
+            (
+                self.touchdown() + self.per_speed() * self.landing * displacement,
+                self.rubbed(self.friction_impulse * sum),
+            )
         };
         BallState { position, velocity, spin }
     }
@@ -261,7 +265,7 @@ mod tests {
             let flight = (ball.velocity.z + speed) / cloth.gravity;
             ball.position += (flight * ball.velocity.truncate()).extend(-ball.position.z);
             ball.velocity.z = -speed;
-            cloth.answer(constants.radius, &mut ball);
+            cloth.respond(constants.radius, &mut ball);
             time += flight;
         }
         (time, ball)
@@ -311,8 +315,8 @@ mod tests {
             for landings in 0..12 {
                 let (arc, next) = (hops.arc(landings), hops.arc(landings + 1));
                 prop_assert!((arc.end - next.begin).abs() < 1e-13);
-                let way = arc.position.truncate() + (arc.end - arc.begin) * arc.velocity.truncate();
-                prop_assert!(way.distance(next.position.truncate()) < 1e-12);
+                let displacement = arc.position.truncate() + (arc.end - arc.begin) * arc.velocity.truncate();
+                prop_assert!(displacement.distance(next.position.truncate()) < 1e-12);
                 let middle = 0.5 * (arc.begin + arc.end);
                 prop_assert_eq!(hops.landings(middle), landings);
                 let state = hops.state_after(middle);

@@ -58,14 +58,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if impulse.climb > c.lifts {
             return self.climb(index, now, state, impulse.climb, freed.is_some());
         }
-        let mut told = true;
+        let mut reported = true;
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
             let contact = Contact::with_cushion(index, n);
             // An inelastic nose above the centre that does not throw the ball back has stopped it by its own law. In other cases, a bounce
             // that is too slow to be followed is undone.
             let [sine, _] = self.law_at(approach).cushions.at(rail).nose();
             let is_stopped = sine > 0.0 && approach > c.tolerance.slow_bounce && state.velocity.dot(n) <= 0.0;
-            told = self.slow_bounce(now, &contact)?;
+            reported = self.slow_bounce(now, &contact)?;
             if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(index, state)]) {
                 return self.end_chatter(
                     now,
@@ -73,13 +73,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                     &[(index, if is_stopped { state } else { before })],
                     &rests,
                     EventKind::BallRail(index, rail),
-                    told,
+                    reported,
                 );
             }
         }
         self.end_segment(index, now);
         self.launch(index, now, &state);
-        self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
+        self.report_impact(now, EventKind::BallRail(index, rail), reported)?;
         if freed.is_some() {
             self.look_ahead(now, self.with_freed(true, only(index)))
         } else {
@@ -117,20 +117,20 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             self.law.balls.resolve(c.radius, &mut a, &mut b);
         }
         let opening = (a.velocity - b.velocity).dot(a.position - b.position);
-        let mut told = true;
+        let mut reported = true;
         if opening <= c.diameter * c.tolerance.slow_bounce {
             let contact = Contact::of_balls(first, second);
-            told = self.slow_bounce(now, &contact)?;
+            reported = self.slow_bounce(now, &contact)?;
             if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
                 let before = [(first, before.0), (second, before.1)];
-                return self.end_chatter(now, freed, &before, &rests, EventKind::BallBall(first, second), told);
+                return self.end_chatter(now, freed, &before, &rests, EventKind::BallBall(first, second), reported);
             }
         }
         self.end_segment(first, now);
         self.end_segment(second, now);
         self.launch(first, now, &a);
         self.launch(second, now, &b);
-        self.tell_impact(now, EventKind::BallBall(first, second), told)?;
+        self.report_impact(now, EventKind::BallBall(first, second), reported)?;
         self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }
 
@@ -208,14 +208,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let climbs = |impulse: &ImpactImpulse| impulse.climb > c.lifts;
-        let mut told = Vec::with_capacity(MAX_CONTACTS);
+        let mut reported = Vec::with_capacity(MAX_CONTACTS);
         for (contact, impulse) in met() {
             let slow = contact.opening_speed(&states) <= c.tolerance.slow_bounce && !climbs(impulse);
-            told.push(!slow || self.slow_bounce(now, contact)?);
+            reported.push(!slow || self.slow_bounce(now, contact)?);
         }
         self.relaunch(now, changed, &states);
-        for ((contact, _), told) in met().zip(told) {
-            self.tell_impact(now, kind(contact), told)?;
+        for ((contact, _), reported) in met().zip(reported) {
+            self.report_impact(now, kind(contact), reported)?;
         }
         for (contact, impulse) in met().filter(|(_, impulse)| climbs(impulse)) {
             self.lift(contact.first, now, states[contact.first], impulse.climb)?;
@@ -226,9 +226,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Reports an impact as an event, or as a bounce if it belongs to a chatter.
     #[inline(always)]
-    pub(super) fn tell_impact(&mut self, now: f64, kind: EventKind, told: bool) -> ControlFlow<()> {
-        if told {
-            return self.tell(now, kind);
+    pub(super) fn report_impact(&mut self, now: f64, kind: EventKind, reported: bool) -> ControlFlow<()> {
+        if reported {
+            return self.report(now, kind);
         }
         self.observer.bounce(Event { time: now, kind });
         ControlFlow::Continue(())
@@ -305,7 +305,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         before: &[(usize, BallState)],
         rests: &Contacts,
         impact: EventKind,
-        told: bool,
+        reported: bool,
     ) -> ControlFlow<()> {
         let mut states = self.states_with(now, freed.as_ref(), before);
         let c = self.constants;
@@ -333,12 +333,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         stop_by_impulses(self.table, &mut states, &ended, &ActiveSet::SLIPPING, &given_there);
         let changed = std::array::from_fn(|ball| rests.hold(ball));
         self.relaunch(now, changed, &states);
-        self.tell_impact(now, impact, told)?;
+        self.report_impact(now, impact, reported)?;
         for (contact, _) in
             contacts.iter().zip(given).filter(|(contact, given)| *given > 0.0 && kind(contact) != impact)
         {
-            let told = self.slow_bounce(now, contact)?;
-            self.tell_impact(now, kind(contact), told)?;
+            let reported = self.slow_bounce(now, contact)?;
+            self.report_impact(now, kind(contact), reported)?;
         }
         self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }

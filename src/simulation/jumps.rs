@@ -164,9 +164,10 @@ mod tests {
         assert!(low.events().iter().any(|event| event.kind == EventKind::Jumps(0)));
         assert!(low.events().iter().filter(|event| low.is_told(event)).all(|event| event.kind.is_contact()));
         let high = play("-0.5,0 0.3,0.4 0.9,0.5", "0,0,45,0,3");
-        let told: Vec<_> = high.events().iter().filter(|event| high.is_told(event)).map(|event| event.kind).collect();
-        assert_eq!(told[0], EventKind::Jumps(0));
-        assert!(told.contains(&EventKind::Lands(0)), "{told:?}");
+        let reported: Vec<_> =
+            high.events().iter().filter(|event| high.is_told(event)).map(|event| event.kind).collect();
+        assert_eq!(reported[0], EventKind::Jumps(0));
+        assert!(reported.contains(&EventKind::Lands(0)), "{reported:?}");
     }
 
     #[test]

@@ -178,7 +178,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.rest(index, now);
                 changed[index] = true;
                 if was == ContactMode::Free {
-                    self.tell(now, EventKind::ContactBegins(index))?;
+                    self.report(now, EventKind::ContactBegins(index))?;
                 }
             } else if was == ContactMode::Resting {
                 self.balls[index].mode = ContactMode::Bouncing;
@@ -195,15 +195,15 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Reports the end of the contacts of balls that neither rest nor bounce any longer, or are in the air. If `nothing` but rolling to
     /// rest remains, reports all of them.
     #[cold]
-    pub(super) fn tell_free(&mut self, now: f64, nothing: bool) -> ControlFlow<()> {
+    pub(super) fn report_free(&mut self, now: f64, nothing: bool) -> ControlFlow<()> {
         for index in 0..BALLS {
             let bounces = || self.is_on_cloth(index) && self.may_bounce(index);
             if self.balls[index].mode != ContactMode::Bouncing || (!nothing && bounces()) {
                 continue;
             }
             self.balls[index].mode = ContactMode::Free;
-            self.tell(now, EventKind::ContactEnds(index))?;
-            self.tell_motion(index, now)?;
+            self.report(now, EventKind::ContactEnds(index))?;
+            self.report_motion(index, now)?;
         }
         ControlFlow::Continue(())
     }

@@ -28,7 +28,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         let Some(awaited) = self.observer.awaited() else { return false };
         let states = std::array::from_fn(state);
-        let reach = diameter + SLACK * radius + MARGIN * longest_ways(&self.constants, &states);
+        let reach = diameter + SLACK * radius + MARGIN * path_by_rolling(&self.constants, &states);
         let [cue_ball, objects @ ..] = states;
         objects
             .iter()
@@ -39,7 +39,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 }
 
 /// Returns the total path length of the balls if all energy is spent on rolling, m.
-fn longest_ways(constants: &Constants, states: &[BallState; BALLS]) -> f64 {
+fn path_by_rolling(constants: &Constants, states: &[BallState; BALLS]) -> f64 {
     let Constants { radius, rolling, .. } = constants;
     let energy = |ball: &BallState| 0.5 * ball.velocity.length_squared() + 0.2 * (radius * ball.spin).length_squared();
     states.iter().map(energy).sum::<f64>() / (1.4 * rolling.least)
@@ -77,18 +77,18 @@ mod tests {
         const PIECES: u32 = 16;
         let shot = Recording::with_impulse(table, layout, impulse).unwrap();
         let constants = Constants::of(table);
-        let (mut ways, mut end, mut largest) = (0.0, shot.duration(), 0.0_f64);
+        let (mut path, mut end, mut largest) = (0.0, shot.duration(), 0.0_f64);
         for start in shot.events().iter().rev().map(|event| event.time).chain([0.0]) {
             let mut before = shot.positions(start);
             for piece in 1..=PIECES {
                 let time = start + (end - start) * f64::from(piece) / f64::from(PIECES);
                 // Just before the end, because an impact at the end may move a ball.
                 let after = shot.positions(time.min(end.next_down()));
-                ways += (0..BALLS).map(|ball| after[ball].distance(before[ball])).sum::<f64>();
+                path += (0..BALLS).map(|ball| after[ball].distance(before[ball])).sum::<f64>();
                 before = after;
             }
             let states = std::array::from_fn(|ball| shot.state(ball, start));
-            largest = largest.max((ways - SLACK * table.radius) / longest_ways(&constants, &states));
+            largest = largest.max((path - SLACK * table.radius) / path_by_rolling(&constants, &states));
             end = start;
         }
         largest

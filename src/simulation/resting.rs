@@ -17,7 +17,7 @@ use super::{
     active_set::{Ended, find_active_set, remove_rounding, transient_pressing, without_ending_slips},
     contacts::{close_gaps, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    guards::{HELD, MOST_RESTING, MOST_STEP, STEP},
+    guards::{HELD, RESTING_BUDGET, STEP, STEP_BUDGET},
     tolerance::Tolerance,
 };
 use crate::{
@@ -30,7 +30,7 @@ const FALL: f64 = 1.3;
 
 /// Largest accepted deviation of a pressed ball's trajectory from the quintic polynomial that represents it, m: a tenth of the accepted
 /// overlap in a layout.
-const MOST_STRAY: f64 = 1e-10;
+const MAX_DEVIATION: f64 = 1e-10;
 
 /// Largest change of speed by the cloth's friction in a step, m/s; used if nothing else limits the step.
 const LONGEST_CURVE: f64 = 0.08;
@@ -226,10 +226,10 @@ impl Resting {
             };
             span = shorter.max(shortest);
         };
-        if !self.seeks() {
+        if !self.uses_solver() {
             let at_once = broken && (trial.is_lost() || trial.span < AT_ONCE * span);
             self.short_steps = if at_once { self.short_steps + 1 } else { 0 };
-            if self.seeks() {
+            if self.uses_solver() {
                 self.advance(table);
                 return;
             }
@@ -322,19 +322,19 @@ impl Resting {
     }
 
     /// Whether the solver determines the forces in every state, because the active sets found before have repeatedly not lasted.
-    const fn seeks(&self) -> bool {
+    const fn uses_solver(&self) -> bool {
         self.short_steps > MOST_SHORT_STEPS
     }
 
     /// Whether the step has exceeded its work budget.
     fn is_given_up(&self) -> bool {
-        self.effort.spent() > MOST_STEP
+        self.effort.spent() > STEP_BUDGET
     }
 
     /// After a step that is given up, resting contacts are disabled: the shot continues in micro-collisions.
     fn end_if_given_up(&self) {
         if self.is_given_up() {
-            self.effort.add(MOST_RESTING);
+            self.effort.add(RESTING_BUDGET);
         }
     }
 
@@ -348,7 +348,7 @@ impl Resting {
     fn attempt(&self, table: &Table, from: &Trial, span: f64) -> Trial {
         let begin = &from.step.end;
         let mut last = from.forces;
-        let (yields, mut is_lost) = (self.set.yields() || self.seeks(), false);
+        let (yields, mut is_lost) = (self.set.yields() || self.uses_solver(), false);
         let slope = |phase: &Phase| {
             let held = if yields || is_lost {
                 None
@@ -359,7 +359,7 @@ impl Resting {
             let (linear, angular) = held.unwrap_or_else(|| {
                 // Without forces, the step has failed.
                 if !is_lost {
-                    last = self.sought(self.scene(table, &phase.balls), &last, !yields);
+                    last = self.search_forces(self.scene(table, &phase.balls), &last, !yields);
                     is_lost = !yields && !last.converged;
                 }
                 (last.linear, last.angular)
@@ -401,7 +401,7 @@ impl Resting {
         // While a slip turns in `turn` seconds under the acceleration `a`, a step of `h` seconds deviates by about `a h⁶/(2000 turn⁴)`.
         let strays = |turn: f64| {
             let square = turn * turn;
-            libm::pow(2000.0 * MOST_STRAY / sliding * (square * square), 1.0 / 6.0)
+            libm::pow(2000.0 * MAX_DEVIATION / sliding * (square * square), 1.0 / 6.0)
         };
         let mut longest = LONGEST_CURVE / sliding;
         let (mut soonest, mut time_scale) = (f64::INFINITY, None);
@@ -455,16 +455,16 @@ impl Resting {
     /// Returns the forces in a scene. They are sought from `near` if a friction yields, or if the linear system of the active set has no
     /// solution.
     fn forces(&self, scene: Scene<'_>, near: &Forces) -> Forces {
-        if scene.set.yields() || self.seeks() {
-            return self.sought(scene, near, false);
+        if scene.set.yields() || self.uses_solver() {
+            return self.search_forces(scene, near, false);
         }
         self.effort.add(HELD * self.contacts.len().pow(2) as u64);
-        scene.forces(Some(&self.first)).unwrap_or_else(|| self.sought(scene, near, true))
+        scene.forces(Some(&self.first)).unwrap_or_else(|| self.search_forces(scene, near, true))
     }
 
     /// Returns the forces in a scene by the solver, with a short search if no forces are likely to exist.
-    fn sought(&self, scene: Scene<'_>, near: &Forces, is_short: bool) -> Forces {
-        if self.is_given_up() { *near } else { scene.sought(near, is_short, &self.effort) }
+    fn search_forces(&self, scene: Scene<'_>, near: &Forces, is_short: bool) -> Forces {
+        if self.is_given_up() { *near } else { scene.search_forces(near, is_short, &self.effort) }
     }
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {

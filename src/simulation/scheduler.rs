@@ -76,14 +76,16 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let still = ball.segment.motion == Motion::Stationary;
         let flies = ball.segment.motion == Motion::Flying;
         let horizon = self.times[index] - now;
-        let way = Triangle::new(ball.segment.position, ball.segment.velocity, ball.segment.half_acceleration, horizon);
+        let triangle =
+            Triangle::new(ball.segment.position, ball.segment.velocity, ball.segment.half_acceleration, horizon);
         let apart = self.constants.diameter + self.constants.tolerance.surely_apart;
         for (pair, other) in PAIRS_OF[index] {
             let other = &self.balls[other].segment;
             let at_rest = other.motion == Motion::Stationary;
             // Most pairs end here: one ball passes another one that is at rest.
             if at_rest
-                && ((S::BALLS_AT_REST && still) || (S::COURSES_APART && !flies && way.clears(other.position, apart)))
+                && ((S::BALLS_AT_REST && still)
+                    || (S::COURSES_APART && !flies && triangle.clears(other.position, apart)))
             {
                 self.times[BALLS + pair] = f64::INFINITY;
                 self.pairs[pair] = Meeting::unseen(now, true);

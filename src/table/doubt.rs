@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, sync::LazyLock};
 
 use serde::{Deserialize, Serialize};
 
-use super::{JUDGED, OneRail, Rail, RailModel, Table, flaws::roughest};
+use super::{JUDGED, OneRail, Rail, RailModel, Table, flaws::max_sliding_friction};
 use crate::statistics::cholesky;
 
 const MATCH: &str = include_str!("match_doubt.toml");
@@ -47,7 +47,7 @@ pub struct OtherLaw {
 
 /// Smallest share of a constant's variance that the other constants must leave unexplained. Below it, the correlation matrix is not
 /// accepted as positive definite.
-const LEAST_LEFT: f64 = 1e-9;
+const MIN_UNEXPLAINED: f64 = 1e-9;
 
 /// A constant of a table that can be uncertain.
 #[derive(Debug)]
@@ -60,7 +60,7 @@ pub(super) struct Constant {
 }
 
 /// Limits of one component of the tilt, m/s². Callers that draw or fit a tilt also keep it below the steepest slope that the table accepts.
-const LEAN: (f64, f64) = (-1.0, 1.0);
+const TILT_LIMITS: (f64, f64) = (-1.0, 1.0);
 
 /// All constants that can be uncertain. A constant that a table's models do not have is skipped. A sampler draws them in this order, so
 /// that new ones must be appended at the end.
@@ -87,7 +87,7 @@ pub(super) const CONSTANTS: [Constant; 22] = [
     constant(
         "mu_s",
         |table| Some(table.sliding_friction),
-        |table, value| table.sliding_friction = value.min(roughest(table.rail.model)),
+        |table, value| table.sliding_friction = value.min(max_sliding_friction(table.rail.model)),
         (0.01, 1e3),
     ),
     constant("mu_r", |table| Some(table.rolling_friction), |table, value| table.rolling_friction = value, (1e-3, 1e3)),
@@ -98,8 +98,8 @@ pub(super) const CONSTANTS: [Constant; 22] = [
         |table, value| table.spinning_friction = value,
         (0.0, 1e3),
     ),
-    constant("tilt.x", |table| Some(table.tilt.x), |table, value| table.tilt.x = value, LEAN),
-    constant("tilt.y", |table| Some(table.tilt.y), |table, value| table.tilt.y = value, LEAN),
+    constant("tilt.x", |table| Some(table.tilt.x), |table, value| table.tilt.x = value, TILT_LIMITS),
+    constant("tilt.y", |table| Some(table.tilt.y), |table, value| table.tilt.y = value, TILT_LIMITS),
     constant("e_ball", |table| Some(table.ball_restitution), |table, value| table.ball_restitution = value, (0.0, 1.0)),
     constant(
         "mu_b",
@@ -118,14 +118,14 @@ pub(super) const CONSTANTS: [Constant; 22] = [
         |table, value| table.cue_end_mass = Some(value.min(table.cue_mass)),
         (1e-4, f64::MAX),
     ),
-    own::<0, false>("rail.left.e"),
-    own::<1, false>("rail.right.e"),
-    own::<2, false>("rail.bottom.e"),
-    own::<3, false>("rail.top.e"),
-    own::<0, true>("rail.left.mu"),
-    own::<1, true>("rail.right.mu"),
-    own::<2, true>("rail.bottom.mu"),
-    own::<3, true>("rail.top.mu"),
+    single_rail::<0, false>("rail.left.e"),
+    single_rail::<1, false>("rail.right.e"),
+    single_rail::<2, false>("rail.bottom.e"),
+    single_rail::<3, false>("rail.top.e"),
+    single_rail::<0, true>("rail.left.mu"),
+    single_rail::<1, true>("rail.right.mu"),
+    single_rail::<2, true>("rail.bottom.mu"),
+    single_rail::<3, true>("rail.top.mu"),
 ];
 
 const fn constant(
@@ -138,7 +138,7 @@ const fn constant(
 }
 
 /// Returns the constant for the friction or the restitution of one single rail; `RAIL` is its index in [`Rail::ALL`].
-const fn own<const RAIL: usize, const FRICTION: bool>(name: &'static str) -> Constant {
+const fn single_rail<const RAIL: usize, const FRICTION: bool>(name: &'static str) -> Constant {
     const fn field<const FRICTION: bool>(own: &mut OneRail) -> &mut Option<f64> {
         if FRICTION { &mut own.mu } else { &mut own.e }
     }
@@ -228,15 +228,15 @@ impl TableDoubt {
     }
 
     /// Returns `table` with the alternative rail model `law`, and the uncertainty of that table's constants.
-    pub(super) fn under(&self, law: &OtherLaw, table: &Table) -> (Table, Self) {
+    pub(super) fn with_model(&self, law: &OtherLaw, table: &Table) -> (Table, Self) {
         let mut other = table.clone();
         other.rail.model = law.model;
-        other.sliding_friction = table.sliding_friction.min(roughest(law.model));
+        other.sliding_friction = table.sliding_friction.min(max_sliding_friction(law.model));
         other.rail.kappa = table.rail.kappa.filter(|_| law.model == RailModel::Smooth);
         for constant in &CONSTANTS {
             if let Some(value) = law.values.get(constant.name) {
                 // The alternative model may have a constant that the table's own model lacks.
-                constant.give(&mut other, *value);
+                constant.assign(&mut other, *value);
             }
         }
         let mut deviations = self.deviations.clone();
@@ -302,7 +302,7 @@ impl TableDoubt {
         let line = |row: usize| (0..names.len()).map(|column| entry(row, column)).collect();
         let matrix: Vec<Vec<f64>> = (0..names.len()).map(line).collect();
         let mut factor =
-            cholesky(&matrix, LEAST_LEFT).map_err(|row| DoubtError::Correlations(names[row].to_owned()))?;
+            cholesky(&matrix, MIN_UNEXPLAINED).map_err(|row| DoubtError::Correlations(names[row].to_owned()))?;
         for (line, name) in factor.iter_mut().zip(names) {
             for entry in line {
                 *entry *= self.deviations[*name];
@@ -316,13 +316,13 @@ impl Constant {
     /// Sets the constant to `value`, clamped to the limits. Does nothing if the table's models do not have the constant.
     pub(super) fn change(&self, table: &mut Table, value: f64) {
         if (self.get)(table).is_some() {
-            self.give(table, value);
+            self.assign(table, value);
         }
     }
 
     /// Sets the constant to `value`, clamped to the limits. If the table's present value lies outside them, the range extends to that
     /// value.
-    fn give(&self, table: &mut Table, value: f64) {
+    fn assign(&self, table: &mut Table, value: f64) {
         let own = (self.get)(table).unwrap_or(value);
         (self.set)(table, value.clamp(self.limits.0.min(own), self.limits.1.max(own)));
     }
@@ -375,6 +375,6 @@ mod tests {
         (table.rail.model, table.rail.kappa) = (RailModel::Nose, None);
         let text = "[[laws]]\nmodel = \"smooth\"\nweight = 0.5\nvalues = { \"rail.kappa\" = 1.2 }";
         let doubt: TableDoubt = toml::from_str(text).unwrap();
-        assert_eq!(doubt.under(&doubt.laws[0], &table).0.rail.kappa, Some(1.2));
+        assert_eq!(doubt.with_model(&doubt.laws[0], &table).0.rail.kappa, Some(1.2));
     }
 }

@@ -11,16 +11,16 @@ const STEEPEST: f64 = 0.2;
 /// Consider a ball that the cloth does not let slip, with a push `N` on its side and vertical friction `f` at that contact. They act like
 /// `5/7 (N ± f)`: from `f = N` on, friction presses the contact together more strongly than the push separates it. Contact forces that obey
 /// all laws are then not unique or do not exist (Painlevé's paradox, 1895).
-pub(super) fn rubs(value: f64) -> bool {
+pub(super) fn is_accepted_friction(value: f64) -> bool {
     (0.0..1.0).contains(&value)
 }
 
-/// The values that [`rubs`] accepts, for error messages.
-pub(super) const RUBS: &str = "0 to below 1, where the forces of a contact are unique";
+/// The values that [`is_accepted_friction`] accepts, for error messages.
+pub(super) const ACCEPTED_FRICTION: &str = "0 to below 1, where the forces of a contact are unique";
 
 /// Returns the largest `mu_s` that is accepted with this rail model. With a rougher cloth, the integration steps of Mathavan's model would
 /// let friction drive the ball, which would gain energy.
-pub(super) const fn roughest(model: RailModel) -> f64 {
+pub(super) const fn max_sliding_friction(model: RailModel) -> f64 {
     if matches!(model, RailModel::Mathavan) { 1.0 } else { f64::INFINITY }
 }
 
@@ -51,7 +51,7 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
         (
             "mu_s",
             table.sliding_friction,
-            table.sliding_friction <= roughest(rail.model),
+            table.sliding_friction <= max_sliding_friction(rail.model),
             "0.0001 to 1 where the rails are Mathavan's",
         ),
         ("c1", table.rolling_growth, (0.0..=1.0).contains(&table.rolling_growth), "0 to 1 per second"),
@@ -72,7 +72,7 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
     for (which, [e, mu, high]) in OWN {
         let own = rail.own(which);
         checks.extend(own.e.map(|value| (e, value, restitution(value), "0 to 1")));
-        checks.extend(own.mu.map(|value| (mu, value, rubs(value), RUBS)));
+        checks.extend(own.mu.map(|value| (mu, value, is_accepted_friction(value), ACCEPTED_FRICTION)));
         checks.extend(own.height.map(|value| (high, value, height(value), "from R to 1.6 R, in metres")));
     }
     let fades = [("rail.fade", rail.fade), ("e_ball_fade", table.ball_fade)];
@@ -81,8 +81,10 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
         checks.push((key, value.slope, fade(&value), accepted));
     }
     if let Some(law) = table.ball_slip_friction {
-        let holds =
-            law.least >= 0.0 && law.rise >= 0.0 && rubs(law.least + law.rise) && (0.0..=1e3).contains(&law.fade);
+        let holds = law.least >= 0.0
+            && law.rise >= 0.0
+            && is_accepted_friction(law.least + law.rise)
+            && (0.0..=1e3).contains(&law.fade);
         checks.push((
             "mu_b_slip",
             law.least,

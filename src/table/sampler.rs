@@ -36,7 +36,7 @@ impl TableSampler {
         let mut bounds = Vec::new();
         let mut share = 1.0 - factor.min(1.0) * doubt.laws.iter().map(|law| law.weight).sum::<f64>();
         for law in &doubt.laws {
-            let (table, doubt) = doubt.under(law, &table);
+            let (table, doubt) = doubt.with_model(law, &table);
             laws.push(Around::new(&table, &doubt, factor)?);
             bounds.push(quantile(share));
             share += factor.min(1.0) * law.weight;

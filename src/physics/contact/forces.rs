@@ -160,7 +160,7 @@ impl Scene<'_> {
     /// Returns the forces from the complementarity solver, starting at `similar`. It determines in every state which laws hold, for sets in
     /// which a friction yields or whose linear system has no solution. `is_short` limits the search, for steps that fail. Nor is a long
     /// search worthwhile after a state without a solution: there are mostly no forces.
-    pub fn sought(self, similar: &Forces, is_short: bool, effort: &Effort) -> Forces {
+    pub fn search_forces(self, similar: &Forces, is_short: bool, effort: &Effort) -> Forces {
         let Self { table, set, .. } = self;
         let seek = if similar.converged && !is_short { solve } else { solve_near };
         let (problem, solution) = self.solved(Some(similar), seek, effort);

@@ -16,10 +16,10 @@ use super::{
 const SHARES: [f64; 3] = [0.5, 0.9, 0.99];
 
 /// Normal forces below this share of the largest force are tiny.
-const NEXT_TO_NOTHING: f64 = 1e-6;
+const TINY_PUSH: f64 = 1e-6;
 
 /// Largest remaining opening acceleration, as a share of a tiny normal force that the others replace.
-const LEFT: f64 = 1e-3;
+const MAX_OPENING: f64 = 1e-3;
 
 /// Largest number of rounds; each round restricts the forces that have newly reached an edge.
 const ROUNDS: usize = 6;
@@ -45,7 +45,7 @@ fn is_at_edge(problem: &Problem, solution: &Solution, index: usize, none: f64) -
     match (solution.sides[index], unknown.place) {
         (Side::Holds, Place::Normal(_)) if are_several(problem) => {
             let largest = solution.sizes.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-            solution.sizes[unknown.first] < NEXT_TO_NOTHING * largest
+            solution.sizes[unknown.first] < TINY_PUSH * largest
         }
         (Side::Limited(_), _) => rates(problem, solution, index).iter().all(|rate| rate.abs() <= none),
         _ => false,
@@ -88,7 +88,7 @@ fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64, eff
         found = solve_near(&eased, &found.sizes, effort);
         let holds = |index: usize| match problem.unknowns[index].place {
             Place::Normal(_) => {
-                rates(&eased, &found, index)[0] >= -LEFT * solution.sizes[problem.unknowns[index].first].abs()
+                rates(&eased, &found, index)[0] >= -MAX_OPENING * solution.sizes[problem.unknowns[index].first].abs()
             }
             _ => rates(&eased, &found, index).iter().all(|rate| rate.abs() <= none),
         };

@@ -26,7 +26,7 @@ impl BallImpact {
         let approach = self.resolve_in_space(radius, slowest, first, second);
         for ball in [&mut *first, &mut *second] {
             if ball.position.z <= 0.0 {
-                cloth.answer(radius, ball);
+                cloth.respond(radius, ball);
             }
         }
         let first_is_lower = first.position.z < second.position.z;
@@ -67,13 +67,13 @@ impl BallImpact {
         let apart = upper.velocity - lower.velocity;
         let slip = apart - apart.dot(n) * n - radius * (upper.spin + lower.spin).cross(n);
         let factor = self.friction_factor(push, slip.length());
-        let rub = -factor * slip;
-        upper.velocity += rub;
-        lower.velocity -= rub.with_z(0.0);
+        let friction = -factor * slip;
+        upper.velocity += friction;
+        lower.velocity -= friction.with_z(0.0);
         let twist = (2.5 / radius * factor) * n.cross(slip);
         upper.spin += twist;
         lower.spin += twist;
-        cloth.rub(radius, (push * n.z + rub.z).max(0.0), lower);
+        cloth.apply_friction(radius, (push * n.z + friction.z).max(0.0), lower);
         part_slowly(slowest, n, upper, lower);
     }
 }

@@ -3,14 +3,14 @@
 
 use glam::DVec2;
 
-use super::{MOST_STRAY, Resting, State, Trial};
+use super::{MAX_DEVIATION, Resting, State, Trial};
 use crate::{
     physics::{BallState, Forces, Friction, slip},
     table::{BALLS, Table},
 };
 
 /// A step is repeated if the step length for half the accepted deviation is shorter than this share of it: `2^(-1/6)`.
-const ROOM_TO_STRAY: f64 = 0.89;
+const DEVIATION_MARGIN: f64 = 0.89;
 
 /// Largest accepted excess of a slip that has begun slowly over its limit within a step.
 const MOST_YIELDED: f64 = 1.5;
@@ -51,7 +51,7 @@ impl Resting {
         if trial.step.error.is_nan() || trial.step.error > tolerance.step {
             return Some(trial.step.best_length.min(0.7 * trial.span));
         }
-        if course < ROOM_TO_STRAY * trial.span {
+        if course < DEVIATION_MARGIN * trial.span {
             return Some(course);
         }
         let yielded = self.yielded(table, &trial.step.end.balls) / tolerance.yielding;
@@ -70,7 +70,7 @@ impl Resting {
         let members = (0..BALLS).filter(|&ball| self.members[ball]);
         let strays = h * h / 24.0 * members.map(missed).fold(f64::MIN_POSITIVE, f64::max);
         // The deviation grows with the sixth power of the step.
-        libm::pow(0.5 * MOST_STRAY / strays, 1.0 / 6.0) * trial.span
+        libm::pow(0.5 * MAX_DEVIATION / strays, 1.0 / 6.0) * trial.span
     }
 
     /// Returns the state at half the time, from polynomials through both ends.

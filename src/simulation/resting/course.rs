@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{MOST_STRAY, Resting};
+use super::{MAX_DEVIATION, Resting};
 use crate::{
     physics::BallState,
     simulation::{Constants, Tolerance, segment::Curve},
@@ -20,7 +20,8 @@ impl Resting {
         let square = h * h;
         let (cube, fourth) = (h * square, square * square);
         let by_velocities = 0.5 * h * (v0 + v1) + square / 12.0 * (a0 - a1);
-        let position = if h > self.constants.tolerance.shortest_quintic || moved.distance(by_velocities) > MOST_STRAY {
+        let position = if h > self.constants.tolerance.shortest_quintic || moved.distance(by_velocities) > MAX_DEVIATION
+        {
             [
                 (20.0 * moved - h * (8.0 * v1 + 12.0 * v0) - h * h * (3.0 * a0 - a1)) / (2.0 * cube),
                 (-30.0 * moved + h * (14.0 * v1 + 16.0 * v0) + h * h * (3.0 * a0 - 2.0 * a1)) / (2.0 * fourth),
