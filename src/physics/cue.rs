@@ -360,16 +360,16 @@ mod tests {
     }
 
     #[test]
-    fn directions_are_told_from_nought_to_below_a_whole_turn() {
-        let told = |degrees: f64| {
+    fn directions_are_formatted_from_zero_to_below_a_whole_turn() {
+        let formatted = |degrees: f64| {
             CueInputs { phi: degrees.to_radians(), ..CueInputs::parse("0,0,0,0,1").unwrap() }.phi_text(2)
         };
-        let directions = [-27.0, 333.0, 0.0, -0.001, 359.999, 720.5, -0.0].map(told);
+        let directions = [-27.0, 333.0, 0.0, -0.001, 359.999, 720.5, -0.0].map(formatted);
         assert_eq!(directions, ["333.00", "333.00", "0.00", "0.00", "0.00", "0.50", "0.00"]);
     }
 
     #[test]
-    fn json_speaks_degrees() {
+    fn json_uses_degrees() {
         let json = r#"{"a":0.1,"b":0.2,"theta_deg":10.0,"phi_deg":90.0,"speed":3.0}"#;
         let cue: CueInputs = serde_json::from_str(json).unwrap();
         assert!((cue.phi - std::f64::consts::FRAC_PI_2).abs() < 1e-15);

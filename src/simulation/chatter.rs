@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn bounces_are_told_until_they_are_a_chatter() {
+    fn bounces_are_reported_until_they_are_a_chatter() {
         let mut chatters = Chatters::new();
         let flights = (1..=40).map(|bounce| 0.1 * 0.9_f64.powi(bounce));
         let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);

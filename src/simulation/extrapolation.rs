@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_smooth_is_given_up_early() {
+    fn a_step_over_a_kink_is_given_up_early() {
         let mut slopes = 0;
         let kinked = |phase: &Phase| {
             slopes += 1;
@@ -268,7 +268,7 @@ mod tests {
 
     /// A speed that follows a cosine with a time constant of 1e-5 s: explicit steps would be as short.
     #[test]
-    fn what_decays_fast_is_followed_in_long_steps() {
+    fn a_fast_mode_is_integrated_in_long_steps() {
         const RATE: f64 = 1e5;
         let wanted = |time: f64| DVec2::new(time.cos(), 0.0);
         let slope = |phase: &Phase| {

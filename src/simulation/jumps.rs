@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hop_that_nobody_sees_is_not_told_and_a_jump_is_with_its_landing() {
+    fn an_invisible_hop_is_not_reported_and_a_jump_is_with_its_landing() {
         let low = play("-1,0 0.9,-0.5 0.9,0.5", "0,0,3,0,2");
         assert!(low.events().iter().any(|event| event.kind == EventKind::Jumps(0)));
         assert!(low.events().iter().filter(|event| low.is_told(event)).all(|event| event.kind.is_contact()));

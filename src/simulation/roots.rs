@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn two_roots_a_ten_millionth_apart_are_told_from_none() {
+    fn two_roots_a_ten_millionth_apart_are_distinguished_from_none() {
         let touch = from_roots(&[0.5, 0.5 + 1e-7, -1.0, -2.0]);
         let value = |t: f64| (t - 0.5) * (t - 0.5 - 1e-7) * (t + 1.0) * (t + 2.0);
         let t = first_crossing(value, &derivative(&touch), 1.0);

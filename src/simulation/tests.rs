@@ -276,7 +276,7 @@ fn a_ball_that_rolls_along_the_rail_that_the_table_leans_to_comes_to_rest() {
 /// If two balls hit opposite cushions at the same moment, the second impact, which is as slow as the end of a chatter, must not be absorbed
 /// by the resting contact of the first.
 #[test]
-fn what_closes_faster_than_counts_as_nothing_is_no_resting_contact_yet() {
+fn a_contact_that_closes_faster_than_the_tolerance_does_not_rest_yet() {
     let table = Table::preset("thesis").unwrap();
     let constants = Constants::of(&table);
     let rests = |closing: f64| {

@@ -157,18 +157,16 @@ const fn single_rail<const RAIL: usize, const FRICTION: bool>(name: &'static str
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum DoubtError {
     /// The name of no known constant.
-    #[error("the doubt names \"{0}\", which is no constant that can be in doubt; accepted are {accepted}", accepted = names())]
+    #[error("the doubt names \"{0}\", which is not one of the constants; accepted are {accepted}", accepted = names())]
     Unknown(String),
     /// A negative or infinite standard deviation, or NaN.
-    #[error("the doubt has {0} = {1}; accepted is a standard deviation from 0 in the unit of the table's file")]
+    #[error("the doubt has {0} = {1}; accepted is a standard deviation of 0 or more in the unit of the table's file")]
     Deviation(String, f64),
     /// A value that the constant cannot have: the assignment and the accepted range, both as text.
-    #[error("the doubt has {0} under another law of the rails; accepted are numbers {1}")]
+    #[error("the doubt has {0} for another rail law; accepted are numbers {1}")]
     Value(String, String),
     /// The total weight of the alternative rail models, which is negative or not below 1.
-    #[error(
-        "the doubt gives its laws of rails the weight {0} in all; accepted are weights from 0 that come to less than 1"
-    )]
+    #[error("the weights of the rail laws in the doubt add up to {0}; accepted are weights from 0 with a sum below 1")]
     Weight(f64),
     /// Correlations that do not form a positive definite matrix.
     #[error("the correlations of the doubt contradict each other at \"{0}\"; accepted is a positive definite matrix")]
@@ -351,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn a_doubt_that_cannot_be_is_refused_by_name() {
+    fn an_invalid_doubt_is_refused_by_name() {
         let doubt = |text: &str| toml::from_str::<TableDoubt>(text).unwrap().validate().unwrap_err().to_string();
         let message = doubt("deviations = { mu_x = 0.1 }");
         assert!(message.contains("mu_x") && message.contains("mu_rail"), "{message}");

@@ -52,7 +52,7 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
             "mu_s",
             table.sliding_friction,
             table.sliding_friction <= max_sliding_friction(rail.model),
-            "0.0001 to 1 where the rails are Mathavan's",
+            "0.0001 to 1 with the rail model mathavan",
         ),
         ("c1", table.rolling_growth, (0.0..=1.0).contains(&table.rolling_growth), "0 to 1 per second"),
         (
@@ -104,7 +104,7 @@ mod tests {
     use crate::table::TableError;
 
     #[test]
-    fn what_a_model_cannot_have_is_refused_by_name_and_value() {
+    fn invalid_constants_of_models_are_refused_by_name_and_value() {
         let text = toml::to_string(&Table::default()).unwrap();
         for (from, to, key) in [
             ("height = 0.03736", "height = 0.08", "rail.height"),
@@ -128,7 +128,7 @@ mod tests {
         let mathavan = text.replace("model = \"smooth\"", "model = \"mathavan\"");
         assert!(Table::from_toml(&mathavan).is_ok());
         let rough = Table::from_toml(&mathavan.replace("mu_s = 0.203", "mu_s = 1.1")).unwrap_err().to_string();
-        assert!(rough.contains("mu_s = 1.1; accepted is 0.0001 to 1 where the rails are Mathavan's"), "{rough}");
+        assert!(rough.contains("mu_s = 1.1; accepted is 0.0001 to 1 with the rail model mathavan"), "{rough}");
         let unknown = text.replace("model = \"smooth\"", "model = \"rubber\"");
         let message = Table::from_toml(&unknown).unwrap_err().to_string();
         assert!(message.contains("rubber") && message.contains("mathavan"), "{message}");

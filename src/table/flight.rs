@@ -26,7 +26,7 @@ impl Flight {
     pub(super) fn flaw(&self) -> Option<(&'static str, f64, &'static str)> {
         let (e, mu) = (self.restitution, self.friction.unwrap_or(0.0));
         if !(0.0..=MOST_RESTITUTION).contains(&e) {
-            return Some(("flight.e_c", e, "0 to 0.99: a ball that loses nothing would hop for ever"));
+            return Some(("flight.e_c", e, "0 to 0.99: a ball that loses nothing would hop forever"));
         }
         (!(0.0..=1e3).contains(&mu)).then_some(("flight.mu_c", mu, "0 to 1000"))
     }

@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn what_left_the_table_comes_on_its_spot_or_on_that_of_the_ball_in_its_way() {
+    fn a_ball_off_the_table_goes_on_its_spot_or_on_that_of_the_blocking_ball() {
         let (length, radius) = (2.84, 0.03075);
         let [middle, near, far] = [0.0, -0.71, 0.71].map(|x| DVec2::new(x, 0.0));
         let (away, outside) = (DVec2::new(1.0, 0.5), DVec2::new(1.6, 0.0));

@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_table_is_refused_with_its_line() {
+    fn invalid_toml_is_refused_with_its_line() {
         let message = Table::from_toml(&TEXTBOOK.replace("mu_s = 0.2", "mu_s = \"slow\"")).unwrap_err().to_string();
         let words = "line 9, mu_s: invalid type: string \"slow\", expected a number";
         assert!(message.contains(words), "{message}");

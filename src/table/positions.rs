@@ -10,8 +10,8 @@ use super::{
 pub enum PositionsError {
     /// A word is neither a position nor the name of a ball.
     #[error(
-        "\"{0}\" is no position; write x,y in diamonds from the lower left corner like 2d,0.5d, or in metres from the middle, \
-         with a colour before it or not"
+        "\"{0}\" is not a position; write x,y in diamonds from the lower left corner like 2d,0.5d, or in metres from the middle, \
+         optionally after a colour"
     )]
     Word(String),
     /// A ball is named, but no position follows.
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_taken_is_named_with_what_would_be() {
+    fn invalid_positions_are_named_with_accepted_ones() {
         for (text, part) in [
             ("", "where is the ball? write one place"),
             ("red 2d,1d RED: 3d,1d", "red is put in two places"),

@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_held_agrees_with_the_solver() {
+    fn the_linear_system_agrees_with_the_solver() {
         let (ball, resolved) = pressed();
         let held = Scene { set: &resolved.set, ..ball.scene() }.forces(None).unwrap();
         assert!(resolved.forces.converged && held.distance(&resolved.forces, ball.table.radius) < 1e-12);

@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn what_shares_no_ball_collides_by_its_own_law_in_the_same_round() {
+    fn contacts_without_shared_balls_collide_by_their_own_laws_in_the_same_round() {
         let law = ImpactLaw::of(&Table::preset("match").unwrap());
         let mut balls = in_line(2.0);
         balls[2].velocity = DVec2::new(3.0, 1.0);
@@ -307,7 +307,7 @@ mod tests {
 
     /// A ball that spins in a corner while another ball loses energy elsewhere: its friction must not use that energy.
     #[test]
-    fn what_shares_no_ball_lends_no_energy() {
+    fn contacts_without_shared_balls_exchange_no_energy() {
         let law = with_friction(0.95, 0.2);
         let mut balls = in_line(0.0);
         balls[2].velocity = DVec2::new(1.51, -2.64);
@@ -329,7 +329,7 @@ mod tests {
     /// A slow ball in a corner, whose friction would accelerate it, while another ball is fast: its tiny energy gain is lost in the
     /// rounding of the sum.
     #[test]
-    fn what_takes_no_part_hides_no_gain() {
+    fn balls_that_take_no_part_hide_no_energy_gain() {
         let law = with_friction(1.0, 0.2).with_restitution(1.0);
         let mut balls = in_line(0.0);
         balls[2].velocity = DVec2::new(-4.1e-7, 2.8e-8);
@@ -345,7 +345,7 @@ mod tests {
 
     /// A blow drives a ball away from another one that approaches it slowly: only two of the three balls collide.
     #[test]
-    fn what_is_relieved_leaves_the_others_their_own_law() {
+    fn a_relieved_contact_leaves_the_others_their_own_law() {
         let law = ImpactLaw::of(&Table::preset("match").unwrap());
         let mut balls = in_line(0.0);
         balls[2].velocity = DVec2::new(-3.0, 0.4);

@@ -23,7 +23,7 @@ fn stopped(opening: f64, given: f64) -> f64 {
 }
 
 #[test]
-fn what_would_have_to_pull_gains_no_energy() {
+fn an_impulse_that_would_have_to_pull_gains_no_energy() {
     assert!(stopped(1e-9, 0.0) <= f64::EPSILON);
     // A closing contact is pushed and has friction.
     assert!(stopped(-1e-9, 0.0) < -1e-11);

@@ -69,7 +69,7 @@ proptest! {
 
     /// An impact without loss is undone by the same impact with reversed velocities.
     #[test]
-    fn what_loses_nothing_runs_backwards((_, before) in meeting()) {
+    fn an_impact_without_loss_is_reversible((_, before) in meeting()) {
         let law = BallImpact { restitution: 1.0, friction: Some(0.0), fade: None, by_slip: None };
         let reversed = |balls: [BallState; 2]| {
             balls.map(|ball| BallState { velocity: -ball.velocity, spin: -ball.spin, ..ball })

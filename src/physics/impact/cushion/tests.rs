@@ -91,7 +91,7 @@ proptest! {
 
     /// An impact without loss is undone by the same impact with reversed velocities.
     #[test]
-    fn what_loses_nothing_at_the_height_of_the_centre_runs_backwards(ball in moving()) {
+    fn an_impact_without_loss_at_the_height_of_the_centre_is_reversible(ball in moving()) {
         let there = |mut ball: BallState| {
             collide_rail(RADIUS, 1.0, 0.0, DVec2::NEG_X, &mut ball);
             BallState { velocity: -ball.velocity, spin: -ball.spin, ..ball }
