@@ -1,9 +1,9 @@
 //! Fast path for the parts of a shot in which a single ball moves, from cushion to cushion, without other candidate events.
 //!
-//! Most of a shot is like this, and many shots are entirely. The general loop compares six event times at every event and stores the whole
-//! ball in memory between events. Here the ball's own next event is the only one, and its trajectory stays in registers. All numbers are
-//! computed by the same operations in the same order as in the general loop. Every unusual case is left to the general loop before any part
-//! of it is processed.
+//! Most of a shot is like this, and most shots consist of nothing else. The general loop compares six event times at every event and stores
+//! the whole ball in memory between events. Here the ball's own next event is the only one, and its trajectory stays in registers. All
+//! numbers are computed by the same operations in the same order as in the general loop. Every unusual case is left to the general loop
+//! before any part of it is processed.
 
 use std::ops::ControlFlow;
 

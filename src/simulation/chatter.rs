@@ -33,12 +33,14 @@ const GRIPPED_SLIP: f64 = 7.0;
 /// Number of slow bounces of one contact that are reported individually; later ones belong to its chatter.
 const REPORTED_BOUNCES: u32 = 4;
 
-/// Flights that shrink by less than this ratio do not indicate a chatter that ends.
+/// Flights with a larger ratio of successive durations do not indicate a chatter that ends.
 const SLOWEST_SHRINKING: f64 = 0.99;
 
-/// A pause between two bounces ends a chatter if it exceeds this multiple of the last flight, and this multiple of both the longest flight
-/// and the pause before. If another contact throws a ball back repeatedly, its bounces therefore remain one chatter.
+/// A pause between two bounces ends a chatter if it exceeds this multiple of the last flight, and [`LONGEST_FLIGHTS`].
 const LAST_FLIGHTS: f64 = 8.0;
+
+/// A pause that ends a chatter must also exceed this multiple of both the longest flight and the pause before. If another contact throws
+/// a ball back repeatedly, its bounces therefore remain one chatter.
 const LONGEST_FLIGHTS: f64 = 2.0;
 
 /// Number of pairs of balls, and of balls with cushions.

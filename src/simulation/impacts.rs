@@ -161,7 +161,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         at_once > 1 || self.inelastic || self.rounds > MOST_ROUNDS
     }
 
-    /// Resolves all contacts that close now together. Returns false, without any effect, if there are fewer than two.
+    /// Resolves all contacts that close now together, if there are several. Returns whether they have collided.
     #[cold]
     pub(super) fn collide_at_once(&mut self, now: f64) -> ControlFlow<(), bool> {
         self.effort.add(BOUNCE);

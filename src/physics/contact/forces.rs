@@ -57,7 +57,7 @@ pub struct Resolved {
     /// Whether a friction at its limit still sticks, because several share the load. [`Forces::slack`] then does not predict how long the
     /// set lasts.
     pub shared: bool,
-    /// The set in which yielding frictions stick again, or slip on against their friction; `None` if no friction yields and could.
+    /// The set in which yielding frictions stick again, or slip on against their friction; `None` if no yielding friction can.
     pub sticking: Option<ActiveSet>,
     /// For each requested contact, whether it never slips and cannot rest: the force that prevents its slip separates the balls, which then
     /// come back.

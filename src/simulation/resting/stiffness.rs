@@ -13,7 +13,7 @@ use crate::{
     table::Table,
 };
 
-/// If one direction is stiff, steps are implicit in all directions whose step length exceeds this many of their time constants.
+/// If one direction is stiff, steps are implicit in all directions whose time constant fits into the step more often than this.
 const SOFT: f64 = 0.25;
 
 /// Angle by which a friction is turned for a difference quotient, rad.
