@@ -271,7 +271,7 @@ pub fn strike(table: &Table, cue: &CueInputs) -> Impulse {
         Some(cloth) if sin_theta > 0.0 => {
             let pressed = velocity.extend(-force * sin_theta);
             let mut ball = SpatialState { position: DVec3::ZERO, velocity: pressed, spin };
-            cloth.respond(table.radius, &mut ball);
+            cloth.answer(table.radius, &mut ball);
             Impulse { velocity: ball.velocity.truncate(), spin: ball.spin, lift: ball.velocity.z }
         }
         _ => Impulse::on_cloth(velocity, spin),

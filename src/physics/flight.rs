@@ -60,7 +60,7 @@ impl Cloth {
 
     /// Applies the impact of a ball on the cloth. The normal impulse per mass is `(1 + e_c) |v_z|`. The friction impulse is `mu_c` times
     /// that, opposite to the slip, limited by the no-slip value of two sevenths of the slip. Does nothing to a ball that moves upwards.
-    pub fn respond(&self, radius: f64, ball: &mut SpatialState) {
+    pub fn answer(&self, radius: f64, ball: &mut SpatialState) {
         if ball.velocity.z >= 0.0 {
             return;
         }
@@ -105,11 +105,11 @@ mod tests {
             spin: DVec3::new(0.0, 0.0, 7.0),
         };
         let mut fast = falling(3.0);
-        cloth().respond(RADIUS, &mut fast);
+        cloth().answer(RADIUS, &mut fast);
         assert!(fast.velocity.abs_diff_eq(DVec3::new(3.0 - 0.2 * 1.5, 0.0, 0.5), 1e-15), "{fast:?}");
         assert!((fast.spin - DVec3::new(0.0, 2.5 / RADIUS * 0.3, 7.0)).length() < 1e-12, "{fast:?}");
         let mut slow = falling(0.5);
-        cloth().respond(RADIUS, &mut slow);
+        cloth().answer(RADIUS, &mut slow);
         assert!(slip(RADIUS, slow.velocity.truncate(), slow.spin).length() < 1e-15);
         assert!((slow.velocity.x - 5.0 / 7.0 * 0.5).abs() < 1e-15);
     }
@@ -123,10 +123,10 @@ mod tests {
                 spin: DVec3::new(turns, turns, 3.0),
             };
             let before = ball.specific_energy(RADIUS, 9.81);
-            cloth().respond(RADIUS, &mut ball);
+            cloth().answer(RADIUS, &mut ball);
             assert!(ball.specific_energy(RADIUS, 9.81) < before);
             let rising = ball;
-            cloth().respond(RADIUS, &mut ball);
+            cloth().answer(RADIUS, &mut ball);
             assert_eq!(ball, rising);
         }
     }

@@ -140,7 +140,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         let slowest = c.tolerance.slowest_in_air;
         let approach = cushion.resolve_in_space(c.radius, slowest, to_nose.normalize(), &mut state);
-        self.respond(&mut state);
+        self.answer(&mut state);
         let contact = Contact::with_cushion(index, rail.normal());
         let reported = self.is_reported(now, &contact, approach);
         self.report_impact(now, EventKind::BallRail(index, rail), reported)?;
@@ -198,7 +198,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let rounding = if falls > 0.0 { f64::EPSILON * (self.constants.radius + MOMENT * now * falls) } else { 0.0 };
         if state.position.z <= rounding {
             state.position.z = 0.0;
-            self.respond(state);
+            self.answer(state);
             if state.velocity.z <= self.constants.tolerance.slowest_in_air {
                 state.velocity.z = 0.0;
             }
@@ -206,9 +206,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Applies the response of the cloth to a ball on it that was struck downwards.
-    fn respond(&self, state: &mut SpatialState) {
+    fn answer(&self, state: &mut SpatialState) {
         if let Some(cloth) = self.cloth.filter(|_| state.position.z <= 0.0) {
-            cloth.respond(self.constants.radius, state);
+            cloth.answer(self.constants.radius, state);
         }
     }
 }

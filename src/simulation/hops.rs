@@ -265,7 +265,7 @@ mod tests {
             let flight = (ball.velocity.z + speed) / cloth.gravity;
             ball.position += (flight * ball.velocity.truncate()).extend(-ball.position.z);
             ball.velocity.z = -speed;
-            cloth.respond(constants.radius, &mut ball);
+            cloth.answer(constants.radius, &mut ball);
             time += flight;
         }
         (time, ball)

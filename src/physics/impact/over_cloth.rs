@@ -26,7 +26,7 @@ impl BallImpact {
         let approach = self.resolve_in_space(radius, slowest, first, second);
         for ball in [&mut *first, &mut *second] {
             if ball.position.z <= 0.0 {
-                cloth.respond(radius, ball);
+                cloth.answer(radius, ball);
             }
         }
         let first_is_lower = first.position.z < second.position.z;
