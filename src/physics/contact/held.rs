@@ -38,7 +38,7 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// A system with pivots below this share of the largest is treated as singular.
+/// A system whose smallest pivot is below this is treated as singular; the entries of a force system are 1 to 10.
 const SINGULAR: f64 = 1e-6;
 
 /// Largest number of iterative refinements, which remove the effect of [`PROXIMITY`].
