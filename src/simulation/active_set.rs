@@ -125,14 +125,14 @@ pub fn find_active_set(
         }
         let ended = stopped(tolerance.ending_slip, &now, &pressing)?;
         if ended.resolved.is_paradox() {
-            let part = |index: usize, contact: &Contact, balls: &mut State| {
+            let separate = |index: usize, contact: &Contact, balls: &mut State| {
                 if ended.resolved.paradox[index] {
-                    part(balls, contact, tolerance.first_bounce);
+                    separate(balls, contact, tolerance.first_bounce);
                 }
             };
             for (index, contact) in pressing.iter().enumerate() {
-                part(index, contact, &mut now);
-                part(index, contact, balls);
+                separate(index, contact, &mut now);
+                separate(index, contact, balls);
             }
             contacts.retain(|_, contact| {
                 let index = pressing.iter().position(|pressing| pressing == contact);
@@ -170,7 +170,7 @@ pub fn find_active_set(
 }
 
 /// Makes two balls separate at a given speed, m/s.
-fn part(balls: &mut State, contact: &Contact, speed: f64) {
+fn separate(balls: &mut State, contact: &Contact, speed: f64) {
     let Some(second) = contact.second else { return };
     let missing = 0.5 * (speed - contact.opening_speed(balls)) * contact.normal(balls);
     balls[contact.first].velocity += missing;

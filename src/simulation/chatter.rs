@@ -44,7 +44,7 @@ const LAST_FLIGHTS: f64 = 8.0;
 const LONGEST_FLIGHTS: f64 = 2.0;
 
 /// Number of pairs of balls, and of balls with cushions.
-const PLACES: usize = PAIRS.len() + 4 * BALLS;
+const SLOTS: usize = PAIRS.len() + 4 * BALLS;
 
 /// Record of the slow bounces of one contact.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +69,7 @@ impl Bounces {
 
 /// Records of all slow bounces of a shot.
 #[derive(Clone, Debug)]
-pub struct Chatters([Bounces; PLACES]);
+pub struct Chatters([Bounces; SLOTS]);
 
 impl Chatters {
     /// Creates records without bounces.
@@ -82,11 +82,11 @@ impl Chatters {
                 longest: 0.0,
                 pause: 0.0,
                 shrinking: 0.0,
-            }; PLACES],
+            }; SLOTS],
         )
     }
 
-    fn place(contact: &Contact) -> usize {
+    fn slot(contact: &Contact) -> usize {
         if let Some(second) = contact.second {
             return contact.first + second - 1;
         }
@@ -97,7 +97,7 @@ impl Chatters {
 
     /// Records a slow bounce. Returns whether it is part of a chatter.
     pub fn bounce(&mut self, contact: &Contact, now: f64) -> bool {
-        let bounces = &mut self.0[Self::place(contact)];
+        let bounces = &mut self.0[Self::slot(contact)];
         let flight = now - bounces.last;
         if flight <= bounces.longest_pause() {
             let known = if flight.is_finite() { flight } else { 0.0 };
@@ -112,19 +112,19 @@ impl Chatters {
 
     /// Records that a contact begins to rest; after a pause, this counts as a bounce.
     pub fn begin_rest(&mut self, contact: &Contact, now: f64) {
-        if now > self.0[Self::place(contact)].last {
+        if now > self.0[Self::slot(contact)].last {
             self.bounce(contact, now);
         }
     }
 
     /// Records that a contact has rested until now: its chatter continues from here.
     pub fn rest(&mut self, contact: &Contact, now: f64) {
-        self.0[Self::place(contact)].last = now;
+        self.0[Self::slot(contact)].last = now;
     }
 
     /// Returns the ratio of a contact's last flight to the one before; NaN after its first bounce.
     pub fn shrinking(&self, contact: &Contact) -> f64 {
-        self.0[Self::place(contact)].shrinking
+        self.0[Self::slot(contact)].shrinking
     }
 
     /// Returns when each chatter of a ball ends, s, if it does not bounce again: those with other balls at their index, those with cushions
@@ -132,8 +132,8 @@ impl Chatters {
     pub fn ends(&self, ball: usize, pause: f64) -> [f64; BALLS] {
         let mut ends = [f64::NEG_INFINITY; BALLS];
         let cushions = (0..4).map(|rail| (ball, PAIRS.len() + 4 * ball + rail));
-        for (other, place) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
-            let bounces = self.0[place];
+        for (other, slot) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
+            let bounces = self.0[slot];
             ends[other] = ends[other].max(bounces.last + pause);
             if bounces.count > REPORTED_BOUNCES {
                 ends[other] = ends[other].max(bounces.last + bounces.longest_pause());

@@ -110,7 +110,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let before = (a, b);
         let c = self.constants;
         if self.micro_collisions.is_some() {
-            self.part(&mut a, &mut b);
+            self.separate(&mut a, &mut b);
             let approach = (b.velocity - a.velocity).dot((a.position - b.position).normalize());
             self.law_at(approach).balls.resolve(c.radius, &mut a, &mut b);
         } else {

@@ -56,10 +56,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Separates two colliding balls by the gap of a micro-collision, which they cross before the next one.
-    pub(super) fn part(&self, first: &mut BallState, second: &mut BallState) {
-        let apart = first.position - second.position;
-        let gap = apart.length() - self.constants.diameter;
-        let moves = 0.5 * (self.constants.tolerance.micro_room - gap) * apart.normalize();
+    pub(super) fn separate(&self, first: &mut BallState, second: &mut BallState) {
+        let relative = first.position - second.position;
+        let gap = relative.length() - self.constants.diameter;
+        let moves = 0.5 * (self.constants.tolerance.micro_room - gap) * relative.normalize();
         first.position += moves;
         second.position -= moves;
     }

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::{
     Contact,
-    problem::{Place, coefficient},
+    problem::{ForceKind, coefficient},
 };
 use crate::{
     physics::{BallState, slip},
@@ -180,13 +180,13 @@ impl ActiveSet {
     }
 
     /// Returns the friction of an unknown; `None` for a normal force.
-    pub(super) const fn friction_mut(&mut self, place: Place) -> Option<&mut Friction> {
-        match place {
-            Place::Normal(_) => None,
-            Place::Cloth(ball) => Some(&mut self.cloth[ball]),
-            Place::Roll(ball) => Some(&mut self.roll[ball]),
-            Place::Spin(ball) => Some(&mut self.spin[ball]),
-            Place::Contact(index) => Some(&mut self.contact[index]),
+    pub(super) const fn friction_mut(&mut self, kind: ForceKind) -> Option<&mut Friction> {
+        match kind {
+            ForceKind::Normal(_) => None,
+            ForceKind::Cloth(ball) => Some(&mut self.cloth[ball]),
+            ForceKind::Roll(ball) => Some(&mut self.roll[ball]),
+            ForceKind::Spin(ball) => Some(&mut self.spin[ball]),
+            ForceKind::Contact(index) => Some(&mut self.contact[index]),
         }
     }
 

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::{
     ActiveSet, Contact, Contacts, Effort, Friction, MAX_CONTACTS, Scene,
     margin::{rates, with_margin},
-    problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown, coefficient},
+    problem::{ForceKind, GYRATION, Limit, NO_SIZES, Problem, Row, Sizes, Unknown, coefficient},
     solve::{Side, Solution, solve, solve_near},
 };
 use crate::table::{BALLS, Table};
@@ -80,7 +80,7 @@ impl Scene<'_> {
         let Self { table, contacts, .. } = self;
         let mut problem = Problem::new(self);
         let mut solution = seek(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)), effort);
-        let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.place, side), (Place::Contact(index), Side::Limited(_)) if contacts[index].never_slips(table));
+        let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.kind, side), (ForceKind::Contact(index), Side::Limited(_)) if contacts[index].never_slips(table));
         if problem.unknowns.iter().zip(&solution.sides).any(reaches_its_limit) {
             problem.grip(contacts);
             let gripped = solve_near(&problem, &solution.sizes, effort);
@@ -115,10 +115,10 @@ impl Scene<'_> {
         for (index, (unknown, side)) in problem.unknowns.iter().zip(&solution.sides).enumerate() {
             if *side == Side::Holds {
                 // Balls that never slip stop at once, others slip on against their friction.
-                let stops = matches!(unknown.place, Place::Contact(index) if never_slips(index));
+                let stops = matches!(unknown.kind, ForceKind::Contact(index) if never_slips(index));
                 let ends = if stops { Friction::Sticks } else { Friction::Slips(DVec2::ZERO) };
                 resolved.sticking =
-                    sticking_at(&resolved.sticking.unwrap_or(*set), unknown.place, ends).or(resolved.sticking);
+                    sticking_at(&resolved.sticking.unwrap_or(*set), unknown.kind, ends).or(resolved.sticking);
             }
             let Side::Limited(force) = *side else { continue };
             let rate = DVec2::from_array(rates(problem, solution, index)).length();
@@ -131,11 +131,11 @@ impl Scene<'_> {
                 _ if rate < SLOW_START * size => Friction::Yields,
                 _ => Friction::Slips(-STARTING * force),
             };
-            match unknown.place {
+            match unknown.kind {
                 _ if holds => {}
-                Place::Contact(index) if never_slips(index) => resolved.paradox[index] = true,
-                place => {
-                    if let Some(friction) = resolved.set.friction_mut(place) {
+                ForceKind::Contact(index) if never_slips(index) => resolved.paradox[index] = true,
+                kind => {
+                    if let Some(friction) = resolved.set.friction_mut(kind) {
                         *friction = starts;
                     }
                 }
@@ -168,11 +168,11 @@ impl Scene<'_> {
         let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);
         forces.slack = self.spin_slack();
         for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
-            let friction = match unknown.place {
-                Place::Normal(_) | Place::Spin(_) => Friction::Sticks,
-                Place::Cloth(ball) => set.cloth[ball],
-                Place::Roll(ball) => set.roll[ball],
-                Place::Contact(index) => set.contact[index],
+            let friction = match unknown.kind {
+                ForceKind::Normal(_) | ForceKind::Spin(_) => Friction::Sticks,
+                ForceKind::Cloth(ball) => set.cloth[ball],
+                ForceKind::Roll(ball) => set.roll[ball],
+                ForceKind::Contact(index) => set.contact[index],
             };
             // The active set ends when any law changes its side. The margin is the growth rate, or the distance of the force from its
             // limit.
@@ -199,9 +199,9 @@ impl Scene<'_> {
 }
 
 /// Returns the set in which the yielding friction of an unknown has the mode `does`; `None` if it does not yield.
-fn sticking_at(set: &ActiveSet, place: Place, does: Friction) -> Option<ActiveSet> {
+fn sticking_at(set: &ActiveSet, kind: ForceKind, does: Friction) -> Option<ActiveSet> {
     let mut set = *set;
-    let friction = set.friction_mut(place)?;
+    let friction = set.friction_mut(kind)?;
     if *friction != Friction::Yields {
         return None;
     }
@@ -213,8 +213,8 @@ fn sticking_at(set: &ActiveSet, place: Place, does: Friction) -> Option<ActiveSe
 fn slack_of(unknown: &Unknown, sizes: &[f64]) -> f64 {
     let own = &sizes[unknown.first..][..unknown.count];
     let size = own.iter().fold(0.0_f64, |length, x| libm::hypot(length, *x));
-    match (unknown.place, unknown.limit) {
-        (Place::Normal(_), _) => own[0],
+    match (unknown.kind, unknown.limit) {
+        (ForceKind::Normal(_), _) => own[0],
         (_, Limit::Fixed(limit)) => limit - size,
         (_, Limit::Coulomb(mu, contact)) => mu * sizes[contact] - size,
     }
@@ -245,12 +245,12 @@ impl Forces {
         for unknown in &problem.unknowns {
             let one = sizes[unknown.first];
             let both = || DVec2::new(one, sizes[unknown.first + 1]);
-            match unknown.place {
-                Place::Normal(index) => forces.normal[index] = one,
-                Place::Contact(index) => forces.friction[index] = both(),
-                Place::Cloth(ball) => forces.cloth[ball] = both(),
-                Place::Roll(ball) => forces.roll[ball] = both(),
-                Place::Spin(ball) => forces.spin[ball] = one,
+            match unknown.kind {
+                ForceKind::Normal(index) => forces.normal[index] = one,
+                ForceKind::Contact(index) => forces.friction[index] = both(),
+                ForceKind::Cloth(ball) => forces.cloth[ball] = both(),
+                ForceKind::Roll(ball) => forces.roll[ball] = both(),
+                ForceKind::Spin(ball) => forces.spin[ball] = one,
             }
         }
         forces
@@ -260,12 +260,12 @@ impl Forces {
     fn sizes(&self, problem: &Problem) -> Sizes {
         let mut sizes = NO_SIZES;
         for unknown in &problem.unknowns {
-            let own = match unknown.place {
-                Place::Normal(index) => [self.normal[index], 0.0],
-                Place::Spin(ball) => [self.spin[ball], 0.0],
-                Place::Contact(index) => self.friction[index].to_array(),
-                Place::Cloth(ball) => self.cloth[ball].to_array(),
-                Place::Roll(ball) => self.roll[ball].to_array(),
+            let own = match unknown.kind {
+                ForceKind::Normal(index) => [self.normal[index], 0.0],
+                ForceKind::Spin(ball) => [self.spin[ball], 0.0],
+                ForceKind::Contact(index) => self.friction[index].to_array(),
+                ForceKind::Cloth(ball) => self.cloth[ball].to_array(),
+                ForceKind::Roll(ball) => self.roll[ball].to_array(),
             };
             sizes[unknown.first..][..unknown.count].copy_from_slice(&own[..unknown.count]);
         }

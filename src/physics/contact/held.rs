@@ -403,7 +403,7 @@ struct Solved<const ROOM: usize> {
     free: Movement,
     moved: Movement,
     /// Margin of the share of a rolling resistance in Filippov mode from its ends, m/s²; infinite if there is none.
-    within: f64,
+    share_margin: f64,
 }
 
 impl<const ROOM: usize> Solved<ROOM> {
@@ -414,17 +414,17 @@ impl<const ROOM: usize> Solved<ROOM> {
             return Self::easing(scene, system, &free, ball);
         }
         let moved = system.solve(&free, true)?;
-        Some(Self { system, free, moved, within: f64::INFINITY })
+        Some(Self { system, free, moved, share_margin: f64::INFINITY })
     }
 
     /// Returns all forces, and the margin by which their laws hold.
     fn forces(&self, scene: Scene<'_>) -> Forces {
         let Scene { table, balls, contacts, set } = scene;
-        let Self { system, free, moved, within } = self;
+        let Self { system, free, moved, share_margin } = self;
         let unheld = system.unheld(free);
         let [sliding, rolling, spinning] = frictions(table);
         let mut forces = Forces::NONE;
-        forces.slack = if system.inconsistent > 0.0 { -system.inconsistent } else { *within };
+        forces.slack = if system.inconsistent > 0.0 { -system.inconsistent } else { *share_margin };
         forces.redundant = system.redundant;
         let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
         for ball in (0..BALLS).filter(|&ball| system.members[ball]) {

@@ -8,7 +8,7 @@
 
 use super::{
     Effort,
-    problem::{Limit, Place, Problem},
+    problem::{ForceKind, Limit, Problem},
     solve::{Side, Solution, solve_near},
 };
 
@@ -36,14 +36,14 @@ pub fn rates(problem: &Problem, solution: &Solution, index: usize) -> [f64; 2] {
 
 /// Whether there are several contacts, whose normal forces come first. Nothing else can replace the normal force of a single contact.
 fn are_several(problem: &Problem) -> bool {
-    problem.unknowns.get(1).is_some_and(|unknown| matches!(unknown.place, Place::Normal(_)))
+    problem.unknowns.get(1).is_some_and(|unknown| matches!(unknown.kind, ForceKind::Normal(_)))
 }
 
 /// Whether an unknown is at the edge of its admissible set although no rate is above `none`, m/s².
 fn is_at_edge(problem: &Problem, solution: &Solution, index: usize, none: f64) -> bool {
     let unknown = &problem.unknowns[index];
-    match (solution.sides[index], unknown.place) {
-        (Side::Holds, Place::Normal(_)) if are_several(problem) => {
+    match (solution.sides[index], unknown.kind) {
+        (Side::Holds, ForceKind::Normal(_)) if are_several(problem) => {
             let largest = solution.sizes.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
             solution.sizes[unknown.first] < TINY_PUSH * largest
         }
@@ -58,7 +58,7 @@ pub fn with_margin(problem: &Problem, solution: &Solution, none: f64, effort: &E
     let at_edge = |index: &usize| is_at_edge(problem, solution, *index, none);
     // Normal forces come first: if the last unknown at an edge is one, the share of frictions has no effect.
     let last = (0..problem.unknowns.len()).rev().find(at_edge)?;
-    let shares = if matches!(problem.unknowns[last].place, Place::Normal(_)) { &SHARES[..1] } else { &SHARES };
+    let shares = if matches!(problem.unknowns[last].kind, ForceKind::Normal(_)) { &SHARES[..1] } else { &SHARES };
     shares.iter().find_map(|share| with_share(problem, solution, none, *share, effort))
 }
 
@@ -72,7 +72,7 @@ fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64, eff
                 (*spared, more) = (true, true);
                 let unknown = &mut eased.unknowns[index];
                 match &mut unknown.limit {
-                    limit if matches!(unknown.place, Place::Normal(_)) => *limit = Limit::Fixed(0.0),
+                    limit if matches!(unknown.kind, ForceKind::Normal(_)) => *limit = Limit::Fixed(0.0),
                     Limit::Fixed(limit) | Limit::Coulomb(limit, _) => *limit *= share,
                 }
             }
@@ -86,8 +86,8 @@ fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64, eff
             return Some(found);
         }
         found = solve_near(&eased, &found.sizes, effort);
-        let holds = |index: usize| match problem.unknowns[index].place {
-            Place::Normal(_) => {
+        let holds = |index: usize| match problem.unknowns[index].kind {
+            ForceKind::Normal(_) => {
                 rates(&eased, &found, index)[0] >= -MAX_OPENING * solution.sizes[problem.unknowns[index].first].abs()
             }
             _ => rates(&eased, &found, index).iter().all(|rate| rate.abs() <= none),

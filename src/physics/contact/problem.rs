@@ -114,7 +114,7 @@ pub enum Limit {
 
 /// Kind of an unknown force.
 #[derive(Clone, Copy, Debug)]
-pub enum Place {
+pub enum ForceKind {
     /// The normal force of a contact.
     Normal(usize),
     /// A sticking friction: of the cloth against slip, rolling or spin, or of a contact.
@@ -127,7 +127,7 @@ pub enum Place {
 /// An unknown force, or the two components of a friction: rows `first..first + count` of the problem.
 #[derive(Clone, Copy, Debug)]
 pub struct Unknown {
-    pub place: Place,
+    pub kind: ForceKind,
     pub first: usize,
     pub count: usize,
     /// Bound of the friction; infinite for a normal force.
@@ -165,7 +165,7 @@ impl Problem {
             let [opening, along, up] = Row::contact(contact, n);
             let [centripetal, _, turning] = contact.bends(table.radius, balls, n);
             let mu = coefficient(table, contact);
-            problem.push(Place::Normal(index), Limit::Fixed(f64::INFINITY), &[opening], [centripetal, 0.0]);
+            problem.push(ForceKind::Normal(index), Limit::Fixed(f64::INFINITY), &[opening], [centripetal, 0.0]);
             if let Some(against) = set.contact[index].direction(slip) {
                 let force = &mut problem.forces[index];
                 force.add(-mu * against.x, &along);
@@ -175,7 +175,7 @@ impl Problem {
             }
         }
         for (index, mu, rows, turning) in frictions {
-            problem.push(Place::Contact(index), Limit::Coulomb(mu, index), &rows, [0.0, turning]);
+            problem.push(ForceKind::Contact(index), Limit::Coulomb(mu, index), &rows, [0.0, turning]);
         }
         for (ball, state) in balls.iter().enumerate() {
             if scene.holds(ball) {
@@ -196,14 +196,14 @@ impl Problem {
             self.known.add(-sliding * against.x, &slips[0]);
             self.known.add(-sliding * against.y, &slips[1]);
         } else {
-            self.push(Place::Cloth(ball), Limit::Fixed(sliding), &slips, [0.0; 2]);
+            self.push(ForceKind::Cloth(ball), Limit::Fixed(sliding), &slips, [0.0; 2]);
             if set.cloth[ball] == Friction::Yields {
                 // The ball slides, however slowly: it has no rolling resistance.
             } else if let Some(against) = set.roll[ball].direction(state.velocity) {
                 self.known = self.known.with(ball, -resistance * against, DVec3::ZERO);
             } else {
                 let still = [DVec2::X, DVec2::Y].map(|axis| Row::ZERO.with(ball, axis, DVec3::ZERO));
-                self.push(Place::Roll(ball), Limit::Fixed(resistance), &still, [0.0; 2]);
+                self.push(ForceKind::Roll(ball), Limit::Fixed(resistance), &still, [0.0; 2]);
             }
         }
         let about_vertical = Row::ZERO.with(ball, DVec2::ZERO, DVec3::Z);
@@ -211,13 +211,13 @@ impl Problem {
         match set.spin[ball] {
             Friction::Slips(sign) => self.known.add(-spinning * sign.x, &about_vertical),
             Friction::Sticks | Friction::Yields | Friction::Eases => {
-                self.push(Place::Spin(ball), Limit::Fixed(spinning), &[about_vertical], [0.0; 2]);
+                self.push(ForceKind::Spin(ball), Limit::Fixed(spinning), &[about_vertical], [0.0; 2]);
             }
         }
     }
 
-    fn push(&mut self, place: Place, limit: Limit, rows: &[Row], bias: [f64; 2]) {
-        self.unknowns.push(Unknown { place, first: self.rates.len(), count: rows.len(), limit });
+    fn push(&mut self, kind: ForceKind, limit: Limit, rows: &[Row], bias: [f64; 2]) {
+        self.unknowns.push(Unknown { kind, first: self.rates.len(), count: rows.len(), limit });
         self.rates.extend_from_slice(rows);
         self.forces.extend_from_slice(rows);
         self.bias.extend_from_slice(&bias[..rows.len()]);

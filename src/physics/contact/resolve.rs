@@ -11,7 +11,7 @@ use super::{
     Effort, Forces, Friction, Scene,
     forces::{DEPARTING, Resolved},
     margin::rates,
-    problem::{Place, Problem},
+    problem::{ForceKind, Problem},
     solve::{Side, Solution, solve, solve_near},
 };
 use crate::table::{BALLS, Table};
@@ -101,7 +101,7 @@ impl Scene<'_> {
 /// Whether the cloth can no longer hold a ball that rolled.
 fn begins_to_slide(table: &Table, problem: &Problem, solution: &Solution, ball: usize) -> bool {
     problem.unknowns.iter().zip(&solution.sides).enumerate().any(|(index, (unknown, side))| {
-        matches!((unknown.place, side), (Place::Cloth(place), Side::Limited(_)) if place == ball)
+        matches!((unknown.kind, side), (ForceKind::Cloth(held), Side::Limited(_)) if held == ball)
             && DVec2::from_array(rates(problem, solution, index)).length() > DEPARTING * table.gravity
     })
 }

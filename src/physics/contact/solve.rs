@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::{
     Effort,
     linear::{PROXIMITY, factorize, substitute},
-    problem::{Limit, MOST_UNKNOWNS, NO_SIZES, PER_BALL, Place, Problem, Sizes, Unknown},
+    problem::{ForceKind, Limit, MOST_UNKNOWNS, NO_SIZES, PER_BALL, Problem, Sizes, Unknown},
 };
 use crate::table::BALLS;
 
@@ -215,8 +215,8 @@ impl<'a> System<'a> {
 
     /// Evaluates a point with the given values.
     fn put(&self, point: &mut Point, size: impl Fn(usize) -> f64) {
-        for (index, place) in point.sizes[..self.count].iter_mut().enumerate() {
-            *place = size(index);
+        for (index, value) in point.sizes[..self.count].iter_mut().enumerate() {
+            *value = size(index);
         }
         self.residual(&point.sizes, &mut point.residual, &mut point.sides);
         point.error = point.residual[..self.count].iter().fold(0.0, |sum, x| sum + x * x).sqrt();
@@ -255,7 +255,7 @@ impl<'a> System<'a> {
         let first = unknown.first;
         let response = self.response(unknown);
         let wanted = |index: usize| self.wanted(sizes, index, response);
-        if let Place::Normal(_) = unknown.place {
+        if let ForceKind::Normal(_) = unknown.kind {
             let force = wanted(first);
             let pushes = force > 0.0 && !matches!(unknown.limit, Limit::Fixed(0.0));
             return if pushes { (DVec2::new(force, 0.0), Side::Holds) } else { (DVec2::ZERO, Side::Absent) };

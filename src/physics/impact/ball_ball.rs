@@ -1,6 +1,6 @@
 //! Collision of two balls (thesis 2.2.2).
 
-use super::{super::SpatialState, BallState, contact_twist, direction, opening_in_space, raised};
+use super::{super::SpatialState, BallState, contact_twist, direction, separation_correction, separation_speed};
 use crate::table::{Fade, SlipFriction, Table};
 
 /// Impact law of two balls on a table.
@@ -74,19 +74,19 @@ impl BallImpact {
         second: &mut SpatialState,
     ) -> f64 {
         let n = direction(second.position, first.position);
-        let apart = first.velocity - second.velocity;
-        let approach = -apart.dot(n);
+        let relative = first.velocity - second.velocity;
+        let approach = -relative.dot(n);
         if approach < 0.0 {
             return approach;
         }
-        let across = apart + approach * n;
-        let opening = opening_in_space(approach, self.restitution_at(approach), slowest);
+        let across = relative + approach * n;
+        let opening = separation_speed(approach, self.restitution_at(approach), slowest);
         let normal = 0.5 * (approach + opening);
         // Equation (21), whose component along n is zero.
         let slip = across - radius * (first.spin + second.spin).cross(n);
         let factor = self.friction_factor(normal, slip.length());
         let after = across - 2.0 * factor * slip;
-        let change = normal * n - factor * slip + 0.5 * raised(opening, slowest, after, n);
+        let change = normal * n - factor * slip + 0.5 * separation_correction(opening, slowest, after, n);
         first.velocity += change;
         second.velocity -= change;
         let twist = (2.5 / radius * factor) * n.cross(slip);

@@ -14,7 +14,7 @@ pub use simultaneous::{ImpactLaw, collide_together};
 
 /// Returns the separation speed of an impact in the air with the closing speed `approach`, m/s. Up to `slowest` no speed is lost: otherwise
 /// a ball that settles on a nose or on another ball would slide off in ever lower bounces, without end.
-fn opening_in_space(approach: f64, restitution: f64, slowest: f64) -> f64 {
+fn separation_speed(approach: f64, restitution: f64, slowest: f64) -> f64 {
     (restitution * approach).max(approach.min(slowest))
 }
 
@@ -30,7 +30,7 @@ fn direction(from: DVec3, to: DVec3) -> DVec3 {
 
 /// Returns the change of the relative velocity `across + opening n` after such an impact that raises the separation speed to `slowest`,
 /// m/s. The energy comes from the tangential motion `across`, so that none is gained.
-fn raised(opening: f64, slowest: f64, across: DVec3, n: DVec3) -> DVec3 {
+fn separation_correction(opening: f64, slowest: f64, across: DVec3, n: DVec3) -> DVec3 {
     let missing = slowest * slowest - opening * opening;
     if missing <= 0.0 {
         return DVec3::ZERO;

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::{super::SpatialState, BallImpact, direction, opening_in_space};
+use super::{super::SpatialState, BallImpact, direction, separation_speed};
 use crate::physics::Cloth;
 
 impl BallImpact {
@@ -60,12 +60,12 @@ impl BallImpact {
         let approach = (lower.velocity - upper.velocity).dot(n);
         // Restitution of the balls and then of the cloth; a slow impact loses nothing.
         let restitution = self.restitution_at(approach) * cloth.restitution;
-        let opening = opening_in_space(approach, restitution, slowest);
+        let opening = separation_speed(approach, restitution, slowest);
         let push = (approach + opening) / (1.0 + along_table.length_squared());
         upper.velocity += push * n;
         lower.velocity -= push * along_table;
-        let apart = upper.velocity - lower.velocity;
-        let slip = apart - apart.dot(n) * n - radius * (upper.spin + lower.spin).cross(n);
+        let relative = upper.velocity - lower.velocity;
+        let slip = relative - relative.dot(n) * n - radius * (upper.spin + lower.spin).cross(n);
         let factor = self.friction_factor(push, slip.length());
         let friction = -factor * slip;
         upper.velocity += friction;
@@ -92,12 +92,12 @@ fn part_slowly(slowest: f64, n: DVec3, upper: &mut SpatialState, lower: &mut Spa
     let across = relative - opening * n;
     let along = (across - across.dot(n) * n).normalize_or_zero();
     // Velocity change of the upper and the lower ball per impulse per mass of 1 m/s; the cloth supports the lower ball.
-    let apart = [n, -n.with_z(0.0)];
+    let separating = [n, -n.with_z(0.0)];
     let inverse_mass = |[one, other]: [DVec3; 2]| one.length_squared() + other.length_squared();
-    let shared = n.z * along.z / inverse_mass(apart);
-    let slide = [along + shared * apart[0], -along.with_z(0.0) + shared * apart[1]];
+    let shared = n.z * along.z / inverse_mass(separating);
+    let slide = [along + shared * separating[0], -along.with_z(0.0) + shared * separating[1]];
     let sliding = upper.velocity.dot(slide[0]) + lower.velocity.dot(slide[1]);
-    let [parts, slides] = [inverse_mass(apart), inverse_mass(slide)];
+    let [parts, slides] = [inverse_mass(separating), inverse_mass(slide)];
     if sliding * sliding == 0.0 {
         return;
     }
@@ -106,8 +106,8 @@ fn part_slowly(slowest: f64, n: DVec3, upper: &mut SpatialState, lower: &mut Spa
     let needed = (slowest * slowest - opening * opening).min(available);
     let push = ((opening * opening + needed).sqrt() - opening) / parts;
     let brake = ((1.0 - needed / available).sqrt() - 1.0) * sliding / slides;
-    upper.velocity += push * apart[0] + brake * slide[0];
-    lower.velocity += push * apart[1] + brake * slide[1];
+    upper.velocity += push * separating[0] + brake * slide[0];
+    lower.velocity += push * separating[1] + brake * slide[1];
 }
 
 #[cfg(test)]
@@ -133,11 +133,12 @@ mod tests {
         let energy = |upper: &SpatialState, lower: &SpatialState| {
             [upper, lower].map(|ball| ball.specific_energy(table.radius, table.gravity)).iter().sum()
         };
-        let apart = |upper: &SpatialState, lower: &SpatialState| (upper.velocity - lower.velocity.with_z(0.0)).dot(n);
-        let (before, closing) = (energy(&upper, &lower), -apart(&upper, &lower));
+        let separation =
+            |upper: &SpatialState, lower: &SpatialState| (upper.velocity - lower.velocity.with_z(0.0)).dot(n);
+        let (before, closing) = (energy(&upper, &lower), -separation(&upper, &lower));
         law.resolve_over_cloth(table.radius, slowest, &cloth, &mut upper, &mut lower);
         let stays = lower.velocity.z <= slowest;
-        ([before, energy(&upper, &lower)], stays.then(|| [closing, apart(&upper, &lower)]))
+        ([before, energy(&upper, &lower)], stays.then(|| [closing, separation(&upper, &lower)]))
     }
 
     proptest! {

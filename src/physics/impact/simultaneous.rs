@@ -73,7 +73,7 @@ pub fn collide_together(
     let mut impulses = [ImpactImpulse::default(); MAX_CONTACTS];
     let mut left = vec![(0..contacts.len()).collect()];
     while let Some(mut rest) = left.pop() {
-        let group = take_joined(contacts, &mut rest);
+        let group = take_group(contacts, &mut rest);
         if !rest.is_empty() {
             left.push(rest);
         }
@@ -89,7 +89,7 @@ pub fn collide_together(
             left.extend((!pushing.is_empty()).then_some(pushing));
             continue;
         }
-        push_and_rub(radius, law, balls, &joined, &normal);
+        apply_impulses(radius, law, balls, &joined, &normal);
         for (index, normal) in group.into_iter().zip(normal) {
             impulses[index].normal = normal;
         }
@@ -98,7 +98,7 @@ pub fn collide_together(
 }
 
 /// Removes the first contact from `rest`, and all contacts that share balls with it, directly or through others. Returns them.
-fn take_joined(contacts: &[Contact], rest: &mut Vec<usize>) -> Vec<usize> {
+fn take_group(contacts: &[Contact], rest: &mut Vec<usize>) -> Vec<usize> {
     let mut group: Vec<usize> = rest.drain(..rest.len().min(1)).collect();
     loop {
         let is_joined = |index: &usize| group.iter().any(|&other| contacts[other].shares_a_ball(&contacts[*index]));
@@ -112,7 +112,7 @@ fn take_joined(contacts: &[Contact], rest: &mut Vec<usize>) -> Vec<usize> {
 }
 
 /// Applies the normal impulses at the height of the balls' centres, per mass, m/s, and the resulting friction impulses.
-fn push_and_rub(
+fn apply_impulses(
     radius: f64,
     law: &ImpactLaw,
     balls: &mut [BallState; BALLS],
@@ -127,7 +127,7 @@ fn push_and_rub(
             balls[second].velocity -= *impulse * *n;
         }
     }
-    let rubbed = |share: f64| {
+    let with_friction = |share: f64| {
         let mut balls = *balls;
         for (index, contact) in contacts.iter().enumerate() {
             let (friction, holds) = if contact.second.is_some() {
@@ -157,11 +157,11 @@ fn push_and_rub(
         let members = (0..BALLS).filter(|&ball| contacts.iter().any(|contact| contact.has(ball)));
         members.map(|ball| balls[ball].specific_energy(radius)).sum::<f64>()
     };
-    let (before, half, whole) = (energy(balls), energy(&rubbed(0.5)), energy(&rubbed(1.0)));
+    let (before, half, whole) = (energy(balls), energy(&with_friction(0.5)), energy(&with_friction(1.0)));
     // The energy is a quadratic function of the share: it decreases first, and returns to its initial value at the share computed here.
     let bend = 2.0 * (whole + before - 2.0 * half);
     let fall = whole - before - bend;
-    *balls = rubbed(if whole <= before { 1.0 } else { (-fall / bend).clamp(0.0, 1.0) });
+    *balls = with_friction(if whole <= before { 1.0 } else { (-fall / bend).clamp(0.0, 1.0) });
 }
 
 /// Applies a single impact.

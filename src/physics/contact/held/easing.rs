@@ -109,7 +109,7 @@ impl<const ROOM: usize> Solved<ROOM> {
         }
         let Solution { sizes, free, moved, .. } = solution.plus(edge.share.min(1.0), &whole, &none);
         system.sizes = sizes;
-        Some(Self { system, free, moved, within: edge.slack(DEPARTING * table.gravity) })
+        Some(Self { system, free, moved, share_margin: edge.slack(DEPARTING * table.gravity) })
     }
 }
 

@@ -216,7 +216,7 @@ mod tests {
     fn many_steps_come_where_friction_alone_leads_that_never_holds() {
         let (law, e) = (law(), 0.889);
         // Explicit tiny steps with friction against the slip at their start; while the nose should stick, the slip oscillates about zero.
-        let rubbed = |start: &Motion| {
+        let explicit = |start: &Motion| {
             let (mut motion, mut work, mut done) = (*start, 0.0, 0.0);
             let (size, mut owed) = (1e-5, f64::INFINITY);
             while owed > 0.0 {
@@ -249,7 +249,7 @@ mod tests {
                 velocity: DVec2::new(-1.0, number(2.0)),
                 spin: DVec3::new(number(2.0), number(2.0), number(2.0)),
             };
-            let (ours, slow) = (after(&start, 4096), rubbed(&start));
+            let (ours, slow) = (after(&start, 4096), explicit(&start));
             let off = ours.velocity.distance(slow.velocity) + ours.spin.distance(slow.spin);
             assert!(off < 2e-3, "{off:e}");
         }

@@ -105,12 +105,12 @@ impl Cushion {
     #[inline(never)]
     fn resolve_at_height(&self, radius: f64, n: DVec2, ball: &mut BallState) -> ImpactImpulse {
         let most_left = MAX_REMAINDER * ball.velocity.dot(n).abs();
-        let mut whole = self.meet(radius, n, ball);
+        let mut whole = self.impact_once(radius, n, ball);
         for _ in 0..MAX_REPEATS {
             if ball.velocity.dot(n) >= -most_left || whole.climb > 0.0 {
                 return whole;
             }
-            let again = self.meet(radius, n, ball);
+            let again = self.impact_once(radius, n, ball);
             whole = ImpactImpulse { normal: whole.normal + again.normal, climb: whole.climb + again.climb };
         }
         whole
@@ -118,7 +118,7 @@ impl Cushion {
 
     /// Applies one impact at the height of the nose.
     #[inline(always)]
-    fn meet(&self, radius: f64, n: DVec2, ball: &mut BallState) -> ImpactImpulse {
+    fn impact_once(&self, radius: f64, n: DVec2, ball: &mut BallState) -> ImpactImpulse {
         let restitution = self.restitution_at(-ball.velocity.dot(n));
         let [normal, climb] = match self.law {
             Law::Equator => [collide_rail(radius, restitution, self.friction, n, ball), 0.0],

@@ -8,7 +8,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{
-    super::{super::SpatialState, opening_in_space, raised},
+    super::{super::SpatialState, separation_correction, separation_speed},
     BallState,
 };
 
@@ -60,11 +60,11 @@ pub(super) fn collide_in_space(
         return approach;
     }
     let across = ball.velocity - approach * d;
-    let opening = opening_in_space(approach, restitution, slowest);
+    let opening = separation_speed(approach, restitution, slowest);
     let normal = approach + opening;
     let slip = across + radius * ball.spin.cross(d);
     let rub = -stick_slip.factor(friction * normal, slip.length()) * slip;
-    ball.velocity += rub - normal * d + raised(opening, slowest, across + rub, -d);
+    ball.velocity += rub - normal * d + separation_correction(opening, slowest, across + rub, -d);
     ball.spin += 2.5 / radius * d.cross(rub);
     approach
 }
